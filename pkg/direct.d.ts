@@ -1,0 +1,44 @@
+/** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
+import type {
+  Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Progress,
+  ReadOptions, ReadResult, SolverOptions, Surface,
+} from './types.js';
+export * from './types.js';
+
+/** Loads the wasm once; later calls (with anything) return the same promise. */
+export function init(input?: InitInput): Promise<void>;
+/** The same, synchronously, from bytes or a compiled module. */
+export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+/** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
+export class Solver {
+  constructor(input: HeightImage | Heightfield, options?: SolverOptions);
+  /** Runs for about `milliseconds` (at least one step); true while there is more to do. */
+  advance(milliseconds: number): boolean;
+  /** Figures of the last check. */
+  progress(): Progress;
+  /** Stops; `surface()` then gives the best iterate so far, marked `'cancelled'`. */
+  cancel(): void;
+  /** The best surface so far, as a copy. May be called at any time and repeatedly. */
+  surface(): Surface;
+  readonly disposed: boolean;
+  /** Frees the wasm memory. Harmless when repeated. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}
+
+/** Solves to the end; `onProgress` returning `false` stops and keeps the best surface so far. */
+export function fit(
+  input: HeightImage | Heightfield,
+  options?: SolverOptions & { onProgress?: (progress: Progress) => boolean | void },
+): Surface;
+/** Decodes a PNG or NPY file. */
+export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
+/** NPY file (float64) of an image or of lattice heights. */
+export function writeNpy(input: HeightImage | Heightfield): Uint8Array;
+/** 16-bit grey PNG whose text chunks record pixel size, height scale and offset; level 0 is no data. */
+export function writePng(input: HeightImage): Uint8Array;
+/** OBJ mesh: the lattice's triangles, in the units of the field. */
+export function writeObj(input: Heightfield): Uint8Array;
+/** One of the procedural examples. */
+export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -1,0 +1,193 @@
+//! Everything that can be wrong with an input, an option or a file.
+
+use thiserror::Error;
+
+/// The crate's result type.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// What was wrong, where, and what to do about it.
+///
+/// An optimisation that was cancelled or ran out of iterations is no error: it
+/// is a [`StopReason`](crate::StopReason) of its report. [`Error::code`] gives
+/// each variant a name that stays the same across versions.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There are no values at all.
+    #[error("{what} is empty: it needs at least one row and one column")]
+    Empty {
+        /// What was being read, for example `"height image"`.
+        what: &'static str,
+    },
+
+    /// The number of values does not match the stated shape, or rows differ in length.
+    #[error(
+        "{what} has {found} values where its shape, {rows} rows of {cols}, needs {expected}; \
+         every row must be equally long and the shape must match the data"
+    )]
+    Shape {
+        /// What was being read.
+        what: &'static str,
+        /// Rows stated or found.
+        rows: usize,
+        /// Columns stated, or the length of the first row.
+        cols: usize,
+        /// Values that the shape needs.
+        expected: usize,
+        /// Values there are.
+        found: usize,
+    },
+
+    /// A value that must be finite is not.
+    #[error("{what} is {value} at row {row}, column {col}; {advice}")]
+    NotFinite {
+        /// What was being read.
+        what: &'static str,
+        /// The offending value: an infinity or NaN.
+        value: f64,
+        /// Row, counted from 0 at the top.
+        row: usize,
+        /// Column, counted from 0 at the left.
+        col: usize,
+        /// What to do instead.
+        advice: &'static str,
+    },
+
+    /// No vertex has a height and six neighbours with heights, so there is nothing to solve.
+    #[error(
+        "no interior vertex: of {valid} valid vertices on a lattice of {rows} rows by {cols} \
+         columns none has all six neighbours valid; use a finer spacing, a larger input or a \
+         mask with fewer holes"
+    )]
+    NoInterior {
+        /// Rows of the lattice.
+        rows: usize,
+        /// Columns of the lattice.
+        cols: usize,
+        /// Vertices with a height.
+        valid: usize,
+    },
+
+    /// An option is outside its range.
+    #[error("option `{name}` is {value}, but {requirement}")]
+    Option {
+        /// The option's name, as in Rust and JS.
+        name: &'static str,
+        /// The value given.
+        value: String,
+        /// What it must be.
+        requirement: &'static str,
+    },
+
+    /// More memory would be needed than the limit allows or the machine has.
+    /// Raised before anything of that size is allocated.
+    #[error(
+        "{what} needs {requested} cells, more than the limit of {limit}; use a coarser spacing \
+         or a smaller input"
+    )]
+    TooLarge {
+        /// What would have been allocated.
+        what: &'static str,
+        /// Cells (vertices or pixels) asked for.
+        requested: usize,
+        /// Cells allowed.
+        limit: usize,
+    },
+
+    /// The machine could not provide the memory, though it is within the limit.
+    #[error("out of memory while allocating {bytes} bytes for {what}; use a coarser spacing")]
+    OutOfMemory {
+        /// What was being allocated.
+        what: &'static str,
+        /// Its size in bytes.
+        bytes: usize,
+    },
+
+    /// A file is damaged, cut short or not what its name says.
+    #[error("cannot read this as {format}: {reason}")]
+    Format {
+        /// The format that was tried.
+        format: &'static str,
+        /// What the decoder found.
+        reason: String,
+    },
+
+    /// A well-formed file that holds something this library does not read or write.
+    #[error("{format}: {reason}")]
+    Unsupported {
+        /// The format.
+        format: &'static str,
+        /// What is not supported, and what is.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// A stable, upper-case name for the variant: the `code` of the JS error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Error::Empty { .. } => "EMPTY",
+            Error::Shape { .. } => "SHAPE",
+            Error::NotFinite { .. } => "NOT_FINITE",
+            Error::NoInterior { .. } => "NO_INTERIOR",
+            Error::Option { .. } => "OPTION",
+            Error::TooLarge { .. } => "TOO_LARGE",
+            Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
+            Error::Format { .. } => "FORMAT",
+            Error::Unsupported { .. } => "UNSUPPORTED",
+        }
+    }
+
+    pub(crate) fn option(
+        name: &'static str,
+        value: impl std::fmt::Display,
+        requirement: &'static str,
+    ) -> Self {
+        Error::Option {
+            name,
+            value: value.to_string(),
+            requirement,
+        }
+    }
+}
+
+/// Most cells (lattice vertices or pixels) that one input may have: 2²⁴, which
+/// the solver holds in less than the 4 GiB that a wasm32 memory can grow to.
+pub const MAX_CELLS: usize = 1 << 24;
+
+/// `rows · cols`, if neither overflows nor exceeds [`MAX_CELLS`].
+pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Result<usize> {
+    let requested = rows.saturating_mul(cols);
+    if requested > MAX_CELLS {
+        return Err(Error::TooLarge {
+            what,
+            requested,
+            limit: MAX_CELLS,
+        });
+    }
+    Ok(requested)
+}
+
+/// A vector of `len` copies of `value`, with a failed allocation as an error.
+pub(crate) fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
+    let mut out = Vec::new();
+    out.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
+        what,
+        bytes: len.saturating_mul(size_of::<T>()),
+    })?;
+    out.resize(len, value);
+    Ok(out)
+}
+
+/// `value` itself if it is finite and above zero.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64> {
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(Error::option(
+            name,
+            value,
+            "must be a finite number above zero",
+        ))
+    }
+}

@@ -1,0 +1,213 @@
+//! What may be chosen about a solve, with its defaults.
+
+use std::str::FromStr;
+
+use serde::{Deserialize, Deserializer};
+
+use crate::error::{Error, Result, positive};
+
+/// Weight λ of the fidelity term, stated for coordinates normalised to the
+/// unit square. The presets are the paper's (Sec. 5).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Lambda {
+    /// 10⁵: for heavy, widespread noise, or for few large patches.
+    Small,
+    /// 10⁶.
+    #[default]
+    Medium,
+    /// 10⁷: for input that is developable but for small artefacts.
+    Big,
+    /// Any number above zero.
+    Value(f64),
+}
+
+impl Lambda {
+    /// The number that stands in the energy.
+    pub fn value(self) -> f64 {
+        match self {
+            Lambda::Small => 1e5,
+            Lambda::Medium => 1e6,
+            Lambda::Big => 1e7,
+            Lambda::Value(value) => value,
+        }
+    }
+}
+
+impl From<f64> for Lambda {
+    fn from(value: f64) -> Self {
+        Lambda::Value(value)
+    }
+}
+
+impl FromStr for Lambda {
+    type Err = Error;
+
+    /// Reads `small`, `medium`, `big` or a number.
+    fn from_str(text: &str) -> Result<Self> {
+        match text {
+            "small" => Ok(Lambda::Small),
+            "medium" => Ok(Lambda::Medium),
+            "big" => Ok(Lambda::Big),
+            _ => text.parse().map(Lambda::Value).map_err(|_| {
+                Error::option(
+                    "lambda",
+                    text,
+                    "must be small, medium, big or a number above zero",
+                )
+            }),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Lambda {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Raw {
+            Number(f64),
+            Name(String),
+        }
+        match Raw::deserialize(deserializer)? {
+            Raw::Number(value) => Ok(Lambda::Value(value)),
+            Raw::Name(name) => name.parse().map_err(serde::de::Error::custom),
+        }
+    }
+}
+
+/// How the iterations are run and when they stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Schedule {
+    /// A fixed handful of conjugate-gradient iterations in each z-step,
+    /// over-relaxation, balancing of the relative residuals; stops at the
+    /// certified relative gap [`Options::gap`].
+    #[default]
+    Default,
+    /// The paper's (Sec. 4.1): z-steps solved tightly, residual balancing after
+    /// Boyd et al. with the loosened trigger, stops on the residuals. The gap
+    /// is reported all the same.
+    Paper,
+}
+
+/// How the input's coordinates become the energy's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Normalization {
+    /// One factor for x, y and z that makes the longer side of the valid
+    /// vertices' bounding box 1; results come back in the user's units.
+    #[default]
+    UnitSquare,
+    /// None: the coordinates are taken as they are.
+    Off,
+}
+
+/// Options of a solve; `Options::default()` suits most inputs.
+///
+/// ```
+/// use developable::{Lambda, Options};
+/// let options = Options::default().lambda(Lambda::Big).gap(1e-3);
+/// assert!(options.validate().is_ok());
+/// assert!(options.gap(0.0).validate().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    pub(crate) lambda: Lambda,
+    pub(crate) schedule: Schedule,
+    pub(crate) gap: f64,
+    pub(crate) max_iterations: usize,
+    pub(crate) normalization: Normalization,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            lambda: Lambda::Medium,
+            schedule: Schedule::Default,
+            gap: 0.01,
+            max_iterations: 20_000,
+            normalization: Normalization::UnitSquare,
+        }
+    }
+}
+
+impl Options {
+    /// Weight of the fidelity term; default [`Lambda::Medium`].
+    pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
+        self.lambda = lambda.into();
+        self
+    }
+
+    /// Default [`Schedule::Default`].
+    pub fn schedule(mut self, schedule: Schedule) -> Self {
+        self.schedule = schedule;
+        self
+    }
+
+    /// Certified relative duality gap at which [`Schedule::Default`] stops,
+    /// between 0 and 1; default 0.01.
+    pub fn gap(mut self, gap: f64) -> Self {
+        self.gap = gap;
+        self
+    }
+
+    /// Most ADMM iterations, at least 1; default 20 000.
+    pub fn max_iterations(mut self, max_iterations: usize) -> Self {
+        self.max_iterations = max_iterations;
+        self
+    }
+
+    /// Default [`Normalization::UnitSquare`].
+    pub fn normalization(mut self, normalization: Normalization) -> Self {
+        self.normalization = normalization;
+        self
+    }
+
+    /// Whether every option is within its range.
+    ///
+    /// # Errors
+    /// [`Error::Option`] with the name of the first that is not.
+    pub fn validate(&self) -> Result<()> {
+        positive("lambda", self.lambda.value())?;
+        if !(self.gap > 0.0 && self.gap < 1.0) {
+            return Err(Error::option(
+                "gap",
+                self.gap,
+                "must lie between 0 and 1, both excluded",
+            ));
+        }
+        if self.max_iterations == 0 {
+            return Err(Error::option("maxIterations", 0, "must be at least 1"));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lambda_reads_names_and_numbers() {
+        assert_eq!("big".parse::<Lambda>().unwrap().value(), 1e7);
+        assert_eq!("3e5".parse::<Lambda>().unwrap(), Lambda::Value(3e5));
+        assert_eq!("huge".parse::<Lambda>().unwrap_err().code(), "OPTION");
+        let from_json = |text| serde_json::from_str::<Lambda>(text);
+        assert_eq!(from_json("\"small\"").unwrap(), Lambda::Small);
+        assert_eq!(from_json("12").unwrap(), Lambda::Value(12.0));
+        assert!(from_json("\"tiny\"").is_err());
+    }
+
+    #[test]
+    fn options_out_of_range_are_named() {
+        let name = |options: Options| match options.validate() {
+            Err(Error::Option { name, .. }) => name,
+            other => panic!("{other:?}"),
+        };
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(name(Options::default().lambda(bad)), "lambda");
+        }
+        for bad in [0.0, 1.0, f64::NAN] {
+            assert_eq!(name(Options::default().gap(bad)), "gap");
+        }
+        assert_eq!(name(Options::default().max_iterations(0)), "maxIterations");
+    }
+}

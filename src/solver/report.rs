@@ -1,0 +1,95 @@
+//! What a solve tells about itself, while it runs and afterwards.
+
+use serde::Serialize;
+
+/// Why a solve stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum StopReason {
+    /// The certified relative gap reached [`Options::gap`](crate::Options::gap).
+    Gap,
+    /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
+    Residuals,
+    /// The objective is zero up to rounding: the input is affine already.
+    Rounding,
+    /// [`Options::max_iterations`](crate::Options::max_iterations) was reached.
+    MaxIterations,
+    /// The callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
+    Cancelled,
+}
+
+/// Where a running solve stands: the figures of its last check.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Progress {
+    /// ADMM iterations so far.
+    pub iteration: usize,
+    /// Conjugate-gradient iterations so far, over all z-steps.
+    pub cg_iterations: usize,
+    /// Objective of the best iterate so far; that of the input before the first check.
+    pub objective: f64,
+    /// Best lower bound of the optimum so far.
+    pub dual_bound: f64,
+    /// `(objective − dual_bound) / objective`.
+    pub gap: f64,
+    /// ADMM penalty ρ.
+    pub rho: f64,
+    /// Seconds since the solver was made.
+    pub elapsed: f64,
+}
+
+/// Seconds spent in each phase of a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Seconds {
+    /// Domain, normalisation, allocation.
+    pub setup: f64,
+    /// Conjugate gradients.
+    #[serde(rename = "zStep")]
+    pub z_step: f64,
+    /// Hessians, their soft threshold, the dual update.
+    #[serde(rename = "hStep")]
+    pub h_step: f64,
+    /// Objective, dual bound and residuals.
+    pub certificate: f64,
+    /// Everything, from making the solver to the surface; pauses between steps included.
+    pub total: f64,
+}
+
+/// What was solved, how well and at what cost.
+///
+/// Energies are in normalised coordinates (see
+/// [`Normalization`](crate::Normalization)).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Report {
+    /// Vertices where the Hessian is evaluated: the set `I`.
+    pub interior: usize,
+    /// Valid vertices touched by a stencil without being interior: `∂I`.
+    pub boundary: usize,
+    /// Valid vertices that no stencil touches: left out of the solve, restored afterwards.
+    pub omitted: usize,
+    /// ADMM iterations.
+    pub iterations: usize,
+    /// Conjugate-gradient iterations over all z-steps.
+    pub cg_iterations: usize,
+    /// Energy of the returned surface.
+    pub objective: f64,
+    /// Its first term, `λ Σ (z − z̃)²`.
+    pub fidelity: f64,
+    /// Its second term, `Σ ‖H‖_*`.
+    pub nuclear_norm: f64,
+    /// Certified lower bound of the optimum.
+    pub dual_bound: f64,
+    /// `(objective − dual_bound) / objective`: the most by which the result can miss the optimum.
+    pub gap: f64,
+    /// λ as a number.
+    pub lambda: f64,
+    /// Last ADMM penalty ρ.
+    pub rho: f64,
+    /// Factor from the input's units to normalised coordinates.
+    pub scale: f64,
+    /// Why the solve stopped.
+    pub stop_reason: StopReason,
+    /// Seconds per phase.
+    pub seconds: Seconds,
+}

@@ -1,0 +1,45 @@
+/** `npm run setup`: gets everything that building and testing need. What is there is left alone. */
+import { pathToFileURL } from 'node:url';
+import { browser } from './setup/browser.mjs';
+import { npmPackages } from './setup/npm.mjs';
+import { rust } from './setup/rust.mjs';
+import { wasmBindgen } from './setup/wasm-bindgen.mjs';
+import { wasmTarget } from './setup/wasm-target.mjs';
+import { withPath } from './util/env.mjs';
+import { describe, main, Problem } from './util/problem.mjs';
+
+/** @typedef {import('./util/process.mjs').Env} Env */
+
+/** What a page in the browser needs. */
+export async function setupBuild() {
+  await rust();
+  const [env, bindgen] = await together(wasmTarget(), wasmBindgen(), npmPackages());
+  return { env: withPath(env, bindgen) };
+}
+
+/** What the tests need besides. */
+export async function setupTests() {
+  await rust();
+  const [env, bindgen, found] = await together(wasmTarget(), wasmBindgen(), browser(), npmPackages());
+  return { env: withPath(env, bindgen), browser: found };
+}
+
+/**
+ * Waits for all, so that what one has made is kept when another fails; then reports every failure.
+ * @template {unknown[]} T
+ * @param {[...{ [K in keyof T]: Promise<T[K]> }]} parts
+ * @returns {Promise<T>}
+ */
+async function together(...parts) {
+  const results = await Promise.allSettled(parts);
+  const reasons = results.flatMap((result) => (result.status === 'rejected' ? [result.reason] : []));
+  if (reasons.length > 0) throw new Problem(reasons.map(describe).join('\n'));
+  return /** @type {Promise<T>} */ (Promise.all(parts));
+}
+
+if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {
+  await main(async () => {
+    await setupTests();
+    console.log('Everything is set up.');
+  });
+}

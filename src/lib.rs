@@ -3,6 +3,7 @@
 mod error;
 mod heightfield;
 mod lattice;
+mod resample;
 
 pub use error::{Error, MAX_CELLS, Result};
 pub use heightfield::{HeightImage, Heightfield};

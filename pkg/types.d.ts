@@ -160,7 +160,7 @@ export interface ReadResult {
 
 /** Error codes: Rust's (`Error::code`) and those of the JS side. */
 export type ErrorCode =
-  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'OPTION' | 'TOO_LARGE' | 'OUT_OF_MEMORY'
+  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'OPTION' | 'OVERFLOW' | 'TOO_LARGE' | 'OUT_OF_MEMORY'
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'TRAP' | 'WORKER';
 

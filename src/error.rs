@@ -79,6 +79,16 @@ pub enum Error {
         requirement: &'static str,
     },
 
+    /// The energy of the input is not a finite number.
+    #[error(
+        "the energy overflows: the heights are too large for a lattice spacing of {spacing}; \
+         check the units of the heights and of the spacing"
+    )]
+    Overflow {
+        /// The lattice spacing, in the input's units.
+        spacing: f64,
+    },
+
     /// More memory would be needed than the limit allows or the machine has.
     /// Raised before anything of that size is allocated.
     #[error(
@@ -131,6 +141,7 @@ impl Error {
             Error::NotFinite { .. } => "NOT_FINITE",
             Error::NoInterior { .. } => "NO_INTERIOR",
             Error::Option { .. } => "OPTION",
+            Error::Overflow { .. } => "OVERFLOW",
             Error::TooLarge { .. } => "TOO_LARGE",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Format { .. } => "FORMAT",

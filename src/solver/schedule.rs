@@ -1,0 +1,117 @@
+//! The two ways to run the iterations: how exactly each z-step is solved, how
+//! ρ follows the residuals, and when to stop.
+
+use super::options::{Options, Schedule};
+use super::problem::Problem;
+use super::report::StopReason;
+use super::state::Certificate;
+
+/// The fixed numbers of a [`Schedule`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plan {
+    schedule: Schedule,
+    /// Over-relaxation of `Cz` in the H-step and the dual update.
+    pub relaxation: f64,
+    /// Conjugate-gradient iterations in a z-step, at most.
+    pub cg_iterations: usize,
+    /// Residual, relative to `2λ z̃`, at which a z-step ends earlier.
+    pub cg_tolerance: f64,
+    /// Iterations from one certificate to the next.
+    pub check_every: usize,
+    /// ρ changes when one relative residual exceeds the other by this factor.
+    imbalance: f64,
+    gap: f64,
+    max_iterations: usize,
+}
+
+/// Absolute and relative residuals at which `Schedule::Paper` stops: those of
+/// the authors' own code.
+const ABSOLUTE: f64 = 1e-4;
+const RELATIVE: f64 = 1e-3;
+
+impl Plan {
+    pub(crate) fn new(options: &Options) -> Self {
+        let common = Plan {
+            schedule: options.schedule,
+            relaxation: 1.8,
+            cg_iterations: 6,
+            cg_tolerance: 0.0,
+            check_every: 10,
+            imbalance: 3.0,
+            gap: options.gap,
+            max_iterations: options.max_iterations,
+        };
+        match options.schedule {
+            Schedule::Default => common,
+            Schedule::Paper => Plan {
+                relaxation: 1.0,
+                cg_iterations: 5000,
+                cg_tolerance: 1e-8,
+                imbalance: 5000.0,
+                ..common
+            },
+        }
+    }
+
+    /// The penalty to start from.
+    pub(crate) fn first_rho(&self, problem: &Problem) -> f64 {
+        match self.schedule {
+            // Creases have Hessians of order 1/h, which makes h the natural unit of ρ; the
+            // factor is the middle of the best values measured on scans.
+            Schedule::Default => 0.5 * problem.spacing,
+            Schedule::Paper => 1e-6,
+        }
+    }
+
+    /// Residual balancing (Boyd et al., Sec. 3.4.1): the penalty to go on with.
+    pub(crate) fn next_rho(&self, rho: f64, certificate: &Certificate) -> f64 {
+        let (primal, dual) = match self.schedule {
+            Schedule::Default => (
+                certificate.primal_residual / certificate.primal_size,
+                certificate.dual_residual / certificate.dual_size,
+            ),
+            Schedule::Paper => (certificate.primal_residual, certificate.dual_residual),
+        };
+        if primal > self.imbalance * dual {
+            rho * 2.0
+        } else if dual > self.imbalance * primal {
+            rho / 2.0
+        } else {
+            rho
+        }
+    }
+
+    /// Whether `iteration` is the last one allowed.
+    pub(crate) fn is_last(&self, iteration: usize) -> bool {
+        iteration >= self.max_iterations
+    }
+
+    /// Whether to stop after `iteration` iterations, and why.
+    pub(crate) fn stop(
+        &self,
+        problem: &Problem,
+        iteration: usize,
+        certificate: &Certificate,
+        objective: f64,
+        gap: f64,
+    ) -> Option<StopReason> {
+        if objective <= problem.rounding {
+            return Some(StopReason::Rounding);
+        }
+        let done = match self.schedule {
+            Schedule::Default => (gap <= self.gap).then_some(StopReason::Gap),
+            Schedule::Paper => {
+                let rows = 3.0 * problem.domain.interior_len() as f64;
+                let cols = problem.domain.active().len() as f64;
+                let primal = rows.sqrt() * ABSOLUTE + RELATIVE * certificate.primal_size;
+                let dual = cols.sqrt() * ABSOLUTE + RELATIVE * certificate.dual_size;
+                // Before the first iteration both residuals vanish without meaning anything.
+                let met = iteration > 0
+                    && certificate.primal_residual <= primal
+                    && certificate.dual_residual <= dual;
+                met.then_some(StopReason::Residuals)
+            }
+        };
+        done.or(self.is_last(iteration).then_some(StopReason::MaxIterations))
+    }
+}

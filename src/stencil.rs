@@ -1,0 +1,308 @@
+//! The best-fit quadratic through a vertex and its six neighbours, and the
+//! row kernels that evaluate its Hessian and the adjoint.
+//!
+//! Along the three lattice directions the heights have second differences
+//!
+//! ```text
+//! d₁ = W − 2C + E,   d₂ = NW − 2C + SE,   d₃ = NE − 2C + SW
+//! ```
+//!
+//! and the least-squares Hessian (paper, Eq. 12, 13 and 27; the printed Eq. 27
+//! gives the coefficients of x² and y², half of the diagonal) is
+//!
+//! ```text
+//! mean = (d₁ + d₂ + d₃) / 3h²,   diff = (2d₁ − d₂ − d₃) / 3h²,   off = (d₃ − d₂) / √3h²
+//! ```
+//!
+//! in the coordinates of [`Sym2`]. So `C` is three second differences and a
+//! 3×3 map, and `Cᵀ` is the transposed map and three second differences again.
+
+use crate::domain::{Domain, Run};
+use crate::spectral::Sym2;
+
+/// The quadratic `c + g·x + ½ xᵀHx` about a vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quadratic {
+    /// Value at the vertex.
+    pub constant: f64,
+    /// Gradient at the vertex.
+    pub gradient: [f64; 2],
+    /// Hessian.
+    pub hessian: Sym2,
+}
+
+impl Quadratic {
+    /// Least-squares fit to the heights of a vertex and its neighbours
+    /// W, E, NW, NE, SW, SE at distance `spacing`. It interpolates the centre.
+    pub fn fit(centre: f64, neighbours: [f64; 6], spacing: f64) -> Self {
+        let [w, e, nw, ne, sw, se] = neighbours;
+        let d = [
+            w - 2.0 * centre + e,
+            nw - 2.0 * centre + se,
+            ne - 2.0 * centre + sw,
+        ];
+        Quadratic {
+            constant: centre,
+            gradient: [
+                (ne - nw + 2.0 * (e - w) + se - sw) / (6.0 * spacing),
+                3f64.sqrt() * (nw + ne - sw - se) / (6.0 * spacing),
+            ],
+            hessian: HessianMap::new(spacing).hessian(d),
+        }
+    }
+
+    /// Value at the offset `(x, y)` from the vertex.
+    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let [xx, xy, yy] = self.hessian.entries();
+        self.constant
+            + self.gradient[0] * x
+            + self.gradient[1] * y
+            + 0.5 * (xx * x * x + 2.0 * xy * x * y + yy * y * y)
+    }
+}
+
+/// The map from the three second differences to the Hessian, and its adjoint.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HessianMap {
+    third: f64,
+    root_third: f64,
+}
+
+impl HessianMap {
+    pub(crate) fn new(spacing: f64) -> Self {
+        let inverse = 1.0 / (spacing * spacing);
+        HessianMap {
+            third: inverse / 3.0,
+            root_third: inverse / 3f64.sqrt(),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn hessian(&self, [d1, d2, d3]: [f64; 3]) -> Sym2 {
+        let side = d2 + d3;
+        Sym2 {
+            mean: self.third * (d1 + side),
+            diff: self.third * (2.0 * d1 - side),
+            off: self.root_third * (d3 - d2),
+        }
+    }
+
+    /// The adjoint with respect to the Frobenius inner product.
+    #[inline(always)]
+    pub(crate) fn adjoint(&self, y: Sym2) -> [f64; 3] {
+        let mean = 2.0 * self.third * y.mean;
+        let diff = 2.0 * self.third * y.diff;
+        let off = 2.0 * self.root_third * y.off;
+        [mean + 2.0 * diff, mean - diff - off, mean - diff + off]
+    }
+
+    /// The two composed: `adjoint(hessian(d))`.
+    #[inline(always)]
+    pub(crate) fn normal(&self, [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
+        let unit = 2.0 * self.third * self.third; // 2/9 h⁻⁴
+        let sum = unit * (d1 + d2 + d3);
+        let six = 6.0 * unit;
+        [six * d1 - sum, six * d2 - sum, six * d3 - sum]
+    }
+}
+
+/// The seven values about each cell of a run, as slices of the run's length.
+pub(crate) struct Ring<'a> {
+    w: &'a [f64],
+    c: &'a [f64],
+    e: &'a [f64],
+    nw: &'a [f64],
+    ne: &'a [f64],
+    sw: &'a [f64],
+    se: &'a [f64],
+}
+
+impl<'a> Ring<'a> {
+    /// Of `run` in `row` of a field on the padded box.
+    #[inline(always)]
+    pub(crate) fn new(field: &'a [f64], domain: &Domain, row: usize, run: Run) -> Self {
+        let n = run.end - run.start;
+        let [w, e, nw, ne, sw, se] = domain
+            .neighbour_offsets(row)
+            .map(|o| &field[run.start.wrapping_add_signed(o)..][..n]);
+        let c = &field[run.start..][..n];
+        Ring {
+            w,
+            c,
+            e,
+            nw,
+            ne,
+            sw,
+            se,
+        }
+    }
+
+    /// The three second differences about cell `i` of the run.
+    #[inline(always)]
+    pub(crate) fn differences(&self, i: usize) -> [f64; 3] {
+        let twice = 2.0 * self.c[i];
+        [
+            self.w[i] - twice + self.e[i],
+            self.nw[i] - twice + self.se[i],
+            self.ne[i] - twice + self.sw[i],
+        ]
+    }
+}
+
+/// One row of the three weights that multiply second differences in `Cᵀ`.
+pub(crate) type Weights = [Vec<f64>; 3];
+
+/// Three consecutive rows of weights, rolling down the padded box, so that
+/// `Cᵀ` never stores a whole field of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Rolling {
+    rows: [Weights; 3],
+}
+
+impl Rolling {
+    pub(crate) fn new(domain: &Domain) -> Self {
+        let row = || vec![0.0; domain.stride()];
+        let weights = || [row(), row(), row()];
+        Rolling {
+            rows: [weights(), weights(), weights()],
+        }
+    }
+
+    /// One pass down the domain: `fill(row, weights)` writes the weights of the
+    /// interior cells of a row (cleared before), `gather(row, sums)` then reads
+    /// the adjoint of a row whose three rows of weights are complete.
+    ///
+    /// `fill` is called for each row before `gather` of the row above it.
+    #[inline(always)]
+    pub(crate) fn sweep<S>(
+        &mut self,
+        domain: &Domain,
+        state: &mut S,
+        mut fill: impl FnMut(&mut S, usize, &mut Weights),
+        mut gather: impl FnMut(&mut S, usize, &Gather<'_>),
+    ) {
+        for weights in self.rows.iter_mut().flatten() {
+            weights.fill(0.0);
+        }
+        for row in 1..=domain.rows() + 1 {
+            self.rows.rotate_left(1);
+            for weights in &mut self.rows[2] {
+                weights.fill(0.0);
+            }
+            if row <= domain.rows() {
+                fill(state, row, &mut self.rows[2]);
+            }
+            if row > 1 {
+                let gathered = Gather {
+                    rows: &self.rows,
+                    row: row - 1,
+                    domain,
+                };
+                gather(state, row - 1, &gathered);
+            }
+        }
+    }
+}
+
+/// Second differences of three complete rows of weights.
+pub(crate) struct Gather<'a> {
+    rows: &'a [Weights; 3],
+    row: usize,
+    domain: &'a Domain,
+}
+
+/// The nine weights that meet in each cell of a run, as slices of the run's length.
+pub(crate) struct Gathered<'a> {
+    w: &'a [f64],
+    e: &'a [f64],
+    nw: &'a [f64],
+    se: &'a [f64],
+    ne: &'a [f64],
+    sw: &'a [f64],
+    c1: &'a [f64],
+    c2: &'a [f64],
+    c3: &'a [f64],
+}
+
+impl Gather<'_> {
+    #[inline(always)]
+    pub(crate) fn run(&self, run: Run) -> Gathered<'_> {
+        let n = run.end - run.start;
+        let stride = self.domain.stride();
+        let col = run.start - self.row * stride;
+        // 1 on the lattice's even rows, as in `Lattice`; row 1 of the box is one.
+        let o = self.row % 2;
+        let [up, mid, down] = self.rows;
+        Gathered {
+            w: &mid[0][col - 1..][..n],
+            e: &mid[0][col + 1..][..n],
+            nw: &up[1][col + o - 1..][..n],
+            se: &down[1][col + o..][..n],
+            ne: &up[2][col + o..][..n],
+            sw: &down[2][col + o - 1..][..n],
+            c1: &mid[0][col..][..n],
+            c2: &mid[1][col..][..n],
+            c3: &mid[2][col..][..n],
+        }
+    }
+}
+
+impl Gathered<'_> {
+    /// The adjoint's value in cell `i` of the run.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> f64 {
+        (self.w[i] + self.e[i] + self.nw[i] + self.se[i] + self.ne[i] + self.sw[i])
+            - 2.0 * (self.c1[i] + self.c2[i] + self.c3[i])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Lattice;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn exact_on_every_quadratic(
+            [xx, xy, yy] in [-5.0..5.0f64, -5.0..5.0f64, -5.0..5.0f64],
+            [gx, gy, c] in [-5.0..5.0f64, -5.0..5.0f64, -5.0..5.0f64],
+            h in 0.01..10.0f64,
+            odd in 0usize..2,
+        ) {
+            let truth = Quadratic { constant: c, gradient: [gx, gy], hessian: Sym2::new(xx, xy, yy) };
+            let lattice = Lattice::new(5, 5, h).unwrap();
+            let (row, col) = (2 + odd, 2);
+            let [x0, y0] = lattice.position(row, col);
+            let ring = lattice.neighbours(row, col).map(|n| {
+                let (r, c) = n.unwrap();
+                let [x, y] = lattice.position(r, c);
+                truth.at([x - x0, y - y0])
+            });
+            let fit = Quadratic::fit(c, ring, h);
+            let size = c.abs() + h * (gx.abs() + gy.abs()) + h * h * 20.0;
+            for (a, b) in fit.hessian.entries().into_iter().zip([xx, xy, yy]) {
+                prop_assert!((a - b).abs() < 1e-14 * size / (h * h) + 1e-13);
+            }
+            for (a, b) in fit.gradient.into_iter().zip([gx, gy]) {
+                prop_assert!((a - b).abs() < 1e-14 * size / h + 1e-13);
+            }
+            prop_assert_eq!(fit.constant, c);
+        }
+
+        #[test]
+        fn the_map_and_its_adjoint_fit(
+            d in prop::array::uniform3(-1.0..1.0f64), y in prop::array::uniform3(-1.0..1.0f64),
+        ) {
+            let map = HessianMap::new(0.7);
+            let y = Sym2::new(y[0], y[1], y[2]);
+            let left = map.hessian(d).dot(y);
+            let right: f64 = map.adjoint(y).iter().zip(d).map(|(a, b)| a * b).sum();
+            prop_assert!((left - right).abs() < 1e-13);
+            let composed = map.adjoint(map.hessian(d));
+            for (a, b) in composed.into_iter().zip(map.normal(d)) {
+                prop_assert!((a - b).abs() < 1e-13);
+            }
+        }
+    }
+}

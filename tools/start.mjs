@@ -35,4 +35,6 @@ async function open() {
 }
 
 /** @param {unknown} error */
-const isTaken = (error) => error instanceof Error && 'code' in error && error.code === 'EADDRINUSE';
+function isTaken(error) {
+  return error instanceof Error && 'code' in error && error.code === 'EADDRINUSE';
+}

@@ -1,0 +1,78 @@
+/**
+ * `npm test`: sets up and runs every test there is; `npm test -- NAME...` those whose name
+ * contains one of the words.
+ */
+import { setupTests } from './setup.mjs';
+import { main, Problem, describe } from './util/problem.mjs';
+import { steps } from './test/steps.mjs';
+import { Skip } from './test/step.mjs';
+
+/** @typedef {{ name: string, seconds: number, state: 'passed' | 'failed' | 'skipped', remark: string }} Outcome */
+
+await main(async () => {
+  const words = process.argv.slice(2);
+  const chosen = steps.filter(({ name }) => words.length === 0 || words.some((word) => name.includes(word)));
+  if (chosen.length === 0) {
+    throw new Problem(`No test has such a name: there are ${steps.map(({ name }) => name).join(', ')}.`);
+  }
+  const context = await timed('Set-up', setupTests);
+
+  /** @type {Outcome[]} */
+  const outcomes = [];
+  for (const step of chosen) {
+    const start = performance.now();
+    heading(`${step.name}: ${step.what}`);
+    const outcome = await attempt(() => step.run(context));
+    const seconds = (performance.now() - start) / 1000;
+    console.log(`${outcome.state} in ${seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
+    outcomes.push({ name: step.name, seconds, ...outcome });
+  }
+  summary(outcomes);
+});
+
+/**
+ * @param {() => Promise<void>} test
+ * @returns {Promise<Pick<Outcome, 'state' | 'remark'>>}
+ */
+async function attempt(test) {
+  try {
+    await test();
+    return { state: 'passed', remark: '' };
+  } catch (error) {
+    // In CI everything has to be there, so that nothing goes untested unnoticed.
+    if (error instanceof Skip && !process.env.CI) return { state: 'skipped', remark: error.message };
+    return { state: 'failed', remark: describe(error) };
+  }
+}
+
+/**
+ * @template T
+ * @param {string} what
+ * @param {() => Promise<T>} work
+ */
+async function timed(what, work) {
+  const start = performance.now();
+  heading(what);
+  const result = await work();
+  console.log(`done in ${((performance.now() - start) / 1000).toFixed(1)} s`);
+  return result;
+}
+
+/** @param {string} text */
+function heading(text) {
+  console.log(`\n=== ${text}`);
+}
+
+/** @param {Outcome[]} outcomes */
+function summary(outcomes) {
+  heading('Summary');
+  const width = Math.max(...outcomes.map(({ name }) => name.length));
+  for (const { name, seconds, state, remark } of outcomes) {
+    const time = `${seconds.toFixed(1)} s`.padStart(8);
+    console.log(`${state.padEnd(8)} ${name.padEnd(width)} ${time}  ${remark}`.trimEnd());
+  }
+  /** @param {Outcome['state']} state */
+  const count = (state) => outcomes.filter((outcome) => outcome.state === state).length;
+  console.log(`\n${count('passed')} passed, ${count('failed')} failed, ${count('skipped')} skipped`);
+  if (count('failed') > 0) process.exitCode = 1;
+}

@@ -1,0 +1,40 @@
+/** What a test step is, and running programs in one. */
+import { root } from '../util/paths.mjs';
+import { Problem } from '../util/problem.mjs';
+import { run } from '../util/process.mjs';
+
+/** @typedef {import('../util/process.mjs').Env} Env */
+
+/**
+ * @typedef {object} Context what the set-up has found
+ * @property {Env} env for wasm
+ * @property {import('../setup/browser.mjs').Browser} browser
+ */
+
+/**
+ * @typedef {object} Step
+ * @property {string} name
+ * @property {string} what
+ * @property {(context: Context) => Promise<void>} run throws where something is wrong
+ */
+
+/** Something is missing on this machine without which a step cannot run. */
+export class Skip extends Error {}
+
+/** A step that takes longer than this hangs. */
+const limit = 45 * 60;
+
+/**
+ * Runs a program for all to see; gives what it printed.
+ * @param {string} command
+ * @param {readonly string[]} args
+ * @param {Env} env
+ */
+export async function check(command, args, env) {
+  const colours = process.stdout.isTTY ? { CARGO_TERM_COLOR: 'always', FORCE_COLOR: '1' } : {};
+  const { ok, output, failure } = await run(command, args, {
+    env: { ...env, ...colours }, cwd: root, show: true, limit,
+  });
+  if (!ok) throw new Problem(`${[command, ...args].join(' ').slice(0, 70)}: ${failure}`);
+  return output;
+}

@@ -1,0 +1,53 @@
+/** wasm-bindgen's tests: those in tests/NAME.rs, compiled to wasm, run in Node and in a browser. */
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { target } from '../setup/wasm-target.mjs';
+import { without } from '../util/env.mjs';
+import { root } from '../util/paths.mjs';
+import { Problem } from '../util/problem.mjs';
+import { Skip, check } from './step.mjs';
+
+/** @typedef {import('./step.mjs').Context} Context */
+/** @typedef {import('./step.mjs').Env} Env */
+
+/**
+ * @param {string} name
+ * @returns {(context: Context) => Promise<void>}
+ */
+export const inNode = (name) => ({ env }) => cargoTest(name, env);
+
+/**
+ * @param {string} name
+ * @returns {(context: Context) => Promise<void>}
+ */
+export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) => {
+  if (!chrome) throw new Skip('no Chromium or Chrome was found (CHROME can name one)');
+  if (!driver) throw new Skip('no chromedriver was found (CHROMEDRIVER can name one)');
+  const folder = await mkdtemp(join(tmpdir(), 'developable-'));
+  try {
+    const capabilities = JSON.parse(await readFile(join(root, 'webdriver.json'), 'utf8'));
+    capabilities['goog:chromeOptions'].binary = chrome;
+    const file = join(folder, 'webdriver.json');
+    await writeFile(file, JSON.stringify(capabilities));
+    // The runner would prefer another browser's driver, or one that is running elsewhere.
+    const own = without(env, /^(GECKO|SAFARI|MSEDGE|CHROME)DRIVER/);
+    await cargoTest(name, { ...own, CHROMEDRIVER: driver, WASM_BINDGEN_TEST_WEBDRIVER_JSON: file });
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+};
+
+/**
+ * @param {string} name
+ * @param {Env} env
+ */
+async function cargoTest(name, env) {
+  const output = await check('cargo', ['test', '--target', target, '--test', name], {
+    ...env,
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: 'wasm-bindgen-test-runner',
+    WASM_BINDGEN_TEST_TIMEOUT: '300',
+  });
+  // The runner is content with a file without any test.
+  if (!/test result: ok\. [1-9]\d* passed/.test(output)) throw new Problem(`tests/${name}.rs ran no test`);
+}

@@ -1,0 +1,25 @@
+/**
+ * `npm run wasm-pack`: shows that wasm-pack's usual commands work in the checkout. Nothing else
+ * here depends on wasm-pack.
+ */
+import { dirname } from 'node:path';
+import { cargoInstall } from './setup/cargo-install.mjs';
+import { setupTests } from './setup.mjs';
+import { check } from './test/step.mjs';
+import { withPath } from './util/env.mjs';
+import { main, Problem } from './util/problem.mjs';
+
+const version = '0.15.1';
+
+await main(async () => {
+  const { env, browser } = await setupTests();
+  const folder = await cargoInstall('wasm-pack', version, { time: 'about 3 minutes', flags: ['--locked'] });
+  const path = withPath(env, folder, ...(browser.driver ? [dirname(browser.driver)] : []));
+
+  await check('wasm-pack', ['build', '--out-dir', 'target/wasm-pack'], path);
+  await check('wasm-pack', ['test', '--node'], path);
+  if (!browser.chrome || !browser.driver) {
+    throw new Problem('No browser with a driver was found for wasm-pack test --headless --chrome: install Chromium and chromedriver.');
+  }
+  await check('wasm-pack', ['test', '--headless', '--chrome'], path);
+});

@@ -5,7 +5,7 @@ import type {
 } from './types.js';
 export * from './types.js';
 
-/** Loads the wasm once; later calls (with anything) return the same promise. */
+/** Loads the wasm once; later calls (with anything) return the same promise. May be repeated after a failure. */
 export function init(input?: InitInput): Promise<void>;
 /** The same, synchronously, from bytes or a compiled module. */
 export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
@@ -35,10 +35,10 @@ export function fit(
 /** Decodes a PNG or NPY file. */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
 /** NPY file (float64) of an image or of lattice heights. */
-export function writeNpy(input: HeightImage | Heightfield): Uint8Array;
+export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
 /** 16-bit grey PNG whose text chunks record pixel size, height scale and offset; level 0 is no data. */
-export function writePng(input: HeightImage): Uint8Array;
+export function writePng(input: HeightImage): Uint8Array<ArrayBuffer>;
 /** OBJ mesh: the lattice's triangles, in the units of the field. */
-export function writeObj(input: Heightfield): Uint8Array;
+export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
 /** One of the procedural examples. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -1,4 +1,5 @@
 /** What the direct and the worker API share: inputs, options, results. */
+export { DevelopableError, type ErrorCode } from './errors.js';
 
 /** Any flat numeric array; values are converted to 64-bit floats. */
 export type Numbers =
@@ -65,7 +66,7 @@ export interface Progress {
   iteration: number;
   /** Conjugate-gradient iterations so far, over all z-steps. */
   cgIterations: number;
-  /** Objective of the best iterate so far; NaN before the first check. */
+  /** Objective of the best iterate so far; that of the input before the first check. */
   objective: number;
   /** Best certified lower bound of the optimum so far. */
   dualBound: number;
@@ -156,19 +157,6 @@ export interface ReadResult {
   /** Added to the scaled heights; 0 unless the file records an offset. Already contained in `data` (as `offset / heightScale`). */
   /** The type the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'`, ... */
   dataType: string;
-}
-
-/** Error codes: Rust's (`Error::code`) and those of the JS side. */
-export type ErrorCode =
-  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'OPTION' | 'OVERFLOW' | 'TOO_LARGE' | 'OUT_OF_MEMORY'
-  | 'FORMAT' | 'UNSUPPORTED'
-  | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'TRAP' | 'WORKER';
-
-/** What every function of the package throws or rejects with (besides an abort signal's own reason). */
-export class DevelopableError extends Error {
-  readonly name: 'DevelopableError';
-  readonly code: ErrorCode;
-  constructor(code: ErrorCode, message: string, options?: { cause?: unknown });
 }
 
 /** Where the solver's wasm comes from; nothing means the file beside the package's own modules. */

@@ -11,6 +11,8 @@ mod solver;
 mod spectral;
 mod stencil;
 mod surface;
+#[cfg(target_arch = "wasm32")]
+mod wasm;
 
 pub use domain::{Domain, Role};
 pub use error::{Error, MAX_CELLS, Result};

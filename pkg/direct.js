@@ -1,0 +1,130 @@
+/** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
+import { DevelopableError } from './errors.js';
+import { asBytes, asField, asImage, asLattice } from './input.js';
+import { alive, call } from './instance.js';
+import { makeDisposable } from './platform.js';
+
+export { DevelopableError } from './errors.js';
+export { init, initSync } from './instance.js';
+
+/**
+ * @typedef {import('./direct.js').Solver} SolverApi
+ * @typedef {import('./wasm/developable.js').Solver} Handle
+ */
+
+/** Milliseconds between two calls of `fit`'s `onProgress`. */
+const PROGRESS_INTERVAL = 60;
+
+/** @implements {Omit<SolverApi, typeof Symbol.dispose>} */
+export class Solver {
+  /** @type {Handle | undefined} */
+  #handle;
+  /** Conjugate-gradient iterations to ask for in one call, from how long the last ones took. */
+  #work = 1;
+
+  /**
+   * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
+   * @param {import('./types.js').SolverOptions} [options]
+   */
+  constructor(input, options) {
+    const field = asField(input);
+    this.#handle = call(({ Solver: { onImage, onLattice } }) =>
+      field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
+    );
+  }
+
+  /** @param {number} milliseconds */
+  advance(milliseconds) {
+    const handle = this.#live();
+    const start = performance.now();
+    for (let last = start; ;) {
+      const more = call(() => handle.advance(this.#work));
+      const now = performance.now();
+      const left = milliseconds - (now - start);
+      // At most twice as much as before: the next iterations may be dearer, and clocks are coarse.
+      const affordable = (left / Math.max(now - last, 0.1)) * this.#work;
+      this.#work = Math.max(1, Math.floor(Math.min(2 * this.#work, left > 0 ? affordable : this.#work)));
+      if (!more) return false;
+      // Not if even the least amount of work would take much too long.
+      if (left <= 0 || affordable < 0.5) return true;
+      last = now;
+    }
+  }
+
+  progress() {
+    const handle = this.#live();
+    return call(() => handle.progress());
+  }
+
+  cancel() {
+    const handle = this.#live();
+    call(() => handle.cancel());
+  }
+
+  surface() {
+    const handle = this.#live();
+    return call(() => handle.surface());
+  }
+
+  get disposed() {
+    return this.#handle === undefined;
+  }
+
+  dispose() {
+    const handle = this.#handle;
+    this.#handle = undefined;
+    // After a trap there is nothing left that could be freed in an orderly way.
+    if (alive()) handle?.free();
+  }
+
+  #live() {
+    if (this.#handle === undefined) {
+      throw new DevelopableError('DISPOSED', 'this solver has been disposed');
+    }
+    return this.#handle;
+  }
+}
+makeDisposable(Solver);
+
+/** @type {typeof import('./direct.js').fit} */
+export function fit(input, { onProgress, ...options } = {}) {
+  const solver = new Solver(input, options);
+  try {
+    while (solver.advance(PROGRESS_INTERVAL)) {
+      if (onProgress?.(solver.progress()) === false) solver.cancel();
+    }
+    onProgress?.(solver.progress());
+    return solver.surface();
+  } finally {
+    solver.dispose();
+  }
+}
+
+/** @type {typeof import('./direct.js').read} */
+export function read(bytes, options) {
+  const file = asBytes(bytes);
+  return call((wasm) => wasm.read(file, options));
+}
+
+/** @type {typeof import('./direct.js').writeNpy} */
+export function writeNpy(input) {
+  const field = asField(input);
+  return call((wasm) => (field.kind === 'image' ? wasm.writeImageNpy(field) : wasm.writeLatticeNpy(field)));
+}
+
+/** @type {typeof import('./direct.js').writePng} */
+export function writePng(input) {
+  const image = asImage(input);
+  return call((wasm) => wasm.writePng(image));
+}
+
+/** @type {typeof import('./direct.js').writeObj} */
+export function writeObj(input) {
+  const lattice = asLattice(input);
+  return call((wasm) => wasm.writeObj(lattice));
+}
+
+/** @type {typeof import('./direct.js').example} */
+export function example(name, options) {
+  return call((wasm) => wasm.example(name, options));
+}

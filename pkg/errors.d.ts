@@ -1,0 +1,29 @@
+/**
+ * Error codes. Those of the Rust crate (`Error::code`):
+ * - `EMPTY`, `SHAPE`, `NOT_FINITE`, `NO_INTERIOR`, `OVERFLOW`, `TOO_LARGE`: something about the heights;
+ * - `OPTION`: an option is unknown, of the wrong type or out of range;
+ * - `FORMAT`, `UNSUPPORTED`: something about a file;
+ * - `OUT_OF_MEMORY`.
+ *
+ * Those of the JS side:
+ * - `INPUT`: an argument is not of the documented shape;
+ * - `NOT_INITIALIZED`: a direct function was called before `init` was done;
+ * - `INIT`: the wasm could not be loaded (may be tried again);
+ * - `DISPOSED`: the solver or worker was used after its disposal, or disposed while it worked;
+ * - `TRAP`: the wasm crashed, which is a bug to report; direct functions stay unusable, workers are replaced;
+ * - `WORKER`: the worker could not be started or died.
+ */
+export type ErrorCode =
+  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'OPTION' | 'OVERFLOW' | 'TOO_LARGE' | 'OUT_OF_MEMORY'
+  | 'FORMAT' | 'UNSUPPORTED'
+  | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'TRAP' | 'WORKER';
+
+/** What every function of the package throws or rejects with (besides an abort signal's own reason). */
+export class DevelopableError extends Error {
+  readonly name: 'DevelopableError';
+  readonly code: ErrorCode;
+  constructor(code: ErrorCode, message: string, options?: { cause?: unknown });
+}
+
+/** The message of anything that was thrown. */
+export function messageOf(thrown: unknown): string;

@@ -1,0 +1,55 @@
+/** The promise API: one worker for all who do not want one of their own. Documented in `index.d.ts`. */
+import { DevelopableWorker } from './client.js';
+
+export { DevelopableError } from './errors.js';
+export { DevelopableWorker };
+
+/** @typedef {import('./types.js').InitInput} InitInput */
+
+/** @type {DevelopableWorker | undefined} */
+let shared;
+
+const worker = () => (shared ??= new DevelopableWorker());
+
+/** @type {typeof import('./index.js').init} */
+export function init(options) {
+  if (options !== undefined && !shared?.connected) {
+    shared = new DevelopableWorker(isInitInput(options) ? { wasm: options } : options);
+  }
+  return worker().init();
+}
+
+/** @type {typeof import('./index.js').fit} */
+export const fit = (input, options) => worker().fit(input, options);
+/** @type {typeof import('./index.js').read} */
+export const read = (bytes, options) => worker().read(bytes, options);
+/** @type {typeof import('./index.js').writeNpy} */
+export const writeNpy = (input) => worker().writeNpy(input);
+/** @type {typeof import('./index.js').writePng} */
+export const writePng = (input) => worker().writePng(input);
+/** @type {typeof import('./index.js').writeObj} */
+export const writeObj = (input) => worker().writeObj(input);
+/** @type {typeof import('./index.js').example} */
+export const example = (name, options) => worker().example(name, options);
+
+/** @type {typeof import('./index.js').dispose} */
+export function dispose() {
+  shared?.dispose();
+  shared = undefined;
+}
+
+/**
+ * @param {import('./index.js').WorkerOptions | InitInput} options
+ * @returns {options is InitInput}
+ */
+function isInitInput(options) {
+  return (
+    typeof options === 'string' ||
+    options instanceof URL ||
+    options instanceof ArrayBuffer ||
+    ArrayBuffer.isView(options) ||
+    options instanceof WebAssembly.Module ||
+    (typeof Response === 'function' && options instanceof Response) ||
+    'then' in options
+  );
+}

@@ -193,7 +193,8 @@ impl Solver {
         self.state
             .update(&self.problem, self.plan.relaxation, &mut self.cg);
         self.seconds.h_step += start.elapsed().as_secs_f64();
-        if self.iteration % self.plan.check_every == 0 || self.plan.is_last(self.iteration) {
+        let due = self.iteration.is_multiple_of(self.plan.check_every);
+        if due || self.plan.is_last(self.iteration) {
             let start = Instant::now();
             self.check();
             self.seconds.certificate += start.elapsed().as_secs_f64();

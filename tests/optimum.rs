@@ -1,0 +1,162 @@
+//! The optimum against an independent conic solver.
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use common::conic::optimum;
+use common::{cut, noisy, unit_square};
+use developable::{Heightfield, Lambda, Normalization, Options, Schedule, StopReason, fit};
+
+/// Solves to a tiny gap and compares objective, bound and heights.
+fn check(field: &Heightfield, lambda: Lambda) {
+    let exact = optimum(field, lambda.value());
+    let options = Options::default()
+        .lambda(lambda)
+        .gap(1e-8)
+        .max_iterations(200_000)
+        .normalization(Normalization::Off);
+    let surface = fit(field, &options).unwrap();
+    let report = surface.report();
+    assert_eq!(report.stop_reason, StopReason::Gap, "{report:?}");
+    let error = (report.objective - exact.objective) / exact.objective;
+    assert!(error.abs() < 1e-6, "objective off by {error:e}: {report:?}");
+    // The conic solver is exact to about 1e-9 itself.
+    let slack = 1e-8 * exact.objective;
+    assert!(report.dual_bound <= exact.objective + slack);
+    assert!(report.objective >= exact.objective - slack);
+
+    // Strong convexity bounds the distance to the optimum by the gap.
+    let bound = (report.objective - report.dual_bound + 2.0 * slack) / report.lambda;
+    let distance: f64 = surface
+        .heightfield()
+        .heights()
+        .iter()
+        .zip(&exact.heights)
+        .filter(|(_, z)| !z.is_nan())
+        .map(|(a, b)| (a - b).powi(2))
+        .sum();
+    assert!(distance <= bound + 1e-12, "{distance:e} against {bound:e}");
+}
+
+fn bumps(x: f64, y: f64) -> f64 {
+    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
+}
+
+#[test]
+fn noise_at_small_lambda() {
+    check(&noisy(&unit_square(12, bumps), 0.02, 1), Lambda::Small);
+}
+
+#[test]
+fn noise_at_medium_lambda() {
+    check(&noisy(&unit_square(14, bumps), 0.02, 2), Lambda::Medium);
+}
+
+#[test]
+fn noise_at_big_lambda() {
+    check(&noisy(&unit_square(12, bumps), 0.02, 3), Lambda::Big);
+}
+
+#[test]
+fn tiny_lambda_leaves_little_but_a_plane() {
+    check(
+        &noisy(&unit_square(10, bumps), 0.02, 4),
+        Lambda::Value(300.0),
+    );
+}
+
+#[test]
+fn a_hole_in_a_disk() {
+    let ring = |x: f64, y: f64| {
+        let r = (x - 0.5).hypot(y - 0.5);
+        r < 0.5 && r > 0.17
+    };
+    let field = cut(&noisy(&unit_square(18, bumps), 0.03, 5), ring);
+    check(&field, Lambda::Small);
+}
+
+#[test]
+fn two_islands_and_a_needle() {
+    let keep = |x: f64, y: f64| {
+        let left = x < 0.4 && y < 0.7;
+        let right = x > 0.55 && (y - 0.5).abs() < 0.3;
+        let needle = y > 0.9;
+        left || right || needle
+    };
+    let field = cut(&noisy(&unit_square(16, bumps), 0.05, 6), keep);
+    check(&field, Lambda::Medium);
+}
+
+#[test]
+fn a_sharp_step() {
+    let step = |x: f64, y: f64| if x + 0.3 * y > 0.6 { 0.5 } else { 0.0 };
+    check(&unit_square(13, step), Lambda::Value(2e4));
+}
+
+#[test]
+fn one_interior_vertex() {
+    let field = cut(&noisy(&unit_square(3, bumps), 0.1, 7), |x, y| {
+        (x - 0.5).hypot(y - 0.711) < 0.36
+    });
+    check(&field, Lambda::Value(50.0));
+}
+
+#[test]
+fn normalisation_solves_the_normalised_problem() {
+    // 30 units wide: the same energy as the unit square's, with every length times 30.
+    let small = noisy(&unit_square(12, bumps), 0.02, 8);
+    let big = Heightfield::new(
+        developable::Lattice::new(
+            small.lattice().rows(),
+            small.lattice().cols(),
+            30.0 * small.lattice().spacing(),
+        )
+        .unwrap(),
+        small.heights().iter().map(|z| 30.0 * z + 7.0).collect(),
+    )
+    .unwrap();
+    let surface = fit(&big, &Options::default().gap(1e-8).max_iterations(100_000)).unwrap();
+    let report = surface.report();
+    // Odd rows stick out by half a spacing on the left, and one column more covers them.
+    let width = small.lattice().spacing() * (small.lattice().cols() as f64 - 0.5);
+    assert!((report.scale * 30.0 * width - 1.0).abs() < 1e-12);
+    let normalised = Heightfield::new(
+        developable::Lattice::new(
+            small.lattice().rows(),
+            small.lattice().cols(),
+            small.lattice().spacing() / width,
+        )
+        .unwrap(),
+        small.heights().iter().map(|z| z / width).collect(),
+    )
+    .unwrap();
+    let exact = optimum(&normalised, 1e6);
+    assert!((report.objective / exact.objective - 1.0).abs() < 1e-6);
+    let worst = surface
+        .heightfield()
+        .heights()
+        .iter()
+        .zip(&exact.heights)
+        .filter(|(_, z)| !z.is_nan())
+        .map(|(a, z)| (a - (z * 30.0 * width + 7.0)).abs())
+        .fold(0.0, f64::max);
+    assert!(worst < 30.0 * 1e-4, "{worst}");
+}
+
+#[test]
+fn the_paper_schedule_ends_close_to_the_optimum_and_knows_how_close() {
+    let field = noisy(&unit_square(14, bumps), 0.02, 9);
+    let exact = optimum(&field, 1e5);
+    let options = Options::default()
+        .lambda(Lambda::Small)
+        .schedule(Schedule::Paper)
+        .normalization(Normalization::Off);
+    let report = fit(&field, &options).unwrap().report().clone();
+    assert_eq!(report.stop_reason, StopReason::Residuals, "{report:?}");
+    let error = report.objective / exact.objective - 1.0;
+    assert!((-1e-9..0.02).contains(&error), "{error}");
+    assert!(
+        error <= report.gap + 1e-9 && report.gap < 0.05,
+        "{report:?}"
+    );
+}

@@ -1,0 +1,23 @@
+/** The one place that knows where the package is: `pkg/` beside this page. */
+
+/** @typedef {typeof import('../pkg/index.js')} Api */
+/** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
+/** @typedef {import('../pkg/types.js').Progress} Progress */
+/** @typedef {import('../pkg/types.js').Report} Report */
+/** @typedef {import('../pkg/types.js').StopReason} StopReason */
+/** @typedef {import('../pkg/types.js').Surface} Surface */
+
+/**
+ * Loads the package and starts its worker.
+ *
+ * A dynamic import, so that a browser that cannot load it still gets a page that says so.
+ * @returns {Promise<Api>}
+ */
+export async function connect() {
+  if (typeof WebAssembly !== 'object') throw new Error('this browser has no WebAssembly');
+  if (typeof Worker !== 'function') throw new Error('this browser has no web workers');
+  /** @type {Api} */
+  const api = await import(new URL('./pkg/index.js', import.meta.url).href);
+  await api.init();
+  return api;
+}

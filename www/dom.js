@@ -1,0 +1,64 @@
+/** Typed look-up of the page's elements. */
+
+/**
+ * The element with this id; the markup and the modules must agree, so its absence is a mistake.
+ * @template {Element} T
+ * @param {string} id
+ * @param {new () => T} type
+ * @returns {T}
+ */
+export function element(id, type) {
+  const found = document.getElementById(id);
+  if (!(found instanceof type)) throw new Error(`#${id} is not a ${type.name}`);
+  return found;
+}
+
+/**
+ * All elements of one type that match.
+ * @template {Element} T
+ * @param {string} selector
+ * @param {new () => T} type
+ * @returns {T[]}
+ */
+export function elements(selector, type) {
+  /** @param {Element} found @returns {found is T} */
+  const typed = (found) => found instanceof type;
+  return [...document.querySelectorAll(selector)].filter(typed);
+}
+
+/**
+ * At most one call per frame, however often it is asked for.
+ * @param {() => void} draw
+ * @returns {() => void}
+ */
+export function eachFrame(draw) {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      draw();
+    });
+  };
+}
+
+/**
+ * Sizes the canvas' pixels to the device's, and calls back whenever they change.
+ * @param {HTMLCanvasElement} canvas
+ * @param {() => void} changed
+ */
+export function followDevicePixels(canvas, changed) {
+  const fit = () => {
+    const ratio = window.devicePixelRatio;
+    const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
+    const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+    if (canvas.width === width && canvas.height === height) return;
+    canvas.width = width;
+    canvas.height = height;
+    changed();
+  };
+  new ResizeObserver(fit).observe(canvas);
+  // Zooming and moving to another screen change the ratio without changing the box.
+  window.addEventListener('resize', fit);
+}

@@ -1,0 +1,68 @@
+/** Numbers as people read them. */
+
+const NARROW = '\u202f';
+const BREAKLESS = '\u00a0';
+const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+
+/** @param {number} n */
+export function count(n) {
+  return n.toLocaleString('en', { maximumFractionDigits: 0 }).replaceAll(',', NARROW);
+}
+
+/**
+ * Three significant digits, by powers of ten where that is shorter.
+ * @param {number} value
+ * @param {number} [digits]
+ */
+export function number(value, digits = 3) {
+  if (!Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  if (size !== 0 && (size >= 1e6 || size < 1e-3)) return scientific(value, digits);
+  return value
+    .toLocaleString('en', { maximumSignificantDigits: digits })
+    .replaceAll(',', NARROW)
+    .replace('-', '−');
+}
+
+/**
+ * @param {number} value
+ * @param {number} digits
+ */
+function scientific(value, digits) {
+  const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
+  const short = String(Number(mantissa)).replace('-', '−');
+  const power = superscript(Number(exponent));
+  return short === '1' ? `10${power}` : `${short}${NARROW}·${NARROW}10${power}`;
+}
+
+/** @param {number} n an integer */
+export function superscript(n) {
+  const digits = [...String(Math.abs(n))].map((digit) => SUPERSCRIPTS[Number(digit)]);
+  return (n < 0 ? '⁻' : '') + digits.join('');
+}
+
+/**
+ * A bound in percent. Rounded up, for what is certified must not be overstated.
+ * @param {number} share
+ */
+export function percentAtMost(share) {
+  if (!Number.isFinite(share)) return '–';
+  const percent = 100 * share;
+  if (percent <= 0) return `0${BREAKLESS}%`;
+  const unit = 10 ** (Math.floor(Math.log10(percent)) - 1);
+  const up = Math.ceil(percent / unit - 1e-9) * unit;
+  return `${number(up, 2)}${BREAKLESS}%`;
+}
+
+/** @param {number} s */
+export function seconds(s) {
+  return s < 0.01 ? `${number(1000 * s, 2)}${BREAKLESS}ms` : `${number(s, s < 100 ? 2 : 3)}${BREAKLESS}s`;
+}
+
+/**
+ * λ as a person would type it: 1e6, 2.5e6.
+ * @param {number} lambda
+ */
+export function shortest(lambda) {
+  return Number(lambda.toPrecision(2)).toExponential().replace('e+', 'e');
+}

@@ -1,0 +1,33 @@
+/** Puts the page together. */
+import { connect } from './api.js';
+import { element } from './dom.js';
+import { curvePanel } from './panels/curve.js';
+import { headline, showNotice } from './panels/headline.js';
+import { reportPanel } from './panels/report.js';
+import { runPanel } from './panels/run.js';
+import { savePanel } from './panels/save.js';
+import { settingsPanel } from './panels/settings.js';
+import { sourcePanel } from './panels/source.js';
+import { viewsPanel } from './panels/views.js';
+import { Session } from './session.js';
+import { complaint } from './words.js';
+
+async function start() {
+  const session = new Session(await connect());
+  headline(session);
+  viewsPanel(session);
+  settingsPanel(session);
+  runPanel(session);
+  curvePanel(session);
+  reportPanel(session);
+  savePanel(session);
+  const { openExample } = sourcePanel(session);
+  // Something to see at once.
+  await openExample();
+}
+
+start().catch((error) => {
+  element('page', HTMLElement).dataset.phase = 'failed';
+  element('verdict', HTMLElement).textContent = 'The page could not start.';
+  showNotice(complaint('The solver could not be started', error));
+});

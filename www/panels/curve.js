@@ -1,0 +1,132 @@
+/** Objective, dual bound and gap as they approach each other, live. */
+import { eachFrame, element, followDevicePixels } from '../dom.js';
+import { count, percentAtMost, seconds } from '../format.js';
+import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
+
+/** @import {Progress, Report} from '../api.js' */
+/** @import {Session} from '../session.js' */
+/** @import {Axes, Curve} from '../plot.js' */
+
+/** @typedef {Pick<Progress, 'iteration' | 'elapsed' | 'objective' | 'dualBound' | 'gap'>} Moment */
+
+const MARGIN = { left: 46, right: 10, top: 22, between: 34, bottom: 38 };
+/** How much of what lies beyond the final value is shown, as a factor. */
+const REACH = 4;
+
+/** @param {Session} session */
+export function curvePanel(session) {
+  const canvas = element('curve-canvas', HTMLCanvasElement);
+  const axis = element('curve-axis', HTMLSelectElement);
+  /** @type {Moment[]} */
+  let moments = [];
+  let target = session.settings.gap;
+
+  const draw = () => drawMoments(canvas, moments, axis.value === 'iteration' ? 'iteration' : 'elapsed', target);
+  const drawSoon = eachFrame(draw);
+  /** @param {Moment} moment */
+  const add = (moment) => {
+    if (Number.isFinite(moment.objective) && moment.objective > 0) moments.push(moment);
+    drawSoon();
+  };
+  const clear = () => {
+    moments = [];
+    canvas.setAttribute('aria-label', 'No run yet');
+    drawSoon();
+  };
+
+  session.on('start', (settings) => {
+    clear();
+    target = settings.gap;
+  });
+  session.on('cleared', clear);
+  session.on('progress', add);
+  session.on('result', ({ surface: { report } }) => {
+    add(lastMoment(report));
+    canvas.setAttribute('aria-label', inWords(moments));
+  });
+  axis.addEventListener('change', drawSoon);
+  followDevicePixels(canvas, draw);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawSoon);
+}
+
+/** @param {Report} report @returns {Moment} */
+function lastMoment({ iterations, objective, dualBound, gap, seconds: { total } }) {
+  return { iteration: iterations, elapsed: total, objective, dualBound, gap };
+}
+
+/** @param {readonly Moment[]} moments */
+function inWords(moments) {
+  const [first, last] = [moments[0], moments[moments.length - 1]];
+  if (!first) return 'Nothing to show';
+  return `Gap from ${percentAtMost(first.gap)} to ${percentAtMost(last.gap)} in ${count(last.iteration)} iterations, ${seconds(last.elapsed)}`;
+}
+
+/**
+ * @param {HTMLCanvasElement} canvas
+ * @param {readonly Moment[]} moments
+ * @param {'iteration' | 'elapsed'} along
+ * @param {number} target
+ */
+function drawMoments(canvas, moments, along, target) {
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  const ratio = canvas.width / canvas.clientWidth;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const { clientWidth: width, clientHeight: height } = canvas;
+  context.clearRect(0, 0, width, height);
+
+  const style = getComputedStyle(canvas);
+  const colour = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
+  context.font = `12px ${style.fontFamily}`;
+  const palette = { ink: colour('--ink'), muted: colour('--muted'), line: colour('--line') };
+
+  const last = moments[moments.length - 1];
+  const xMax = Math.max(last?.[along] ?? 0, along === 'iteration' ? 10 : 0.01);
+  const inner = height - MARGIN.top - MARGIN.between - MARGIN.bottom;
+  const common = { xMax, palette };
+  const place = { left: MARGIN.left, width: width - MARGIN.left - MARGIN.right, height: inner / 2 };
+  /** @type {(key: 'objective' | 'dualBound' | 'gap') => [number, number][]} */
+  const points = (key) => moments.filter((m) => !Number.isNaN(m[key])).map((m) => [m[along], m[key]]);
+
+  /** @type {Axes} */
+  const energy = {
+    ...common, title: 'Energy', yRange: energyRange(moments), box: { ...place, top: MARGIN.top },
+  };
+  /** @type {Curve[]} */
+  const bounds = [
+    { label: 'objective', colour: colour('--curve-objective'), points: points('objective') },
+    { label: 'dual bound', colour: colour('--curve-bound'), points: points('dualBound') },
+  ];
+  drawAxes(context, energy);
+  drawLegend(context, energy, bounds);
+  for (const curve of bounds) drawCurve(context, energy, curve);
+
+  const gaps = points('gap').map(([x, y]) => /** @type {[number, number]} */ ([x, 100 * y]));
+  const least = Math.min(100 * target, ...gaps.map(([, gap]) => gap).filter((gap) => gap > 0));
+  /** @type {Axes} */
+  const gap = {
+    ...common, title: 'Gap between them, in %', yRange: [least / 2, 150],
+    xLabel: along === 'iteration' ? 'iterations' : 'seconds',
+    box: { ...place, top: MARGIN.top + inner / 2 + MARGIN.between },
+  };
+  drawAxes(context, gap);
+  drawLevel(context, gap, 100 * target, 'wanted');
+  drawCurve(context, gap, { label: 'gap', colour: colour('--curve-gap'), points: gaps });
+}
+
+/**
+ * Around the last objective; the first ones can be so far off that nothing else would be seen.
+ * @param {readonly Moment[]} moments
+ * @returns {[number, number]}
+ */
+function energyRange(moments) {
+  const last = moments[moments.length - 1];
+  if (!last) return [1, 10];
+  const { objective } = last;
+  const highest = Math.max(...moments.map((m) => m.objective));
+  const lowest = Math.min(...moments.map((m) => m.dualBound).filter((bound) => bound > 0), objective);
+  return [
+    Math.max(lowest, objective / REACH) / 1.2,
+    Math.min(highest, objective * REACH) * 1.2,
+  ];
+}

@@ -1,0 +1,66 @@
+/** The outcome up front, in plain words, and messages about what went wrong. */
+import { element } from '../dom.js';
+import { count } from '../format.js';
+import { rmsError } from '../surface/compare.js';
+import { complaint, improvement, verdict } from '../words.js';
+
+/** @import {Result, Session} from '../session.js' */
+
+/** @param {Session} session */
+export function headline(session) {
+  const main = element('verdict', HTMLElement);
+  const detail = element('verdict-detail', HTMLElement);
+  const page = element('page', HTMLElement);
+  /** @param {string} first @param {string} second */
+  const say = (first, second) => {
+    main.textContent = first;
+    detail.textContent = second;
+  };
+
+  session.on('input', (input) => {
+    hideNotice();
+    if (input.kind) say(`Opened ${input.name}.`, 'Check the pixel size and the height scale, choose λ, then press Run.');
+  });
+  session.on('start', () => {
+    hideNotice();
+    say('Solving…', describe(session));
+  });
+  session.on('result', (result) => {
+    say(verdict(result.surface.report), `${describe(session)} ${closeness(result)}`);
+  });
+  session.on('phase', (phase) => {
+    page.dataset.phase = phase;
+    if (phase === 'idle' && !session.input) say('Nothing to show yet.', 'Choose an example or open a file.');
+  });
+  session.on('unsolved', () => say('Not solved.', session.result ? 'The result before it stays.' : ''));
+  session.on('failure', ({ doing, error }) => showNotice(complaint(doing, error)));
+  element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
+}
+
+/** @param {string} message */
+export function showNotice(message) {
+  element('notice-text', HTMLElement).textContent = message;
+  element('notice', HTMLElement).hidden = false;
+}
+
+function hideNotice() {
+  element('notice', HTMLElement).hidden = true;
+}
+
+/** @param {Session} session */
+function describe({ input, result }) {
+  if (!input) return '';
+  const report = result?.input === input ? result.surface.report : null;
+  const vertices = report ? `${count(report.interior + report.boundary)} vertices.` : '';
+  return vertices || `${count(input.width * input.height)} pixels.`;
+}
+
+/** @param {Result} result */
+function closeness({ input, surface }) {
+  if (!input.truth || !surface.image) return '';
+  const { truth, data, heightScale } = input;
+  return improvement(
+    rmsError(data, heightScale, truth, heightScale),
+    rmsError(surface.image.data, 1, truth, heightScale),
+  );
+}

@@ -1,0 +1,131 @@
+/** The report as a table, each line with a word on what it means. */
+import { element } from '../dom.js';
+import { count, number, percentAtMost, seconds } from '../format.js';
+import { meanAngle, rmsError } from '../surface/compare.js';
+import { normalsOf } from '../surface/normals.js';
+import { STOP_REASONS } from '../words.js';
+
+/** @import {Report} from '../api.js' */
+/** @import {Result, Session} from '../session.js' */
+
+/** @typedef {{ name: string, value: string, meaning: string }} Line */
+/** @typedef {{ title: string, lines: Line[] }} Group */
+
+/** @param {Session} session */
+export function reportPanel(session) {
+  const table = element('report-table', HTMLTableElement);
+  const empty = element('report-empty', HTMLElement);
+  session.on('result', (result) => {
+    const { report } = result.surface;
+    const groups = [certificate(report), domain(report), work(report), accuracy(result)];
+    table.replaceChildren(...groups.filter((group) => group.lines.length > 0).map(rowGroup));
+    table.hidden = false;
+    empty.hidden = true;
+  });
+  session.on('cleared', () => {
+    table.hidden = true;
+    empty.hidden = false;
+  });
+}
+
+/** @param {Report} report @returns {Group} */
+function certificate(report) {
+  return {
+    title: 'Certificate',
+    lines: [
+      line('Gap', percentAtMost(report.gap), 'The objective is at most this share above the optimum.'),
+      line('Objective', number(report.objective, 5), 'The energy of the result: the sum of the next two.'),
+      line('Fidelity', number(report.fidelity, 4), 'λ times the squared distances from the input.'),
+      line('Nuclear norms', number(report.nuclearNorm, 4), 'Bending and creasing; what makes it developable.'),
+      line('Dual bound', number(report.dualBound, 5), 'No surface has less energy than this.'),
+      line('Stopped by', STOP_REASONS[report.stopReason], ''),
+    ],
+  };
+}
+
+/** @param {Report} report @returns {Group} */
+function domain(report) {
+  return {
+    title: 'Vertices',
+    lines: [
+      line('Interior', count(report.interior), 'With all six neighbours: curvature is measured here.'),
+      line('Boundary', count(report.boundary), 'Neighbours of interior ones.'),
+      line('Omitted', count(report.omitted), 'Left out of the solve, restored from what is nearest.'),
+    ],
+  };
+}
+
+/** @param {Report} report @returns {Group} */
+function work(report) {
+  const { setup, zStep, hStep, certificate: check, total } = report.seconds;
+  return {
+    title: 'Work',
+    lines: [
+      line('λ', number(report.lambda), 'Weight of the fidelity, in the unit square.'),
+      line('Iterations', count(report.iterations), 'Of ADMM.'),
+      line('CG iterations', count(report.cgIterations), 'Conjugate gradients, within its z-steps.'),
+      line('ρ', number(report.rho), 'The last penalty; adapted as it goes.'),
+      line('Scale', number(report.scale, 4), 'From the input’s units to the unit square.'),
+      line('Time', seconds(total), `Set-up ${seconds(setup)}, z-steps ${seconds(zStep)}, H-steps ${seconds(hStep)}, certificate ${seconds(check)}.`),
+    ],
+  };
+}
+
+/**
+ * Against the known truth, for examples.
+ * @param {Result} result
+ * @returns {Group}
+ */
+function accuracy({ input, surface: { image } }) {
+  const { truth, data, width, height, pixelSize, heightScale } = input;
+  if (!truth || !image) return { title: '', lines: [] };
+  const steepness = heightScale / pixelSize;
+  const trueNormals = normalsOf(truth, width, height, steepness);
+  const before = normalsOf(data, width, height, steepness);
+  const after = normalsOf(image.data, width, height, 1 / image.pixelSize);
+  /** @param {string} was @param {string} is */
+  const change = (was, is) => `${was} → ${is}`;
+  return {
+    title: 'Error against the true surface, input → result',
+    lines: [
+      line('Heights', change(
+        number(rmsError(data, heightScale, truth, heightScale)),
+        number(rmsError(image.data, 1, truth, heightScale)),
+      ), 'Root mean square, in the example’s units.'),
+      line('Normals', change(
+        `${number(meanAngle(before, trueNormals))}°`,
+        `${number(meanAngle(after, trueNormals))}°`,
+      ), 'Mean angle between the normals.'),
+    ],
+  };
+}
+
+/** @param {string} name @param {string} value @param {string} meaning @returns {Line} */
+function line(name, value, meaning) {
+  return { name, value, meaning };
+}
+
+/** @param {Group} group */
+function rowGroup({ title, lines }) {
+  const body = document.createElement('tbody');
+  const head = body.insertRow();
+  head.className = 'group';
+  const heading = document.createElement('th');
+  heading.colSpan = 3;
+  heading.scope = 'rowgroup';
+  heading.textContent = title;
+  head.append(heading);
+  for (const { name, value, meaning } of lines) {
+    const row = body.insertRow();
+    const header = document.createElement('th');
+    header.scope = 'row';
+    header.textContent = name;
+    row.append(header);
+    const figure = row.insertCell();
+    figure.textContent = value;
+    if (meaning) row.insertCell().textContent = meaning;
+    // A value in words needs the room of its missing explanation.
+    else figure.colSpan = 2;
+  }
+  return body;
+}

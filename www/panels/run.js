@@ -1,0 +1,66 @@
+/** Run, cancel, and how far it is. */
+import { element } from '../dom.js';
+import { count, percentAtMost, seconds } from '../format.js';
+
+/** @import {Session} from '../session.js' */
+
+/** @param {Session} session */
+export function runPanel(session) {
+  const form = element('controls', HTMLFormElement);
+  const cancel = element('cancel', HTMLButtonElement);
+  const bar = element('progress', HTMLProgressElement);
+  const text = element('progress-text', HTMLElement);
+  /** The first gap below 1: where the bar begins. */
+  let first = NaN;
+
+  form.addEventListener('submit', (event) => {
+    event.preventDefault();
+    void session.run();
+  });
+  // Only said to be disabled, so that the keyboard's focus is not lost when a run ends.
+  cancel.addEventListener('click', () => {
+    if (session.phase !== 'running') return;
+    text.textContent = 'Stopping…';
+    cancel.setAttribute('aria-disabled', 'true');
+    session.cancel();
+  });
+
+  session.on('phase', (phase) => {
+    if (phase !== 'running') cancel.setAttribute('aria-disabled', 'true');
+  });
+  session.on('start', () => {
+    cancel.setAttribute('aria-disabled', 'false');
+    first = NaN;
+    bar.value = 0;
+    text.textContent = 'Setting up…';
+  });
+  session.on('progress', ({ iteration, gap, elapsed }) => {
+    if (Number.isNaN(first) && gap < 1) first = gap;
+    if (first > 0) bar.value = Math.max(bar.value, reached(gap, first, session.settings.gap));
+    const state = gap < 1 ? `gap ${percentAtMost(gap)}` : 'no certificate yet';
+    text.textContent = `${state} after ${count(iteration)} iterations, ${seconds(elapsed)}`;
+  });
+  session.on('result', ({ surface: { report } }) => {
+    if (report.stopReason !== 'cancelled') bar.value = 1;
+    text.textContent = `gap ${percentAtMost(report.gap)} after ${count(report.iterations)} iterations`;
+  });
+  session.on('unsolved', () => {
+    text.textContent = 'Not solved';
+  });
+  session.on('cleared', () => {
+    bar.value = 0;
+    text.textContent = '\u00a0';
+  });
+}
+
+/**
+ * Share of the way from the first gap to the wanted one. The gap falls about
+ * geometrically, so logarithms make the bar move about evenly.
+ * @param {number} gap
+ * @param {number} first
+ * @param {number} wanted
+ */
+function reached(gap, first, wanted) {
+  if (!(gap > wanted)) return 1;
+  return Math.min(1, Math.max(0, Math.log(first / gap) / Math.log(first / wanted)));
+}

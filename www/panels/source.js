@@ -1,0 +1,102 @@
+/** Where the heights come from: an example, or a file with its scale. */
+import { element, elements } from '../dom.js';
+import { number } from '../format.js';
+import { watchDrops } from './drop.js';
+
+/** @import {ExampleName} from '../api.js' */
+/** @import {Input, Session} from '../session.js' */
+
+/** @param {Session} session */
+export function sourcePanel(session) {
+  const radios = elements('input[name="example"]', HTMLInputElement);
+  const size = element('size', HTMLSelectElement);
+  const noise = element('noise', HTMLSelectElement);
+  const file = element('file', HTMLInputElement);
+  const exampleOptions = element('example-options', HTMLElement);
+  const fileOptions = element('file-options', HTMLElement);
+  const fileName = element('file-name', HTMLElement);
+  const pixelSize = element('pixel-size', HTMLInputElement);
+  const heightScale = element('height-scale', HTMLInputElement);
+  const span = element('scale-span', HTMLElement);
+
+  /** Generates the chosen example and, as it is quick and needs no further word, solves it. */
+  const openExample = async () => {
+    const radio = radios.find((button) => button.checked);
+    if (!radio) return;
+    const name = /** @type {ExampleName} */ (radio.value);
+    const options = { size: Number(size.value), noise: Number(noise.value) };
+    const opened = await session.open('The example could not be made', async () => {
+      const { input, truth } = await session.api.example(name, options);
+      const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
+      return { name, width, height, data, pixelSize: side, heightScale: step, truth };
+    });
+    if (opened) await session.run();
+  };
+
+  /** @param {File} chosen */
+  const openFile = (chosen) =>
+    session.open(`“${chosen.name}” could not be read`, async () => {
+      const { format, dataType, ...heights } = await session.api.read(chosen);
+      if (!heights.data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
+      const { width, height, data, pixelSize: side, heightScale: step } = heights;
+      const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
+      return { name: chosen.name.replace(/\.[^.]*$/, '') || 'heights', kind, width, height, data, pixelSize: side, heightScale: step };
+    });
+
+  const rescale = () => {
+    pixelSize.setCustomValidity(pixelSize.valueAsNumber > 0 ? '' : 'The pixel size must be above 0.');
+    heightScale.setCustomValidity(Math.abs(heightScale.valueAsNumber) > 0 ? '' : 'The height scale must not be 0.');
+    if (!pixelSize.reportValidity() || !heightScale.reportValidity()) return;
+    session.rescale({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber });
+  };
+
+  for (const control of [...radios, size, noise]) control.addEventListener('change', openExample);
+  for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
+  element('open', HTMLButtonElement).addEventListener('click', () => file.click());
+  file.addEventListener('change', () => {
+    const chosen = file.files?.[0];
+    if (chosen) void openFile(chosen);
+    // So that choosing the same file again, perhaps mended, is a change.
+    file.value = '';
+  });
+  watchDrops((dropped) => void openFile(dropped));
+
+  session.on('input', (input) => {
+    const isFile = input.kind !== undefined;
+    exampleOptions.hidden = isFile;
+    fileOptions.hidden = !isFile;
+    for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
+    if (!isFile) return;
+    fileName.textContent = `${input.name} (${input.kind})`;
+    pixelSize.value = plain(input.pixelSize);
+    heightScale.value = plain(input.heightScale);
+    span.textContent = spanInWords(input);
+  });
+
+  return { openExample };
+}
+
+/** @param {string} type such as u16 */
+function typeInWords(type) {
+  const [, letter, bits] = /^([a-z]+)(\d+)$/.exec(type) ?? [];
+  /** @type {Record<string, string>} */
+  const names = { u: 'integers', i: 'signed integers', f: 'floats' };
+  return names[letter] ? `${bits}-bit ${names[letter]}` : type;
+}
+
+/** @param {Input} input */
+function spanInWords({ data, width, height, pixelSize, heightScale }) {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of data) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  const depth = (high - low) * Math.abs(heightScale);
+  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(depth)} in height.`;
+}
+
+/** A number as an input field takes it, without the digits that only binary fractions have. @param {number} value */
+function plain(value) {
+  return String(Number(value.toPrecision(12)));
+}

@@ -1,0 +1,194 @@
+/** Line plots on a canvas: a frame with ticks, linear across and logarithmic up. */
+import { number, superscript } from './format.js';
+
+/** @typedef {{ left: number, top: number, width: number, height: number }} Box */
+
+/**
+ * @typedef {object} Curve
+ * @property {string} colour
+ * @property {string} label
+ * @property {readonly (readonly [number, number])[]} points
+ */
+
+/**
+ * @typedef {object} Axes
+ * @property {Box} box
+ * @property {number} xMax the x-axis begins at 0
+ * @property {[number, number]} yRange both above 0
+ * @property {string} title
+ * @property {string} [xLabel] without it the axis has no numbers
+ * @property {{ ink: string, muted: string, line: string }} palette
+ */
+
+/** Least distance between the ticks' labels. */
+const ROOM = { across: 64, up: 22 };
+
+/** @param {Axes} axes */
+export function scales({ box, xMax, yRange: [low, high] }) {
+  const [from, to] = [Math.log(low), Math.log(high)];
+  return {
+    /** @param {number} x */
+    x: (x) => box.left + (x / xMax) * box.width,
+    /** @param {number} y */
+    y: (y) => box.top + box.height * (1 - (Math.log(y) - from) / (to - from)),
+  };
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Axes} axes
+ */
+export function drawAxes(context, axes) {
+  const { box, xMax, yRange, title, xLabel, palette } = axes;
+  const { x, y } = scales(axes);
+  const bottom = box.top + box.height;
+  context.lineWidth = 1;
+  context.strokeStyle = palette.line;
+  context.fillStyle = palette.muted;
+  context.textBaseline = 'middle';
+  context.textAlign = 'right';
+  for (const tick of logTicks(yRange, box.height / ROOM.up)) {
+    const at = Math.round(y(tick)) + 0.5;
+    rule(context, box.left, at, box.left + box.width, at);
+    context.fillText(tickLabel(tick), box.left - 6, at);
+  }
+  context.textAlign = 'center';
+  context.textBaseline = 'top';
+  for (const tick of linearTicks(xMax, box.width / ROOM.across)) {
+    const at = Math.round(x(tick)) + 0.5;
+    rule(context, at, box.top, at, bottom);
+    if (xLabel) context.fillText(number(tick), at, bottom + 5);
+  }
+  if (xLabel) {
+    context.textAlign = 'right';
+    context.fillText(xLabel, box.left + box.width, bottom + 20);
+  }
+  context.fillStyle = palette.ink;
+  context.textAlign = 'left';
+  context.textBaseline = 'bottom';
+  context.fillText(title, box.left, box.top - 5);
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Axes} axes
+ * @param {Curve} curve
+ */
+export function drawCurve(context, axes, { colour, points }) {
+  const { box, yRange } = axes;
+  const { x, y } = scales(axes);
+  context.save();
+  context.beginPath();
+  context.rect(box.left, box.top - 2, box.width + 4, box.height + 4);
+  context.clip();
+  context.beginPath();
+  // What is below the range, perhaps not even positive, comes in from below.
+  for (const [at, value] of points) context.lineTo(x(at), y(Math.max(value, yRange[0] / 100)));
+  context.strokeStyle = colour;
+  context.lineWidth = 2;
+  context.lineJoin = 'round';
+  context.stroke();
+  const last = points.at(-1);
+  if (last) {
+    context.beginPath();
+    context.arc(x(last[0]), y(Math.max(last[1], yRange[0] / 100)), 3, 0, 2 * Math.PI);
+    context.fillStyle = colour;
+    context.fill();
+  }
+  context.restore();
+}
+
+/**
+ * The curves' names in their colours, from the right end of the title's line.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Axes} axes
+ * @param {readonly Curve[]} curves
+ */
+export function drawLegend(context, { box, palette }, curves) {
+  let right = box.left + box.width;
+  context.textAlign = 'right';
+  context.textBaseline = 'bottom';
+  for (const { colour, label } of [...curves].reverse()) {
+    context.fillStyle = palette.muted;
+    context.fillText(label, right, box.top - 5);
+    right -= context.measureText(label).width + 6;
+    context.fillStyle = colour;
+    context.fillRect(right - 12, box.top - 12, 12, 3);
+    right -= 24;
+  }
+}
+
+/**
+ * A dashed level with its name.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Axes} axes
+ * @param {number} value
+ * @param {string} label
+ */
+export function drawLevel(context, axes, value, label) {
+  const { box, palette } = axes;
+  const at = Math.round(scales(axes).y(value)) + 0.5;
+  context.save();
+  context.setLineDash([4, 4]);
+  context.strokeStyle = palette.muted;
+  rule(context, box.left, at, box.left + box.width, at);
+  context.restore();
+  context.fillStyle = palette.muted;
+  context.textAlign = 'left';
+  context.textBaseline = 'bottom';
+  context.fillText(label, box.left + 5, at - 2);
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1
+ */
+function rule(context, x0, y0, x1, y1) {
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x1, y1);
+  context.stroke();
+}
+
+/**
+ * Round values from 0 to `max`, at most about `most` of them.
+ * @param {number} max
+ * @param {number} most
+ */
+export function linearTicks(max, most) {
+  const rough = max / Math.max(1, most);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? rough;
+  const ticks = [];
+  for (let k = 0; k * step <= max * (1 + 1e-9); k++) ticks.push(k * step);
+  return ticks;
+}
+
+/**
+ * Powers of ten within the range, with 2 and 5 times them where there is room.
+ * @param {readonly [number, number]} range
+ * @param {number} most
+ */
+export function logTicks([low, high], most) {
+  const ticks = (/** @type {readonly number[]} */ multiples) => {
+    const found = [];
+    for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e++) {
+      for (const m of multiples) found.push(m * 10 ** e);
+    }
+    return found.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
+  };
+  const choices = [[1, 2, 5], [1, 3], [1]].map(ticks);
+  const fitting = choices.find((choice) => choice.length <= most);
+  if (fitting) return fitting;
+  const powers = choices[choices.length - 1];
+  const every = Math.ceil(powers.length / Math.max(1, most));
+  return powers.filter((_, i) => i % every === 0);
+}
+
+/** @param {number} tick */
+function tickLabel(tick) {
+  if (tick >= 1e-3 && tick < 1e5) return number(tick);
+  const exponent = Math.floor(Math.log10(tick) + 1e-9);
+  const mantissa = Math.round(tick / 10 ** exponent);
+  return `${mantissa === 1 ? '' : `${mantissa}·`}10${superscript(exponent)}`;
+}

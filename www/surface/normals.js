@@ -1,0 +1,52 @@
+/** Unit normals of a height image, once per surface. */
+
+/**
+ * @typedef {object} Normals
+ * @property {number} width
+ * @property {number} height
+ * @property {Int16Array} xy x and y of each unit normal times {@link UNIT}; x is {@link HOLE} where there is none
+ */
+
+export const UNIT = 32767;
+export const HOLE = -32768;
+
+/**
+ * Central differences; one-sided beside a hole or the border, level where a pixel stands alone.
+ * @param {ArrayLike<number>} heights row by row, top row first, NaN for no data
+ * @param {number} width
+ * @param {number} height
+ * @param {number} steepness unit of `heights` over the side of a pixel
+ * @returns {Normals}
+ */
+export function normalsOf(heights, width, height, steepness) {
+  const xy = new Int16Array(2 * width * height);
+  for (let row = 0, i = 0; row < height; row++) {
+    for (let col = 0; col < width; col++, i++) {
+      const z = heights[i];
+      if (Number.isNaN(z)) {
+        xy[2 * i] = HOLE;
+        continue;
+      }
+      const west = col > 0 ? heights[i - 1] : NaN;
+      const east = col + 1 < width ? heights[i + 1] : NaN;
+      const south = row + 1 < height ? heights[i + width] : NaN;
+      const north = row > 0 ? heights[i - width] : NaN;
+      const x = -steepness * difference(west, z, east);
+      const y = -steepness * difference(south, z, north);
+      const scale = UNIT / Math.hypot(x, y, 1);
+      xy[2 * i] = Math.round(x * scale);
+      xy[2 * i + 1] = Math.round(y * scale);
+    }
+  }
+  return { width, height, xy };
+}
+
+/**
+ * @param {number} before
+ * @param {number} here
+ * @param {number} after
+ */
+function difference(before, here, after) {
+  if (Number.isNaN(before)) return Number.isNaN(after) ? 0 : after - here;
+  return Number.isNaN(after) ? here - before : (after - before) / 2;
+}

@@ -1,0 +1,56 @@
+/**
+ * Steel under one light, as a table from normals to colours.
+ *
+ * A polished surface shows its surroundings by reflection, so its tone depends on the angle
+ * between the mirrored view and the light only. The surroundings are a studio: a bright window
+ * where the light is, a room that darkens away from it, a faint panel behind. Reflection doubles
+ * every turn of the normal, which is why the paper shows developability this way.
+ */
+import { NOTHING, SIDE } from './raster.js';
+
+const TONES = 2048;
+const tones = tabulate();
+
+/**
+ * Brightness of the studio, 0 to 1, at an angle to the light given by its cosine.
+ * @param {number} cosine
+ */
+function studio(cosine) {
+  const room = ((1 + cosine) / 2) ** 2;
+  const window = Math.exp((cosine - 1) / 0.07);
+  const panel = Math.exp(-(((cosine + 0.5) / 0.22) ** 2));
+  return 0.13 + 0.55 * room + 0.32 * window + 0.16 * panel;
+}
+
+/** The studio in steel's colour at evenly spaced cosines, as the canvas' bytes. */
+function tabulate() {
+  const bytes = new Uint8ClampedArray(4 * TONES);
+  for (let i = 0; i < TONES; i++) {
+    const tone = studio((2 * i) / (TONES - 1) - 1);
+    // Bluish in the shade, white in the light.
+    const tint = 0.06 * (1 - tone);
+    bytes.set([255 * tone * (1 - tint), 255 * tone, 255 * tone * (1 + 1.3 * tint), 255], 4 * i);
+  }
+  return new Uint32Array(bytes.buffer);
+}
+
+/**
+ * Fills `table` with the colour of every normal under a light.
+ * @param {Uint32Array} table `NOTHING + 1` entries
+ * @param {readonly [number, number, number]} light unit vector towards the light
+ */
+export function fillSteel(table, [lx, ly, lz]) {
+  const step = 2 / (SIDE - 1);
+  for (let j = 0, i = 0; j < SIDE; j++) {
+    const ny = j * step - 1;
+    for (let k = 0; k < SIDE; k++, i++) {
+      const nx = k * step - 1;
+      const nz = Math.sqrt(Math.max(0, 1 - nx * nx - ny * ny));
+      // The view (0, 0, 1) mirrored at the normal, times the light.
+      const cosine = 2 * nz * (nx * lx + ny * ly) + (2 * nz * nz - 1) * lz;
+      const tone = Math.round((Math.min(1, Math.max(-1, cosine)) + 1) * 0.5 * (TONES - 1));
+      table[i] = tones[tone];
+    }
+  }
+  table[NOTHING] = 0;
+}

@@ -1,0 +1,128 @@
+/** One surface on a canvas, lit by the shared light, which can be moved from here. */
+import { eachFrame, followDevicePixels } from '../dom.js';
+import { rasterOf } from './raster.js';
+
+/** @import {Light} from './light.js' */
+/** @import {Normals} from './normals.js' */
+/** @import {Raster} from './raster.js' */
+
+/** Of the way from the middle to the rim, for each press of an arrow key. */
+const KEY_STEP = 0.08;
+/** @type {Record<string, readonly [number, number]>} */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+export class SurfaceView {
+  /** @type {Normals | null} */
+  #normals = null;
+  /** @type {Raster | null} */
+  #raster = null;
+  /** The raster, shaded; the canvas shows it reduced to its own pixels. */
+  #shaded = document.createElement('canvas');
+  /** @type {ImageData | null} */
+  #pixels = null;
+  #paintSoon = eachFrame(() => this.#paint());
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Light} light
+   */
+  constructor(canvas, light) {
+    this.canvas = canvas;
+    this.light = light;
+    const sun = canvas.parentElement?.querySelector('.sun');
+    this.sun = sun instanceof HTMLElement ? sun : null;
+    canvas.setAttribute('aria-valuemin', '0');
+    canvas.setAttribute('aria-valuemax', '359');
+    followDevicePixels(canvas, () => {
+      this.#raster = null;
+      // At once, for a resized canvas is blank.
+      this.#paint();
+    });
+    light.onMove(() => {
+      this.#paintSoon();
+      this.#tell();
+    });
+    this.#listen();
+    this.#tell();
+  }
+
+  /** @param {Normals | null} normals */
+  show(normals) {
+    this.#normals = normals;
+    this.#raster = null;
+    if (this.sun) this.sun.hidden = !normals;
+    this.#paintSoon();
+  }
+
+  #paint() {
+    const { canvas } = this;
+    const context = canvas.getContext('2d');
+    if (!context) return;
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    const normals = this.#normals;
+    if (!normals) return;
+    const fit = Math.min(canvas.width / normals.width, canvas.height / normals.height);
+    this.#raster ??= rasterOf(normals, fit);
+    this.#shade(this.#raster);
+    const width = Math.max(1, Math.round(normals.width * fit));
+    const height = Math.max(1, Math.round(normals.height * fit));
+    const left = Math.floor((canvas.width - width) / 2);
+    const top = Math.floor((canvas.height - height) / 2);
+    context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;
+    context.imageSmoothingQuality = 'medium';
+    context.drawImage(this.#shaded, left, top, width, height);
+  }
+
+  /** @param {Raster} raster */
+  #shade({ width, height, index }) {
+    const context = this.#shaded.getContext('2d');
+    if (!context) return;
+    if (this.#pixels?.width !== width || this.#pixels.height !== height) {
+      this.#shaded.width = width;
+      this.#shaded.height = height;
+      this.#pixels = context.createImageData(width, height);
+    }
+    const pixels = this.#pixels;
+    const out = new Uint32Array(pixels.data.buffer);
+    const colours = this.light.colours();
+    for (let i = 0; i < out.length; i++) out[i] = colours[index[i]];
+    context.putImageData(pixels, 0, 0);
+  }
+
+  /** Says and shows where the light is. */
+  #tell() {
+    const { canvas, light, sun } = this;
+    canvas.setAttribute('aria-valuenow', String(light.azimuth));
+    canvas.setAttribute('aria-valuetext', String(light));
+    sun?.style.setProperty('--x', String(light.x));
+    sun?.style.setProperty('--y', String(light.y));
+  }
+
+  #listen() {
+    const { canvas, light } = this;
+    /** @param {PointerEvent} event */
+    const follow = (event) => {
+      const box = canvas.getBoundingClientRect();
+      const radius = Math.min(box.width, box.height) / 2;
+      light.moveTo(
+        (event.clientX - box.left - box.width / 2) / radius,
+        (box.top + box.height / 2 - event.clientY) / radius,
+      );
+    };
+    canvas.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0) return;
+      canvas.setPointerCapture(event.pointerId);
+      follow(event);
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (canvas.hasPointerCapture(event.pointerId)) follow(event);
+    });
+    canvas.addEventListener('keydown', (event) => {
+      const arrow = ARROWS[event.key];
+      if (arrow) light.moveTo(light.x + KEY_STEP * arrow[0], light.y + KEY_STEP * arrow[1]);
+      else if (event.key === 'Home') light.reset();
+      else return;
+      event.preventDefault();
+    });
+  }
+}

@@ -2,6 +2,8 @@
 
 mod domain;
 mod error;
+#[cfg(feature = "formats")]
+pub mod formats;
 mod heightfield;
 mod hessian;
 mod lattice;

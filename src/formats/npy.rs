@@ -1,0 +1,192 @@
+//! NumPy's array file, by the `npyz` crate.
+
+use std::io;
+
+use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar, WriteOptions, WriterBuilder};
+
+use super::{Buffer, Decoded, Format};
+use crate::error::{Error, Result, checked_cells, try_filled};
+
+/// Longest header read, in bytes; NumPy has the same limit.
+const MAX_HEADER: usize = 10_000;
+
+/// Most brackets in a header: a plain array has 2, `{` and `(`. The parser
+/// recurses on them, so this also bounds its use of the stack.
+const MAX_BRACKETS: usize = 8;
+
+/// Most digits in a header, so that no product of sizes in it overflows 64 bits.
+const MAX_DIGITS: usize = 19;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let start = check_header(bytes)?;
+    let header = NpyHeader::from_reader(&bytes[..start]).map_err(|e| damaged(e.to_string()))?;
+
+    let (height, width) = match *header.shape() {
+        [rows, cols] | [rows, cols, 1] => (rows, cols),
+        _ => {
+            return Err(unsupported(format!(
+                "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
+                header.shape()
+            )));
+        }
+    };
+    let bounded = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
+    let (height, width) = (bounded(height), bounded(width));
+    let len = checked_cells("NPY array", height, width)?;
+    if len == 0 {
+        return Err(Error::Empty { what: "NPY array" });
+    }
+
+    let descr = header.dtype().descr();
+    let plain = match header.dtype() {
+        DType::Plain(plain) => (plain.type_char(), plain.size_field()),
+        _ => return Err(unsupported_type(&descr)),
+    };
+    let needed = len.saturating_mul(bounded(plain.1));
+    let present = bytes.len() - start;
+    if !matches!(plain.0, TypeChar::Object | TypeChar::UnicodeStr) && present < needed {
+        return Err(damaged(format!(
+            "it is cut short: {height} × {width} values of type {descr} take {needed} bytes, \
+             {present} are there"
+        )));
+    }
+
+    let order = header.order();
+    let file = NpyFile::with_header(header, &bytes[start..]);
+    let (data_type, stored) = match plain {
+        (TypeChar::Bool, 1) => ("bool", read(file, |v: bool| f64::from(u8::from(v)))),
+        (TypeChar::Int, 1) => ("i8", read(file, |v: i8| v.into())),
+        (TypeChar::Int, 2) => ("i16", read(file, |v: i16| v.into())),
+        (TypeChar::Int, 4) => ("i32", read(file, |v: i32| v.into())),
+        (TypeChar::Int, 8) => ("i64", read(file, |v: i64| v as f64)),
+        (TypeChar::Uint, 1) => ("u8", read(file, |v: u8| v.into())),
+        (TypeChar::Uint, 2) => ("u16", read(file, |v: u16| v.into())),
+        (TypeChar::Uint, 4) => ("u32", read(file, |v: u32| v.into())),
+        (TypeChar::Uint, 8) => ("u64", read(file, |v: u64| v as f64)),
+        (TypeChar::Float, 2) => ("f16", read(file, |v: npyz::half::f16| v.into())),
+        (TypeChar::Float, 4) => ("f32", read(file, |v: f32| v.into())),
+        (TypeChar::Float, 8) => ("f64", read(file, |v: f64| v)),
+        _ => return Err(unsupported_type(&descr)),
+    };
+    let mut values = stored?;
+    if order == Order::Fortran {
+        let mut rows = try_filled("NPY array", len, 0.0)?;
+        for (i, z) in rows.iter_mut().enumerate() {
+            *z = values[(i % width) * height + i / width];
+        }
+        values = rows;
+    }
+    Ok(Decoded {
+        format: Format::Npy,
+        width,
+        height,
+        values,
+        pixel_size: 1.0,
+        height_scale: 1.0,
+        data_type,
+    })
+}
+
+/// Where the data begin, once the header is known to be harmless to parse.
+///
+/// The parser allocates what the header's length claims, multiplies the sizes in
+/// it unchecked and recurses on brackets: files must not be able to abuse that.
+fn check_header(bytes: &[u8]) -> Result<usize> {
+    let cut = || damaged("it is cut short within its header".into());
+    let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);
+    let (begin, length) = match at(6)? {
+        1 => (10, at(8)? | at(9)? << 8),
+        2 | 3 => (12, at(8)? | at(9)? << 8 | at(10)? << 16 | at(11)? << 24),
+        other => {
+            return Err(unsupported(format!(
+                "version {other} of the format; versions 1 to 3 are read"
+            )));
+        }
+    };
+    if length > MAX_HEADER {
+        return Err(damaged(format!(
+            "its header claims {length} bytes, where {MAX_HEADER} are the most"
+        )));
+    }
+    let header = bytes.get(begin..begin + length).ok_or_else(cut)?;
+    let count = |of: &dyn Fn(u8) -> bool| header.iter().filter(|b| of(**b)).count();
+    if count(&|b| b"([{".contains(&b)) > MAX_BRACKETS {
+        return Err(unsupported(
+            "an array of structures; only arrays of plain numbers are read".into(),
+        ));
+    }
+    if count(&|b| b.is_ascii_digit()) > MAX_DIGITS {
+        return Err(Error::TooLarge {
+            what: "NPY array",
+            requested: usize::MAX,
+            limit: crate::MAX_CELLS,
+        });
+    }
+    Ok(begin + length)
+}
+
+/// All values in their stored order.
+fn read<T: Deserialize>(file: NpyFile<&[u8]>, convert: impl Fn(T) -> f64) -> Result<Vec<f64>> {
+    let mut values = try_filled("NPY array", file.len() as usize, 0.0)?;
+    let stored = file.data::<T>().map_err(|e| damaged(e.to_string()))?;
+    for (z, v) in values.iter_mut().zip(stored) {
+        *z = convert(v.map_err(|e| damaged(e.to_string()))?);
+    }
+    Ok(values)
+}
+
+fn damaged(reason: String) -> Error {
+    Error::Format {
+        format: "NPY",
+        reason,
+    }
+}
+
+fn unsupported(reason: String) -> Error {
+    Error::Unsupported {
+        format: "NPY",
+        reason,
+    }
+}
+
+fn unsupported_type(descr: &str) -> Error {
+    unsupported(format!(
+        "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
+    ))
+}
+
+/// An NPY file of 64-bit floats in C order from `rows` rows of `cols` values:
+/// heights of an image or of a lattice, NaN where there is none. Exact.
+///
+/// # Errors
+/// [`Error::Empty`] without rows or columns, [`Error::Shape`] if there are not
+/// `rows · cols` values, [`Error::OutOfMemory`].
+pub fn write_npy(rows: usize, cols: usize, values: &[f64]) -> Result<Vec<u8>> {
+    let what = "NPY array";
+    if rows == 0 || cols == 0 {
+        return Err(Error::Empty { what });
+    }
+    let expected = checked_cells(what, rows, cols)?;
+    if values.len() != expected {
+        return Err(Error::Shape {
+            what,
+            rows,
+            cols,
+            expected,
+            found: values.len(),
+        });
+    }
+    let mut file = Buffer::default();
+    let written = write(&mut file, rows, cols, values);
+    file.finish("NPY file", written)
+}
+
+fn write(file: &mut Buffer, rows: usize, cols: usize, values: &[f64]) -> io::Result<()> {
+    let mut writer = WriteOptions::new()
+        .default_dtype()
+        .shape(&[rows as u64, cols as u64])
+        .writer(file)
+        .begin_nd()?;
+    writer.extend(values.iter().copied())?;
+    writer.finish()
+}

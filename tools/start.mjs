@@ -4,9 +4,10 @@ import { setupBuild } from './setup.mjs';
 import { main, Problem } from './util/problem.mjs';
 
 await main(async () => {
+  const ports = candidates(process.env.PORT);
   const { env } = await setupBuild();
   await build(env);
-  const server = await open();
+  const server = await open(ports);
   console.log(`\nThe page is at ${server.url} (Ctrl-C ends this)`);
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
     process.once(signal, async () => {
@@ -16,22 +17,29 @@ await main(async () => {
   }
 });
 
-/** At the port that was asked for, or at 8080 or the first free one after it. */
-async function open() {
+/**
+ * The port that was asked for, or 8080 and those after it.
+ * @param {string | undefined} wish
+ */
+function candidates(wish) {
+  if (!wish) return Array.from({ length: 100 }, (_, index) => 8080 + index);
+  const port = Number(wish);
+  if (Number.isInteger(port) && port >= 0 && port < 65536) return [port];
+  throw new Problem(`PORT is set to ${wish}: set it to a number from 0 to 65535, or unset it.`);
+}
+
+/** @param {number[]} ports */
+async function open(ports) {
   // Only now: on a fresh clone the server's library has just been installed.
   const { serve } = await import('./serve.mjs');
-  const { PORT, HOST } = process.env;
-  if (PORT && !/^\d{1,5}$/.test(PORT)) throw new Problem(`PORT is set to ${PORT}: set it to a number, or unset it.`);
-  const first = PORT ? Number(PORT) : 8080;
-  const last = PORT ? first : first + 100;
-  for (let port = first; port <= last; port += 1) {
+  for (const port of ports) {
     try {
-      return await serve({ port, host: HOST || undefined });
+      return await serve({ port, host: process.env.HOST || undefined });
     } catch (error) {
-      if (!isTaken(error)) throw new Problem(`Port ${port} cannot be used (${error}): choose another with PORT.`);
+      if (!isTaken(error)) throw new Problem(`Port ${port} cannot be used (${error}): set PORT to another.`);
     }
   }
-  throw new Problem(`Port ${PORT || '8080 and the hundred after it'} is in use: choose another with PORT.`);
+  throw new Problem(`Port ${ports.length > 1 ? `${ports[0]} and those after it are` : `${ports[0]} is`} in use: set PORT to another.`);
 }
 
 /** @param {unknown} error */

@@ -1,6 +1,7 @@
 /** Checks and tests of the JavaScript. */
 import { readdir } from 'node:fs/promises';
 import { join } from 'node:path';
+import { stripVTControlCharacters } from 'node:util';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { Skip, check } from './step.mjs';
@@ -31,5 +32,7 @@ async function nodeTest(folder, env) {
   const names = await readdir(join(root, folder)).catch(() => /** @type {string[]} */ ([]));
   const files = names.filter((name) => name.endsWith('.test.mjs')).map((name) => `${folder}/${name}`);
   if (files.length === 0) throw new Problem(`there is no test in ${folder}`);
-  await check(process.execPath, ['--test', '--test-reporter=spec', ...files.sort()], env);
+  const output = await check(process.execPath, ['--test', '--test-reporter=spec', ...files.sort()], env);
+  const skipped = Number(/\bskipped (\d+)\s*$/m.exec(stripVTControlCharacters(output))?.[1] ?? 0);
+  if (process.env.CI && skipped > 0) throw new Problem(`${skipped} tests in ${folder} were skipped`);
 }

@@ -20,7 +20,7 @@ export async function lint() {
 /** @param {Context} context */
 export async function lintWasm({ env }) {
   await component('clippy', 'clippy', env);
-  await check('cargo', ['clippy', '--lib', '--target', target, '--', '-D', 'warnings'], env);
+  await check('cargo', ['clippy', '--lib', '--tests', '--target', target, '--', '-D', 'warnings'], env);
 }
 
 export async function nativeTests() {

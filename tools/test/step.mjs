@@ -19,7 +19,7 @@ import { run } from '../util/process.mjs';
  */
 
 /** Something is missing on this machine without which a step cannot run. */
-export class Skip extends Error {}
+export class Skip extends Problem {}
 
 /** A step that takes longer than this hangs. */
 const limit = 45 * 60;

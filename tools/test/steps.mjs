@@ -9,7 +9,7 @@ import { inBrowser, inNode } from './wasm.mjs';
 export const steps = [
   { name: 'format', what: 'the layout of the Rust code', run: format },
   { name: 'lint', what: 'clippy', run: lint },
-  { name: 'lint-wasm', what: 'clippy for wasm32', run: lintWasm },
+  { name: 'lint-wasm', what: 'clippy for wasm32, which also shows that all tests compile there', run: lintWasm },
   { name: 'rust', what: 'the tests of the library, and those in its documentation', run: nativeTests },
   { name: 'docs', what: "the documentation's links and examples", run: docs },
   {

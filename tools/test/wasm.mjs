@@ -2,6 +2,7 @@
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { stripVTControlCharacters } from 'node:util';
 import { target } from '../setup/wasm-target.mjs';
 import { without } from '../util/env.mjs';
 import { root } from '../util/paths.mjs';
@@ -49,5 +50,5 @@ async function cargoTest(name, env) {
     WASM_BINDGEN_TEST_TIMEOUT: '300',
   });
   // The runner is content with a file without any test.
-  if (!/test result: ok\. [1-9]\d* passed/.test(output)) throw new Problem(`tests/${name}.rs ran no test`);
+  if (!/test result: ok\. [1-9]\d* passed/.test(stripVTControlCharacters(output))) throw new Problem(`tests/${name}.rs ran no test`);
 }

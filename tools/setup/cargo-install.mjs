@@ -32,7 +32,10 @@ export async function cargoInstall(crate, version, { time, flags = [] }) {
     cached(name, async (draft) => {
       const where = ['--root', draft, '--target-dir', join(draft, 'target')];
       const args = ['install', crate, '--version', version, ...where, ...flags];
-      const { ok, failure } = await quietly(crate, 'cargo', args, { env, cwd: root, limit: 3600 });
+      const { ok, output, failure } = await quietly(crate, 'cargo', args, { env, cwd: root, limit: 3600 });
+      if (!ok && /linker .* not found/.test(output)) {
+        throw new Problem('Rust finds no linker here: install a C compiler (on Debian `apt-get install build-essential`).');
+      }
       if (!ok) {
         throw new Problem(`cargo could not build ${crate} ${version} (${failure}): `
           + `see that crates.io can be reached, or put ${crate} ${version} on the PATH yourself.`);

@@ -62,6 +62,8 @@ export interface SolverOptions {
 export type StopReason = 'gap' | 'residuals' | 'rounding' | 'maxIterations' | 'cancelled';
 
 export interface Progress {
+  /** How many finer lattices are still to come; 0 on the finest, whose figures alone are certified. */
+  level: number;
   /** ADMM iterations so far. */
   iteration: number;
   /** Conjugate-gradient iterations so far, over all z-steps. */
@@ -78,6 +80,16 @@ export interface Progress {
   elapsed: number;
 }
 
+/** The work on one lattice of the coarse-to-fine sequence. */
+export interface LevelReport {
+  /** Lattice spacing in normalised coordinates. */
+  spacing: number;
+  /** Interior vertices. */
+  interior: number;
+  iterations: number;
+  cgIterations: number;
+}
+
 export interface Report {
   /** Vertices where the Hessian is evaluated. */
   interior: number;
@@ -89,6 +101,8 @@ export interface Report {
   iterations: number;
   /** Conjugate-gradient iterations over all z-steps. */
   cgIterations: number;
+  /** The lattices that were worked on, the coarsest first. */
+  levels: LevelReport[];
   /** Value of the energy at the returned surface, in normalised coordinates. */
   objective: number;
   /** `lambda * sum (z - input)^2`. */

@@ -125,14 +125,10 @@ impl Domain {
         &self.lattice
     }
 
-    /// The role of lattice vertex `(row, col)`.
+    /// The role of lattice vertex `(row, col)`; empty beyond the lattice.
     pub fn role(&self, row: usize, col: usize) -> Role {
-        let inside = |v: usize, first: usize, n: usize| v >= first && v < first + n;
-        if inside(row, self.corner.0, self.rows) && inside(col, self.corner.1, self.stride - 2) {
-            self.roles[(row - self.corner.0 + 1) * self.stride + col - self.corner.1 + 1]
-        } else {
-            Role::Empty
-        }
+        self.cell((row as isize, col as isize))
+            .map_or(Role::Empty, |cell| self.roles[cell])
     }
 
     /// Number of interior vertices, `|I|`.
@@ -177,6 +173,15 @@ impl Domain {
     /// Runs of vertices in `I ∪ ∂I`.
     pub(crate) fn active(&self) -> &RowRuns {
         &self.active
+    }
+
+    /// The cell of a lattice vertex, if it lies in the box.
+    pub(crate) fn cell(&self, (row, col): (isize, isize)) -> Option<usize> {
+        let row = row - self.corner.0 as isize;
+        let col = col - self.corner.1 as isize;
+        let inside =
+            (0..self.rows as isize).contains(&row) && (0..self.stride as isize - 2).contains(&col);
+        inside.then(|| (row + 1) as usize * self.stride + (col + 1) as usize)
     }
 
     /// Index in the lattice's arrays of a cell of the padded box, if it is not padding.

@@ -60,7 +60,7 @@ impl<'a> HessianOperator<'a> {
         let map = HessianMap::new(domain.lattice().spacing());
         let mut out = vec![0.0; domain.lattice().len()];
         let mut left = matrices;
-        Rolling::new(domain).sweep(
+        Rolling::<f64>::new(domain).sweep(
             domain,
             &mut (),
             |(), row, weights| {

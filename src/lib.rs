@@ -22,8 +22,8 @@ pub use heightfield::{HeightImage, Heightfield};
 pub use hessian::HessianOperator;
 pub use lattice::Lattice;
 pub use solver::{
-    Lambda, Normalization, Options, Progress, Report, Schedule, Seconds, Solver, Status,
-    StopReason, fit, fit_with,
+    Lambda, LevelReport, Normalization, Options, Progress, Report, Schedule, Seconds, Solver,
+    Status, StopReason, fit, fit_with,
 };
 pub use spectral::Sym2;
 pub use stencil::Quadratic;

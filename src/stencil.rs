@@ -17,6 +17,8 @@
 //! in the coordinates of [`Sym2`]. So `C` is three second differences and a
 //! 3×3 map, and `Cᵀ` is the transposed map and three second differences again.
 
+use std::ops::{Add, Mul, Sub};
+
 use crate::domain::{Domain, Run};
 use crate::spectral::Sym2;
 
@@ -106,21 +108,30 @@ impl HessianMap {
     }
 }
 
-/// The seven values about each cell of a run, as slices of the run's length.
-pub(crate) struct Ring<'a> {
-    w: &'a [f64],
-    c: &'a [f64],
-    e: &'a [f64],
-    nw: &'a [f64],
-    ne: &'a [f64],
-    sw: &'a [f64],
-    se: &'a [f64],
+/// `f64`, or `f32` where a correction is computed that need not be exact.
+pub(crate) trait Real:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
 }
 
-impl<'a> Ring<'a> {
+impl Real for f64 {}
+impl Real for f32 {}
+
+/// The seven values about each cell of a run, as slices of the run's length.
+pub(crate) struct Ring<'a, T> {
+    w: &'a [T],
+    c: &'a [T],
+    e: &'a [T],
+    nw: &'a [T],
+    ne: &'a [T],
+    sw: &'a [T],
+    se: &'a [T],
+}
+
+impl<'a, T: Real> Ring<'a, T> {
     /// Of `run` in `row` of a field on the padded box.
     #[inline(always)]
-    pub(crate) fn new(field: &'a [f64], domain: &Domain, row: usize, run: Run) -> Self {
+    pub(crate) fn new(field: &'a [T], domain: &Domain, row: usize, run: Run) -> Self {
         let n = run.end - run.start;
         let [w, e, nw, ne, sw, se] = domain
             .neighbour_offsets(row)
@@ -139,8 +150,8 @@ impl<'a> Ring<'a> {
 
     /// The three second differences about cell `i` of the run.
     #[inline(always)]
-    pub(crate) fn differences(&self, i: usize) -> [f64; 3] {
-        let twice = 2.0 * self.c[i];
+    pub(crate) fn differences(&self, i: usize) -> [T; 3] {
+        let twice = self.c[i] + self.c[i];
         [
             self.w[i] - twice + self.e[i],
             self.nw[i] - twice + self.se[i],
@@ -150,18 +161,30 @@ impl<'a> Ring<'a> {
 }
 
 /// One row of the three weights that multiply second differences in `Cᵀ`.
-pub(crate) type Weights = [Vec<f64>; 3];
+pub(crate) type Weights<T> = [Vec<T>; 3];
+
+/// The part of a row of weights that belongs to `run`, as slices of the run's length.
+#[inline(always)]
+pub(crate) fn weights_of<'a, T>(
+    weights: &'a mut Weights<T>,
+    domain: &Domain,
+    row: usize,
+    run: Run,
+) -> [&'a mut [T]; 3] {
+    let (col, n) = (run.start - row * domain.stride(), run.end - run.start);
+    weights.each_mut().map(|weight| &mut weight[col..][..n])
+}
 
 /// Three consecutive rows of weights, rolling down the padded box, so that
 /// `Cᵀ` never stores a whole field of them.
 #[derive(Debug, Clone)]
-pub(crate) struct Rolling {
-    rows: [Weights; 3],
+pub(crate) struct Rolling<T> {
+    rows: [Weights<T>; 3],
 }
 
-impl Rolling {
+impl<T: Real> Rolling<T> {
     pub(crate) fn new(domain: &Domain) -> Self {
-        let row = || vec![0.0; domain.stride()];
+        let row = || vec![T::default(); domain.stride()];
         let weights = || [row(), row(), row()];
         Rolling {
             rows: [weights(), weights(), weights()],
@@ -178,16 +201,16 @@ impl Rolling {
         &mut self,
         domain: &Domain,
         state: &mut S,
-        mut fill: impl FnMut(&mut S, usize, &mut Weights),
-        mut gather: impl FnMut(&mut S, usize, &Gather<'_>),
+        mut fill: impl FnMut(&mut S, usize, &mut Weights<T>),
+        mut gather: impl FnMut(&mut S, usize, &Gather<'_, T>),
     ) {
         for weights in self.rows.iter_mut().flatten() {
-            weights.fill(0.0);
+            weights.fill(T::default());
         }
         for row in 1..=domain.rows() + 1 {
             self.rows.rotate_left(1);
             for weights in &mut self.rows[2] {
-                weights.fill(0.0);
+                weights.fill(T::default());
             }
             if row <= domain.rows() {
                 fill(state, row, &mut self.rows[2]);
@@ -205,28 +228,28 @@ impl Rolling {
 }
 
 /// Second differences of three complete rows of weights.
-pub(crate) struct Gather<'a> {
-    rows: &'a [Weights; 3],
+pub(crate) struct Gather<'a, T> {
+    rows: &'a [Weights<T>; 3],
     row: usize,
     domain: &'a Domain,
 }
 
 /// The nine weights that meet in each cell of a run, as slices of the run's length.
-pub(crate) struct Gathered<'a> {
-    w: &'a [f64],
-    e: &'a [f64],
-    nw: &'a [f64],
-    se: &'a [f64],
-    ne: &'a [f64],
-    sw: &'a [f64],
-    c1: &'a [f64],
-    c2: &'a [f64],
-    c3: &'a [f64],
+pub(crate) struct Gathered<'a, T> {
+    w: &'a [T],
+    e: &'a [T],
+    nw: &'a [T],
+    se: &'a [T],
+    ne: &'a [T],
+    sw: &'a [T],
+    c1: &'a [T],
+    c2: &'a [T],
+    c3: &'a [T],
 }
 
-impl Gather<'_> {
+impl<T: Real> Gather<'_, T> {
     #[inline(always)]
-    pub(crate) fn run(&self, run: Run) -> Gathered<'_> {
+    pub(crate) fn run(&self, run: Run) -> Gathered<'_, T> {
         let n = run.end - run.start;
         let stride = self.domain.stride();
         let col = run.start - self.row * stride;
@@ -247,12 +270,13 @@ impl Gather<'_> {
     }
 }
 
-impl Gathered<'_> {
+impl<T: Real> Gathered<'_, T> {
     /// The adjoint's value in cell `i` of the run.
     #[inline(always)]
-    pub(crate) fn at(&self, i: usize) -> f64 {
+    pub(crate) fn at(&self, i: usize) -> T {
+        let centre = self.c1[i] + self.c2[i] + self.c3[i];
         (self.w[i] + self.e[i] + self.nw[i] + self.se[i] + self.ne[i] + self.sw[i])
-            - 2.0 * (self.c1[i] + self.c2[i] + self.c3[i])
+            - (centre + centre)
     }
 }
 

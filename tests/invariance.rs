@@ -222,7 +222,7 @@ fn the_division_into_steps_changes_nothing() {
         let whole = fit(&field, &options).unwrap();
         for work in [1, 7, 1000] {
             let mut solver = developable::Solver::new(&field, &options).unwrap();
-            while solver.advance(work) == developable::Status::Running {}
+            while solver.advance(work).unwrap() == developable::Status::Running {}
             let parts = solver.surface().unwrap();
             assert_eq!(parts.report().cg_iterations, whole.report().cg_iterations);
             // Bit for bit, NaNs included.

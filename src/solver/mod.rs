@@ -2,7 +2,10 @@
 //! duality gap.
 
 mod cg;
+mod frame;
 mod lanes;
+mod level;
+mod levels;
 mod options;
 mod problem;
 mod report;
@@ -14,16 +17,19 @@ use std::ops::ControlFlow;
 use web_time::Instant;
 
 pub use options::{Lambda, Normalization, Options, Schedule};
-pub use report::{Progress, Report, Seconds, StopReason};
+pub use report::{LevelReport, Progress, Report, Seconds, StopReason};
 
+use crate::domain::Domain;
 use crate::error::{Error, Result};
 use crate::heightfield::Heightfield;
 use crate::restore::restore_omitted;
 use crate::surface::Surface;
-use cg::ConjugateGradients;
+use frame::Frame;
+use level::{Best, Level};
+use levels::{coarsen, prolong};
 use problem::Problem;
 use schedule::Plan;
-use state::{Certificate, State};
+use state::State;
 
 /// Whether a [`Solver`] has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +49,7 @@ pub enum Status {
 /// let lattice = Lattice::new(30, 30, 1.0)?;
 /// let field = Heightfield::from_fn(lattice, |x, y| 0.01 * x * x + 0.1 * (7.0 * y).sin())?;
 /// let mut solver = Solver::new(&field, &Options::default())?;
-/// while solver.advance(100) == Status::Running {
+/// while solver.advance(100)? == Status::Running {
 ///     println!("gap {:.3}", solver.progress().gap);
 /// }
 /// assert!(solver.surface()?.report().gap <= 0.01);
@@ -53,55 +59,21 @@ pub enum Status {
 #[derive(Debug, Clone)]
 pub struct Solver {
     field: Heightfield,
-    problem: Problem,
+    frame: Frame,
     plan: Plan,
-    state: State,
-    cg: ConjugateGradients,
-    /// Conjugate-gradient iterations of the z-step under way.
-    z_step: usize,
-    iteration: usize,
-    cg_iterations: usize,
-    best: Best,
+    /// The level under way; the finest one at the end.
+    level: Level,
+    /// The problems of the finer levels, the finest first.
+    finer: Vec<Problem>,
+    /// The levels done, the coarsest first.
+    coarser: Vec<LevelReport>,
     status: Status,
     started: Instant,
     seconds: Seconds,
 }
 
-/// The best iterate so far and the best bound so far; they need not belong together.
-#[derive(Debug, Clone)]
-struct Best {
-    z: Vec<f64>,
-    fidelity: f64,
-    nuclear_norm: f64,
-    dual_bound: f64,
-}
-
-impl Best {
-    fn objective(&self) -> f64 {
-        self.fidelity + self.nuclear_norm
-    }
-
-    fn gap(&self) -> f64 {
-        let objective = self.objective();
-        if objective > 0.0 {
-            (objective - self.dual_bound) / objective
-        } else {
-            0.0
-        }
-    }
-
-    fn take(&mut self, z: &[f64], certificate: &Certificate) {
-        if certificate.objective() < self.objective() {
-            self.z.copy_from_slice(z);
-            self.fidelity = certificate.fidelity;
-            self.nuclear_norm = certificate.nuclear_norm;
-        }
-        self.dual_bound = self.dual_bound.max(certificate.dual_bound);
-    }
-}
-
 impl Solver {
-    /// Sets up a solve. Memory: about 90 bytes for each vertex of the valid
+    /// Sets up a solve. Memory: about 100 bytes for each vertex of the valid
     /// vertices' bounding box.
     ///
     /// # Errors
@@ -110,127 +82,102 @@ impl Solver {
     /// large for their energy to be computed, [`Error::OutOfMemory`].
     pub fn new(field: &Heightfield, options: &Options) -> Result<Self> {
         let started = Instant::now();
-        let problem = Problem::new(field, options)?;
+        options.validate()?;
         let plan = Plan::new(options);
-        let mut state = State::new(&problem, plan.first_rho(&problem))?;
-        let mut cg = ConjugateGradients::new(&problem, state.rho)?;
-        let certificate = state.certify(&problem);
-        if !certificate.objective().is_finite() {
+        let domain = Domain::new(field)?;
+        let frame = Frame::new(field, &domain, options.normalization);
+        let lambda = options.lambda.value();
+        let mut finer = vec![Problem::new(field, domain, &frame, lambda)?];
+        let objective = finer[0].input_objective();
+        if !objective.is_finite() {
             return Err(Error::Overflow {
                 spacing: field.lattice().spacing(),
             });
         }
-        state.update(&problem, 0.0, &mut cg);
-        let best = Best {
-            z: state.z.clone(),
-            fidelity: certificate.fidelity,
-            nuclear_norm: certificate.nuclear_norm,
-            dual_bound: certificate.dual_bound,
-        };
-        let reason = plan.stop(&problem, 0, &certificate, best.objective(), best.gap());
-        Ok(Solver {
+        if objective > finer[0].rounding {
+            let mut coarse = coarsen(field)?;
+            while let Some(domain) = Domain::new(&coarse)
+                .ok()
+                .filter(|domain| plan.wants_level(domain.interior_len()))
+            {
+                finer.push(Problem::new(&coarse, domain, &frame, lambda)?);
+                coarse = coarsen(&coarse)?;
+            }
+        }
+        let coarsest = finer.remove(finer.len() - 1);
+        let state = State::new(&coarsest, plan.first_rho(&coarsest))?;
+        let (level, reason) = Level::new(coarsest, state, plan.on_level(!finer.is_empty(), 0))?;
+        let mut solver = Solver {
             field: field.clone(),
-            problem,
+            frame,
             plan,
-            state,
-            cg,
-            z_step: 0,
-            iteration: 0,
-            cg_iterations: 0,
-            best,
-            status: reason.map_or(Status::Running, Status::Stopped),
+            level,
+            finer,
+            coarser: Vec::new(),
+            status: Status::Running,
             started,
             seconds: Seconds {
                 setup: started.elapsed().as_secs_f64(),
                 ..Seconds::default()
             },
-        })
+        };
+        if let Some(reason) = reason {
+            solver.finish_level(reason)?;
+        }
+        Ok(solver)
     }
 
     /// Runs about `work` conjugate-gradient iterations, at least one. Results
     /// do not depend on how the work is divided.
-    pub fn advance(&mut self, work: usize) -> Status {
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] on the way to a finer level.
+    pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while left > 0 && self.status == Status::Running {
-            let start = Instant::now();
-            let done = self.run_z_step(&mut left);
-            self.seconds.z_step += start.elapsed().as_secs_f64();
-            if done {
-                self.finish_iteration();
+            if let Some(reason) = self.level.advance(&mut left) {
+                self.finish_level(reason)?;
             }
         }
-        self.status
+        Ok(self.status)
     }
 
-    /// Goes on with the z-step under way; tells whether it is complete.
-    fn run_z_step(&mut self, left: &mut usize) -> bool {
-        let target = if self.plan.cg_tolerance > 0.0 {
-            self.plan.cg_tolerance * self.cg.reference_norm(&self.problem)
-        } else {
-            0.0
-        };
-        while self.z_step < self.plan.cg_iterations && self.cg.residual_norm() > target {
-            if *left == 0 {
-                return false;
+    /// Goes on to finer levels as long as they have nothing to do.
+    fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
+        while let Some(fine) = self.finer.pop() {
+            self.coarser.push(self.level.report());
+            self.seconds = self.seconds + self.level.seconds;
+            let done = self.coarser.iter().map(|level| level.iterations).sum();
+            let plan = self.plan.on_level(!self.finer.is_empty(), done);
+            let rho = 0.5 * self.level.state.rho;
+            let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
+            let (level, stop) = Level::new(fine, state, plan)?;
+            self.level = level;
+            match stop {
+                Some(next) => reason = next,
+                None => return Ok(()),
             }
-            *left -= 1;
-            if !self.cg.step(&self.problem, &mut self.state.z) {
-                break;
-            }
-            self.z_step += 1;
-            self.cg_iterations += 1;
         }
-        // The update below costs about as much; so a solve without work for CG ends as well.
-        *left = left.saturating_sub(1);
-        true
+        self.status = Status::Stopped(reason);
+        Ok(())
     }
 
-    /// H-step, dual update and, when one is due, the certificate.
-    fn finish_iteration(&mut self) {
-        let start = Instant::now();
-        self.z_step = 0;
-        self.iteration += 1;
-        self.state
-            .update(&self.problem, self.plan.relaxation, &mut self.cg);
-        self.seconds.h_step += start.elapsed().as_secs_f64();
-        let due = self.iteration.is_multiple_of(self.plan.check_every);
-        if due || self.plan.is_last(self.iteration) {
-            let start = Instant::now();
-            self.check();
-            self.seconds.certificate += start.elapsed().as_secs_f64();
-        }
-    }
-
-    fn check(&mut self) {
-        let certificate = self.state.certify(&self.problem);
-        self.best.take(&self.state.z, &certificate);
-        if let Some(reason) = self.plan.stop(
-            &self.problem,
-            self.iteration,
-            &certificate,
-            self.best.objective(),
-            self.best.gap(),
-        ) {
-            self.status = Status::Stopped(reason);
-            return;
-        }
-        let rho = self.plan.next_rho(self.state.rho, &certificate);
-        if rho != self.state.rho {
-            self.state.set_rho(&self.problem, rho);
-            self.cg.set_rho(&self.problem, rho);
-            self.state.update(&self.problem, 0.0, &mut self.cg);
-        }
-    }
-
-    /// Figures of the last check.
+    /// Figures of the last check. While a coarse level is under way, its
+    /// objective and bound are scaled by the number of vertices: estimates of
+    /// the finest level's, which alone certifies.
     pub fn progress(&self) -> Progress {
+        let report = self.level.report();
+        let finest = self.finer.first().unwrap_or(&self.level.problem);
+        let share = finest.domain.interior_len() as f64 / report.interior as f64;
+        let coarser = self.coarser.iter();
         Progress {
-            iteration: self.iteration,
-            cg_iterations: self.cg_iterations,
-            objective: self.best.objective(),
-            dual_bound: self.best.dual_bound,
-            gap: self.best.gap(),
-            rho: self.state.rho,
+            level: self.finer.len(),
+            iteration: report.iterations + coarser.clone().map(|l| l.iterations).sum::<usize>(),
+            cg_iterations: report.cg_iterations + coarser.map(|l| l.cg_iterations).sum::<usize>(),
+            objective: share * self.level.best.objective(),
+            dual_bound: share * self.level.best.dual_bound,
+            gap: self.level.best.gap(),
+            rho: self.level.state.rho,
             elapsed: self.started.elapsed().as_secs_f64(),
         }
     }
@@ -244,38 +191,68 @@ impl Solver {
     }
 
     /// The best surface so far, in the input's units, omitted vertices
-    /// restored. While the solve is running it is reported as cancelled.
+    /// restored. While the solve is running it is reported as cancelled; from a
+    /// coarse level it is carried to the finest one, and certified there.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
     pub fn surface(&self) -> Result<Surface> {
-        let mut heights = self.problem.heights(&self.field, &self.best.z);
-        restore_omitted(&self.problem.domain, &self.field, &mut heights);
-        let domain = &self.problem.domain;
+        let carried = self.carry_to_finest()?;
+        let best = carried.as_ref().unwrap_or(&self.level.best);
+        let problem = self.finer.first().unwrap_or(&self.level.problem);
+        let domain = &problem.domain;
+        let mut heights = problem.heights(&self.frame, &best.z);
+        restore_omitted(domain, &self.field, &mut heights);
+        let mut levels = self.coarser.clone();
+        levels.push(self.level.report());
         let report = Report {
             interior: domain.interior_len(),
             boundary: domain.boundary_len(),
             omitted: domain.omitted_len(),
-            iterations: self.iteration,
-            cg_iterations: self.cg_iterations,
-            objective: self.best.objective(),
-            fidelity: self.best.fidelity,
-            nuclear_norm: self.best.nuclear_norm,
-            dual_bound: self.best.dual_bound,
-            gap: self.best.gap(),
-            lambda: self.problem.lambda,
-            rho: self.state.rho,
-            scale: self.problem.scale,
+            iterations: levels.iter().map(|level| level.iterations).sum(),
+            cg_iterations: levels.iter().map(|level| level.cg_iterations).sum(),
+            levels,
+            objective: best.objective(),
+            fidelity: best.fidelity,
+            nuclear_norm: best.nuclear_norm,
+            dual_bound: best.dual_bound,
+            gap: best.gap(),
+            lambda: problem.lambda,
+            rho: self.level.state.rho,
+            scale: self.frame.scale,
             stop_reason: match self.status {
                 Status::Running => StopReason::Cancelled,
                 Status::Stopped(reason) => reason,
             },
             seconds: Seconds {
                 total: self.started.elapsed().as_secs_f64(),
-                ..self.seconds
+                ..self.seconds + self.level.seconds
             },
         };
         Ok(Surface {
             heightfield: Heightfield::new(*self.field.lattice(), heights)?,
             report,
         })
+    }
+
+    /// A coarse level's iterate on the finest lattice, or the input if that is better.
+    fn carry_to_finest(&self) -> Result<Option<Best>> {
+        let mut state: Option<State> = None;
+        let mut coarse = &self.level.problem;
+        for fine in self.finer.iter().rev() {
+            let from = state.as_ref().unwrap_or(&self.level.state);
+            state = Some(prolong(coarse, from, fine, 0.5 * from.rho)?);
+            coarse = fine;
+        }
+        let Some(mut state) = state else {
+            return Ok(None);
+        };
+        let mut input = State::new(coarse, state.rho)?;
+        let certificate = input.certify(coarse);
+        let mut best = Best::new(&input.z, &certificate);
+        let certificate = state.certify(coarse);
+        best.take(&state.z, &certificate);
+        Ok(Some(best))
     }
 }
 
@@ -301,7 +278,7 @@ pub fn fit_with(
     /// About ten iterations of the default schedule.
     const WORK: usize = 70;
     let mut solver = Solver::new(field, options)?;
-    while solver.advance(WORK) == Status::Running {
+    while solver.advance(WORK)? == Status::Running {
         if on_progress(&solver.progress()).is_break() {
             solver.cancel();
         }

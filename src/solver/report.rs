@@ -22,7 +22,9 @@ pub enum StopReason {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Progress {
-    /// ADMM iterations so far.
+    /// How many finer levels are still to come; 0 on the finest one.
+    pub level: usize,
+    /// ADMM iterations so far, on all levels.
     pub iteration: usize,
     /// Conjugate-gradient iterations so far, over all z-steps.
     pub cg_iterations: usize,
@@ -55,6 +57,33 @@ pub struct Seconds {
     pub total: f64,
 }
 
+impl std::ops::Add for Seconds {
+    type Output = Seconds;
+    fn add(self, other: Seconds) -> Seconds {
+        Seconds {
+            setup: self.setup + other.setup,
+            z_step: self.z_step + other.z_step,
+            h_step: self.h_step + other.h_step,
+            certificate: self.certificate + other.certificate,
+            total: self.total + other.total,
+        }
+    }
+}
+
+/// The work on one level.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct LevelReport {
+    /// Lattice spacing, in normalised coordinates.
+    pub spacing: f64,
+    /// Interior vertices.
+    pub interior: usize,
+    /// ADMM iterations.
+    pub iterations: usize,
+    /// Conjugate-gradient iterations over all z-steps.
+    pub cg_iterations: usize,
+}
+
 /// What was solved, how well and at what cost.
 ///
 /// Energies are in normalised coordinates (see
@@ -68,10 +97,12 @@ pub struct Report {
     pub boundary: usize,
     /// Valid vertices that no stencil touches: left out of the solve, restored afterwards.
     pub omitted: usize,
-    /// ADMM iterations.
+    /// ADMM iterations on all levels.
     pub iterations: usize,
-    /// Conjugate-gradient iterations over all z-steps.
+    /// Conjugate-gradient iterations over all z-steps on all levels.
     pub cg_iterations: usize,
+    /// The levels that were worked on, the coarsest first.
+    pub levels: Vec<LevelReport>,
     /// Energy of the returned surface.
     pub objective: f64,
     /// Its first term, `λ Σ (z − z̃)²`.

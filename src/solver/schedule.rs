@@ -1,23 +1,24 @@
-//! The two ways to run the iterations: how exactly each z-step is solved, how
-//! ρ follows the residuals, and when to stop.
+//! The two ways to run the iterations: on how many levels, how exactly each
+//! z-step is solved, how ρ follows the residuals, and when to stop.
 
 use super::options::{Options, Schedule};
 use super::problem::Problem;
 use super::report::StopReason;
 use super::state::Certificate;
 
-/// The fixed numbers of a [`Schedule`].
+/// The numbers of a [`Schedule`] on one level.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plan {
     schedule: Schedule,
     /// Over-relaxation of `Cz` in the H-step and the dual update.
     pub relaxation: f64,
-    /// Conjugate-gradient iterations in a z-step, at most.
-    pub cg_iterations: usize,
-    /// Residual, relative to `2λ z̃`, at which a z-step ends earlier.
+    /// Conjugate-gradient iterations in a z-step, at most; and in the first one.
+    cg_iterations: usize,
+    cg_first: usize,
+    /// Residual, relative to `2λ z̃`, at which a z-step is solved; 0 if it need not be.
     pub cg_tolerance: f64,
     /// Iterations from one certificate to the next.
-    pub check_every: usize,
+    check_every: usize,
     /// ρ changes when one relative residual exceeds the other by this factor.
     imbalance: f64,
     gap: f64,
@@ -29,12 +30,20 @@ pub(crate) struct Plan {
 const ABSOLUTE: f64 = 1e-4;
 const RELATIVE: f64 = 1e-3;
 
+/// A coarse level has at least so many interior vertices: below that nothing is saved.
+const COARSEST: usize = 500;
+
+/// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
+const COARSE_GAP: f64 = 0.01;
+
 impl Plan {
+    /// The plan for the finest level.
     pub(crate) fn new(options: &Options) -> Self {
         let common = Plan {
             schedule: options.schedule,
             relaxation: 1.8,
             cg_iterations: 6,
+            cg_first: 30,
             cg_tolerance: 0.0,
             check_every: 10,
             imbalance: 3.0,
@@ -46,11 +55,30 @@ impl Plan {
             Schedule::Paper => Plan {
                 relaxation: 1.0,
                 cg_iterations: 5000,
+                cg_first: 5000,
                 cg_tolerance: 1e-8,
                 imbalance: 5000.0,
                 ..common
             },
         }
+    }
+
+    /// The same for a coarse level, or for one with fewer iterations left.
+    pub(crate) fn on_level(&self, coarse: bool, iterations_done: usize) -> Self {
+        Plan {
+            gap: if coarse {
+                self.gap.max(COARSE_GAP)
+            } else {
+                self.gap
+            },
+            max_iterations: self.max_iterations.saturating_sub(iterations_done),
+            ..*self
+        }
+    }
+
+    /// Whether a lattice with so many interior vertices is worth a level of its own.
+    pub(crate) fn wants_level(&self, interior: usize) -> bool {
+        self.schedule == Schedule::Default && interior >= COARSEST
     }
 
     /// The penalty to start from.
@@ -61,6 +89,24 @@ impl Plan {
             Schedule::Default => 0.5 * problem.spacing,
             Schedule::Paper => 1e-6,
         }
+    }
+
+    /// Conjugate-gradient iterations of the z-step after so many iterations.
+    pub(crate) fn cg_limit(&self, iteration: usize) -> usize {
+        if iteration == 0 {
+            self.cg_first
+        } else {
+            self.cg_iterations
+        }
+    }
+
+    /// Whether a certificate is due.
+    pub(crate) fn is_check(&self, iteration: usize) -> bool {
+        iteration.is_multiple_of(self.check_every) || self.is_last(iteration)
+    }
+
+    fn is_last(&self, iteration: usize) -> bool {
+        iteration >= self.max_iterations
     }
 
     /// Residual balancing (Boyd et al., Sec. 3.4.1): the penalty to go on with.
@@ -79,11 +125,6 @@ impl Plan {
         } else {
             rho
         }
-    }
-
-    /// Whether `iteration` is the last one allowed.
-    pub(crate) fn is_last(&self, iteration: usize) -> bool {
-        iteration >= self.max_iterations
     }
 
     /// Whether to stop after `iteration` iterations, and why.

@@ -12,7 +12,7 @@ use super::problem::Problem;
 use crate::domain::Run;
 use crate::error::{Result, try_filled};
 use crate::spectral::Sym2;
-use crate::stencil::{Ring, Rolling};
+use crate::stencil::{Ring, Rolling, weights_of};
 
 /// `z` and `V` on the padded box.
 #[derive(Debug, Clone)]
@@ -20,7 +20,23 @@ pub(crate) struct State {
     pub z: Vec<f64>,
     v: MatrixField,
     pub rho: f64,
-    rolling: Rolling,
+    rolling: Rolling<f64>,
+    /// A row of what the certificate sums, over matrices and over heights.
+    terms: [Terms; 2],
+}
+
+type Terms = [Vec<f64>; 4];
+
+/// The first `n` terms of each sum.
+#[inline(always)]
+fn terms_of(terms: &mut Terms, n: usize) -> [&mut [f64]; 4] {
+    terms.each_mut().map(|row| &mut row[..n])
+}
+
+fn add_sums(sums: &mut [f64; 4], terms: [&mut [f64]; 4]) {
+    for (sum, terms) in sums.iter_mut().zip(terms) {
+        *sum += lanes::sum(terms);
+    }
 }
 
 /// A symmetric matrix per cell, each coordinate of [`Sym2`] contiguous.
@@ -106,6 +122,9 @@ impl State {
             },
             rho,
             rolling: Rolling::new(&problem.domain),
+            terms: std::array::from_fn(|_| {
+                std::array::from_fn(|_| vec![0.0; problem.domain.stride()])
+            }),
         })
     }
 
@@ -123,6 +142,25 @@ impl State {
         }
     }
 
+    /// `Y` and `H` at an interior cell.
+    pub(crate) fn matrices(&self, cell: usize) -> (Sym2, Sym2) {
+        let v = Sym2 {
+            mean: self.v.mean[cell],
+            diff: self.v.diff[cell],
+            off: self.v.off[cell],
+        };
+        let dual = v.clamp(1.0);
+        (dual, (v - dual).scale(1.0 / self.rho))
+    }
+
+    /// Sets both at an interior cell.
+    pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
+        let v = dual + hessian.scale(self.rho);
+        self.v.mean[cell] = v.mean;
+        self.v.diff[cell] = v.diff;
+        self.v.off[cell] = v.off;
+    }
+
     /// H-step and dual update with the given over-relaxation, then the residual
     /// `b − A z = 2λ(z̃ − z) + Cᵀ(ρH − Y − ρCz)` that the next z-step starts
     /// from, in one pass. Relaxation 0 leaves `H` and `Y` as they are.
@@ -132,10 +170,13 @@ impl State {
         relaxation: f64,
         cg: &mut ConjugateGradients,
     ) {
-        let State { z, v, rho, rolling } = self;
+        let State {
+            z, v, rho, rolling, ..
+        } = self;
         let (z, rho) = (z.as_slice(), *rho);
         let domain = &problem.domain;
         let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
+        let scale = cg.residual_scale();
         let residual = &mut cg.residual;
         rolling.sweep(
             domain,
@@ -144,13 +185,8 @@ impl State {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(z, domain, row, *run);
                     let mut v = v.run(*run);
-                    let (col, n) = (run.start - row * domain.stride(), run.end - run.start);
-                    let [w1, w2, w3] = weights;
-                    let (w1, w2, w3) = (
-                        &mut w1[col..][..n],
-                        &mut w2[col..][..n],
-                        &mut w3[col..][..n],
-                    );
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let n = w1.len();
                     for i in 0..n {
                         let hessian = map.hessian(ring.differences(i)).scale(rho);
                         let old = v.get(i);
@@ -158,8 +194,7 @@ impl State {
                         let new = old + step.scale(relaxation);
                         v.set(i, new);
                         let dual = new.clamp(1.0);
-                        let [q1, q2, q3] = map.adjoint(new - dual - dual - hessian);
-                        (w1[i], w2[i], w3[i]) = (q1, q2, q3);
+                        (w1[i], w2[i], w3[i]) = map.adjoint(new - dual - dual - hessian).into();
                     }
                 }
             },
@@ -171,7 +206,8 @@ impl State {
                     let target = &problem.target[run.start..][..n];
                     let residual = &mut residual[run.start..][..n];
                     for i in 0..n {
-                        residual[i] = fidelity * (target[i] - z[i]) + sum.at(i);
+                        let value = fidelity * (target[i] - z[i]) + sum.at(i);
+                        residual[i] = (scale * value) as f32;
                     }
                 }
             },
@@ -181,12 +217,18 @@ impl State {
 
     /// Objective, dual bound and residuals, in one pass.
     pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
-        let State { z, v, rho, rolling } = self;
+        let State {
+            z,
+            v,
+            rho,
+            rolling,
+            terms,
+        } = self;
         let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
         let domain = &problem.domain;
         let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
-        let (mut nuclear, mut primal, mut image, mut split) = (0.0, 0.0, 0.0, 0.0);
-        let (mut distance, mut inner, mut dual_size, mut dual) = (0.0, 0.0, 0.0, 0.0);
+        let (mut matrices, mut heights) = ([0.0; 4], [0.0; 4]);
+        let [matrix_terms, height_terms] = terms;
         rolling.sweep(
             domain,
             v,
@@ -194,32 +236,22 @@ impl State {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(z, domain, row, *run);
                     let v = v.run(*run);
-                    let (col, n) = (run.start - row * domain.stride(), run.end - run.start);
-                    let [w1, w2, w3] = weights;
-                    let (w1, w2, w3) = (
-                        &mut w1[col..][..n],
-                        &mut w2[col..][..n],
-                        &mut w3[col..][..n],
-                    );
-                    nuclear += lanes::sum(n, |i| map.hessian(ring.differences(i)).nuclear_norm());
-                    primal += lanes::sum(n, |i| {
-                        let value = v.get(i);
-                        let h = (value - value.clamp(1.0)).scale(inverse_rho);
-                        let gap = map.hessian(ring.differences(i)) - h;
-                        gap.dot(gap)
-                    });
-                    image += lanes::sum(n, |i| {
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let n = w1.len();
+                    let [t1, t2, t3, t4] = terms_of(matrix_terms, n);
+                    for i in 0..n {
                         let hessian = map.hessian(ring.differences(i));
-                        hessian.dot(hessian)
-                    });
-                    split += lanes::sum(n, |i| {
                         let value = v.get(i);
                         let y = value.clamp(1.0);
-                        let [q1, q2, q3] = map.adjoint(y);
-                        (w1[i], w2[i], w3[i]) = (q1, q2, q3);
+                        (w1[i], w2[i], w3[i]) = map.adjoint(y).into();
                         let h = (value - y).scale(inverse_rho);
-                        h.dot(h)
-                    });
+                        let gap = hessian - h;
+                        t1[i] = hessian.nuclear_norm();
+                        t2[i] = gap.dot(gap);
+                        t3[i] = hessian.dot(hessian);
+                        t4[i] = h.dot(h);
+                    }
+                    add_sums(&mut matrices, [t1, t2, t3, t4]);
                 }
             },
             |_, row, sums| {
@@ -228,16 +260,22 @@ impl State {
                     let n = run.end - run.start;
                     let z = &z[run.start..][..n];
                     let target = &problem.target[run.start..][..n];
-                    distance += lanes::sum(n, |i| (z[i] - target[i]) * (z[i] - target[i]));
-                    inner += lanes::sum(n, |i| sum.at(i) * target[i]);
-                    dual_size += lanes::sum(n, |i| sum.at(i) * sum.at(i));
-                    dual += lanes::sum(n, |i| {
-                        let gradient = fidelity * (z[i] - target[i]) + sum.at(i);
-                        gradient * gradient
-                    });
+                    let [t1, t2, t3, t4] = terms_of(height_terms, n);
+                    for i in 0..n {
+                        let offset = z[i] - target[i];
+                        let adjoint = sum.at(i);
+                        let gradient = fidelity * offset + adjoint;
+                        t1[i] = offset * offset;
+                        t2[i] = adjoint * target[i];
+                        t3[i] = adjoint * adjoint;
+                        t4[i] = gradient * gradient;
+                    }
+                    add_sums(&mut heights, [t1, t2, t3, t4]);
                 }
             },
         );
+        let [nuclear, primal, image, split] = matrices;
+        let [distance, inner, dual_size, dual] = heights;
         // D(tY) = t⟨CᵀY, z̃⟩ − t²‖CᵀY‖²/4λ is concave in t, and tY is feasible up to t = 1.
         let t = if dual_size > 0.0 {
             (fidelity * inner / dual_size).clamp(0.0, 1.0)

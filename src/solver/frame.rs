@@ -1,0 +1,82 @@
+//! From the user's heights to the energy's and back.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::options::Normalization;
+use crate::domain::Domain;
+use crate::heightfield::Heightfield;
+
+/// Normalised coordinates: lengths times `scale`, heights above the input's
+/// best-fit plane. The energy does not see affine functions, and without them
+/// nothing is lost to rounding.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frame {
+    /// Factor from the user's units.
+    pub scale: f64,
+    centre: [f64; 2],
+    constant: f64,
+    slope: [f64; 2],
+}
+
+impl Frame {
+    pub(crate) fn new(field: &Heightfield, domain: &Domain, normalization: Normalization) -> Self {
+        let scale = match normalization {
+            Normalization::Off => 1.0,
+            Normalization::UnitSquare => 1.0 / longer_side(field),
+        };
+        let n = domain.active().len() as f64;
+        let vertices = || domain.active().cells().map(|c| domain.lattice_vertex(c));
+        let position = |(row, col)| field.lattice().position(row, col);
+        let height = |(row, col)| field.height(row, col);
+        let centre = [0, 1].map(|k| vertices().map(|v| position(v)[k]).sum::<f64>() / n);
+        let mean = vertices().map(height).sum::<f64>() / n;
+
+        // Least squares over I ∪ ∂I.
+        let mut normal = Matrix3::zeros();
+        let mut right = Vector3::zeros();
+        for v in vertices() {
+            let [x, y] = position(v);
+            let row = Vector3::new(1.0, scale * (x - centre[0]), scale * (y - centre[1]));
+            normal += row * row.transpose();
+            right += row * (height(v) - mean);
+        }
+        // The seven vertices of a stencil always span a plane; zero is for overflow only.
+        let solution = normal.cholesky().map(|c| c.solve(&right));
+        let [constant, sx, sy] = solution.map_or([0.0; 3], |s| [s[0], s[1], s[2]]);
+        Frame {
+            scale,
+            centre,
+            constant: mean + constant,
+            slope: [scale * sx, scale * sy],
+        }
+    }
+
+    fn plane(&self, [x, y]: [f64; 2]) -> f64 {
+        self.constant + self.slope[0] * (x - self.centre[0]) + self.slope[1] * (y - self.centre[1])
+    }
+
+    /// A height at a position, both in the user's units, in normalised coordinates.
+    pub(crate) fn inward(&self, position: [f64; 2], height: f64) -> f64 {
+        self.scale * (height - self.plane(position))
+    }
+
+    /// The way back.
+    pub(crate) fn outward(&self, position: [f64; 2], z: f64) -> f64 {
+        z / self.scale + self.plane(position)
+    }
+}
+
+/// Longer side of the bounding box of the valid vertices.
+fn longer_side(field: &Heightfield) -> f64 {
+    let lattice = field.lattice();
+    let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for row in 0..lattice.rows() {
+        for col in (0..lattice.cols()).filter(|col| !field.height(row, *col).is_nan()) {
+            for (k, x) in lattice.position(row, col).into_iter().enumerate() {
+                min[k] = min[k].min(x);
+                max[k] = max[k].max(x);
+            }
+        }
+    }
+    (max[0] - min[0]).max(max[1] - min[1])
+}

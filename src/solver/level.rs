@@ -1,0 +1,202 @@
+//! ADMM on one lattice, as a machine that runs in steps.
+
+use web_time::Instant;
+
+use super::cg::ConjugateGradients;
+use super::problem::Problem;
+use super::report::{LevelReport, Seconds, StopReason};
+use super::schedule::Plan;
+use super::state::{Certificate, State};
+use crate::error::Result;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Level {
+    pub problem: Problem,
+    pub state: State,
+    pub best: Best,
+    pub seconds: Seconds,
+    plan: Plan,
+    cg: ConjugateGradients,
+    /// Conjugate-gradient iterations of the z-step under way, and of its current round.
+    z_step: usize,
+    round: usize,
+    /// Right-hand side energy at the start of the round.
+    first_energy: f64,
+    iteration: usize,
+    cg_iterations: usize,
+}
+
+/// The best iterate so far and the best bound so far; they need not belong together.
+#[derive(Debug, Clone)]
+pub(crate) struct Best {
+    pub z: Vec<f64>,
+    pub fidelity: f64,
+    pub nuclear_norm: f64,
+    pub dual_bound: f64,
+}
+
+impl Best {
+    pub(crate) fn new(z: &[f64], certificate: &Certificate) -> Self {
+        Best {
+            z: z.to_vec(),
+            fidelity: certificate.fidelity,
+            nuclear_norm: certificate.nuclear_norm,
+            dual_bound: certificate.dual_bound,
+        }
+    }
+
+    pub(crate) fn objective(&self) -> f64 {
+        self.fidelity + self.nuclear_norm
+    }
+
+    pub(crate) fn gap(&self) -> f64 {
+        let objective = self.objective();
+        if objective > 0.0 {
+            (objective - self.dual_bound) / objective
+        } else {
+            0.0
+        }
+    }
+
+    pub(crate) fn take(&mut self, z: &[f64], certificate: &Certificate) {
+        if certificate.objective() < self.objective() {
+            self.z.copy_from_slice(z);
+            self.fidelity = certificate.fidelity;
+            self.nuclear_norm = certificate.nuclear_norm;
+        }
+        self.dual_bound = self.dual_bound.max(certificate.dual_bound);
+    }
+}
+
+impl Level {
+    /// Starts from `state`; a reason to stop at once comes with it.
+    pub(crate) fn new(
+        problem: Problem,
+        mut state: State,
+        plan: Plan,
+    ) -> Result<(Self, Option<StopReason>)> {
+        let start = Instant::now();
+        let mut cg = ConjugateGradients::new(&problem, state.rho)?;
+        let certificate = state.certify(&problem);
+        state.update(&problem, 0.0, &mut cg);
+        let best = Best::new(&state.z, &certificate);
+        let reason = plan.stop(&problem, 0, &certificate, best.objective(), best.gap());
+        let mut level = Level {
+            problem,
+            state,
+            best,
+            seconds: Seconds::default(),
+            plan,
+            first_energy: cg.energy(),
+            cg,
+            z_step: 0,
+            round: 0,
+            iteration: 0,
+            cg_iterations: 0,
+        };
+        level.seconds.setup = start.elapsed().as_secs_f64();
+        Ok((level, reason))
+    }
+
+    pub(crate) fn report(&self) -> LevelReport {
+        LevelReport {
+            spacing: self.problem.spacing,
+            interior: self.problem.domain.interior_len(),
+            iterations: self.iteration,
+            cg_iterations: self.cg_iterations,
+        }
+    }
+
+    /// Runs until `left` conjugate-gradient iterations are used up or there is a
+    /// reason to stop.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Option<StopReason> {
+        while *left > 0 {
+            let start = Instant::now();
+            let done = self.run_z_step(left);
+            self.seconds.z_step += start.elapsed().as_secs_f64();
+            if done {
+                // The update costs about as much; so a solve without work for CG ends as well.
+                *left = left.saturating_sub(1);
+                let reason = self.finish_iteration();
+                if reason.is_some() {
+                    return reason;
+                }
+            }
+        }
+        None
+    }
+
+    /// Goes on with the z-step under way; tells whether it is complete.
+    fn run_z_step(&mut self, left: &mut usize) -> bool {
+        let limit = self.plan.cg_limit(self.iteration);
+        loop {
+            let tight = self.plan.cg_tolerance > 0.0;
+            if tight
+                && self.round == 0
+                && self.cg.relative_residual(&self.problem) <= self.plan.cg_tolerance
+            {
+                return true;
+            }
+            // Single precision carries a round only so far.
+            let goal = if tight { 1e-6 * self.first_energy } else { 0.0 };
+            while self.z_step < limit && self.cg.energy() > goal {
+                if *left == 0 {
+                    return false;
+                }
+                *left -= 1;
+                if !self.cg.step(&self.problem) {
+                    break;
+                }
+                self.z_step += 1;
+                self.round += 1;
+                self.cg_iterations += 1;
+            }
+            let moved = self.round > 0;
+            self.round = 0;
+            self.cg.correct(&self.problem.domain, &mut self.state.z);
+            if !tight || !moved || self.z_step >= limit {
+                return true;
+            }
+            self.state.update(&self.problem, 0.0, &mut self.cg);
+            self.first_energy = self.cg.energy();
+        }
+    }
+
+    /// H-step, dual update and, when one is due, the certificate.
+    fn finish_iteration(&mut self) -> Option<StopReason> {
+        let start = Instant::now();
+        self.z_step = 0;
+        self.iteration += 1;
+        self.state
+            .update(&self.problem, self.plan.relaxation, &mut self.cg);
+        self.first_energy = self.cg.energy();
+        self.seconds.h_step += start.elapsed().as_secs_f64();
+        if !self.plan.is_check(self.iteration) {
+            return None;
+        }
+        let start = Instant::now();
+        let reason = self.check();
+        self.seconds.certificate += start.elapsed().as_secs_f64();
+        reason
+    }
+
+    fn check(&mut self) -> Option<StopReason> {
+        let certificate = self.state.certify(&self.problem);
+        self.best.take(&self.state.z, &certificate);
+        let reason = self.plan.stop(
+            &self.problem,
+            self.iteration,
+            &certificate,
+            self.best.objective(),
+            self.best.gap(),
+        );
+        let rho = self.plan.next_rho(self.state.rho, &certificate);
+        if reason.is_none() && rho != self.state.rho {
+            self.state.set_rho(&self.problem, rho);
+            self.cg.set_rho(&self.problem, rho);
+            self.state.update(&self.problem, 0.0, &mut self.cg);
+            self.first_energy = self.cg.energy();
+        }
+        reason
+    }
+}

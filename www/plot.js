@@ -7,7 +7,7 @@ import { number, superscript } from './format.js';
  * @typedef {object} Curve
  * @property {string} colour
  * @property {string} label
- * @property {readonly (readonly [number, number])[]} points
+ * @property {readonly (readonly [number, number])[]} points a NaN lifts the pen
  */
 
 /**
@@ -82,14 +82,20 @@ export function drawCurve(context, axes, { colour, points }) {
   context.rect(box.left, box.top - 2, box.width + 4, box.height + 4);
   context.clip();
   context.beginPath();
-  // What is below the range, perhaps not even positive, comes in from below.
-  for (const [at, value] of points) context.lineTo(x(at), y(Math.max(value, yRange[0] / 100)));
+  let drawing = false;
+  for (const [at, value] of points) {
+    // What is below the range, perhaps not even positive, comes in from below.
+    const [px, py] = [x(at), y(Math.max(value, yRange[0] / 100))];
+    if (drawing) context.lineTo(px, py);
+    else context.moveTo(px, py);
+    drawing = !Number.isNaN(value);
+  }
   context.strokeStyle = colour;
   context.lineWidth = 2;
   context.lineJoin = 'round';
   context.stroke();
   const last = points.at(-1);
-  if (last) {
+  if (last && !Number.isNaN(last[1])) {
     context.beginPath();
     context.arc(x(last[0]), y(Math.max(last[1], yRange[0] / 100)), 3, 0, 2 * Math.PI);
     context.fillStyle = colour;

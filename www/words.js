@@ -12,19 +12,20 @@ export const STOP_REASONS = {
   cancelled: 'cancelled; this is the best surface so far',
 };
 
+/** A gap above this says little: the objective could be twice the optimum. */
+const USEFUL = 0.5;
+
 /**
  * The one sentence that matters.
  * @param {Report} report
  */
 export function verdict({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
-  const certified = gap < 1;
-  const within = `within ${percentAtMost(gap)} of the optimum`;
+  const within = gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
   if (stopReason === 'cancelled') {
-    return `Cancelled after ${time}: ${certified ? `the surface so far is ${within}` : 'too early to certify anything'}.`;
+    return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
   }
-  if (!certified) return `Stopped after ${time} without a useful certificate.`;
-  return `Certified to ${within} in ${time}.`;
+  return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time}, too early for a useful certificate.`;
 }
 
 /**

@@ -7,7 +7,7 @@ import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
 /** @import {Session} from '../session.js' */
 /** @import {Axes, Curve} from '../plot.js' */
 
-/** @typedef {Pick<Progress, 'iteration' | 'elapsed' | 'objective' | 'dualBound' | 'gap'>} Moment */
+/** @typedef {Pick<Progress, 'level' | 'iteration' | 'elapsed' | 'objective' | 'dualBound' | 'gap'>} Moment */
 
 const MARGIN = { left: 46, right: 10, top: 22, between: 34, bottom: 38 };
 /** How much of what lies beyond the final value is shown, as a factor. */
@@ -51,12 +51,13 @@ export function curvePanel(session) {
 
 /** @param {Report} report @returns {Moment} */
 function lastMoment({ iterations, objective, dualBound, gap, seconds: { total } }) {
-  return { iteration: iterations, elapsed: total, objective, dualBound, gap };
+  return { level: 0, iteration: iterations, elapsed: total, objective, dualBound, gap };
 }
 
 /** @param {readonly Moment[]} moments */
 function inWords(moments) {
-  const [first, last] = [moments[0], moments[moments.length - 1]];
+  const certified = moments.filter((moment) => moment.level === 0);
+  const [first, last] = [certified[0], certified[certified.length - 1]];
   if (!first) return 'Nothing to show';
   return `Gap from ${percentAtMost(first.gap)} to ${percentAtMost(last.gap)} in ${count(last.iteration)} iterations, ${seconds(last.elapsed)}`;
 }
@@ -85,33 +86,57 @@ function drawMoments(canvas, moments, along, target) {
   const inner = height - MARGIN.top - MARGIN.between - MARGIN.bottom;
   const common = { xMax, palette };
   const place = { left: MARGIN.left, width: width - MARGIN.left - MARGIN.right, height: inner / 2 };
-  /** @type {(key: 'objective' | 'dualBound' | 'gap') => [number, number][]} */
-  const points = (key) => moments.filter((m) => !Number.isNaN(m[key])).map((m) => [m[along], m[key]]);
+  // Coarser lattices pose smaller problems: their gaps compare with the final ones, their energies do not.
+  const fine = moments.filter((moment) => moment.level === 0);
+  /** @type {(some: readonly Moment[], key: 'objective' | 'dualBound') => [number, number][]} */
+  const points = (some, key) => some.map((m) => [m[along], m[key]]);
 
   /** @type {Axes} */
   const energy = {
-    ...common, title: 'Energy', yRange: energyRange(moments), box: { ...place, top: MARGIN.top },
+    ...common, title: 'Energy', yRange: energyRange(fine), box: { ...place, top: MARGIN.top },
   };
   /** @type {Curve[]} */
   const bounds = [
-    { label: 'objective', colour: colour('--curve-objective'), points: points('objective') },
-    { label: 'dual bound', colour: colour('--curve-bound'), points: points('dualBound') },
+    { label: 'objective', colour: colour('--curve-objective'), points: points(fine, 'objective') },
+    { label: 'dual bound', colour: colour('--curve-bound'), points: points(fine, 'dualBound') },
   ];
   drawAxes(context, energy);
   drawLegend(context, energy, bounds);
   for (const curve of bounds) drawCurve(context, energy, curve);
 
-  const gaps = points('gap').map(([x, y]) => /** @type {[number, number]} */ ([x, 100 * y]));
-  const least = Math.min(100 * target, ...gaps.map(([, gap]) => gap).filter((gap) => gap > 0));
+  const least = Math.min(target, ...fine.map((m) => m.gap).filter((gap) => gap > 0));
   /** @type {Axes} */
   const gap = {
-    ...common, title: 'Gap between them, in %', yRange: [least / 2, 150],
+    ...common, title: 'Gap between them, in %', yRange: [50 * least, 150],
     xLabel: along === 'iteration' ? 'iterations' : 'seconds',
     box: { ...place, top: MARGIN.top + inner / 2 + MARGIN.between },
   };
+  const coarse = { label: 'coarser lattices', colour: colour('--edge'), points: gapsByLevel(moments, along, false) };
   drawAxes(context, gap);
+  if (coarse.points.length > 0) drawLegend(context, gap, [coarse]);
   drawLevel(context, gap, 100 * target, 'wanted');
-  drawCurve(context, gap, { label: 'gap', colour: colour('--curve-gap'), points: gaps });
+  drawCurve(context, gap, coarse);
+  drawCurve(context, gap, { label: 'gap', colour: colour('--curve-gap'), points: gapsByLevel(moments, along, true) });
+}
+
+/**
+ * Gaps in percent on the finest lattice, or on the others with a break after each.
+ * @param {readonly Moment[]} moments
+ * @param {'iteration' | 'elapsed'} along
+ * @param {boolean} finest
+ * @returns {[number, number][]}
+ */
+function gapsByLevel(moments, along, finest) {
+  /** @type {[number, number][]} */
+  const points = [];
+  let level = NaN;
+  for (const moment of moments) {
+    if ((moment.level === 0) !== finest) continue;
+    if (points.length > 0 && moment.level !== level) points.push([moment[along], NaN]);
+    level = moment.level;
+    points.push([moment[along], 100 * moment.gap]);
+  }
+  return points;
 }
 
 /**

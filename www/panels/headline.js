@@ -1,7 +1,7 @@
 /** The outcome up front, in plain words, and messages about what went wrong. */
 import { element } from '../dom.js';
 import { count } from '../format.js';
-import { rmsError } from '../surface/compare.js';
+import { accuracyOf } from '../surface/known.js';
 import { complaint, improvement, verdict } from '../words.js';
 
 /** @import {Result, Session} from '../session.js' */
@@ -56,11 +56,7 @@ function describe({ input, result }) {
 }
 
 /** @param {Result} result */
-function closeness({ input, surface }) {
-  if (!input.truth || !surface.image) return '';
-  const { truth, data, heightScale } = input;
-  return improvement(
-    rmsError(data, heightScale, truth, heightScale),
-    rmsError(surface.image.data, 1, truth, heightScale),
-  );
+function closeness(result) {
+  const accuracy = accuracyOf(result);
+  return accuracy ? improvement(accuracy.heights.before, accuracy.heights.after) : '';
 }

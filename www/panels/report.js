@@ -1,8 +1,7 @@
 /** The report as a table, each line with a word on what it means. */
 import { element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
-import { meanAngle, rmsError } from '../surface/compare.js';
-import { normalsOf } from '../surface/normals.js';
+import { accuracyOf } from '../surface/known.js';
 import { STOP_REASONS } from '../words.js';
 
 /** @import {Report} from '../api.js' */
@@ -33,7 +32,7 @@ function certificate(report) {
   return {
     title: 'Certificate',
     lines: [
-      line('Gap', percentAtMost(report.gap), 'The objective is at most this share above the optimum.'),
+      line('Gap', percentAtMost(report.gap), 'At most this share of the objective is above the optimum.'),
       line('Objective', number(report.objective, 5), 'The energy of the result: the sum of the next two.'),
       line('Fidelity', number(report.fidelity, 4), 'λ times the squared distances from the input.'),
       line('Nuclear norms', number(report.nuclearNorm, 4), 'Bending and creasing; what makes it developable.'),
@@ -76,26 +75,15 @@ function work(report) {
  * @param {Result} result
  * @returns {Group}
  */
-function accuracy({ input, surface: { image } }) {
-  const { truth, data, width, height, pixelSize, heightScale } = input;
-  if (!truth || !image) return { title: '', lines: [] };
-  const steepness = heightScale / pixelSize;
-  const trueNormals = normalsOf(truth, width, height, steepness);
-  const before = normalsOf(data, width, height, steepness);
-  const after = normalsOf(image.data, width, height, 1 / image.pixelSize);
-  /** @param {string} was @param {string} is */
-  const change = (was, is) => `${was} → ${is}`;
+function accuracy(result) {
+  const known = accuracyOf(result);
+  if (!known) return { title: '', lines: [] };
+  const { heights, normals } = known;
   return {
     title: 'Error against the true surface, input → result',
     lines: [
-      line('Heights', change(
-        number(rmsError(data, heightScale, truth, heightScale)),
-        number(rmsError(image.data, 1, truth, heightScale)),
-      ), 'Root mean square, in the example’s units.'),
-      line('Normals', change(
-        `${number(meanAngle(before, trueNormals))}°`,
-        `${number(meanAngle(after, trueNormals))}°`,
-      ), 'Mean angle between the normals.'),
+      line('Heights', `${number(heights.before)} → ${number(heights.after)}`, 'Root mean square, in the example’s units.'),
+      line('Normals', `${number(normals.before)}° → ${number(normals.after)}°`, 'Mean angle between the normals.'),
     ],
   };
 }

@@ -4,14 +4,19 @@ import { count, percentAtMost, seconds } from '../format.js';
 
 /** @import {Session} from '../session.js' */
 
+/** What the coarser lattices take of the bar. */
+const COARSE = 0.25;
+
 /** @param {Session} session */
 export function runPanel(session) {
   const form = element('controls', HTMLFormElement);
   const cancel = element('cancel', HTMLButtonElement);
   const bar = element('progress', HTMLProgressElement);
   const text = element('progress-text', HTMLElement);
-  /** The first gap below 1: where the bar begins. */
+  /** The first gap below 1 on the finest lattice, and where the bar was then. */
   let first = NaN;
+  let begin = 0;
+  let levels = 0;
 
   form.addEventListener('submit', (event) => {
     event.preventDefault();
@@ -31,12 +36,25 @@ export function runPanel(session) {
   session.on('start', () => {
     cancel.setAttribute('aria-disabled', 'false');
     first = NaN;
+    levels = 0;
     bar.value = 0;
     text.textContent = 'Setting up…';
   });
-  session.on('progress', ({ iteration, gap, elapsed }) => {
-    if (Number.isNaN(first) && gap < 1) first = gap;
-    if (first > 0) bar.value = Math.max(bar.value, reached(gap, first, session.settings.gap));
+  session.on('progress', ({ level, iteration, gap, elapsed }) => {
+    if (level > 0) {
+      levels = Math.max(levels, level);
+      bar.value = COARSE * (1 - level / (levels + 1));
+      text.textContent = `coarse lattice, ${count(level)} finer to come, ${seconds(elapsed)}`;
+      return;
+    }
+    if (Number.isNaN(first) && gap < 1) {
+      first = gap;
+      begin = levels > 0 ? COARSE : 0;
+    }
+    if (first > 0) {
+      const share = begin + (1 - begin) * reached(gap, first, session.settings.gap);
+      bar.value = Math.max(bar.value, share);
+    }
     const state = gap < 1 ? `gap ${percentAtMost(gap)}` : 'no certificate yet';
     text.textContent = `${state} after ${count(iteration)} iterations, ${seconds(elapsed)}`;
   });

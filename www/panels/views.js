@@ -1,8 +1,8 @@
 /** Input and result side by side under one light. */
 import { element } from '../dom.js';
 import { number, shortest } from '../format.js';
+import { inputNormals, resultNormals } from '../surface/known.js';
 import { Light } from '../surface/light.js';
-import { normalsOf } from '../surface/normals.js';
 import { SurfaceView } from '../surface/view.js';
 
 /** @import {Session} from '../session.js' */
@@ -19,8 +19,9 @@ export function viewsPanel(session) {
   const mark = element('result-mark', HTMLElement);
   const empty = element('result-empty', HTMLElement);
 
-  session.on('input', ({ name, data, width, height, pixelSize, heightScale }) => {
-    before.show(normalsOf(data, width, height, heightScale / pixelSize));
+  session.on('input', (input) => {
+    const { name, width, height } = input;
+    before.show(inputNormals(input));
     views.style.setProperty('--aspect', String(width / height));
     inputCaption.textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
   });
@@ -30,12 +31,10 @@ export function viewsPanel(session) {
     mark.hidden = true;
     empty.hidden = false;
   });
-  session.on('result', ({ surface, settings }) => {
-    const { image, report } = surface;
-    if (!image) return;
-    after.show(normalsOf(image.data, image.width, image.height, 1 / image.pixelSize));
-    caption.textContent = `λ = ${shortest(settings.lambda)}`;
-    mark.textContent = report.stopReason === 'cancelled' ? 'cancelled' : '';
+  session.on('result', (result) => {
+    after.show(resultNormals(result));
+    caption.textContent = `λ = ${shortest(result.settings.lambda)}`;
+    mark.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
     mark.hidden = !mark.textContent;
     empty.hidden = true;
   });

@@ -32,12 +32,15 @@ export function meanAngle(a, b) {
   let count = 0;
   for (let i = 0; i < a.xy.length; i += 2) {
     if (a.xy[i] === HOLE || b.xy[i] === HOLE) continue;
-    const [ax, ay, bx, by] = [a.xy[i] / UNIT, a.xy[i + 1] / UNIT, b.xy[i] / UNIT, b.xy[i + 1] / UNIT];
-    const az = Math.sqrt(Math.max(0, 1 - ax * ax - ay * ay));
-    const bz = Math.sqrt(Math.max(0, 1 - bx * bx - by * by));
+    const ax = a.xy[i] / UNIT;
+    const ay = a.xy[i + 1] / UNIT;
+    const bx = b.xy[i] / UNIT;
+    const by = b.xy[i + 1] / UNIT;
+    const dx = ax - bx;
+    const dy = ay - by;
+    const dz = Math.sqrt(Math.max(0, 1 - ax * ax - ay * ay)) - Math.sqrt(Math.max(0, 1 - bx * bx - by * by));
     // By the chord, which is accurate where the cosine is not: at small angles.
-    const chord = Math.hypot(ax - bx, ay - by, az - bz);
-    sum += 2 * Math.asin(Math.min(1, chord / 2));
+    sum += 2 * Math.asin(Math.min(1, Math.sqrt(dx * dx + dy * dy + dz * dz) / 2));
     count++;
   }
   return ((sum / count) * 180) / Math.PI;

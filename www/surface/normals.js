@@ -33,7 +33,7 @@ export function normalsOf(heights, width, height, steepness) {
       const north = row > 0 ? heights[i - width] : NaN;
       const x = -steepness * difference(west, z, east);
       const y = -steepness * difference(south, z, north);
-      const scale = UNIT / Math.hypot(x, y, 1);
+      const scale = UNIT / Math.sqrt(x * x + y * y + 1);
       xy[2 * i] = Math.round(x * scale);
       xy[2 * i + 1] = Math.round(y * scale);
     }

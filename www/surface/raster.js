@@ -60,7 +60,8 @@ function thinned({ width, height, xy }, step) {
 }
 
 /**
- * Each pixel split into `factor` by `factor`; holes keep their pixels' outline.
+ * Each pixel split into `factor` by `factor`, between them a smooth curve through the
+ * pixels' normals (Catmull and Rom's cubic); holes keep their pixels' outline.
  * @param {Normals} normals
  * @param {number} factor
  * @returns {Raster}
@@ -68,46 +69,89 @@ function thinned({ width, height, xy }, step) {
 function refined(normals, factor) {
   const { width, height, xy } = normals;
   if (factor === 1) return thinned(normals, 1);
-  const cols = width * factor;
-  const rows = height * factor;
+  const [cols, rows] = [width * factor, height * factor];
+  const weights = cubicWeights(factor);
+  const stretched = stretchRows(normals, factor, weights);
   const index = new Uint32Array(cols * rows);
   for (let row = 0, i = 0; row < rows; row++) {
-    const y = (row + 0.5) / factor - 0.5;
-    const home = Math.floor(row / factor) * width;
-    const top = Math.max(0, Math.floor(y)) * width;
-    const bottom = Math.min(height - 1, Math.floor(y) + 1) * width;
-    const down = y - Math.floor(y);
+    const home = Math.floor(row / factor);
+    const { first, w } = weights[row % factor];
+    const own = 2 * cols * home;
+    const lines = w.map((_, k) => 2 * cols * clamp(home + first + k, height));
     for (let col = 0; col < cols; col++, i++) {
-      const here = home + Math.floor(col / factor);
-      if (xy[2 * here] === HOLE) {
+      if (xy[2 * (home * width + Math.floor(col / factor))] === HOLE) {
         index[i] = NOTHING;
         continue;
       }
-      const x = (col + 0.5) / factor - 0.5;
-      const left = Math.max(0, Math.floor(x));
-      const right = Math.min(width - 1, Math.floor(x) + 1);
-      const across = x - Math.floor(x);
-      // A neighbour in a hole is replaced by the pixel itself.
-      const a = valid(xy, top + left, here);
-      const b = valid(xy, top + right, here);
-      const c = valid(xy, bottom + left, here);
-      const d = valid(xy, bottom + right, here);
-      const nx = mix(mix(xy[a], xy[b], across), mix(xy[c], xy[d], across), down);
-      const ny = mix(mix(xy[a + 1], xy[b + 1], across), mix(xy[c + 1], xy[d + 1], across), down);
+      let nx = 0;
+      let ny = 0;
+      for (let k = 0; k < 4; k++) {
+        // A neighbour in a hole is replaced by the pixel itself, here and below.
+        const from = 2 * col + (Number.isNaN(stretched[lines[k] + 2 * col]) ? own : lines[k]);
+        nx += w[k] * stretched[from];
+        ny += w[k] * stretched[from + 1];
+      }
       index[i] = entry(nx, ny, col, row);
     }
   }
   return { width: cols, height: rows, index };
 }
 
-/** @param {Int16Array} xy @param {number} pixel @param {number} otherwise */
-function valid(xy, pixel, otherwise) {
-  return 2 * (xy[2 * pixel] === HOLE ? otherwise : pixel);
+/**
+ * The rows refined along themselves only; NaN in holes.
+ * @param {Normals} normals
+ * @param {number} factor
+ * @param {Weights[]} weights
+ */
+function stretchRows({ width, height, xy }, factor, weights) {
+  const out = new Float32Array(2 * width * factor * height);
+  for (let row = 0, i = 0; row < height; row++) {
+    for (let col = 0; col < width; col++) {
+      const here = row * width + col;
+      for (let part = 0; part < factor; part++, i += 2) {
+        if (xy[2 * here] === HOLE) {
+          out[i] = NaN;
+          continue;
+        }
+        const { first, w } = weights[part];
+        for (let k = 0; k < 4; k++) {
+          const there = row * width + clamp(col + first + k, width);
+          const from = 2 * (xy[2 * there] === HOLE ? here : there);
+          out[i] += w[k] * xy[from];
+          out[i + 1] += w[k] * xy[from + 1];
+        }
+      }
+    }
+  }
+  return out;
 }
 
-/** @param {number} a @param {number} b @param {number} t */
-function mix(a, b, t) {
-  return a + t * (b - a);
+/** @typedef {{ first: number, w: readonly number[] }} Weights of four pixels, the first relative to the one that is split */
+
+/**
+ * For each part of a pixel, by its centre's place between the pixels' centres.
+ * @param {number} factor
+ * @returns {Weights[]}
+ */
+function cubicWeights(factor) {
+  return Array.from({ length: factor }, (_, part) => {
+    const place = (part + 0.5) / factor - 0.5;
+    const t = place - Math.floor(place);
+    return {
+      first: Math.floor(place) - 1,
+      w: [
+        t * (-0.5 + t * (1 - 0.5 * t)),
+        1 + t * t * (-2.5 + 1.5 * t),
+        t * (0.5 + t * (2 - 1.5 * t)),
+        t * t * (-0.5 + 0.5 * t),
+      ],
+    };
+  });
+}
+
+/** @param {number} i @param {number} count */
+function clamp(i, count) {
+  return Math.min(count - 1, Math.max(0, i));
 }
 
 /**
@@ -123,7 +167,7 @@ function entry(nx, ny, col, row) {
   const noise = 52.9829189 * (p - Math.floor(p));
   const dither = noise - Math.floor(noise);
   const scale = (SIDE - 1) / (2 * UNIT);
-  const x = Math.min(SIDE - 1, Math.floor((nx + UNIT) * scale + dither));
-  const y = Math.min(SIDE - 1, Math.floor((ny + UNIT) * scale + dither));
+  const x = clamp(Math.floor((nx + UNIT) * scale + dither), SIDE);
+  const y = clamp(Math.floor((ny + UNIT) * scale + dither), SIDE);
   return y * SIDE + x;
 }

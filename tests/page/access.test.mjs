@@ -1,0 +1,131 @@
+/** By keyboard, on a phone, in the dark, and under a moving light. */
+import assert from 'node:assert/strict';
+import { look, painted, pageTest, runBy, settled } from './support/page.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const VIEWS = ['#input-canvas', '#result-canvas'];
+
+/** @param {Page} page */
+async function looks(page) {
+  return Promise.all(VIEWS.map(async (view) => (await look(page, view)).hash));
+}
+
+pageTest('dragging on one surface moves the light on both', async (page) => {
+  for (const view of VIEWS) {
+    const before = await looks(page);
+    const box = await page.locator(view).boundingBox();
+    assert.ok(box);
+    await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.7, { steps: 4 });
+    await page.mouse.up();
+    await painted(page);
+    const after = await looks(page);
+    assert.notEqual(after[0], before[0]);
+    assert.notEqual(after[1], before[1]);
+    // Let go, it stays.
+    await page.mouse.move(box.x + 5, box.y + 5);
+    await painted(page);
+    assert.deepEqual(await looks(page), after);
+    await page.keyboard.press('Home');
+    await painted(page);
+  }
+});
+
+/**
+ * Presses Tab until the focus is on what matches.
+ * @param {Page} page
+ * @param {string} selector
+ */
+async function tabTo(page, selector) {
+  for (let presses = 0; presses < 40; presses++) {
+    await page.keyboard.press('Tab');
+    const there = await page.evaluate((wanted) => document.activeElement?.matches(wanted), selector);
+    if (there) return;
+  }
+  assert.fail(`Tab never reaches ${selector}`);
+}
+
+pageTest('everything can be done by keyboard', async (page) => {
+  const before = await looks(page);
+  await tabTo(page, '#input-canvas');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowUp');
+  await painted(page);
+  const after = await looks(page);
+  assert.notEqual(after[0], before[0]);
+  assert.notEqual(after[1], before[1]);
+  assert.match(await page.locator('#input-canvas').getAttribute('aria-valuetext') ?? '', /light from/);
+
+  await tabTo(page, '[data-save="npy"]');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
+  assert.match(download.suggestedFilename(), /\.npy$/);
+
+  await tabTo(page, 'input[name="example"]');
+  await runBy(page, () => page.keyboard.press('ArrowRight'));
+  await tabTo(page, '#lambda');
+  await runBy(page, () => page.keyboard.press('PageUp'));
+  await tabTo(page, 'button[data-exponent="6"]');
+  await runBy(page, () => page.keyboard.press('Space'));
+
+  await tabTo(page, 'summary');
+  await page.keyboard.press('Enter');
+  await tabTo(page, '#gap');
+  // The last option is the smallest gap: a run long enough to be cancelled.
+  await page.keyboard.press('End');
+  await tabTo(page, '#run');
+  await page.keyboard.press('Enter');
+  await tabTo(page, '#cancel');
+  await page.keyboard.press('Space');
+  await settled(page);
+  assert.equal(await page.evaluate(() => document.activeElement?.id), 'cancel', 'the focus is not lost');
+});
+
+pageTest('what has the focus can be seen to have it', async (page) => {
+  for (const selector of ['#input-canvas', '[data-save="npy"]', '#size', '#open', '#lambda', 'summary', '#run']) {
+    await tabTo(page, selector);
+    const width = await page.evaluate(() => {
+      const style = getComputedStyle(/** @type {Element} */ (document.activeElement));
+      return style.outlineStyle === 'none' ? 0 : Number.parseFloat(style.outlineWidth);
+    });
+    assert.ok(width >= 1, selector);
+  }
+});
+
+pageTest('every control has a name', async (page) => {
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll('button, input:not([type="file"]), select, progress, canvas')]
+      .filter((control) => {
+        const labels = /** @type {HTMLInputElement} */ (control).labels;
+        return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();
+      })
+      .map((control) => control.outerHTML));
+  assert.deepEqual(nameless, []);
+});
+
+for (const width of [360, 768, 1280, 1920]) {
+  pageTest(`nothing sticks out at ${width} pixels`, async (page) => {
+    const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(excess <= 0, `${excess} pixels`);
+    const [input, result] = await Promise.all(VIEWS.map((view) => page.locator(view).boundingBox()));
+    assert.ok(input && result);
+    const beside = result.x >= input.x + input.width;
+    assert.equal(beside, width > 600, 'side by side where there is room');
+    for (const view of VIEWS) assert.ok((await look(page, view)).covered > 0.1, view);
+  }, { viewport: { width, height: 800 }, deviceScaleFactor: width < 600 ? 3 : 1 });
+}
+
+pageTest('the canvases have the pixels of the device', async (page) => {
+  const sizes = await page.locator('canvas').evaluateAll((canvases) =>
+    canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));
+  for (const [pixels, width] of sizes) assert.equal(pixels, 2 * width);
+}, { deviceScaleFactor: 2 });
+
+pageTest('the dark scheme is dark', async (page) => {
+  const [paper, ink] = await page.evaluate(() => {
+    const { backgroundColor, color } = getComputedStyle(document.body);
+    return [backgroundColor, color].map((text) => (text.match(/\d+/g) ?? []).slice(0, 3).map(Number));
+  });
+  assert.ok(Math.max(...paper) < 64 && Math.min(...ink) > 192, `${ink} on ${paper}`);
+}, { colorScheme: 'dark' });

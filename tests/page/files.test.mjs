@@ -1,0 +1,129 @@
+/** Files in, by drop and by dialog, sound and broken; files out. */
+import assert from 'node:assert/strict';
+import { grid, npy, parseNpy, png16 } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
+import { drop, look, pageTest, reported, runBy, save } from './support/page.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const [WIDTH, HEIGHT] = [48, 36];
+/** A plane is developable, and the solver must leave it alone: what goes in must come out. */
+const plane = grid(WIDTH, HEIGHT, (col, row) => 2000 + 30 * col + 50 * row);
+
+/** @param {Page} page */
+const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+
+/**
+ * @param {number[]} found
+ * @param {number[]} expected
+ * @param {number} tolerance
+ */
+function assertClose(found, expected, tolerance) {
+  assert.equal(found.length, expected.length);
+  const worst = Math.max(...found.map((value, i) => Math.abs(value - expected[i])));
+  assert.ok(worst <= tolerance, `off by ${worst}`);
+}
+
+pageTest('a dropped NPY is shown, waits for Run, and comes back as an NPY', async (page) => {
+  await drop(page, 'slope.npy', npy(WIDTH, plane));
+  await page.locator('#input-caption', { hasText: `${WIDTH} × ${HEIGHT}` }).waitFor();
+  assert.equal(await page.locator('#result-empty').isVisible(), true);
+  assert.ok((await look(page, '#input-canvas')).covered > 0.1);
+  await run(page);
+  const { name, bytes } = await save(page, 'NPY');
+  assert.match(name, /^slope.*\.npy$/);
+  const { rows, cols, values } = parseNpy(bytes);
+  assert.deepEqual([rows, cols], [HEIGHT, WIDTH]);
+  assertClose(values, plane, 1e-3 * (Math.max(...plane) - Math.min(...plane)));
+});
+
+pageTest('a dropped 16-bit PNG takes the scale that is given', async (page) => {
+  await drop(page, 'slope.png', png16(WIDTH, plane));
+  await page.locator('#file-name', { hasText: 'PNG' }).waitFor();
+  assert.match(await page.locator('#file-name').innerText(), /16/);
+  const [pixelSize, heightScale] = [0.5, 0.01];
+  await page.getByLabel('Pixel size').fill(String(pixelSize));
+  await page.getByLabel('Height scale').fill(String(heightScale));
+  await run(page);
+  const expected = plane.map((value) => value * heightScale);
+  const { values } = parseNpy((await save(page, 'NPY')).bytes);
+  assertClose(values, expected, 1e-3 * (Math.max(...expected) - Math.min(...expected)));
+  // To the unit square: the longer side, between the outermost pixels or their edges, becomes 1.
+  const scale = parsed(await reported(page, 'Scale'));
+  assert.ok(Math.abs(scale * WIDTH * pixelSize - 1) < 3 / WIDTH, `scale ${scale}`);
+});
+
+pageTest('holes stay holes, on the screen and in the file', async (page) => {
+  const hole = (/** @type {number} */ col, /** @type {number} */ row) => Math.hypot(col - 24, row - 18) < 6;
+  const pierced = plane.map((value, i) => (hole(i % WIDTH, Math.floor(i / WIDTH)) ? NaN : value));
+  await drop(page, 'pierced.npy', npy(WIDTH, pierced));
+  await run(page);
+  const { values } = parseNpy((await save(page, 'NPY')).bytes);
+  assert.deepEqual(values.map(Number.isNaN), pierced.map(Number.isNaN));
+  const centre = await page.locator('#result-canvas').evaluate((canvas) => {
+    const { width, height } = /** @type {HTMLCanvasElement} */ (canvas);
+    const context = /** @type {HTMLCanvasElement} */ (canvas).getContext('2d');
+    return context?.getImageData(width / 2, height / 2, 1, 1).data[3];
+  });
+  assert.equal(centre, 0);
+});
+
+pageTest('the file button opens a file', async (page) => {
+  const [chooser] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    page.getByRole('button', { name: /^Open/ }).click(),
+  ]);
+  await chooser.setFiles({ name: 'slope.npy', mimeType: '', buffer: npy(WIDTH, plane) });
+  await page.locator('#input-caption', { hasText: 'slope' }).waitFor();
+});
+
+/** @type {{ what: string, name: string, bytes: Buffer, says: RegExp }[]} */
+const broken = [
+  { what: 'a truncated PNG', name: 'scan.png', bytes: png16(WIDTH, plane).subarray(0, 90), says: /cut short|end|truncated|incomplete/i },
+  { what: 'a text called .npy', name: 'notes.npy', bytes: Buffer.from('heights: see the other file\n'), says: /PNG|NPY|format/ },
+  { what: 'an NPY of NaN only', name: 'void.npy', bytes: npy(WIDTH, plane.map(() => NaN)), says: /NaN|no data/ },
+  { what: 'an empty file', name: 'nothing.png', bytes: Buffer.alloc(0), says: /empty|PNG|NPY|no bytes/i },
+];
+
+for (const { what, name, bytes, says } of broken) {
+  pageTest(`${what} gets a message, and the previous result stays`, async (page) => {
+    const before = {
+      verdict: await page.locator('#verdict').innerText(),
+      gap: await reported(page, 'Gap'),
+      input: (await look(page, '#input-canvas')).hash,
+      result: (await look(page, '#result-canvas')).hash,
+    };
+    await drop(page, name, bytes);
+    const message = await page.getByRole('alert').innerText();
+    assert.ok(message.includes(name), message);
+    assert.match(message, says);
+    assert.deepEqual({
+      verdict: await page.locator('#verdict').innerText(),
+      gap: await reported(page, 'Gap'),
+      input: (await look(page, '#input-canvas')).hash,
+      result: (await look(page, '#result-canvas')).hash,
+    }, before);
+    assert.ok(await page.getByRole('button', { name: 'OBJ', exact: true }).isEnabled());
+  });
+}
+
+pageTest('PNG and OBJ are what they are called', async (page) => {
+  const [, width, height] = /(\d+) × (\d+)/.exec(await page.locator('#input-caption').innerText()) ?? [];
+  const png = await save(page, 'PNG');
+  assert.match(png.name, /\.png$/);
+  assert.equal(png.bytes.toString('latin1', 0, 8), '\x89PNG\r\n\x1a\n');
+  assert.equal(png.bytes.toString('latin1', 12, 16), 'IHDR');
+  assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [Number(width), Number(height)]);
+  assert.equal(png.bytes[24], 16, 'bits');
+
+  const vertices = parsed(await reported(page, 'Interior'))
+    + parsed(await reported(page, 'Boundary')) + parsed(await reported(page, 'Omitted'));
+  const obj = await save(page, 'OBJ');
+  assert.match(obj.name, /\.obj$/);
+  const lines = obj.bytes.toString().split('\n');
+  assert.equal(lines.filter((line) => line.startsWith('v ')).length, vertices);
+  const corners = lines.filter((line) => line.startsWith('f '))
+    .flatMap((line) => line.slice(2).trim().split(/\s+/).map((corner) => Number.parseInt(corner)));
+  assert.ok(corners.length > 3 * vertices, 'about two triangles for each vertex');
+  assert.ok(Math.min(...new Set(corners)) >= 1 && corners.every((corner) => corner <= vertices));
+});

@@ -1,0 +1,121 @@
+/** The page's modules that need no browser. */
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { count, number, percentAtMost, shortest } from '../../www/format.js';
+import { linearTicks, logTicks } from '../../www/plot.js';
+import { meanAngle, rmsError } from '../../www/surface/compare.js';
+import { Light } from '../../www/surface/light.js';
+import { HOLE, UNIT, normalsOf } from '../../www/surface/normals.js';
+import { NOTHING, SIDE, rasterOf } from '../../www/surface/raster.js';
+import { lambdaHint, verdict } from '../../www/words.js';
+import { grid } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
+
+/** @param {import('../../www/surface/normals.js').Normals} normals @param {number} i */
+const normal = ({ xy }, i) => [xy[2 * i] / UNIT, xy[2 * i + 1] / UNIT];
+
+test('a plane has its normal everywhere, and it leans downhill with y up', () => {
+  // Rises to the right by 1 and downwards on the screen by 0.5 per unit of length; pixels of side 2.
+  const [right, down, side] = [1, 0.5, 2];
+  const heights = grid(5, 4, (col, row) => side * (right * col + down * row));
+  const normals = normalsOf(heights, 5, 4, 1 / side);
+  const length = Math.hypot(right, down, 1);
+  for (let i = 0; i < heights.length; i++) {
+    const [x, y] = normal(normals, i);
+    assert.ok(Math.abs(x - -right / length) < 1e-4 && Math.abs(y - down / length) < 1e-4, `${x}, ${y}`);
+  }
+});
+
+test('normals beside a hole come from the other side, and a lone pixel is level', () => {
+  const heights = grid(7, 3, (col) => 3 * col);
+  for (let row = 0; row < 3; row++) heights[7 * row + 3] = NaN;
+  const normals = normalsOf(heights, 7, 3, 1);
+  for (const i of [0, 2, 4, 6]) assert.ok(Math.abs(normal(normals, i)[0] - -3 / Math.hypot(3, 1)) < 1e-4);
+  assert.equal(normals.xy[2 * 3], HOLE);
+
+  const lone = normalsOf([NaN, NaN, NaN, NaN, 5, NaN, NaN, NaN, NaN], 3, 3, 1);
+  assert.deepEqual(normal(lone, 4), [0, 0]);
+});
+
+test('the raster is about as dense as the screen, and its holes are the image’s', () => {
+  const heights = grid(40, 30, (col, row) => Math.sin(col / 5) + 0.1 * row);
+  heights[15 * 40 + 20] = NaN;
+  const normals = normalsOf(heights, 40, 30, 1);
+  for (const density of [0.1, 0.3, 0.9, 1, 1.4, 2, 3.7]) {
+    const { width, height, index } = rasterOf(normals, density);
+    assert.equal(index.length, width * height);
+    assert.ok(width >= 40 * density && width <= Math.max(40, 4 * 40 * density), `${width} at ${density}`);
+    const holes = index.filter((entry) => entry === NOTHING).length;
+    if (density > 0.5) assert.equal(holes, (width / 40) ** 2);
+    for (const entry of index) assert.ok(entry <= NOTHING);
+  }
+});
+
+test('refining goes smoothly through the normals, but not across a hole', () => {
+  const half = Math.round(UNIT / 2);
+  const normals = { width: 3, height: 1, xy: Int16Array.of(-half, 0, half, 0, HOLE, 0) };
+  // An odd number of parts, so that one of them has the pixel's own centre.
+  const parts = 5;
+  const { width, index } = rasterOf(normals, parts);
+  const xs = Array.from(index.subarray(0, width), (entry) => (entry === NOTHING ? NaN : ((entry % SIDE) / (SIDE - 1)) * 2 - 1));
+  const quantum = 2 / (SIDE - 1);
+  const [left, right] = [2, parts + 2];
+  assert.ok(Math.abs(xs[left] - -0.5) <= quantum && Math.abs(xs[right] - 0.5) <= quantum, `${xs}`);
+  for (let i = left + 1; i <= right; i++) assert.ok(xs[i] >= xs[i - 1] - quantum, `${xs}`);
+  assert.ok(xs.slice(2 * parts).every(Number.isNaN) && !xs.slice(0, 2 * parts).some(Number.isNaN));
+});
+
+test('the light is brightest where the surface mirrors it, and stays above the horizon', () => {
+  const light = new Light();
+  light.moveTo(5, 0);
+  assert.ok(light.elevation > 0 && light.azimuth === 0);
+  light.moveTo(0.6, 0);
+  // Halfway between the view and the light.
+  const tilt = Math.asin(0.6) / 2;
+  const entry = Math.round(((0 + 1) / 2) * (SIDE - 1)) * SIDE + Math.round(((Math.sin(tilt) + 1) / 2) * (SIDE - 1));
+  const colours = light.colours();
+  const green = (/** @type {number} */ colour) => (colour >> 8) & 255;
+  assert.equal(green(colours[entry]), colours.reduce((most, colour) => Math.max(most, green(colour)), 0));
+  assert.equal(colours[NOTHING], 0);
+});
+
+test('errors are measured where both surfaces are', () => {
+  assert.ok(Math.abs(rmsError([1, 2, NaN, 5], 2, [1, 2, 3, NaN], 1) - Math.sqrt((1 + 4) / 2)) < 1e-12);
+  const flat = normalsOf(grid(9, 9, () => 0), 9, 9, 1);
+  const slope = normalsOf(grid(9, 9, (col) => Math.tan(Math.PI / 6) * col), 9, 9, 1);
+  assert.ok(Math.abs(meanAngle(flat, slope) - 30) < 0.01);
+});
+
+test('a bound in percent is never understated', () => {
+  for (const gap of [0.00912, 0.0099999, 0.01, 0.1234, 3.21e-7, 0.9991]) {
+    const shown = parsed(percentAtMost(gap)) / 100;
+    assert.ok(shown >= gap * (1 - 1e-9) && shown <= gap * 1.1, `${gap} as ${shown}`);
+  }
+  assert.equal(percentAtMost(NaN), '–');
+});
+
+test('numbers read well', () => {
+  assert.equal(count(1234567), '1\u202f234\u202f567');
+  assert.equal(number(0.012345), '0.0123');
+  assert.equal(number(-2.5), '−2.5');
+  assert.equal(number(1e6), '10⁶');
+  assert.equal(number(2.5e-7), '2.5\u202f·\u202f10⁻⁷');
+  assert.equal(shortest(1e6), '1e6');
+  assert.equal(shortest(2.51e5), '2.5e5');
+});
+
+test('ticks are round, within the range and not too many', () => {
+  assert.deepEqual(linearTicks(1, 5).map((tick) => tick.toFixed(2)), ['0.00', '0.20', '0.40', '0.60', '0.80', '1.00']);
+  assert.deepEqual(logTicks([0.5, 150], 20), [0.5, 1, 2, 5, 10, 20, 50, 100]);
+  assert.deepEqual(logTicks([0.5, 150], 3), [1, 10, 100]);
+  assert.ok(logTicks([1e-9, 1e9], 5).length <= 5);
+});
+
+test('each λ and each way to stop has words of its own', () => {
+  assert.equal(new Set([1e3, 1e5, 1e6, 1e7, 1e9].map(lambdaHint)).size, 5);
+  const seconds = { setup: 0, zStep: 0, hStep: 0, certificate: 0, total: 0.42 };
+  const report = /** @type {import('../../pkg/types.js').Report} */ ({ gap: 0.009, stopReason: 'gap', seconds });
+  assert.equal(verdict(report).replaceAll('\u00a0', ' '), 'Certified to within 0.9 % of the optimum in 0.42 s.');
+  assert.match(verdict({ ...report, stopReason: 'cancelled' }), /^Cancelled/);
+  assert.match(verdict({ ...report, stopReason: 'cancelled', gap: 1 }), /too early/);
+});

@@ -1,0 +1,198 @@
+/** Tests on the page in Chromium, each on a fresh page that is watched all the time. */
+import assert from 'node:assert/strict';
+import { accessSync, constants } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { chromium } from 'playwright-core';
+import { serve } from '../../../tools/serve.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const executablePath = process.env.DEVELOPABLE_CHROME || '/usr/bin/chromium';
+const args = [
+  '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
+  '--disable-background-networking', '--disable-component-update', '--disable-sync',
+];
+
+/** Time for anything to happen, on a machine that may be busy. */
+const PATIENCE = 60_000;
+
+/** @type {import('playwright-core').Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serve>>} */
+let server;
+
+const missing = browserMissing();
+if (!missing) {
+  before(async () => {
+    server = await serve({ port: 0 });
+    browser = await chromium.launch({ executablePath, args });
+  });
+  after(async () => {
+    await browser?.close();
+    await server?.close();
+  });
+}
+
+/** @returns {string | false} why the tests cannot run */
+function browserMissing() {
+  try {
+    accessSync(executablePath, constants.X_OK);
+    return false;
+  } catch {
+    assert.notEqual(process.env.CI, 'true', `in CI the page has to be tested: ${executablePath} is no browser`);
+    return `no browser at ${executablePath}`;
+  }
+}
+
+/**
+ * A test on a page of its own. It also fails when the page writes to the console, throws,
+ * breaks its security policy (which Chromium reports as errors) or asks any other origin.
+ * @param {string} name
+ * @param {(page: Page) => Promise<void>} body
+ * @param {import('playwright-core').BrowserContextOptions} [options]
+ */
+export function pageTest(name, body, options = {}) {
+  test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+    context.setDefaultTimeout(PATIENCE);
+    try {
+      const page = await context.newPage();
+      const incidents = watch(page);
+      await page.goto(server.url);
+      await settled(page);
+      await body(page);
+      assert.deepEqual(incidents, []);
+    } finally {
+      await context.close();
+    }
+  });
+}
+
+/**
+ * Collects what must not happen.
+ * @param {Page} page
+ */
+function watch(page) {
+  const home = new URL(server.url).origin;
+  /** @type {string[]} */
+  const incidents = [];
+  page.on('console', (message) => {
+    if (message.type() !== 'log') incidents.push(`${message.type()}: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => incidents.push(`uncaught: ${error.message}`));
+  page.on('requestfailed', (request) => incidents.push(`failed: ${request.url()}`));
+  page.on('request', (request) => {
+    const { origin } = new URL(request.url());
+    if (origin !== home) incidents.push(`request to ${request.url()}`);
+  });
+  return incidents;
+}
+
+/**
+ * Waits for the run under way, and for the start before the first one, to end.
+ * @param {Page} page
+ */
+export async function settled(page) {
+  await page.locator('#page[data-phase="idle"]').waitFor();
+  await painted(page);
+}
+
+/**
+ * Does something that starts a run, and waits for its end.
+ * @param {Page} page
+ * @param {() => Promise<unknown>} act
+ */
+export async function runBy(page, act) {
+  const ended = page.evaluate(() => new Promise((resolve) => {
+    const main = document.querySelector('#page');
+    if (!main) throw new Error('no page');
+    let ran = false;
+    const observer = new MutationObserver(() => {
+      const { phase } = /** @type {HTMLElement} */ (main).dataset;
+      if (phase === 'running') ran = true;
+      if (phase !== 'idle' || !ran) return;
+      observer.disconnect();
+      resolve(null);
+    });
+    observer.observe(main, { attributes: true });
+  }));
+  await act();
+  await ended;
+  await painted(page);
+}
+
+/**
+ * Waits until what was asked for is drawn.
+ * @param {Page} page
+ */
+export async function painted(page) {
+  await page.evaluate(() => new Promise((resolve) => {
+    requestAnimationFrame(() => requestAnimationFrame(resolve));
+  }));
+}
+
+/**
+ * The text beside a name in the report.
+ * @param {Page} page
+ * @param {string} name
+ */
+export async function reported(page, name) {
+  const row = page.locator('#report-table tr').filter({ has: page.getByRole('rowheader', { name, exact: true }) });
+  return (await row.locator('td').first().innerText()).trim();
+}
+
+/**
+ * What a canvas shows, as a hash and as the mean difference in brightness between
+ * horizontal neighbours that are both covered.
+ * @param {Page} page
+ * @param {string} selector
+ */
+export function look(page, selector) {
+  return page.locator(selector).evaluate((canvas) => {
+    if (!(canvas instanceof HTMLCanvasElement)) throw new Error('not a canvas');
+    const { width, height } = canvas;
+    const { data } = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')).getImageData(0, 0, width, height);
+    let [hash, covered, pairs, sum] = [0, 0, 0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      hash = (Math.imul(hash, 31) + data[i] + 256 * data[i + 3]) | 0;
+      if (data[i + 3] === 255) covered++;
+      if (i % (4 * width) === 0 || data[i + 3] < 255 || data[i - 1] < 255) continue;
+      sum += Math.abs(data[i] - data[i - 4]);
+      pairs++;
+    }
+    return { hash, covered: covered / (width * height), roughness: sum / pairs };
+  });
+}
+
+/**
+ * Drops a file onto the middle of the page.
+ * @param {Page} page
+ * @param {string} name
+ * @param {Buffer} bytes
+ */
+export async function drop(page, name, bytes) {
+  const transfer = await page.evaluateHandle(({ name, content }) => {
+    const data = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([data], name));
+    return transfer;
+  }, { name, content: bytes.toString('base64') });
+  for (const type of ['dragenter', 'dragover', 'drop']) {
+    await page.dispatchEvent('main', type, { dataTransfer: transfer });
+  }
+}
+
+/**
+ * What a click on one of the save buttons downloads.
+ * @param {Page} page
+ * @param {'NPY' | 'PNG' | 'OBJ'} format
+ */
+export async function save(page, format) {
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByRole('button', { name: format, exact: true }).click(),
+  ]);
+  const pieces = [];
+  for await (const piece of await download.createReadStream()) pieces.push(piece);
+  return { name: download.suggestedFilename(), bytes: Buffer.concat(pieces) };
+}

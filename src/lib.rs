@@ -2,6 +2,7 @@
 
 mod domain;
 mod error;
+mod examples;
 #[cfg(feature = "formats")]
 pub mod formats;
 mod heightfield;
@@ -18,6 +19,7 @@ mod wasm;
 
 pub use domain::{Domain, Role};
 pub use error::{Error, MAX_CELLS, Result};
+pub use examples::{Example, ExampleOptions, Sample};
 pub use heightfield::{HeightImage, Heightfield};
 pub use hessian::HessianOperator;
 pub use lattice::Lattice;

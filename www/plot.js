@@ -16,7 +16,7 @@ import { number, superscript } from './format.js';
  * @property {number} xMax the x-axis begins at 0
  * @property {[number, number]} yRange both above 0
  * @property {string} title
- * @property {string} [xLabel] without it the axis has no numbers
+ * @property {string} xLabel
  * @property {{ ink: string, muted: string, line: string }} palette
  */
 
@@ -57,12 +57,10 @@ export function drawAxes(context, axes) {
   for (const tick of linearTicks(xMax, box.width / ROOM.across)) {
     const at = Math.round(x(tick)) + 0.5;
     rule(context, at, box.top, at, bottom);
-    if (xLabel) context.fillText(number(tick), at, bottom + 5);
+    context.fillText(number(tick), at, bottom + 5);
   }
-  if (xLabel) {
-    context.textAlign = 'right';
-    context.fillText(xLabel, box.left + box.width, bottom + 20);
-  }
+  context.textAlign = 'right';
+  context.fillText(xLabel, box.left + box.width, bottom + 20);
   context.fillStyle = palette.ink;
   context.textAlign = 'left';
   context.textBaseline = 'bottom';
@@ -141,8 +139,8 @@ export function drawLevel(context, axes, value, label) {
   context.restore();
   context.fillStyle = palette.muted;
   context.textAlign = 'left';
-  context.textBaseline = 'bottom';
-  context.fillText(label, box.left + 5, at - 2);
+  context.textBaseline = 'top';
+  context.fillText(label, box.left + 5, at + 3);
 }
 
 /**
@@ -171,7 +169,7 @@ export function linearTicks(max, most) {
 }
 
 /**
- * Powers of ten within the range, with 2 and 5 times them where there is room.
+ * Powers of ten within the range, with round multiples of them where there is room.
  * @param {readonly [number, number]} range
  * @param {number} most
  */
@@ -183,7 +181,7 @@ export function logTicks([low, high], most) {
     }
     return found.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
   };
-  const choices = [[1, 2, 5], [1, 3], [1]].map(ticks);
+  const choices = [[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8], [1, 2, 5], [1, 3], [1]].map(ticks);
   const fitting = choices.find((choice) => choice.length <= most);
   if (fitting) return fitting;
   const powers = choices[choices.length - 1];
@@ -195,6 +193,6 @@ export function logTicks([low, high], most) {
 function tickLabel(tick) {
   if (tick >= 1e-3 && tick < 1e5) return number(tick);
   const exponent = Math.floor(Math.log10(tick) + 1e-9);
-  const mantissa = Math.round(tick / 10 ** exponent);
+  const mantissa = Number((tick / 10 ** exponent).toPrecision(2));
   return `${mantissa === 1 ? '' : `${mantissa}·`}10${superscript(exponent)}`;
 }

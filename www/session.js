@@ -34,7 +34,7 @@
 
 /**
  * @typedef {object} Events
- * @property {Input} input another input, or the same at another scale
+ * @property {Input} input another input, or the same understood otherwise
  * @property {Settings} start a run has begun
  * @property {Progress} progress
  * @property {Result} result
@@ -133,12 +133,12 @@ export class Session {
   }
 
   /**
-   * The same heights at another scale.
-   * @param {{ pixelSize: number, heightScale: number }} scale
+   * The same input, understood otherwise.
+   * @param {Partial<Pick<Input, 'data' | 'pixelSize' | 'heightScale'>>} change
    */
-  rescale(scale) {
+  amend(change) {
     if (!this.input) return;
-    this.input = { ...this.input, ...scale };
+    this.input = { ...this.input, ...change };
     this.#emit('input', this.input);
     if (this.#tried) void this.run();
   }

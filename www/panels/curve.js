@@ -9,7 +9,9 @@ import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
 
 /** @typedef {Pick<Progress, 'level' | 'iteration' | 'elapsed' | 'objective' | 'dualBound' | 'gap'>} Moment */
 
-const MARGIN = { left: 46, right: 10, top: 22, between: 34, bottom: 38 };
+const MARGIN = { left: 46, right: 10, top: 22, bottom: 38 };
+/** From this width on the two plots stand side by side. */
+const WIDE = 600;
 /** How much of what lies beyond the final value is shown, as a factor. */
 const REACH = 4;
 
@@ -83,9 +85,16 @@ function drawMoments(canvas, moments, along, target) {
 
   const last = moments[moments.length - 1];
   const xMax = Math.max(last?.[along] ?? 0, along === 'iteration' ? 10 : 0.01);
-  const inner = height - MARGIN.top - MARGIN.between - MARGIN.bottom;
-  const common = { xMax, palette };
-  const place = { left: MARGIN.left, width: width - MARGIN.left - MARGIN.right, height: inner / 2 };
+  const wide = width >= WIDE;
+  const cell = { width: wide ? width / 2 : width, height: wide ? height : height / 2 };
+  /** @param {number} col @param {number} row */
+  const box = (col, row) => ({
+    left: col * cell.width + MARGIN.left,
+    top: row * cell.height + MARGIN.top,
+    width: cell.width - MARGIN.left - MARGIN.right,
+    height: cell.height - MARGIN.top - MARGIN.bottom,
+  });
+  const common = { xMax, palette, xLabel: along === 'iteration' ? 'iterations' : 'seconds' };
   // Coarser lattices pose smaller problems: their gaps compare with the final ones, their energies do not.
   const fine = moments.filter((moment) => moment.level === 0);
   /** @type {(some: readonly Moment[], key: 'objective' | 'dualBound') => [number, number][]} */
@@ -93,7 +102,7 @@ function drawMoments(canvas, moments, along, target) {
 
   /** @type {Axes} */
   const energy = {
-    ...common, title: 'Energy', yRange: energyRange(fine), box: { ...place, top: MARGIN.top },
+    ...common, title: 'Energy', yRange: energyRange(fine), box: box(0, 0),
   };
   /** @type {Curve[]} */
   const bounds = [
@@ -108,8 +117,7 @@ function drawMoments(canvas, moments, along, target) {
   /** @type {Axes} */
   const gap = {
     ...common, title: 'Gap between them, in %', yRange: [50 * least, 150],
-    xLabel: along === 'iteration' ? 'iterations' : 'seconds',
-    box: { ...place, top: MARGIN.top + inner / 2 + MARGIN.between },
+    box: wide ? box(1, 0) : box(0, 1),
   };
   const coarse = { label: 'coarser lattices', colour: colour('--edge'), points: gapsByLevel(moments, along, false) };
   drawAxes(context, gap);

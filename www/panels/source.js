@@ -18,6 +18,9 @@ export function sourcePanel(session) {
   const pixelSize = element('pixel-size', HTMLInputElement);
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
+  const zero = element('zero-is-nothing', HTMLInputElement);
+  /** The open file's values as they are stored. @type {Float64Array} */
+  let stored = new Float64Array();
 
   /** Generates the chosen example and, as it is quick and needs no further word, solves it. */
   const openExample = async () => {
@@ -34,24 +37,38 @@ export function sourcePanel(session) {
   };
 
   /** @param {File} chosen */
-  const openFile = (chosen) =>
-    session.open(`“${chosen.name}” could not be read`, async () => {
-      const { format, dataType, ...heights } = await session.api.read(chosen);
-      if (!heights.data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
-      const { width, height, data, pixelSize: side, heightScale: step } = heights;
+  const openFile = async (chosen) => {
+    /** @type {Float64Array} */
+    let values = stored;
+    const opened = await session.open(`“${chosen.name}” could not be read`, async () => {
+      const { format, dataType, width, height, data, pixelSize: side, heightScale: step } = await session.api.read(chosen);
+      if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
+      values = data;
+      const name = chosen.name.replace(/\.[^.]*$/, '') || 'heights';
       const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
-      return { name: chosen.name.replace(/\.[^.]*$/, '') || 'heights', kind, width, height, data, pixelSize: side, heightScale: step };
+      return { name, kind, width, height, data, pixelSize: side, heightScale: step };
     });
+    if (!opened) return;
+    stored = values;
+    zero.checked = false;
+  };
+
+  const dropZeros = () => {
+    const data = zero.checked ? stored.map((value) => (value === 0 ? NaN : value)) : stored;
+    if (data.some(Number.isFinite)) session.amend({ data });
+    else session.fail('The zeros could not be taken as “no data”', new Error('nothing else would be left'));
+  };
 
   const rescale = () => {
     pixelSize.setCustomValidity(pixelSize.valueAsNumber > 0 ? '' : 'The pixel size must be above 0.');
     heightScale.setCustomValidity(Math.abs(heightScale.valueAsNumber) > 0 ? '' : 'The height scale must not be 0.');
     if (!pixelSize.reportValidity() || !heightScale.reportValidity()) return;
-    session.rescale({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber });
+    session.amend({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber });
   };
 
   for (const control of [...radios, size, noise]) control.addEventListener('change', openExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
+  zero.addEventListener('change', dropZeros);
   element('open', HTMLButtonElement).addEventListener('click', () => file.click());
   file.addEventListener('change', () => {
     const chosen = file.files?.[0];
@@ -59,7 +76,7 @@ export function sourcePanel(session) {
     // So that choosing the same file again, perhaps mended, is a change.
     file.value = '';
   });
-  watchDrops((dropped) => void openFile(dropped));
+  watchDrops(openFile);
 
   session.on('input', (input) => {
     const isFile = input.kind !== undefined;

@@ -40,7 +40,7 @@ export function parseNpy(bytes) {
   const start = bytes[6] === 1 ? 10 : 12;
   const header = bytes.toString('latin1', start, start + length);
   if (!header.includes("'<f8'")) throw new Error(`not 64-bit floats: ${header}`);
-  const [, rows, cols] = /\((\d+), (\d+)\)/.exec(header) ?? [];
+  const [, rows, cols] = /\((\d+),\s*(\d+)[,\s]*\)/.exec(header) ?? [];
   const data = bytes.subarray(start + length);
   const values = Array.from({ length: data.length / 8 }, (_, i) => data.readDoubleLE(8 * i));
   return { rows: Number(rows), cols: Number(cols), values };

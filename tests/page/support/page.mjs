@@ -116,8 +116,7 @@ export async function runBy(page, act) {
     });
     observer.observe(main, { attributes: true });
   }));
-  await act();
-  await ended;
+  await Promise.all([ended, act()]);
   await painted(page);
 }
 
@@ -151,7 +150,11 @@ export function look(page, selector) {
   return page.locator(selector).evaluate((canvas) => {
     if (!(canvas instanceof HTMLCanvasElement)) throw new Error('not a canvas');
     const { width, height } = canvas;
-    const { data } = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')).getImageData(0, 0, width, height);
+    // From a copy, as reading changes how a canvas is kept.
+    const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    if (!copy) throw new Error('no canvas to copy to');
+    copy.drawImage(canvas, 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
     let [hash, covered, pairs, sum] = [0, 0, 0, 0];
     for (let i = 0; i < data.length; i += 4) {
       hash = (Math.imul(hash, 31) + data[i] + 256 * data[i + 3]) | 0;

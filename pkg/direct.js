@@ -109,22 +109,30 @@ export function read(bytes, options) {
 /** @type {typeof import('./direct.js').writeNpy} */
 export function writeNpy(input) {
   const field = asField(input);
-  return call((wasm) => (field.kind === 'image' ? wasm.writeImageNpy(field) : wasm.writeLatticeNpy(field)));
+  return bytesOf((wasm) => (field.kind === 'image' ? wasm.writeImageNpy(field) : wasm.writeLatticeNpy(field)));
 }
 
 /** @type {typeof import('./direct.js').writePng} */
 export function writePng(input) {
   const image = asImage(input);
-  return call((wasm) => wasm.writePng(image));
+  return bytesOf((wasm) => wasm.writePng(image));
 }
 
 /** @type {typeof import('./direct.js').writeObj} */
 export function writeObj(input) {
   const lattice = asLattice(input);
-  return call((wasm) => wasm.writeObj(lattice));
+  return bytesOf((wasm) => wasm.writeObj(lattice));
 }
 
 /** @type {typeof import('./direct.js').example} */
 export function example(name, options) {
   return call((wasm) => wasm.example(name, options));
+}
+
+/**
+ * A file, in memory that is not shared: only the type needs to be told.
+ * @param {(wasm: import('./instance.js').Wasm) => Uint8Array} write
+ */
+function bytesOf(write) {
+  return /** @type {Uint8Array<ArrayBuffer>} */ (call(write));
 }

@@ -1,0 +1,70 @@
+/** The command: what to do, how it ends. */
+import { readFile } from 'node:fs/promises';
+import { DevelopableError, dispose } from '../index.js';
+import { messageOf } from '../errors.js';
+import { Problem, status } from './problem.js';
+import { parse } from './arguments.js';
+import { fit } from './fit.js';
+import { help } from './help.js';
+
+/**
+ * @param {string[]} args
+ * @returns {Promise<number>} the exit status
+ */
+export async function main(args) {
+  const interruption = new AbortController();
+  // Once each: who asks again gets it at once.
+  for (const [signal, code] of Object.entries({ SIGINT: status.interrupted, SIGTERM: status.terminated })) {
+    process.once(signal, () => interruption.abort(new Problem(code, '')));
+  }
+  try {
+    const task = parse(args);
+    if (task.command === 'help') process.stdout.write(help);
+    else if (task.command === 'version') process.stdout.write(`${await version()}\n`);
+    else await fit(task, interruption.signal);
+    return status.success;
+  } catch (error) {
+    const problem = interruption.signal.aborted ? interruption.signal.reason : explain(error);
+    if (problem.message) process.stderr.write(`developable: ${problem.message}\n`);
+    return problem.status;
+  } finally {
+    dispose();
+  }
+}
+
+/**
+ * @param {unknown} error
+ * @returns {Problem}
+ */
+function explain(error) {
+  if (error instanceof Problem) return error;
+  if (!(error instanceof DevelopableError)) {
+    return new Problem(status.failure, error instanceof Error && error.stack ? error.stack : messageOf(error));
+  }
+  switch (error.code) {
+    case 'OPTION':
+      return new Problem(status.usage, asFlags(error.message));
+    case 'INIT':
+    case 'TRAP':
+    case 'WORKER':
+      return new Problem(status.failure, error.message);
+    default:
+      return new Problem(status.input, error.message);
+  }
+}
+
+/**
+ * `maxIterations` is `--max-iterations` here.
+ * @param {string} message
+ */
+function asFlags(message) {
+  return message.replace(
+    /option `(\w+)`/,
+    (_, name) => `--${name.replace(/[A-Z]/g, (/** @type {string} */ letter) => `-${letter.toLowerCase()}`)}`,
+  );
+}
+
+async function version() {
+  const manifest = await readFile(new URL('../package.json', import.meta.url), 'utf8');
+  return JSON.parse(manifest).version;
+}

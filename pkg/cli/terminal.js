@@ -1,0 +1,36 @@
+/** What people see while they wait: only on a terminal, so that scripts get silence. */
+
+const terminal = process.stderr;
+
+/** One line that is written over and over. */
+export function progressLine() {
+  const shown = terminal.isTTY === true;
+  return {
+    shown,
+    /** @param {import('../types.js').Progress} progress */
+    show({ iteration, gap, elapsed }) {
+      terminal.write(`\r\x1b[Kiteration ${iteration}, gap ${percent(gap)}, ${elapsed.toFixed(1)} s`);
+    },
+    clear() {
+      if (shown) terminal.write('\r\x1b[K');
+    },
+  };
+}
+
+/**
+ * @param {string} output
+ * @param {import('../types.js').Report} report
+ */
+export function announce(output, { interior, boundary, omitted, iterations, gap, seconds }) {
+  if (!terminal.isTTY) return;
+  const vertices = interior + boundary + omitted;
+  terminal.write(
+    `${output}: ${vertices} vertices, within ${percent(gap)} of the optimum ` +
+      `after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`,
+  );
+}
+
+/** @param {number} share */
+export function percent(share) {
+  return `${Number((100 * share).toPrecision(3))} %`;
+}

@@ -17,7 +17,7 @@ export function count(n) {
 export function number(value, digits = 3) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e6 || size < 1e-3)) return scientific(value, digits);
+  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return scientific(value, digits);
   return value
     .toLocaleString('en', { maximumSignificantDigits: digits })
     .replaceAll(',', NARROW)

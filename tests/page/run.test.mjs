@@ -6,12 +6,11 @@ import { look, pageTest, reported, runBy, settled } from './support/page.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 /**
- * Makes the run long enough to be interrupted: many vertices, and a gap far below what it takes a blink to reach.
+ * Starts a run that is long enough to be interrupted, by asking for a gap far below the usual one.
  * @param {Page} page
  */
 async function startLongRun(page) {
   await page.locator('summary').click();
-  await runBy(page, () => page.locator('#size').selectOption('400'));
   await page.getByLabel('Stop at a certified gap of').selectOption('0.0001');
   await page.locator('#page[data-phase="running"]').waitFor();
   await page.locator('#progress-text', { hasText: 'iterations' }).waitFor();

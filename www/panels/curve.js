@@ -9,7 +9,7 @@ import { drawAxes, drawCurve, drawLegend, drawLevel } from '../plot.js';
 
 /** @typedef {Pick<Progress, 'level' | 'iteration' | 'elapsed' | 'objective' | 'dualBound' | 'gap'>} Moment */
 
-const MARGIN = { left: 46, right: 10, top: 22, bottom: 38 };
+const MARGIN = { left: 54, right: 10, top: 22, bottom: 38 };
 /** From this width on the two plots stand side by side. */
 const WIDE = 600;
 /** How much of what lies beyond the final value is shown, as a factor. */

@@ -61,7 +61,8 @@ function work(report) {
     title: 'Work',
     lines: [
       line('λ', number(report.lambda), 'Weight of the fidelity, in the unit square.'),
-      line('Iterations', count(report.iterations), 'Of ADMM.'),
+      line('Lattices', count(report.levels.length), `From coarse to fine, with ${report.levels.map(({ interior }) => count(interior)).join(', ')} interior vertices.`),
+      line('Iterations', count(report.iterations), `Of ADMM; ${count(report.levels.at(-1)?.iterations ?? 0)} of them on the finest lattice.`),
       line('CG iterations', count(report.cgIterations), 'Conjugate gradients, within its z-steps.'),
       line('ρ', number(report.rho), 'The last penalty; adapted as it goes.'),
       line('Scale', number(report.scale, 4), 'From the input’s units to the unit square.'),

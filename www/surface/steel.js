@@ -17,9 +17,9 @@ const tones = tabulate();
  */
 function studio(cosine) {
   const room = ((1 + cosine) / 2) ** 2;
-  const window = Math.exp((cosine - 1) / 0.07);
+  const window = Math.exp((cosine - 1) / 0.13);
   const panel = Math.exp(-(((cosine + 0.5) / 0.22) ** 2));
-  return 0.13 + 0.55 * room + 0.32 * window + 0.16 * panel;
+  return 0.12 + 0.46 * room + 0.42 * window + 0.2 * panel;
 }
 
 /** The studio in steel's colour at evenly spaced cosines, as the canvas' bytes. */
@@ -28,7 +28,7 @@ function tabulate() {
   for (let i = 0; i < TONES; i++) {
     const tone = studio((2 * i) / (TONES - 1) - 1);
     // Bluish in the shade, white in the light.
-    const tint = 0.06 * (1 - tone);
+    const tint = 0.1 * (1 - tone);
     bytes.set([255 * tone * (1 - tint), 255 * tone, 255 * tone * (1 + 1.3 * tint), 255], 4 * i);
   }
   return new Uint32Array(bytes.buffer);

@@ -51,17 +51,46 @@ function browserMissing() {
  * @param {(page: Page) => Promise<void>} body
  * @param {import('playwright-core').BrowserContextOptions} [options]
  */
-export function pageTest(name, body, options = {}) {
+export function pageTest(name, body, options) {
+  inChromium(name, async (page) => {
+    const incidents = watch(page);
+    await page.goto(server.url);
+    await settled(page);
+    await body(page);
+    assert.deepEqual(incidents, []);
+  }, options);
+}
+
+/**
+ * A test of how the page starts when something is missing.
+ * @param {string} name
+ * @param {(page: Page) => Promise<unknown>} spoil takes it away before the page is loaded
+ * @param {(page: Page) => Promise<void>} body
+ */
+export function brokenStartTest(name, spoil, body) {
+  inChromium(name, async (page) => {
+    /** @type {string[]} */
+    const uncaught = [];
+    page.on('pageerror', (error) => uncaught.push(error.message));
+    await spoil(page);
+    await page.goto(server.url);
+    await page.locator('#page[data-phase="failed"]').waitFor();
+    await body(page);
+    assert.deepEqual(uncaught, []);
+  });
+}
+
+/**
+ * @param {string} name
+ * @param {(page: Page) => Promise<void>} body
+ * @param {import('playwright-core').BrowserContextOptions} [options]
+ */
+function inChromium(name, body, options = {}) {
   test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
     context.setDefaultTimeout(PATIENCE);
     try {
-      const page = await context.newPage();
-      const incidents = watch(page);
-      await page.goto(server.url);
-      await settled(page);
-      await body(page);
-      assert.deepEqual(incidents, []);
+      await body(await context.newPage());
     } finally {
       await context.close();
     }

@@ -91,7 +91,7 @@ fn numpy_files_that_are_no_height_image_say_why() {
         ("cube.npy", "UNSUPPORTED", "[2, 3, 4]"),
         ("complex.npy", "UNSUPPORTED", "<c16"),
         ("text.npy", "UNSUPPORTED", "<U2"),
-        ("record.npy", "UNSUPPORTED", "type"),
+        ("record.npy", "UNSUPPORTED", "records"),
         ("object.npy", "UNSUPPORTED", "|O"),
         ("empty.npy", "EMPTY", "empty"),
     ] {

@@ -107,7 +107,9 @@ impl Header {
             let key = rest.quoted().filter(|_| rest.eat(":"));
             let value = match key {
                 Some("descr") if rest.eat("[") => {
-                    return Err(unsupported_type("with several fields"));
+                    return Err(unsupported(
+                        "an array of records; only arrays of plain numbers are read".into(),
+                    ));
                 }
                 Some("descr") => rest.quoted().map(|descr| plain = Some(descr)),
                 Some("fortran_order") => rest.boolean().map(|v| fortran_order = Some(v)),

@@ -56,7 +56,7 @@ export function percentAtMost(share) {
 
 /** @param {number} s */
 export function seconds(s) {
-  return s < 0.01 ? `${number(1000 * s, 2)}${BREAKLESS}ms` : `${number(s, s < 100 ? 2 : 3)}${BREAKLESS}s`;
+  return s < 0.1 ? `${number(1000 * s, 2)}${BREAKLESS}ms` : `${number(s, s < 100 ? 2 : 3)}${BREAKLESS}s`;
 }
 
 /**

@@ -129,3 +129,15 @@ pageTest('the dark scheme is dark', async (page) => {
   });
   assert.ok(Math.max(...paper) < 64 && Math.min(...ink) > 192, `${ink} on ${paper}`);
 }, { colorScheme: 'dark' });
+
+pageTest('a tap moves the light, too', async (page) => {
+  const canvas = page.locator('#result-canvas');
+  const before = [await canvas.getAttribute('aria-valuetext'), ...await looks(page)];
+  const box = await canvas.boundingBox();
+  assert.ok(box);
+  await canvas.tap({ position: { x: box.width * 0.7, y: box.height * 0.7 } });
+  await painted(page);
+  const after = [await canvas.getAttribute('aria-valuetext'), ...await looks(page)];
+  after.forEach((value, i) => assert.notEqual(value, before[i]));
+  assert.match(String(after[0]), /lower right/);
+}, { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true });

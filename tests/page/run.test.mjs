@@ -6,11 +6,13 @@ import { look, pageTest, reported, runBy, settled } from './support/page.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 /**
- * Starts a run that is long enough to be interrupted, by asking for a gap far below the usual one.
+ * Starts a run that is long enough to be interrupted: a small λ, and a gap far below the usual one.
  * @param {Page} page
  */
 async function startLongRun(page) {
   await page.locator('summary').click();
+  await runBy(page, () => page.locator('#size').selectOption('200'));
+  await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
   await page.getByLabel('Stop at a certified gap of').selectOption('0.0001');
   await page.locator('#page[data-phase="running"]').waitFor();
   await page.locator('#progress-text', { hasText: 'iterations' }).waitFor();
@@ -86,6 +88,9 @@ pageTest('cancel reacts within a quarter of a second and keeps the best surface,
         resolve(performance.now() - start);
       }).observe(main, { attributes: true });
       /** @type {HTMLButtonElement} */ (document.querySelector('#cancel')).click();
+      // At once there is a word that it was heard.
+      const word = document.querySelector('#progress-text')?.textContent;
+      if (word !== 'Stopping…') resolve(Infinity);
     }));
     quickest = Math.min(quickest, wait);
   }

@@ -116,10 +116,10 @@ function drawMoments(canvas, moments, along, target) {
   const least = Math.min(target, ...fine.map((m) => m.gap).filter((gap) => gap > 0));
   /** @type {Axes} */
   const gap = {
-    ...common, title: 'Gap between them, in %', yRange: [50 * least, 150],
+    ...common, title: 'Gap in %', yRange: [50 * least, 150],
     box: wide ? box(1, 0) : box(0, 1),
   };
-  const coarse = { label: 'coarser lattices', colour: colour('--edge'), points: gapsByLevel(moments, along, false) };
+  const coarse = { label: 'on coarser lattices', colour: colour('--edge'), points: gapsByLevel(moments, along, false) };
   drawAxes(context, gap);
   if (coarse.points.length > 0) drawLegend(context, gap, [coarse]);
   drawLevel(context, gap, 100 * target, 'wanted');

@@ -132,20 +132,22 @@ export async function settled(page) {
  * @param {() => Promise<unknown>} act
  */
 export async function runBy(page, act) {
-  const ended = page.evaluate(() => new Promise((resolve) => {
-    const main = document.querySelector('#page');
-    if (!main) throw new Error('no page');
+  // The watch is set before the act, in a call of its own, or a quick run is over before it is seen.
+  const ended = await page.evaluateHandle(() => {
+    const main = /** @type {HTMLElement} */ (document.querySelector('#page'));
     let ran = false;
-    const observer = new MutationObserver(() => {
-      const { phase } = /** @type {HTMLElement} */ (main).dataset;
-      if (phase === 'running') ran = true;
-      if (phase !== 'idle' || !ran) return;
-      observer.disconnect();
-      resolve(null);
+    const promise = new Promise((resolve) => {
+      new MutationObserver((_, observer) => {
+        if (main.dataset.phase === 'running') ran = true;
+        if (main.dataset.phase !== 'idle' || !ran) return;
+        observer.disconnect();
+        resolve(null);
+      }).observe(main, { attributes: true });
     });
-    observer.observe(main, { attributes: true });
-  }));
-  await Promise.all([ended, act()]);
+    return { promise };
+  });
+  await act();
+  await ended.evaluate(({ promise }) => promise);
   await painted(page);
 }
 

@@ -1,6 +1,6 @@
 /** Reading files, and writing them whole or not at all. */
 import { constants } from 'node:fs';
-import { access, open, readFile, realpath, rename, rm } from 'node:fs/promises';
+import { access, open, readFile, realpath, rename, rm, stat } from 'node:fs/promises';
 import { basename, dirname, join } from 'node:path';
 import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
@@ -18,14 +18,19 @@ export async function readBytes(path) {
 }
 
 /**
- * Whether files can be made beside this one: better known before the work than after it.
+ * Whether a file can be put here: better known before the work than after it.
  * @param {string} path
  */
-export async function checkFolder(path) {
+export async function checkPlace(path) {
+  const target = await followed(path);
   try {
-    await access(dirname(await followed(path)), constants.W_OK);
+    await access(dirname(target), constants.W_OK);
   } catch (error) {
     throw failed(`cannot write ${path}`, error);
+  }
+  const there = await stat(target).catch(() => undefined);
+  if (there && !there.isFile()) {
+    throw new Problem(status.input, `cannot write ${path}: it is there and no file`);
   }
 }
 

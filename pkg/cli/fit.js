@@ -1,6 +1,6 @@
 /** `developable fit`. */
 import * as developable from '../index.js';
-import { checkFolder, readBytes, writeWhole } from './files.js';
+import { checkPlace, readBytes, writeWhole } from './files.js';
 import { Problem, status } from './problem.js';
 import { announce, percent, progressLine } from './terminal.js';
 
@@ -15,8 +15,8 @@ import { announce, percent, progressLine } from './terminal.js';
  * @param {AbortSignal} signal
  */
 export async function fit(task, signal) {
-  await checkFolder(task.output);
-  if (task.report !== undefined) await checkFolder(task.report);
+  await checkPlace(task.output);
+  if (task.report !== undefined) await checkPlace(task.report);
   const input = await readInput(task);
   const options = task.lattice === 'hex' ? task.options : { ...task.options, spacing: task.spacing };
   const line = progressLine();

@@ -13,11 +13,12 @@ Usage: developable fit INPUT -o OUTPUT [options]
   --schedule S           default, or paper: the published schedule, which stops
                          on residuals
   --max-iterations N     most iterations (default 20000)
-  --lattice L            square (the default): INPUT is an image; hex: its values
-                         are on the hexagonal lattice already (odd rows half a
-                         spacing to the left, 0 or NaN is no data) and so is OUTPUT
-  --spacing S            distance of neighbours on the lattice (default: the size
-                         of a pixel, which is 1 unless the file says otherwise)
+  --lattice L            square (the default): INPUT is an image; hex: its
+                         values are on the hexagonal lattice already (odd rows
+                         half a spacing to the left, 0 or NaN is no data), and
+                         so are those of OUTPUT
+  --spacing S            distance of neighbours on the lattice (default: the
+                         size of a pixel: 1 unless the file says otherwise)
   --height-scale S       factor from the file's values to heights (default: what
                          the file says; for a PNG that says nothing, white is a
                          quarter of the longer side above black; 1 for NPY)

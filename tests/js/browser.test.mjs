@@ -1,0 +1,148 @@
+/** The package as plain modules in a page with a strict content security policy. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, openPage, serve, skip } from './support/browser.mjs';
+import { temporaryFolder } from './support/command.mjs';
+import { pkg, wasmFile } from './support/paths.mjs';
+import { trapping } from './support/wasm-surgery.mjs';
+
+const site = await temporaryFolder();
+// What the tests use lies in a file: the policy forbids scripts in the page.
+await writeFile(join(site, 'index.html'), `<!doctype html>
+  <link rel="icon" href="data:,">
+  <script type="module" src="/page.js"></script>
+`);
+await writeFile(join(site, 'page.js'), `
+  import * as developable from '/pkg/index.js';
+  import * as direct from '/pkg/direct.js';
+  globalThis.developable = developable;
+  globalThis.direct = direct;
+  globalThis.plane = (width, height) => ({
+    width, height,
+    data: Float64Array.from({ length: width * height }, (_, i) => 0.3 * (i % width) - 0.2 * Math.floor(i / width)),
+  });
+  globalThis.endless = async () => ({
+    input: (await developable.example('roof', { size: 200, noise: 0.1 })).input,
+    options: { lambda: 'small', gap: 1e-12, maxIterations: 1e9 },
+  });
+  globalThis.outcome = (promise) => promise.then((value) => ({ value }), ({ name, code }) => ({ name, code }));
+`);
+
+/** @type {import('playwright-core').Browser} */
+let browser;
+/** @type {Awaited<ReturnType<typeof serve>>} */
+let server;
+
+if (!skip) {
+  before(async () => {
+    await writeFile(join(site, 'broken.wasm'), trapping(await readFile(wasmFile), 'solver_surface'));
+    server = await serve({ '/pkg/': pkg, '/': site });
+    browser = await launch();
+  });
+  after(async () => {
+    await browser?.close();
+    await server?.close();
+  });
+}
+
+/**
+ * @param {string} name
+ * @param {(page: import('playwright-core').Page) => Promise<void>} body
+ * @param {RegExp[]} [expected] incidents
+ */
+function inPage(name, body, expected = []) {
+  test(name, { skip }, async () => {
+    const { page, incidents } = await openPage(browser, server.url);
+    await body(page);
+    assert.deepEqual(incidents.filter((text) => !expected.some((pattern) => pattern.test(text))), []);
+    await page.close();
+  });
+}
+
+inPage('a worker solves, without blob: or eval', async (page) => {
+  const result = await page.evaluate(`(async () => {
+    const input = plane(20, 15);
+    const surface = await developable.fit(input);
+    return {
+      most: Math.max(...surface.image.data.map((z, i) => Math.abs(z - input.data[i]))),
+      reason: surface.report.stopReason,
+      real: surface.heights instanceof Float64Array,
+    };
+  })()`);
+  assert.ok(result.most < 1e-9);
+  assert.deepEqual([result.reason, result.real], ['rounding', true]);
+});
+
+inPage('progress comes, and an abort stops the work while the page stays alive', async (page) => {
+  const result = await page.evaluate(`(async () => {
+    const { input, options } = await endless();
+    const controller = new AbortController();
+    let told = 0, frames = 0;
+    const count = () => { frames += 1; requestAnimationFrame(count); };
+    requestAnimationFrame(count);
+    const { signal } = controller;
+    const solve = outcome(developable.fit(input, { ...options, signal, onProgress: () => { told += 1; } }));
+    await new Promise((resolve) => setTimeout(resolve, 800));
+    const start = performance.now();
+    controller.abort();
+    const { name } = await solve;
+    const rejected = performance.now() - start;
+    await developable.example('cone', { size: 8 });
+    const idle = performance.now() - start;
+    return { name, told, frames, rejected, idle };
+  })()`);
+  assert.equal(result.name, 'AbortError');
+  assert.ok(result.told >= 2 && result.frames >= 5, JSON.stringify(result));
+  assert.ok(result.rejected < 50 && result.idle < 250, JSON.stringify(result));
+});
+
+inPage('an abort can keep the best surface', async (page) => {
+  const reason = await page.evaluate(`(async () => {
+    const { input, options } = await endless();
+    const surface = await developable.fit(input, { ...options, signal: AbortSignal.timeout(500), onAbort: 'keep' });
+    return surface.report.stopReason;
+  })()`);
+  assert.equal(reason, 'cancelled');
+});
+
+inPage('the direct API runs in the page itself', async (page) => {
+  const result = await page.evaluate(`(async () => {
+    const early = await outcome((async () => direct.fit(plane(8, 8)))());
+    await direct.init();
+    return { early: early.code, reason: direct.fit(plane(8, 8)).report.stopReason };
+  })()`);
+  assert.deepEqual(result, { early: 'NOT_INITIALIZED', reason: 'rounding' });
+});
+
+inPage('wasm from another place: relative address, response, bytes, module', async (page) => {
+  const reasons = await page.evaluate(`(async () => {
+    const place = 'pkg/wasm/developable_bg.wasm';
+    const bytes = await (await fetch(place)).arrayBuffer();
+    const module = await WebAssembly.compile(bytes);
+    const sources = [place, new URL(place, location.href), await fetch(place), fetch(place), bytes, module];
+    const reasons = [];
+    for (const wasm of sources) {
+      const worker = new developable.DevelopableWorker({ wasm, workerUrl: '/pkg/worker.js' });
+      reasons.push((await worker.fit(plane(8, 8))).report.stopReason);
+      worker.dispose();
+    }
+    return reasons;
+  })()`);
+  assert.deepEqual(reasons, new Array(6).fill('rounding'));
+});
+
+inPage('what cannot be loaded, or crashes, is an error with a code', async (page) => {
+  const codes = await page.evaluate(`(async () => {
+    const fit = (options) => outcome(new developable.DevelopableWorker(options).fit(plane(8, 8)));
+    const failures = await Promise.all([
+      fit({ wasm: '/nothing.wasm' }),
+      fit({ wasm: '/page.js' }),
+      fit({ workerUrl: '/nothing.js' }),
+      fit({ wasm: '/broken.wasm' }),
+    ]);
+    return failures.map(({ name, code }) => name + ' ' + code);
+  })()`);
+  assert.deepEqual(codes, ['INIT', 'INIT', 'WORKER', 'TRAP'].map((code) => `DevelopableError ${code}`));
+}, [/404/]);

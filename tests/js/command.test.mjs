@@ -1,0 +1,246 @@
+/** The Node command, as a child process. */
+import assert from 'node:assert/strict';
+import { mkdir, readFile, readdir, readlink, symlink, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { writeWhole } from '../../pkg/cli/files.js';
+import * as direct from '../../pkg/direct.js';
+import { command, run, temporaryFolder } from './support/command.mjs';
+import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
+
+await direct.init();
+const folder = await temporaryFolder();
+const ramp = image(24, 20, plane);
+const rough = image(40, 30, noisy(cylinder(40), 0.4));
+const hex = lattice(22, 26, plane, 0.5);
+hex.heights[3] = 0;
+hex.heights[7] = NaN;
+
+await writeFile(join(folder, 'ramp.npy'), direct.writeNpy(ramp));
+await writeFile(join(folder, 'rough.npy'), direct.writeNpy(rough));
+await writeFile(join(folder, 'ramp.png'), direct.writePng({ ...ramp, pixelSize: 0.5 }));
+await writeFile(join(folder, 'hex.npy'), direct.writeNpy(hex));
+await writeFile(join(folder, 'hex.png'), direct.writePng({ ...hex, width: 26, height: 22, data: hex.heights }));
+await writeFile(join(folder, 'endless.npy'), direct.writeNpy(endless(300).input));
+await writeFile(join(folder, 'text.npy'), 'hello');
+const mask = new Uint8Array(480).fill(255);
+mask.fill(0, 0, 30);
+await writeFile(join(folder, 'mask.png'), direct.writePng({ width: 24, height: 20, data: mask, noData: 0 }));
+await writeFile(join(folder, 'mask.npy'), direct.writeNpy({ width: 24, height: 20, data: mask }));
+
+/** @param {string} name */
+const load = async (name) => direct.read(await readFile(join(folder, name)));
+/** @param {string[]} args */
+const fit = (...args) => run(folder, ['fit', ...args]);
+/** @param {Promise<{ status: number | null, stdout: string, stderr: string }>} running */
+async function silently(running) {
+  assert.deepEqual(await running, { status: 0, stdout: '', stderr: '' });
+}
+/** @param {string} args */
+const report = async (args) => {
+  await silently(fit(...args.split(' '), '-o', 'r.npy', '--report', 'r.json'));
+  return JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
+};
+
+test('help and version', async () => {
+  const help = await run(folder, ['--help']);
+  assert.equal(help.status, 0);
+  const flags = [
+    '--output', '--lambda', '--gap', '--schedule', '--max-iterations', '--lattice', '--spacing', '--height-scale',
+    '--mask', '--no-data', '--no-normalize', '--report', '--help', '--version',
+  ];
+  for (const flag of flags) assert.ok(help.stdout.includes(flag), flag);
+  assert.ok(help.stdout.split('\n').every((line) => line.length <= 80));
+  assert.deepEqual(await run(folder, ['fit', '-h']), help);
+  const { version } = JSON.parse(await readFile(new URL('../../pkg/package.json', import.meta.url), 'utf8'));
+  assert.deepEqual(await run(folder, ['--version']), { status: 0, stdout: `${version}\n`, stderr: '' });
+});
+
+test('a plane comes back in each format, with nothing said in a pipe', async () => {
+  await silently(fit('ramp.npy', '-o', 'out.npy'));
+  const npy = await load('out.npy');
+  assert.deepEqual([npy.width, npy.height, npy.dataType], [24, 20, 'f64']);
+  assert.ok(deviation(npy.data, ramp.data) < 1e-9);
+
+  await silently(fit('ramp.png', '--output', 'OUT.PNG'));
+  const png = await load('OUT.PNG');
+  assert.deepEqual([png.format, png.pixelSize], ['png', 0.5]);
+  assert.ok(deviation(png.data.map((v) => v * png.heightScale), ramp.data) < 1e-3);
+
+  await silently(fit('ramp.npy', '-o', 'out.obj'));
+  const vertices = [...(await readFile(join(folder, 'out.obj'), 'utf8')).matchAll(/^v (\S+) (\S+) (\S+)$/gm)];
+  assert.ok(vertices.length > 400);
+  assert.ok(vertices.map((v) => v.slice(1).map(Number)).every(([x, y, z]) => Math.abs(z - plane(x, y)) < 1e-9));
+});
+
+test('the options reach the solver', async () => {
+  const plain = await report('rough.npy');
+  assert.deepEqual([plain.lambda, plain.stopReason, plain.scale < 0.1], [1e6, 'gap', true]);
+  assert.ok(plain.gap <= 0.01);
+  assert.equal((await report('rough.npy --lambda big')).lambda, 1e7);
+  assert.equal((await report('rough.npy --lambda small')).lambda, 1e5);
+  assert.equal((await report('rough.npy --lambda 2.5e5')).lambda, 2.5e5);
+  assert.ok((await report('rough.npy --gap 1e-4')).gap <= 1e-4);
+  const paper = await report('rough.npy --schedule paper --gap 0.5');
+  assert.equal(paper.stopReason, 'residuals');
+  assert.equal((await report('rough.npy --no-normalize --lambda 1')).scale, 1);
+  const coarse = await report('rough.npy --spacing 2');
+  assert.ok(Math.abs(plain.interior / coarse.interior - 4) < 1);
+});
+
+test('running out of iterations is told, and no failure', async () => {
+  const { status, stdout, stderr } = await fit('rough.npy', '-o', 'out.npy', '--max-iterations', '2', '--gap=1e-6');
+  assert.deepEqual([status, stdout], [0, '']);
+  assert.match(stderr, /warning.*2 iterations.*--max-iterations/);
+});
+
+test('heights are scaled', async () => {
+  await silently(fit('ramp.npy', '-o', 'out.npy', '--height-scale', '2.5'));
+  assert.ok(deviation((await load('out.npy')).data, ramp.data.map((z) => 2.5 * z)) < 1e-9);
+});
+
+test('a mask or a value takes pixels out', async () => {
+  for (const name of ['mask.png', 'mask.npy']) {
+    await silently(fit('ramp.npy', '-o', 'out.npy', '--mask', name));
+    const { data } = await load('out.npy');
+    assert.ok(data.every((z, i) => Number.isNaN(z) === i < 30));
+  }
+  const marked = ramp.data.slice();
+  marked[5] = -9999;
+  await writeFile(join(folder, 'marked.npy'), direct.writeNpy({ ...ramp, data: marked }));
+  await silently(fit('marked.npy', '-o', 'out.npy', '--no-data', '-9999'));
+  const { data } = await load('out.npy');
+  assert.ok(data.every((z, i) => Number.isNaN(z) === (i === 5)));
+});
+
+test('an array on the lattice stays there', async () => {
+  for (const name of ['hex.npy', 'hex.png']) {
+    for (const output of ['out.npy', 'out.png']) {
+      await silently(fit(name, '-o', output, '--lattice', 'hex', '--spacing', '0.5'));
+      const { width, height, data, heightScale } = await load(output);
+      assert.deepEqual([width, height], [26, 22]);
+      const found = data.map((z) => z * heightScale);
+      const expected = hex.heights.map((z) => z || NaN);
+      assert.ok(deviation(found, expected) < ((name + output).includes('png') ? 1e-3 : 1e-9));
+    }
+  }
+  // Another value for no data: then 0 is a height.
+  await silently(fit('hex.npy', '-o', 'out.npy', '--lattice', 'hex', '--no-data=-1', '--lambda', 'big'));
+  assert.ok(!Number.isNaN((await load('out.npy')).data[3]));
+  await silently(fit('hex.npy', '-o', 'out.obj', '--lattice', 'hex'));
+});
+
+test('wrong usage: status 2, what is wrong, and no output', async () => {
+  /** @type {[string, RegExp][]} */
+  const cases = [
+    ['', /nothing to do/],
+    ['solve ramp.npy -o x.npy', /"solve"/],
+    ['fit', /input is missing/],
+    ['fit ramp.npy', /output is missing/],
+    ['fit ramp.npy more.npy -o x.npy', /more\.npy/],
+    ['fit ramp.npy -o x.tiff', /x\.tiff/],
+    ['fit ramp.npy -o', /output/],
+    ['fit ramp.npy -o x.npy --colour red', /--colour/],
+    ['fit ramp.npy -o x.npy --lambda huge', /--lambda.*small.*huge/],
+    ['fit ramp.npy -o x.npy --lambda -3', /--lambda.*-3/],
+    ['fit ramp.npy -o x.npy --gap 2', /--gap.*2/],
+    ['fit ramp.npy -o x.npy --gap=', /--gap/],
+    ['fit ramp.npy -o x.npy --max-iterations 1.5', /--max-iterations.*1\.5/],
+    ['fit ramp.npy -o x.npy --spacing 0', /--spacing.*0/],
+    ['fit ramp.npy -o x.npy --schedule fast', /--schedule.*default or paper.*fast/],
+    ['fit ramp.npy -o x.npy --lattice cubic', /--lattice.*cubic/],
+    ['fit ramp.npy -o x.npy --no-normalize=yes', /no-normalize/],
+    ['fit ramp.npy -o x.npy --report ./x.npy', /same file/],
+  ];
+  for (const [args, message] of cases) {
+    const { status, stdout, stderr } = await run(folder, args.split(' ').filter(Boolean));
+    assert.deepEqual([status, stdout], [2, ''], args);
+    assert.match(stderr, message);
+    assert.doesNotMatch(stderr, /\n\s+at /, 'no stack trace');
+  }
+  assert.ok(!(await readdir(folder)).some((name) => name.startsWith('x.')));
+});
+
+test('bad input: status 3, what is wrong, and no output', async () => {
+  await mkdir(join(folder, 'directory.npy'));
+  await writeFile(join(folder, 'cut.npy'), direct.writeNpy(ramp).subarray(0, 1000));
+  await writeFile(join(folder, 'tiny.npy'), direct.writeNpy(image(2, 2, plane)));
+  /** @type {[string, RegExp][]} */
+  const cases = [
+    ['missing.npy -o x.npy', /missing\.npy.*no such file/],
+    ['directory.npy -o x.npy', /directory\.npy.*folder/],
+    ['text.npy -o x.npy', /text\.npy/],
+    ['cut.npy -o x.npy', /cut\.npy/],
+    ['tiny.npy -o x.npy', /interior/],
+    ['ramp.npy -o x.npy --mask missing.png', /missing\.png/],
+    ['ramp.npy -o x.npy --mask rough.npy', /40.*30.*24.*20/],
+    ['ramp.npy -o nowhere/x.npy', /nowhere.*no such/],
+    ['ramp.npy -o x.npy --report nowhere/x.json', /nowhere.*no such/],
+    ['ramp.npy -o directory.npy', /directory\.npy.*no file/],
+    ['ramp.npy -o x.npy --report directory.npy', /directory\.npy.*no file/],
+  ];
+  for (const [args, message] of cases) {
+    const { status, stdout, stderr } = await fit(...args.split(' '));
+    assert.deepEqual([status, stdout], [3, ''], `${args}: ${stderr}`);
+    assert.match(stderr, message);
+    assert.doesNotMatch(stderr, /\n\s+at /, 'no stack trace');
+  }
+  assert.ok(!(await readdir(folder)).some((name) => name.startsWith('x.') || name.endsWith('.tmp')));
+});
+
+test('an output is replaced whole, through a link as well', async () => {
+  await writeFile(join(folder, 'old.npy'), 'old');
+  assert.equal((await fit('text.npy', '-o', 'old.npy')).status, 3);
+  assert.equal(await readFile(join(folder, 'old.npy'), 'utf8'), 'old');
+  await symlink('old.npy', join(folder, 'link.npy'));
+  await silently(fit('ramp.npy', '-o', 'link.npy'));
+  assert.equal(await readlink(join(folder, 'link.npy')), 'old.npy');
+  assert.equal((await load('old.npy')).width, 24);
+  // The input itself, too.
+  await writeFile(join(folder, 'self.npy'), direct.writeNpy(ramp));
+  await silently(fit('self.npy', '-o', 'self.npy'));
+  assert.ok(deviation((await load('self.npy')).data, ramp.data) < 1e-9);
+  assert.ok(!(await readdir(folder)).some((name) => name.endsWith('.tmp')));
+});
+
+test('nothing is left when one of several files cannot be written', async () => {
+  const bytes = new TextEncoder().encode('whole');
+  const files = ['a.npy', 'nowhere/b.json'].map((name) => ({ path: join(folder, name), bytes }));
+  await assert.rejects(writeWhole(files, new AbortController().signal), { status: 3, message: /b\.json.*no such/ });
+  await assert.rejects(writeWhole(files.slice(0, 1), AbortSignal.abort()), { name: 'AbortError' });
+  assert.ok(!(await readdir(folder)).some((name) => name.includes('a.npy')));
+  await writeWhole(files.slice(0, 1), new AbortController().signal);
+  assert.equal(await readFile(join(folder, 'a.npy'), 'utf8'), 'whole');
+});
+
+for (const [signal, expected] of /** @type {const} */ ([['SIGINT', 130], ['SIGTERM', 143]])) {
+  test(`${signal} ends the work with status ${expected} and leaves nothing`, async () => {
+    await writeFile(join(folder, 'kept.npy'), 'kept');
+    const endlessly = ['--gap', '1e-12', '--lambda', 'small', '--max-iterations', '1e9'];
+    const args = ['fit', 'endless.npy', '-o', 'kept.npy', '--report', 'kept.json', ...endlessly];
+    let asked = 0;
+    const { status, stdout, stderr } = await run(folder, args, {
+      onStart: async (child) => {
+        await sleep(1500);
+        asked = performance.now();
+        child.kill(signal);
+      },
+    });
+    assert.deepEqual([status, stdout, stderr], [expected, '', '']);
+    assert.ok(performance.now() - asked < 2000);
+    assert.equal(await readFile(join(folder, 'kept.npy'), 'utf8'), 'kept');
+    assert.ok(!(await readdir(folder)).some((name) => name === 'kept.json' || name.endsWith('.tmp')));
+  });
+}
+
+test('a terminal sees progress and a summary', async (t) => {
+  const line = `${process.execPath} ${command} fit endless.npy -o tty.npy --max-iterations 60 --gap 1e-9`;
+  /** @type {{ status: number | null, stdout: string } | undefined} */
+  const result = await run(folder, ['-qec', line, '/dev/null'], { program: ['script'] }).catch(() => undefined);
+  if (!result) return t.skip('there is no `script` to make a terminal with');
+  assert.equal(result.status, 0);
+  assert.match(result.stdout, /\r\x1b\[Kiteration \d+, gap [\d.e-]+ %, [\d.]+ s/);
+  assert.match(result.stdout, /tty\.npy: \d+ vertices, within [\d.]+ % of the optimum/);
+  assert.match(result.stdout, /warning/);
+});

@@ -1,0 +1,175 @@
+/** The package as its users get it: packed, installed, imported, type-checked, bundled. */
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { mkdir, readdir, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { promisify } from 'node:util';
+import { build, createServer } from 'vite';
+import { launch, openPage, serve, skip } from './support/browser.mjs';
+import { temporaryFolder } from './support/command.mjs';
+import { pkg, root } from './support/paths.mjs';
+
+const exec = promisify(execFile);
+const app = await temporaryFolder();
+const tsc = join(root, 'node_modules/typescript/bin/tsc');
+
+/** @param {string[]} args @param {string} [cwd] */
+const node = async (args, cwd = app) => (await exec(process.execPath, args, { cwd })).stdout;
+
+/** @type {{ files: { path: string }[], filename: string }} */
+let packed;
+
+before(async () => {
+  const npm = process.platform === 'win32' ? 'npm.cmd' : 'npm';
+  const { stdout } = await exec(npm, ['pack', '--json', '--pack-destination', app], { cwd: pkg });
+  [packed] = JSON.parse(stdout);
+  await writeFile(join(app, 'package.json'), JSON.stringify({ private: true, type: 'module' }));
+  await exec(npm, ['install', '--offline', '--no-audit', '--no-fund', `./${packed.filename}`], { cwd: app });
+});
+
+test('the package holds what it needs and nothing else', async () => {
+  const paths = packed.files.map(({ path }) => path);
+  const needed = [
+    'index.js', 'index.d.ts', 'direct.js', 'direct.d.ts', 'types.d.ts', 'worker.js', 'bin/developable.js',
+    'wasm/developable.js', 'wasm/developable_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
+    'LICENSE-MIT', 'LICENSE-APACHE', 'README.md',
+  ];
+  for (const path of needed) assert.ok(paths.includes(path), path);
+  for (const path of paths) assert.match(path, /\.(js|mjs|d\.ts|d\.mts|wasm|json|md)$|LICENSE/);
+  assert.ok(!paths.some((path) => /tsconfig|test|draft|made-from/.test(path)), paths.join());
+  const installed = (await readdir(join(app, 'node_modules'))).filter((name) => !name.startsWith('.'));
+  assert.deepEqual(installed, ['developable'], 'no dependencies');
+});
+
+test('every entry point can be imported in Node', async () => {
+  const script = `
+    import { fit, dispose } from 'developable';
+    import * as direct from 'developable/direct';
+    import { readFile } from 'node:fs/promises';
+    import { fileURLToPath } from 'node:url';
+    const input = { width: 8, height: 8, data: new Float32Array(64) };
+    const worker = await fit(input);
+    direct.initSync(await readFile(fileURLToPath(import.meta.resolve('developable/wasm'))));
+    const here = direct.fit(input);
+    import.meta.resolve('developable/worker');
+    import.meta.resolve('developable/package.json');
+    let inner;
+    try { import.meta.resolve('developable/client.js'); } catch ({ code }) { inner = code; }
+    console.log(worker.report.stopReason, here.report.stopReason, inner);
+  `;
+  await writeFile(join(app, 'entries.mjs'), script);
+  assert.equal(await node(['entries.mjs']), 'rounding rounding ERR_PACKAGE_PATH_NOT_EXPORTED\n');
+});
+
+test('the command is installed', async () => {
+  const { stdout } = await exec(join(app, 'node_modules/.bin/developable'), ['--version'], { cwd: app });
+  assert.match(stdout, /^\d+\.\d+\.\d+\n$/);
+});
+
+test('its own JavaScript is type-checked strictly', async () => {
+  await node([tsc, '-p', join(pkg, 'tsconfig.json')]).catch(({ stdout }) => assert.fail(stdout));
+});
+
+test('TypeScript users get types, with each kind of module resolution', async () => {
+  await writeFile(join(app, 'use.ts'), `
+    import { fit, read, example, writeNpy, init, DevelopableError, DevelopableWorker } from 'developable';
+    import type { Surface, Progress, FitOptions, ErrorCode, Report } from 'developable';
+    import * as direct from 'developable/direct';
+
+    export async function use(file: Blob, signal: AbortSignal): Promise<Surface> {
+      await init({ wasm: new URL('x.wasm', 'https://example.org/') });
+      const onProgress = ({ gap }: Progress) => void gap;
+      const options: FitOptions = { lambda: 'small', gap: 1e-3, signal, onAbort: 'keep', onProgress };
+      const { input } = await example('page', { size: 100 });
+      const surface = await fit(await read(file), options);
+      const blob = new Blob([await writeNpy(surface)]);
+      const heights: Float64Array = surface.heights;
+      const codes: ErrorCode[] = ['SHAPE'];
+      const report: Report = surface.report;
+      // @ts-expect-error no such example
+      await example('torus');
+      // @ts-expect-error no such option
+      await fit(input, { lamda: 1 });
+      // @ts-expect-error a lattice needs its spacing
+      await fit({ rows: 3, cols: 3, heights });
+      return fit({ width: 2, height: 2, data: [0, 1, 2, 3] }, { lambda: 1e6 });
+    }
+
+    export function solveHere(): number {
+      using solver = new direct.Solver({ rows: 3, cols: 3, spacing: 1, heights: new Float32Array(9) });
+      while (solver.advance(10)) if (solver.progress().gap < 0.1) solver.cancel();
+      try {
+        return solver.surface().report.gap;
+      } catch (error) {
+        if (error instanceof DevelopableError && error.code === 'DISPOSED') return NaN;
+        throw error;
+      }
+    }
+
+    export class Mine extends DevelopableWorker {}
+  `);
+  const lib = ['es2022', 'esnext.disposable', 'dom'];
+  const strict = { strict: true, noEmit: true, skipLibCheck: false, target: 'es2022', lib, types: [] };
+  for (const module of [{ module: 'nodenext' }, { module: 'esnext', moduleResolution: 'bundler' }]) {
+    const compilerOptions = { ...strict, ...module };
+    await writeFile(join(app, 'tsconfig.json'), JSON.stringify({ compilerOptions, files: ['use.ts'] }));
+    await node([tsc, '-p', app]).catch(({ stdout }) => assert.fail(stdout));
+  }
+});
+
+await mkdir(join(app, 'src'));
+await writeFile(join(app, 'index.html'), `<!doctype html>
+  <link rel="icon" href="data:,">
+  <script type="module" src="/src/main.js"></script>
+`);
+await writeFile(join(app, 'src/main.js'), `
+  import { fit, example, DevelopableError } from 'developable';
+  async function main() {
+    const { input, truth } = await example('cylinder', { size: 60, noise: 0.05 });
+    const { report, image } = await fit(input);
+    const rms = (values) => Math.sqrt(values.reduce((sum, v, i) => sum + (v - truth[i]) ** 2, 0) / values.length);
+    const error = await fit({ width: 1, height: 1, data: [0] }).catch((thrown) => thrown);
+    const long = (await example('roof', { size: 200, noise: 0.1 })).input;
+    const signal = AbortSignal.timeout(300);
+    const aborted = await fit(long, { lambda: 'small', gap: 1e-12, maxIterations: 1e9, signal }).catch(({ name }) => name);
+    return {
+      reason: report.stopReason,
+      better: rms(image.data) / rms(input.data),
+      code: error instanceof DevelopableError && error.code,
+      aborted,
+    };
+  }
+  globalThis.result = main();
+`);
+
+/** @param {string} url */
+async function checkApp(url) {
+  const browser = await launch();
+  try {
+    const { page, incidents } = await openPage(browser, url);
+    const { better, ...result } = await page.evaluate('globalThis.result');
+    assert.deepEqual(result, { reason: 'gap', code: 'NO_INTERIOR', aborted: 'TimeoutError' });
+    assert.ok(better < 0.6, `${better} of the noise is left`);
+    assert.deepEqual(incidents, []);
+  } finally {
+    await browser.close();
+  }
+}
+
+test('an app bundled with Vite runs under the strict policy', { skip }, async () => {
+  await build({ root: app, logLevel: 'error', configFile: false, build: { modulePreload: { polyfill: false } } });
+  const assets = await readdir(join(app, 'dist/assets'));
+  assert.equal(assets.filter((name) => name.endsWith('.wasm')).length, 1, assets.join());
+  const server = await serve({ '/': join(app, 'dist') });
+  after(() => server.close());
+  await checkApp(server.url);
+});
+
+test('an app served by Vite while it is developed runs as well', { skip }, async () => {
+  const place = { port: 0, host: '127.0.0.1' };
+  const server = await createServer({ root: app, logLevel: 'error', configFile: false, server: place });
+  after(() => server.close());
+  await server.listen();
+  await checkApp(server.resolvedUrls?.local[0] ?? '');
+});

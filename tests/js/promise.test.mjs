@@ -1,0 +1,273 @@
+/** The promise API in Node, where the solver runs in a worker thread. */
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import { after, test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { pathToFileURL } from 'node:url';
+import * as developable from '../../pkg/index.js';
+import { pkg, wasmFile } from './support/paths.mjs';
+import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
+
+const { DevelopableWorker } = developable;
+const ramp = image(12, 10, plane);
+
+after(() => developable.dispose());
+
+/** Share of one core that this process, with all its threads, is using. */
+async function load() {
+  const before = process.cpuUsage();
+  const start = performance.now();
+  await sleep(400);
+  const { user, system } = process.cpuUsage(before);
+  return (user + system) / 1000 / (performance.now() - start);
+}
+
+test('a plane comes back, image or lattice, in any kind of array', async () => {
+  const surface = await developable.fit(ramp);
+  assert.ok(surface.image && deviation(surface.image.data, ramp.data) < 1e-9);
+  const list = await developable.fit({ ...ramp, data: [...ramp.data] });
+  assert.deepEqual(list.heights, surface.heights);
+  const field = lattice(9, 11, plane);
+  assert.ok(deviation((await developable.fit(field)).heights, field.heights) < 1e-9);
+});
+
+test('errors arrive with their code, as errors of the package', async () => {
+  /** @param {string} code @param {RegExp} message */
+  const error = (code, message) => (/** @type {unknown} */ thrown) => {
+    assert.ok(thrown instanceof developable.DevelopableError && thrown instanceof Error);
+    assert.equal(thrown.code, code);
+    assert.match(thrown.message, message);
+    assert.match(String(thrown.stack), /[/]pkg[/]/);
+    return true;
+  };
+  await assert.rejects(developable.fit({ ...ramp, width: 11 }), error('SHAPE', /120/));
+  await assert.rejects(developable.fit(/** @type {any} */ ({})), error('INPUT', /lattice/));
+  await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ gapp: 1 })), error('OPTION', /gapp/));
+  await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ onAbort: 'stop' })), error('OPTION', /onAbort/));
+  await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ f: () => {} })), error('INPUT', /sent/));
+  await assert.rejects(developable.read(new Uint8Array(9)), error('UNSUPPORTED', /./));
+  await assert.rejects(developable.example(/** @type {any} */ ('torus')), error('OPTION', /torus/));
+});
+
+test('an abort rejects at once and stops the work', async () => {
+  const { input, options } = endless();
+  const controller = new AbortController();
+  let told = 0;
+  const solve = developable.fit(input, { ...options, signal: controller.signal, onProgress: () => (told += 1) });
+  solve.catch(() => {});
+  await sleep(300);
+  assert.ok((await load()) > 0.1, 'it works, even if the machine is busy');
+  const reason = new Error('enough');
+  const start = performance.now();
+  controller.abort(reason);
+  await assert.rejects(solve, (error) => error === reason);
+  assert.ok(performance.now() - start < 50);
+  // Idle as soon as it answers: what is under way is one batch.
+  await developable.example('cylinder', { size: 8 });
+  assert.ok(performance.now() - start < 250, `${performance.now() - start} ms until idle`);
+  const last = told;
+  assert.ok((await load()) < 0.1, 'nothing goes on');
+  assert.equal(told, last);
+});
+
+test('an abort before the start, or while the worker starts, works as well', async () => {
+  await assert.rejects(developable.fit(ramp, { signal: AbortSignal.abort() }), { name: 'AbortError' });
+  const worker = new DevelopableWorker();
+  const { input, options } = endless();
+  const controller = new AbortController();
+  const solve = worker.fit(input, { ...options, signal: controller.signal });
+  controller.abort();
+  await assert.rejects(solve, { name: 'AbortError' });
+  await worker.init();
+  assert.ok((await load()) < 0.1);
+  worker.dispose();
+});
+
+test('an abort can keep the best surface so far', async () => {
+  const { input, options } = endless();
+  const start = performance.now();
+  const surface = await developable.fit(input, { ...options, signal: AbortSignal.timeout(400), onAbort: 'keep' });
+  assert.ok(performance.now() - start < 1500);
+  const { stopReason, objective, dualBound, iterations } = surface.report;
+  assert.equal(stopReason, 'cancelled');
+  assert.ok(iterations > 0 && dualBound <= objective);
+  const none = await developable.fit(input, { ...options, signal: AbortSignal.abort(), onAbort: 'keep' });
+  assert.equal(none.report.stopReason, 'cancelled');
+});
+
+test('a signal outlives the solve without harm', async () => {
+  const controller = new AbortController();
+  const surface = await developable.fit(ramp, { signal: controller.signal });
+  controller.abort();
+  assert.equal(surface.report.stopReason, 'rounding');
+  assert.ok((await developable.fit(ramp)).image);
+});
+
+test('progress comes several times a second, and at the end', async () => {
+  /** @type {{ at: number, progress: developable.Progress }[]} */
+  const told = [];
+  const { input, options } = endless();
+  const surface = await developable.fit(input, {
+    ...options,
+    maxIterations: 400,
+    onProgress: (progress) => told.push({ at: performance.now(), progress }),
+  });
+  const last = told.at(-1)?.progress;
+  assert.equal(last?.iteration, surface.report.iterations);
+  assert.equal(last?.gap, surface.report.gap);
+  for (let i = 1; i < told.length; i += 1) {
+    assert.ok(told[i].progress.cgIterations >= told[i - 1].progress.cgIterations);
+  }
+  // All but the last are spaced; timers are not exact.
+  const spaces = told.slice(1, -1).map(({ at }, i) => at - told[i].at);
+  assert.ok(spaces.every((space) => space > 40), String(spaces));
+});
+
+test('an error in onProgress ends the solve and comes out', async () => {
+  const { input, options } = endless();
+  const mine = new Error('mine');
+  const onProgress = () => {
+    throw mine;
+  };
+  await assert.rejects(developable.fit(input, { ...options, onProgress }), (error) => error === mine);
+  await developable.example('cylinder', { size: 8 });
+  assert.ok((await load()) < 0.1);
+});
+
+test('solves on one worker take turns', async () => {
+  const { input, options } = endless();
+  const long = developable.fit(input, { ...options, signal: AbortSignal.timeout(1500), onAbort: 'keep' });
+  // Done long before the other one, although it came later.
+  const start = performance.now();
+  const [a, b] = await Promise.all([developable.fit(ramp), developable.fit(image(40, 40, noisy(plane, 0.1)))]);
+  assert.ok(performance.now() - start < 1200);
+  assert.equal(a.report.stopReason, 'rounding');
+  assert.equal(b.report.stopReason, 'gap');
+  assert.equal((await long).report.stopReason, 'cancelled');
+});
+
+test('arrays are copied, or handed over when asked for', async () => {
+  const input = { ...ramp, data: ramp.data.slice(), mask: new Uint8Array(120).fill(1) };
+  await developable.fit(input);
+  assert.equal(input.data.length, 120);
+  const part = new Float64Array(130).subarray(10);
+  part.set(ramp.data);
+  await developable.fit({ ...ramp, data: part }, { transfer: true });
+  assert.equal(part.length, 120, 'a part of a buffer is copied');
+  await developable.fit(input, { transfer: true });
+  assert.equal(input.data.length, 0);
+  assert.equal(input.mask.length, 0);
+  const shared = new Float64Array(new SharedArrayBuffer(960));
+  shared.set(ramp.data);
+  const { image: out } = await developable.fit({ ...ramp, data: shared }, { transfer: true });
+  assert.ok(out && deviation(out.data, ramp.data) < 1e-9);
+});
+
+test('files are read and written', async () => {
+  const surface = await developable.fit(ramp);
+  assert.ok(surface.image);
+  const file = await developable.writeNpy(ramp);
+  for (const form of [file, file.buffer, new Blob([file]), Buffer.from(file)]) {
+    const read = await developable.read(form);
+    assert.deepEqual([read.format, read.width, read.height, read.dataType], ['npy', 12, 10, 'f64']);
+    assert.equal(deviation(read.data, ramp.data), 0);
+  }
+  const png = await developable.read(await developable.writePng({ ...ramp, pixelSize: 0.5 }));
+  assert.deepEqual([png.format, png.dataType, png.pixelSize], ['png', 'u16', 0.5]);
+  assert.ok(deviation(png.data.map((v) => v * png.heightScale), ramp.data) < 1e-3);
+  const obj = new TextDecoder().decode(await developable.writeObj(surface));
+  const vertices = [...obj.matchAll(/^v (\S+) (\S+) (\S+)/gm)].map((match) => match.slice(1).map(Number));
+  assert.ok(vertices.length > 50 && vertices.every(([x, y, z]) => Math.abs(z - plane(x, y)) < 1e-9));
+  assert.equal((await developable.writeNpy(surface)).length, 128 + 8 * surface.heights.length);
+});
+
+test('every example can be solved', async () => {
+  for (const name of /** @type {const} */ (['cylinder', 'cone', 'roof', 'oloid', 'page'])) {
+    const { input, truth } = await developable.example(name, { size: 40, noise: 0.02, seed: 7 });
+    assert.equal(input.data.length, input.width * input.height);
+    assert.equal(truth.length, input.data.length);
+    assert.equal((await developable.fit(input)).report.stopReason, 'gap');
+  }
+});
+
+test('a worker of one\'s own is disposed of once, for good', async () => {
+  const worker = new DevelopableWorker({ wasm: await readFile(wasmFile) });
+  assert.deepEqual([worker.connected, worker.disposed], [false, false]);
+  await worker.init();
+  assert.equal(worker.connected, true);
+  const { input, options } = endless();
+  const pending = worker.fit(input, options);
+  const other = worker.example('cone', { size: 8 });
+  pending.catch(() => {});
+  other.catch(() => {});
+  await sleep(100);
+  worker.dispose();
+  worker.dispose();
+  worker[Symbol.dispose]();
+  await assert.rejects(pending, { code: 'DISPOSED' });
+  assert.deepEqual([worker.connected, worker.disposed], [false, true]);
+  await assert.rejects(worker.fit(ramp), { code: 'DISPOSED' });
+  await assert.rejects(worker.init(), { code: 'DISPOSED' });
+});
+
+test('the shared worker comes back after disposal', async () => {
+  const { input, options } = endless();
+  const pending = developable.fit(input, options);
+  developable.dispose();
+  await assert.rejects(pending, { code: 'DISPOSED' });
+  assert.ok((await developable.fit(ramp)).image);
+});
+
+test('an init that fails can be repeated with another place', async () => {
+  developable.dispose();
+  await assert.rejects(developable.init({ wasm: 'nowhere.wasm' }), { code: 'INIT', message: /nowhere/ });
+  await assert.rejects(developable.init(Promise.reject(new Error('no luck'))), { code: 'INIT', message: /no luck/ });
+  await developable.init(pathToFileURL(wasmFile));
+  assert.ok((await developable.fit(ramp)).image);
+  await developable.init('nowhere.wasm'); // it runs already
+});
+
+test('wasm and worker can come from elsewhere', async () => {
+  const bytes = await readFile(wasmFile);
+  const url = pathToFileURL(wasmFile);
+  const headers = { 'content-type': 'application/wasm' };
+  const sources = [
+    wasmFile, url, url.href, bytes, new Uint8Array(bytes).buffer, new WebAssembly.Module(bytes),
+    Promise.resolve(bytes), new Response(bytes), new Response(bytes, { headers }),
+  ];
+  for (const wasm of sources) {
+    const worker = new DevelopableWorker({ wasm, workerUrl: pathToFileURL(`${pkg}worker.js`) });
+    assert.ok((await worker.fit(ramp)).image);
+    worker.dispose();
+  }
+});
+
+test('a worker that cannot start, or dies, rejects what waits for it', async () => {
+  const lost = new DevelopableWorker({ workerUrl: pathToFileURL(`${pkg}nothing.js`) });
+  await assert.rejects(lost.fit(ramp), { code: 'WORKER', message: /nothing\.js/ });
+  const script = 'setTimeout(() => { throw new Error("died") }, 50)';
+  const mortal = new DevelopableWorker({ workerUrl: new URL(`data:text/javascript,${encodeURIComponent(script)}`) });
+  await assert.rejects(Promise.any([mortal.fit(ramp), mortal.init()]), (/** @type {AggregateError} */ error) => {
+    assert.deepEqual(error.errors.map(({ code }) => code), ['WORKER', 'WORKER']);
+    assert.match(error.errors[0].message, /died/);
+    return true;
+  });
+  assert.equal(mortal.connected, false);
+});
+
+test('an idle worker lets the process end, a busy one does not', async () => {
+  const script = `
+    import { fit, example } from ${JSON.stringify(pathToFileURL(`${pkg}index.js`).href)};
+    const { input } = await example('cylinder', { size: 60 });
+    fit(input).then(({ report }) => console.log(report.stopReason));
+  `;
+  const args = ['--input-type=module', '--eval', script];
+  const child = spawn(process.execPath, args, { stdio: ['ignore', 'pipe', 'inherit'] });
+  let output = '';
+  child.stdout.on('data', (chunk) => (output += chunk));
+  const timer = setTimeout(() => child.kill(), 20_000);
+  const code = await new Promise((resolve) => child.on('close', resolve));
+  clearTimeout(timer);
+  assert.deepEqual([code, output], [0, 'gap\n']);
+});

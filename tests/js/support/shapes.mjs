@@ -1,0 +1,98 @@
+/** Heightfields whose answers are known. */
+
+/**
+ * An image of `f(x, y)` at the pixels' centres, `y` up.
+ * @param {number} width
+ * @param {number} height
+ * @param {(x: number, y: number) => number} f
+ * @param {number} [pixelSize]
+ */
+export function image(width, height, f, pixelSize = 1) {
+  const data = new Float64Array(width * height);
+  for (let i = 0; i < data.length; i += 1) {
+    const x = ((i % width) + 0.5) * pixelSize;
+    const y = (height - Math.floor(i / width) - 0.5) * pixelSize;
+    data[i] = f(x, y);
+  }
+  return { width, height, data, pixelSize };
+}
+
+/**
+ * Heights of `f(x, y)` on the lattice.
+ * @param {number} rows
+ * @param {number} cols
+ * @param {(x: number, y: number) => number} f
+ * @param {number} [spacing]
+ */
+export function lattice(rows, cols, f, spacing = 1) {
+  const heights = new Float64Array(rows * cols);
+  for (let i = 0; i < heights.length; i += 1) {
+    const row = Math.floor(i / cols);
+    const x = ((i % cols) - (row % 2) / 2) * spacing;
+    heights[i] = f(x, -row * spacing * Math.sqrt(0.75));
+  }
+  return { rows, cols, spacing, heights };
+}
+
+/** @type {(x: number, y: number) => number} */
+export const plane = (x, y) => 5 + 0.3 * x - 0.2 * y;
+
+/**
+ * The top of a cylinder that lies across a square of this size.
+ * @param {number} size
+ */
+export function cylinder(size) {
+  const radius = 0.8 * size;
+  return (/** @type {number} */ x, /** @type {number} */ y) => {
+    const across = 0.8 * (x - size / 2) + 0.6 * (y - size / 2);
+    return Math.sqrt(radius * radius - across * across);
+  };
+}
+
+/**
+ * The same with noise, the same each time.
+ * @param {(x: number, y: number) => number} f
+ * @param {number} amplitude
+ */
+export function noisy(f, amplitude) {
+  let state = 1;
+  return (/** @type {number} */ x, /** @type {number} */ y) => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return f(x, y) + amplitude * (state / 2 ** 31 - 1);
+  };
+}
+
+/**
+ * Work for longer than any test lasts.
+ * @param {number} [size]
+ */
+export function endless(size = 150) {
+  const input = image(size, size, noisy(cylinder(size), 1));
+  const options = { lambda: /** @type {const} */ ('small'), gap: 1e-12, maxIterations: 1e9 };
+  return { input, options };
+}
+
+/**
+ * The largest difference; infinite where one has data and the other has not.
+ * @param {ArrayLike<number>} found
+ * @param {ArrayLike<number>} expected
+ */
+export function deviation(found, expected) {
+  let most = 0;
+  for (let i = 0; i < expected.length; i += 1) {
+    const [a, b] = [found[i], expected[i]];
+    if (Number.isNaN(a) !== Number.isNaN(b)) return Infinity;
+    if (!Number.isNaN(a)) most = Math.max(most, Math.abs(a - b));
+  }
+  return most;
+}
+
+/**
+ * @param {ArrayLike<number>} found
+ * @param {ArrayLike<number>} expected
+ */
+export function rms(found, expected) {
+  let sum = 0;
+  for (let i = 0; i < expected.length; i += 1) sum += (found[i] - expected[i]) ** 2;
+  return Math.sqrt(sum / expected.length);
+}

@@ -146,6 +146,11 @@ impl Domain {
         self.omitted
     }
 
+    /// Row (an even one) and column of the lattice that are row and column 1 of the padded box.
+    pub(crate) fn corner(&self) -> (usize, usize) {
+        self.corner
+    }
+
     /// Rows of the padded box, padding not counted; they are numbered from 1.
     pub(crate) fn rows(&self) -> usize {
         self.rows

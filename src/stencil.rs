@@ -160,6 +160,20 @@ impl<'a, T: Real> Ring<'a, T> {
     }
 }
 
+impl<T: Real> Ring<'_, T> {
+    /// Cell `i` of the run itself.
+    #[inline(always)]
+    pub(crate) fn centre(&self, i: usize) -> T {
+        self.c[i]
+    }
+
+    /// The sum over its six neighbours.
+    #[inline(always)]
+    pub(crate) fn sum(&self, i: usize) -> T {
+        self.w[i] + self.e[i] + self.nw[i] + self.ne[i] + self.sw[i] + self.se[i]
+    }
+}
+
 /// One row of the three weights that multiply second differences in `Cᵀ`.
 pub(crate) type Weights<T> = [Vec<T>; 3];
 
@@ -197,7 +211,7 @@ impl<T: Real> Rolling<T> {
     ///
     /// `fill` is called for each row before `gather` of the row above it.
     #[inline(always)]
-    pub(crate) fn sweep<S>(
+    pub(crate) fn sweep<S: ?Sized>(
         &mut self,
         domain: &Domain,
         state: &mut S,

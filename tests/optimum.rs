@@ -94,6 +94,18 @@ fn a_sharp_step() {
 }
 
 #[test]
+fn coarse_to_fine_around_holes_that_vanish_on_the_way() {
+    let keep = |x: f64, y: f64| {
+        let pinholes = (40.0 * x).sin() * (40.0 * y).sin() < 0.9;
+        let slit = (x - y).abs() > 0.02 || x < 0.3;
+        let island = (x - 0.9).hypot(y - 0.1);
+        pinholes && slit && !(0.1..0.15).contains(&island)
+    };
+    let field = cut(&noisy(&unit_square(36, bumps), 0.02, 10), keep);
+    check(&field, Lambda::Value(3e4));
+}
+
+#[test]
 fn one_interior_vertex() {
     let field = cut(&noisy(&unit_square(3, bumps), 0.1, 7), |x, y| {
         (x - 0.5).hypot(y - 0.711) < 0.36

@@ -1,4 +1,5 @@
-//! Conjugate gradients for the z-step, matrix-free, with Jacobi's preconditioner:
+//! Conjugate gradients for the z-step, matrix-free, preconditioned by a
+//! multigrid V-cycle:
 //!
 //! ```text
 //! A z = b,   A = 2λ + ρ CᵀC,   b = 2λ z̃ + Cᵀ(ρH − Y)
@@ -7,17 +8,17 @@
 //! What is solved is the correction `A δ = b − A z`. Its right-hand side is made
 //! in double precision, so the correction itself can live in single precision:
 //! half the memory traffic, twice the lanes, and the errors of one z-step are
-//! the next one's right-hand side. The system is scaled to a unit diagonal and
-//! heights of unit size, so that no λ, ρ or spacing leaves the range of `f32`.
-//!
-//! An iteration makes two passes over memory: one that finds the direction and
-//! applies `A` to it, one that moves.
+//! in the next one's right-hand side. Heights are scaled to unit size, which
+//! keeps every number within the range of `f32`.
 
+use std::sync::Arc;
+
+use super::grid::{part, part_mut};
 use super::lanes;
+use super::multigrid::Multigrid;
 use super::problem::Problem;
-use crate::domain::{Domain, Role, Run};
+use crate::domain::Domain;
 use crate::error::{Result, try_filled};
-use crate::stencil::{Ring, Rolling, weights_of};
 
 #[derive(Debug, Clone)]
 pub(crate) struct ConjugateGradients {
@@ -27,229 +28,178 @@ pub(crate) struct ConjugateGradients {
     correction: Vec<f32>,
     direction: Vec<f32>,
     image: Vec<f32>,
-    inverse_diagonal: Vec<f32>,
-    rolling: Rolling<f32>,
-    matrix: Matrix,
+    multigrid: Multigrid,
     /// Heights of size 1 in the system's scale.
     unit: f64,
-    /// `r·M⁻¹r`.
+    /// `‖r‖²` in the norm of the inverse diagonal.
     energy: f64,
-    /// Factor of the previous direction in the next one.
-    beta: f32,
-}
-
-/// `A`, divided by the diagonal that it has away from the boundary.
-#[derive(Debug, Clone, Copy)]
-struct Matrix {
-    scale: f64,
-    fidelity: f32,
-    /// The weights of `d_k` and of `d₁ + d₂ + d₃` in `ρ C^T C`.
-    own: f32,
-    sum: f32,
-}
-
-impl Matrix {
-    fn new(problem: &Problem, rho: f64) -> Self {
-        let [own, other, _] = problem.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
-        let diagonal = 2.0 * problem.lambda + diagonal(own, other, true, 6);
-        Matrix {
-            scale: 1.0 / diagonal,
-            fidelity: (2.0 * problem.lambda / diagonal) as f32,
-            own: ((own - other) / diagonal) as f32,
-            sum: (other / diagonal) as f32,
-        }
-    }
-}
-
-/// The diagonal of a quadratic form in the second differences, with `own` on
-/// and `other` off its own diagonal, at a vertex that is the centre of a
-/// stencil or not and a neighbour in `stencils` others.
-fn diagonal(own: f64, other: f64, centre: bool, stencils: usize) -> f64 {
-    let as_centre = if centre {
-        4.0 * (3.0 * own + 6.0 * other)
-    } else {
-        0.0
-    };
-    as_centre + stencils as f64 * own
+    /// `r·M⁻¹r` of the previous iteration; 0 before the first.
+    previous: f64,
 }
 
 impl ConjugateGradients {
-    pub(crate) fn new(problem: &Problem, rho: f64) -> Result<Self> {
+    /// For a problem on the first of `domains`, each of which has twice the
+    /// spacing of the one before.
+    pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
         let zeros = || try_filled("conjugate gradients", problem.domain.cells(), 0.0);
         let largest = problem.target.iter().fold(0.0f64, |m, z| m.max(z.abs()));
-        let mut cg = ConjugateGradients {
+        Ok(ConjugateGradients {
             residual: zeros()?,
             correction: zeros()?,
             direction: zeros()?,
             image: zeros()?,
-            inverse_diagonal: zeros()?,
-            rolling: Rolling::new(&problem.domain),
-            matrix: Matrix::new(problem, rho),
+            multigrid: Multigrid::new(domains, problem.spacing, problem.lambda, rho)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
             energy: 0.0,
-            beta: 0.0,
-        };
-        cg.set_rho(problem, rho);
-        Ok(cg)
+            previous: 0.0,
+        })
     }
 
     /// Changes `A`; the residual must be made anew.
     pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
-        self.matrix = Matrix::new(problem, rho);
-        let domain = &problem.domain;
-        let [own, other, _] = problem.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
-        let interior = |cell: usize| domain.roles()[cell] == Role::Interior;
-        for row in 1..=domain.rows() {
-            let offsets = domain.neighbour_offsets(row);
-            for &Run { start, end } in domain.active().row(row) {
-                for cell in start..end {
-                    let stencils = offsets
-                        .iter()
-                        .filter(|o| interior(cell.wrapping_add_signed(**o)))
-                        .count();
-                    let value =
-                        2.0 * problem.lambda + diagonal(own, other, interior(cell), stencils);
-                    self.inverse_diagonal[cell] = (1.0 / (value * self.matrix.scale)) as f32;
-                }
-            }
-        }
+        self.multigrid.set(problem.lambda, rho);
     }
 
     /// Factor from `b − A z` to the system's scale.
     pub(crate) fn residual_scale(&self) -> f64 {
-        self.matrix.scale / self.unit
+        1.0 / (self.multigrid.matrix().diagonal * self.unit)
     }
 
     /// Starts anew from the residual that was just written.
     pub(crate) fn restart(&mut self, domain: &Domain) {
-        self.beta = 0.0;
+        self.previous = 0.0;
         self.energy = 0.0;
-        for &Run { start, end } in domain.active().all() {
-            self.correction[start..end].fill(0.0);
+        for run in domain.active().all() {
+            part_mut(&mut self.correction, *run).fill(0.0);
             self.energy += lanes::weighted_square(
-                &self.residual[start..end],
-                &self.inverse_diagonal[start..end],
+                part(&self.residual, *run),
+                part(&self.multigrid.matrix().inverse_diagonal, *run),
             );
         }
     }
 
-    /// The residual's size in the preconditioner's norm, relative to that of `2λ z̃`.
-    pub(crate) fn relative_residual(&self, problem: &Problem) -> f64 {
-        let reference: f64 = problem
-            .domain
-            .active()
-            .cells()
-            .map(|cell| problem.target[cell].powi(2) * f64::from(self.inverse_diagonal[cell]))
-            .sum();
-        let scale = f64::from(self.matrix.fidelity) / self.unit;
-        (self.energy / (scale * scale * reference)).sqrt()
-    }
-
-    /// Current `r·M⁻¹r`.
+    /// `‖r‖²` in the norm of the inverse diagonal.
     pub(crate) fn energy(&self) -> f64 {
         self.energy
     }
 
+    /// `‖r‖` relative to `‖2λ z̃‖`, in that norm.
+    pub(crate) fn relative_residual(&self, problem: &Problem) -> f64 {
+        let matrix = self.multigrid.matrix();
+        let squares = problem.domain.active().cells().map(|cell| {
+            let b = 2.0 * problem.lambda * self.residual_scale() * problem.target[cell];
+            b * b * f64::from(matrix.inverse_diagonal[cell])
+        });
+        (self.energy / squares.sum::<f64>()).sqrt()
+    }
+
     /// Adds the correction found so far to `z`.
     pub(crate) fn correct(&self, domain: &Domain, z: &mut [f64]) {
-        for &Run { start, end } in domain.active().all() {
-            for (z, delta) in z[start..end].iter_mut().zip(&self.correction[start..end]) {
+        for run in domain.active().all() {
+            let correction = part(&self.correction, *run);
+            for (z, delta) in part_mut(z, *run).iter_mut().zip(correction) {
                 *z += self.unit * f64::from(*delta);
             }
         }
     }
 
     /// One iteration on the correction. Returns `false`, and changes nothing,
-    /// when the residual is zero.
-    pub(crate) fn step(&mut self, problem: &Problem) -> bool {
+    /// when nothing is left that single precision could improve.
+    pub(crate) fn step(&mut self, domain: &Domain) -> bool {
         if self.energy <= 0.0 {
             return false;
         }
-        let curvature = self.apply_to_direction(&problem.domain);
-        if curvature <= 0.0 {
+        let preconditioned = self.multigrid.precondition(&mut self.residual);
+        let mut product = 0.0;
+        for run in domain.active().all() {
+            product += lanes::dot(part(&self.residual, *run), part(preconditioned, *run));
+        }
+        let beta = if self.previous > 0.0 {
+            (product / self.previous) as f32
+        } else {
+            0.0
+        };
+        for run in domain.active().all() {
+            let preconditioned = part(preconditioned, *run);
+            for (p, s) in part_mut(&mut self.direction, *run)
+                .iter_mut()
+                .zip(preconditioned)
+            {
+                *p = s + beta * *p;
+            }
+        }
+        let matrix = self.multigrid.matrix_mut();
+        let curvature = matrix.apply(&mut self.direction, &mut self.image);
+        if !(curvature > 0.0 && product > 0.0) {
             return false;
         }
-        let alpha = (self.energy / curvature) as f32;
+        let alpha = (product / curvature) as f32;
         let mut energy = 0.0;
-        for &Run { start, end } in problem.domain.active().all() {
-            let correction = &mut self.correction[start..end];
-            let n = correction.len();
-            let residual = &mut self.residual[start..end][..n];
-            let direction = &self.direction[start..end][..n];
-            let image = &self.image[start..end][..n];
-            let inverse = &self.inverse_diagonal[start..end][..n];
-            for i in 0..n {
+        for run in domain.active().all() {
+            let correction = part_mut(&mut self.correction, *run);
+            let residual = part_mut(&mut self.residual, *run);
+            let direction = part(&self.direction, *run);
+            let image = part(&self.image, *run);
+            for i in 0..correction.len() {
                 correction[i] += alpha * direction[i];
                 residual[i] -= alpha * image[i];
             }
-            energy += lanes::weighted_square(residual, inverse);
+            energy += lanes::weighted_square(residual, part(&matrix.inverse_diagonal, *run));
         }
-        self.beta = (energy / self.energy) as f32;
+        self.previous = product;
         self.energy = energy;
         true
     }
+}
 
-    /// Makes the next direction `p`, writes `A p`, returns `p·A p`.
-    fn apply_to_direction(&mut self, domain: &Domain) -> f64 {
-        let Self {
-            residual,
-            direction,
-            image,
-            inverse_diagonal,
-            rolling,
-            beta,
-            matrix,
-            ..
-        } = self;
-        let (beta, matrix) = (*beta, *matrix);
-        let next_direction = |direction: &mut [f32], row: usize| {
-            for &Run { start, end } in domain.active().row(row) {
-                let direction = &mut direction[start..end];
-                let n = direction.len();
-                let residual = &residual[start..end][..n];
-                let inverse = &inverse_diagonal[start..end][..n];
-                for i in 0..n {
-                    direction[i] = inverse[i] * residual[i] + beta * direction[i];
-                }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::frame::Frame;
+    use crate::solver::levels::coarsen;
+    use crate::{Heightfield, Lattice, Normalization};
+
+    /// A disk with a hole, and its coarser lattices.
+    fn lattices(cols: usize) -> (Heightfield, Vec<Arc<Domain>>) {
+        let lattice = Lattice::new(cols, cols, 1.0 / cols as f64).unwrap();
+        let mut field = Heightfield::from_fn(lattice, |x, y| {
+            let hole = (x - 0.6).hypot(y + 0.4) < 0.1;
+            if hole || (x - 0.5).hypot(y + 0.45) > 0.45 {
+                f64::NAN
+            } else {
+                (9.0 * x).sin() + (301.0 * x * y).sin()
             }
-        };
-        let mut curvature = 0.0;
-        rolling.sweep(
-            domain,
-            direction,
-            |direction, row, weights| {
-                // The differences of this row need the directions of the row below it.
-                if row == 1 {
-                    next_direction(direction, row);
-                }
-                if row < domain.rows() {
-                    next_direction(direction, row + 1);
-                }
-                for run in domain.interior().row(row) {
-                    let ring = Ring::new(direction, domain, row, *run);
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    for i in 0..w1.len() {
-                        let [d1, d2, d3] = ring.differences(i);
-                        let sum = matrix.sum * (d1 + d2 + d3);
-                        w1[i] = matrix.own * d1 + sum;
-                        w2[i] = matrix.own * d2 + sum;
-                        w3[i] = matrix.own * d3 + sum;
-                    }
-                }
-            },
-            |direction, row, sums| {
-                for run in domain.active().row(row) {
-                    let sum = sums.run(*run);
-                    let direction = &direction[run.start..run.end];
-                    let n = direction.len();
-                    let image = &mut image[run.start..run.end][..n];
-                    for i in 0..n {
-                        image[i] = matrix.fidelity * direction[i] + sum.at(i);
-                    }
-                    curvature += lanes::dot(direction, image);
-                }
-            },
-        );
-        curvature
+        })
+        .unwrap();
+        let whole = field.clone();
+        let mut domains = Vec::new();
+        while let Ok(domain) = Domain::new(&field) {
+            domains.push(Arc::new(domain));
+            field = coarsen(&field).unwrap();
+        }
+        (whole, domains)
+    }
+
+    #[test]
+    fn the_number_of_iterations_does_not_depend_on_the_size() {
+        for cols in [40, 80, 160] {
+            let (field, domains) = lattices(cols);
+            let frame = Frame::new(&field, &domains[0], Normalization::Off);
+            let problem = Problem::new(&field, domains[0].clone(), &frame, 1e4).unwrap();
+            let rho = 4.0 * problem.spacing;
+            let mut cg = ConjugateGradients::new(&problem, &domains, rho).unwrap();
+            // Plain conjugate gradients would need about √κ times as many as this.
+            for cell in problem.domain.active().cells() {
+                cg.residual[cell] = problem.target[cell] as f32;
+            }
+            cg.restart(&problem.domain);
+            let first = cg.energy();
+            let mut steps = 0;
+            while cg.energy() > 1e-8 * first {
+                assert!(cg.step(&problem.domain));
+                steps += 1;
+                assert!(steps <= 30, "{cols}: {:e}", cg.energy() / first);
+            }
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! ADMM on one lattice, as a machine that runs in steps.
 
+use std::sync::Arc;
+
 use web_time::Instant;
 
 use super::cg::ConjugateGradients;
@@ -7,6 +9,7 @@ use super::problem::Problem;
 use super::report::{LevelReport, Seconds, StopReason};
 use super::schedule::Plan;
 use super::state::{Certificate, State};
+use crate::domain::Domain;
 use crate::error::Result;
 
 #[derive(Debug, Clone)]
@@ -74,9 +77,10 @@ impl Level {
         problem: Problem,
         mut state: State,
         plan: Plan,
+        domains: &[Arc<Domain>],
     ) -> Result<(Self, Option<StopReason>)> {
         let start = Instant::now();
-        let mut cg = ConjugateGradients::new(&problem, state.rho)?;
+        let mut cg = ConjugateGradients::new(&problem, domains, state.rho)?;
         let certificate = state.certify(&problem);
         state.update(&problem, 0.0, &mut cg);
         let best = Best::new(&state.z, &certificate);
@@ -144,7 +148,7 @@ impl Level {
                     return false;
                 }
                 *left -= 1;
-                if !self.cg.step(&self.problem) {
+                if !self.cg.step(&self.problem.domain) {
                     break;
                 }
                 self.z_step += 1;

@@ -3,16 +3,20 @@
 
 mod cg;
 mod frame;
+mod grid;
 mod lanes;
 mod level;
 mod levels;
+mod multigrid;
 mod options;
 mod problem;
 mod report;
 mod schedule;
 mod state;
+mod transfer;
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use web_time::Instant;
 
@@ -30,6 +34,9 @@ use levels::{coarsen, prolong};
 use problem::Problem;
 use schedule::Plan;
 use state::State;
+
+/// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
+const COARSEST_GRID: usize = 20;
 
 /// Whether a [`Solver`] has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +72,8 @@ pub struct Solver {
     level: Level,
     /// The problems of the finer levels, the finest first.
     finer: Vec<Problem>,
+    /// The domains of all lattices, the finest first.
+    domains: Vec<Arc<Domain>>,
     /// The levels done, the coarsest first.
     coarser: Vec<LevelReport>,
     status: Status,
@@ -73,7 +82,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Sets up a solve. Memory: about 100 bytes for each vertex of the valid
+    /// Sets up a solve. Memory: about 110 bytes for each vertex of the valid
     /// vertices' bounding box.
     ///
     /// # Errors
@@ -84,9 +93,10 @@ impl Solver {
         let started = Instant::now();
         options.validate()?;
         let plan = Plan::new(options);
-        let domain = Domain::new(field)?;
+        let domain = Arc::new(Domain::new(field)?);
         let frame = Frame::new(field, &domain, options.normalization);
         let lambda = options.lambda.value();
+        let mut domains = vec![domain.clone()];
         let mut finer = vec![Problem::new(field, domain, &frame, lambda)?];
         let objective = finer[0].input_objective();
         if !objective.is_finite() {
@@ -98,21 +108,31 @@ impl Solver {
             let mut coarse = coarsen(field)?;
             while let Some(domain) = Domain::new(&coarse)
                 .ok()
-                .filter(|domain| plan.wants_level(domain.interior_len()))
+                .filter(|domain| domain.interior_len() >= COARSEST_GRID)
             {
-                finer.push(Problem::new(&coarse, domain, &frame, lambda)?);
+                let domain = Arc::new(domain);
+                if plan.wants_level(domain.interior_len()) {
+                    finer.push(Problem::new(&coarse, domain.clone(), &frame, lambda)?);
+                }
+                domains.push(domain);
                 coarse = coarsen(&coarse)?;
             }
         }
         let coarsest = finer.remove(finer.len() - 1);
         let state = State::new(&coarsest, plan.first_rho(&coarsest))?;
-        let (level, reason) = Level::new(coarsest, state, plan.on_level(!finer.is_empty(), 0))?;
+        let (level, reason) = Level::new(
+            coarsest,
+            state,
+            plan.on_level(!finer.is_empty(), 0),
+            &domains[finer.len()..],
+        )?;
         let mut solver = Solver {
             field: field.clone(),
             frame,
             plan,
             level,
             finer,
+            domains,
             coarser: Vec::new(),
             status: Status::Running,
             started,
@@ -151,7 +171,7 @@ impl Solver {
             let plan = self.plan.on_level(!self.finer.is_empty(), done);
             let rho = 0.5 * self.level.state.rho;
             let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
-            let (level, stop) = Level::new(fine, state, plan)?;
+            let (level, stop) = Level::new(fine, state, plan, &self.domains[self.finer.len()..])?;
             self.level = level;
             match stop {
                 Some(next) => reason = next,
@@ -276,7 +296,7 @@ pub fn fit_with(
     mut on_progress: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Surface> {
     /// About ten iterations of the default schedule.
-    const WORK: usize = 70;
+    const WORK: usize = 20;
     let mut solver = Solver::new(field, options)?;
     while solver.advance(WORK)? == Status::Running {
         if on_progress(&solver.progress()).is_break() {

@@ -1,5 +1,7 @@
 //! The energy on one lattice, in normalised coordinates.
 
+use std::sync::Arc;
+
 use super::frame::Frame;
 use crate::domain::Domain;
 use crate::error::{Result, try_filled};
@@ -9,7 +11,7 @@ use crate::stencil::{HessianMap, Ring};
 /// `P(z) = λ Σ (z − z̃)² + Σ ‖H(z)‖_*` over a domain (paper, Eq. 15).
 #[derive(Debug, Clone)]
 pub(crate) struct Problem {
-    pub domain: Domain,
+    pub domain: Arc<Domain>,
     pub lambda: f64,
     /// `z̃` on the padded box, zero outside `I ∪ ∂I`.
     pub target: Vec<f64>,
@@ -23,7 +25,7 @@ pub(crate) struct Problem {
 impl Problem {
     pub(crate) fn new(
         field: &Heightfield,
-        domain: Domain,
+        domain: Arc<Domain>,
         frame: &Frame,
         lambda: f64,
     ) -> Result<Self> {

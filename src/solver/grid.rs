@@ -1,0 +1,278 @@
+//! The z-step's matrix on one lattice, and the passes that multigrid and
+//! conjugate gradients make with it:
+//!
+//! ```text
+//! A = 2λ + ρ CᵀC
+//! ```
+//!
+//! in single precision and scaled to a unit diagonal away from the boundary, so
+//! that no λ, ρ or spacing leaves the range of `f32`.
+
+use std::sync::Arc;
+
+use super::lanes;
+use crate::domain::{Domain, Role, Run};
+use crate::error::{Result, try_filled};
+use crate::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
+
+#[derive(Debug, Clone)]
+pub(crate) struct Grid {
+    pub domain: Arc<Domain>,
+    map: HessianMap,
+    /// The diagonal away from the boundary that everything is divided by.
+    pub diagonal: f64,
+    fidelity: f32,
+    /// The weights of `d_k` and of `d₁ + d₂ + d₃` in `ρ CᵀC`.
+    own: f32,
+    sum: f32,
+    /// Jacobi's preconditioner: one over the scaled diagonal.
+    pub inverse_diagonal: Vec<f32>,
+    rolling: Rolling<f32>,
+}
+
+/// An upper bound of the eigenvalues of `diag(A)⁻¹A` on every domain: that of a
+/// single stencil, since `A` and its diagonal are sums over stencils. (A
+/// stencil has 36 on the diagonal at its centre and 5 at each neighbour in
+/// units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
+pub(crate) const LARGEST_EIGENVALUE: f32 = 2.4;
+
+impl Grid {
+    pub(crate) fn new(domain: Arc<Domain>, spacing: f64, lambda: f64, rho: f64) -> Result<Self> {
+        let mut grid = Grid {
+            map: HessianMap::new(spacing),
+            diagonal: 1.0,
+            fidelity: 0.0,
+            own: 0.0,
+            sum: 0.0,
+            inverse_diagonal: try_filled("diagonal", domain.cells(), 0.0)?,
+            rolling: Rolling::new(&domain),
+            domain,
+        };
+        grid.set(lambda, rho);
+        Ok(grid)
+    }
+
+    /// Changes the matrix.
+    pub(crate) fn set(&mut self, lambda: f64, rho: f64) {
+        let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
+        let entry = |centre: bool, stencils: usize| {
+            let as_centre = if centre {
+                4.0 * (3.0 * own + 6.0 * other)
+            } else {
+                0.0
+            };
+            2.0 * lambda + as_centre + stencils as f64 * own
+        };
+        self.diagonal = entry(true, 6);
+        self.fidelity = (2.0 * lambda / self.diagonal) as f32;
+        self.own = ((own - other) / self.diagonal) as f32;
+        self.sum = (other / self.diagonal) as f32;
+        let interior = |cell: usize| self.domain.roles()[cell] == Role::Interior;
+        for row in 1..=self.domain.rows() {
+            let offsets = self.domain.neighbour_offsets(row);
+            for &Run { start, end } in self.domain.active().row(row) {
+                for cell in start..end {
+                    let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
+                    let stencils = around.filter(|n| interior(*n)).count();
+                    self.inverse_diagonal[cell] =
+                        (self.diagonal / entry(interior(cell), stencils)) as f32;
+                }
+            }
+        }
+    }
+
+    /// An upper bound of the condition number of `diag(A)⁻¹A`.
+    pub(crate) fn condition(&self) -> f32 {
+        LARGEST_EIGENVALUE / self.fidelity.max(f32::MIN_POSITIVE)
+    }
+
+    /// One pass down `x`: `after(x, run, sums)` sees `ρCᵀCx` in each run of a
+    /// row, and may write `x` there, since no later row reads it.
+    #[inline(always)]
+    fn pass(&mut self, x: &mut [f32], mut after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>)) {
+        let Grid {
+            domain,
+            own,
+            sum,
+            rolling,
+            ..
+        } = self;
+        let (domain, own, sum) = (&**domain, *own, *sum);
+        rolling.sweep(
+            domain,
+            x,
+            |x, row, weights| {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(x, domain, row, *run);
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    for i in 0..w1.len() {
+                        let [d1, d2, d3] = ring.differences(i);
+                        let common = sum * (d1 + d2 + d3);
+                        w1[i] = own * d1 + common;
+                        w2[i] = own * d2 + common;
+                        w3[i] = own * d3 + common;
+                    }
+                }
+            },
+            |x, row, sums| {
+                for run in domain.active().row(row) {
+                    after(x, *run, sums);
+                }
+            },
+        );
+    }
+
+    /// `image = A x`. Returns `x·Ax`. (`x` is not changed.)
+    pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
+        let fidelity = self.fidelity;
+        let mut product = 0.0;
+        self.pass(x, |x, run, sums| {
+            let sum = sums.run(run);
+            let x = part(x, run);
+            let image = part_mut(image, run);
+            for i in 0..x.len() {
+                image[i] = fidelity * x[i] + sum.at(i);
+            }
+            product += lanes::dot(x, image);
+        });
+        product
+    }
+
+    /// `residual = b − A x`. (`x` is not changed.)
+    pub(crate) fn residual(&mut self, x: &mut [f32], b: &[f32], residual: &mut [f32]) {
+        let fidelity = self.fidelity;
+        self.pass(x, |x, run, sums| {
+            let sum = sums.run(run);
+            let x = part(x, run);
+            let b = part(b, run);
+            let residual = part_mut(residual, run);
+            for i in 0..x.len() {
+                residual[i] = b[i] - (fidelity * x[i] + sum.at(i));
+            }
+        });
+    }
+
+    /// One step of Chebyshev's iteration with Jacobi's preconditioner:
+    /// `d ← momentum · d + weight · M(b − A x)`, `x ← x + d`.
+    pub(crate) fn smooth(
+        &mut self,
+        x: &mut [f32],
+        b: &[f32],
+        d: &mut [f32],
+        momentum: f32,
+        weight: f32,
+    ) {
+        let fidelity = self.fidelity;
+        let inverse = std::mem::take(&mut self.inverse_diagonal);
+        self.pass(x, |x, run, sums| {
+            let sum = sums.run(run);
+            let x = part_mut(x, run);
+            let b = part(b, run);
+            let d = part_mut(d, run);
+            let m = part(&inverse, run);
+            for i in 0..x.len() {
+                let residual = b[i] - (fidelity * x[i] + sum.at(i));
+                let step = momentum * d[i] + weight * (m[i] * residual);
+                d[i] = step;
+                x[i] += step;
+            }
+        });
+        self.inverse_diagonal = inverse;
+    }
+}
+
+#[inline(always)]
+pub(crate) fn part<T>(values: &[T], run: Run) -> &[T] {
+    &values[run.start..run.end]
+}
+
+#[inline(always)]
+pub(crate) fn part_mut<T>(values: &mut [T], run: Run) -> &mut [T] {
+    &mut values[run.start..run.end]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::HessianOperator;
+    use crate::domain::tests::{arbitrary_field, single_ring};
+    use proptest::prelude::*;
+
+    fn values(domain: &Domain) -> Vec<f32> {
+        let mut x = 0.37;
+        let mut values = vec![0.0; domain.cells()];
+        for cell in domain.active().cells() {
+            x = 3.9 * x * (1.0 - x);
+            values[cell] = x - 0.5;
+        }
+        values
+    }
+
+    /// Against `C` and `Cᵀ` themselves, in double precision.
+    fn check(domain: Domain, lambda: f64, rho: f64) {
+        let domain = Arc::new(domain);
+        let spacing = domain.lattice().spacing();
+        let mut grid = Grid::new(domain.clone(), spacing, lambda, rho).unwrap();
+        let mut x = values(&domain);
+        let mut heights = vec![0.0; domain.lattice().len()];
+        for cell in domain.active().cells() {
+            heights[domain.lattice_index(cell)] = f64::from(x[cell]);
+        }
+        let c = HessianOperator::new(&domain);
+        let normal = c.adjoint(&c.apply(&heights));
+        let mut image = vec![0.0; domain.cells()];
+        let product = grid.apply(&mut x, &mut image);
+        let mut expected_product = 0.0;
+        for cell in domain.active().cells() {
+            let i = domain.lattice_index(cell);
+            let expected = (2.0 * lambda * heights[i] + rho * normal[i]) / grid.diagonal;
+            assert!((f64::from(image[cell]) - expected).abs() < 1e-5);
+            expected_product += expected * heights[i];
+        }
+        assert!((product - expected_product).abs() < 1e-4 * domain.active().len() as f64);
+
+        // The diagonal, by unit vectors; the eigenvalues, by Rayleigh quotients of a power iteration.
+        for cell in domain.active().cells().take(10) {
+            let mut unit = vec![0.0; domain.cells()];
+            unit[cell] = 1.0;
+            let entry = grid.apply(&mut unit, &mut image) as f32;
+            assert!((entry * grid.inverse_diagonal[cell] - 1.0).abs() < 1e-5);
+        }
+        for _ in 0..30 {
+            grid.apply(&mut x, &mut image);
+            let mut size = 0.0f32;
+            for cell in domain.active().cells() {
+                x[cell] = grid.inverse_diagonal[cell] * image[cell];
+                size = size.max(x[cell].abs());
+            }
+            x.iter_mut().for_each(|v| *v /= size);
+        }
+        let curvature = grid.apply(&mut x, &mut image);
+        let cells = domain.active().cells();
+        let square: f64 = cells
+            .map(|c| f64::from(x[c] * x[c] / grid.inverse_diagonal[c]))
+            .sum();
+        let largest = curvature / square;
+        assert!(
+            largest <= f64::from(LARGEST_EIGENVALUE) * 1.0001,
+            "{largest}"
+        );
+    }
+
+    #[test]
+    fn one_interior_vertex() {
+        check(Domain::new(&single_ring()).unwrap(), 1e-3, 1.0);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn the_matrix_is_the_one_it_says(
+            field in arbitrary_field(), lambda in 1e-3..1e3f64, rho in 1e-3..1e1f64,
+        ) {
+            if let Ok(domain) = Domain::new(&field) {
+                check(domain, lambda, rho);
+            }
+        }
+    }
+}

@@ -84,7 +84,7 @@ impl Level {
         let certificate = state.certify(&problem);
         state.update(&problem, 0.0, &mut cg);
         let best = Best::new(&state.z, &certificate);
-        let reason = plan.stop(&problem, 0, &certificate, best.objective(), best.gap());
+        let reason = plan.stop(&problem, 0, &certificate, 0.0, best.objective(), best.gap());
         let mut level = Level {
             problem,
             state,
@@ -171,30 +171,36 @@ impl Level {
         let start = Instant::now();
         self.z_step = 0;
         self.iteration += 1;
-        self.state
-            .update(&self.problem, self.plan.relaxation, &mut self.cg);
+        let (state, relaxation) = (&mut self.state, self.plan.relaxation);
+        let change = if self.plan.measures_change() {
+            state.update_and_measure::<true>(&self.problem, relaxation, &mut self.cg)
+        } else {
+            state.update(&self.problem, relaxation, &mut self.cg);
+            0.0
+        };
         self.first_energy = self.cg.energy();
         self.seconds.h_step += start.elapsed().as_secs_f64();
         if !self.plan.is_check(self.iteration) {
             return None;
         }
         let start = Instant::now();
-        let reason = self.check();
+        let reason = self.check(change);
         self.seconds.certificate += start.elapsed().as_secs_f64();
         reason
     }
 
-    fn check(&mut self) -> Option<StopReason> {
+    fn check(&mut self, change: f64) -> Option<StopReason> {
         let certificate = self.state.certify(&self.problem);
         self.best.take(&self.state.z, &certificate);
         let reason = self.plan.stop(
             &self.problem,
             self.iteration,
             &certificate,
+            change,
             self.best.objective(),
             self.best.gap(),
         );
-        let rho = self.plan.next_rho(self.state.rho, &certificate);
+        let rho = self.plan.next_rho(self.state.rho, &certificate, change);
         if reason.is_none() && rho != self.state.rho {
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(&self.problem, rho);

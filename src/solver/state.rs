@@ -25,15 +25,18 @@ pub(crate) struct State {
     terms: [Terms; 2],
 }
 
-type Terms = [Vec<f64>; 4];
+type Terms = [Vec<f64>; SUMS];
+
+/// Sums over matrices, and as many over heights, that a certificate takes.
+const SUMS: usize = 5;
 
 /// The first `n` terms of each sum.
 #[inline(always)]
-fn terms_of(terms: &mut Terms, n: usize) -> [&mut [f64]; 4] {
+fn terms_of(terms: &mut Terms, n: usize) -> [&mut [f64]; SUMS] {
     terms.each_mut().map(|row| &mut row[..n])
 }
 
-fn add_sums(sums: &mut [f64; 4], terms: [&mut [f64]; 4]) {
+fn add_sums<const N: usize>(sums: &mut [f64; SUMS], terms: [&mut [f64]; N]) {
     for (sum, terms) in sums.iter_mut().zip(terms) {
         *sum += lanes::sum(terms);
     }
@@ -99,6 +102,8 @@ pub(crate) struct Certificate {
     /// `‖2λ(z − z̃) + CᵀY‖`, which is `ρ‖CᵀΔH‖` for exact z-steps, and `‖CᵀY‖`.
     pub dual_residual: f64,
     pub dual_size: f64,
+    /// `‖Y‖`.
+    pub dual_norm: f64,
 }
 
 impl Certificate {
@@ -170,9 +175,25 @@ impl State {
         relaxation: f64,
         cg: &mut ConjugateGradients,
     ) {
+        self.update_and_measure::<false>(problem, relaxation, cg);
+    }
+
+    /// The same; returns `ρ‖ΔH‖`, the change of the Hessians, if `MEASURE`.
+    pub(crate) fn update_and_measure<const MEASURE: bool>(
+        &mut self,
+        problem: &Problem,
+        relaxation: f64,
+        cg: &mut ConjugateGradients,
+    ) -> f64 {
         let State {
-            z, v, rho, rolling, ..
+            z,
+            v,
+            rho,
+            rolling,
+            terms,
         } = self;
+        let [squares, ..] = &mut terms[0];
+        let mut change = 0.0;
         let (z, rho) = (z.as_slice(), *rho);
         let domain = &problem.domain;
         let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
@@ -190,11 +211,19 @@ impl State {
                     for i in 0..n {
                         let hessian = map.hessian(ring.differences(i)).scale(rho);
                         let old = v.get(i);
-                        let step = hessian - old + old.clamp(1.0);
+                        let old_dual = old.clamp(1.0);
+                        let step = hessian - old + old_dual;
                         let new = old + step.scale(relaxation);
                         v.set(i, new);
                         let dual = new.clamp(1.0);
+                        if MEASURE {
+                            let moved = new - dual - old + old_dual;
+                            squares[i] = moved.dot(moved);
+                        }
                         (w1[i], w2[i], w3[i]) = map.adjoint(new - dual - dual - hessian).into();
+                    }
+                    if MEASURE {
+                        change += lanes::sum(&squares[..n]);
                     }
                 }
             },
@@ -213,6 +242,7 @@ impl State {
             },
         );
         cg.restart(domain);
+        change.sqrt()
     }
 
     /// Objective, dual bound and residuals, in one pass.
@@ -227,7 +257,7 @@ impl State {
         let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
         let domain = &problem.domain;
         let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
-        let (mut matrices, mut heights) = ([0.0; 4], [0.0; 4]);
+        let (mut matrices, mut heights) = ([0.0; SUMS], [0.0; SUMS]);
         let [matrix_terms, height_terms] = terms;
         rolling.sweep(
             domain,
@@ -238,7 +268,7 @@ impl State {
                     let v = v.run(*run);
                     let [w1, w2, w3] = weights_of(weights, domain, row, *run);
                     let n = w1.len();
-                    let [t1, t2, t3, t4] = terms_of(matrix_terms, n);
+                    let [t1, t2, t3, t4, t5] = terms_of(matrix_terms, n);
                     for i in 0..n {
                         let hessian = map.hessian(ring.differences(i));
                         let value = v.get(i);
@@ -250,8 +280,9 @@ impl State {
                         t2[i] = gap.dot(gap);
                         t3[i] = hessian.dot(hessian);
                         t4[i] = h.dot(h);
+                        t5[i] = y.dot(y);
                     }
-                    add_sums(&mut matrices, [t1, t2, t3, t4]);
+                    add_sums(&mut matrices, [t1, t2, t3, t4, t5]);
                 }
             },
             |_, row, sums| {
@@ -260,7 +291,7 @@ impl State {
                     let n = run.end - run.start;
                     let z = &z[run.start..][..n];
                     let target = &problem.target[run.start..][..n];
-                    let [t1, t2, t3, t4] = terms_of(height_terms, n);
+                    let [t1, t2, t3, t4, _] = terms_of(height_terms, n);
                     for i in 0..n {
                         let offset = z[i] - target[i];
                         let adjoint = sum.at(i);
@@ -274,8 +305,8 @@ impl State {
                 }
             },
         );
-        let [nuclear, primal, image, split] = matrices;
-        let [distance, inner, dual_size, dual] = heights;
+        let [nuclear, primal, image, split, dual_norm] = matrices;
+        let [distance, inner, dual_size, dual, _] = heights;
         // D(tY) = t⟨CᵀY, z̃⟩ − t²‖CᵀY‖²/4λ is concave in t, and tY is feasible up to t = 1.
         let t = if dual_size > 0.0 {
             (fidelity * inner / dual_size).clamp(0.0, 1.0)
@@ -290,6 +321,7 @@ impl State {
             primal_size: image.sqrt().max(split.sqrt()),
             dual_residual: dual.sqrt(),
             dual_size: dual_size.sqrt(),
+            dual_norm: dual_norm.sqrt(),
         }
     }
 }

@@ -1,4 +1,4 @@
-/** Programs from crates.io, in the cache. */
+/** Programs that cargo installs, in the cache. */
 import { existsSync } from 'node:fs';
 import { rm } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -28,7 +28,7 @@ const env = {
 export async function cargoInstall(crate, version, { time, flags = [] }) {
   const name = `${crate}-${version}`;
   if (existsSync(entry(name))) return join(entry(name), 'bin');
-  const folder = await task(`${crate} ${version}, built from crates.io, in the cache`, time, () =>
+  const folder = await task(`${crate} ${version}, built by cargo install, in the cache`, time, () =>
     cached(name, async (draft) => {
       const where = ['--root', draft, '--target-dir', join(draft, 'target')];
       const args = ['install', crate, '--version', version, ...where, ...flags];
@@ -38,7 +38,7 @@ export async function cargoInstall(crate, version, { time, flags = [] }) {
       }
       if (!ok) {
         throw new Problem(`cargo could not build ${crate} ${version} (${failure}): `
-          + `see that crates.io can be reached, or put ${crate} ${version} on the PATH yourself.`);
+          + `see that cargo's registry can be reached, or put ${crate} ${version} on the PATH yourself.`);
       }
       await rm(join(draft, 'target'), { recursive: true, force: true });
     }));

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes a Rust toolchain with wasm32-unknown-unknown in the folder DEST, for Debian machines that
-# reach Debian's packages and crates.io but not rustup's server:
+# reach Debian's packages and cargo's registry but not rustup's server:
 #
 #   debian-rust.sh DEST
 #
@@ -105,7 +105,7 @@ note "laid out $("$dest/bin/rustc" --version)"
     __CARGO_DEFAULT_LIB_METADATA=developable
   cargo build --quiet --locked --manifest-path sysroot/Cargo.toml --profile dist \
     --target "$target" --features panic-unwind,backtrace --target-dir "$work/std"
-) || fail "std could not be compiled (it needs some crates from crates.io)"
+) || fail "std could not be compiled (it needs some crates from cargo's registry)"
 
 lib=$dest/lib/rustlib/$target/lib
 mkdir -p "$lib"

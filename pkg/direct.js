@@ -12,6 +12,12 @@ export { init, initSync } from './instance.js';
  * @typedef {import('./wasm/developable.js').Solver} Handle
  */
 
+/**
+ * Milliseconds of work to ask the wasm for at once. Little, because iterations suddenly cost
+ * several times as much when the solver goes on to a finer lattice.
+ */
+const SLICE = 4;
+
 /** Milliseconds between two calls of `fit`'s `onProgress`. */
 const PROGRESS_INTERVAL = 60;
 
@@ -36,18 +42,16 @@ export class Solver {
   /** @param {number} milliseconds */
   advance(milliseconds) {
     const handle = this.#live();
-    const start = performance.now();
-    for (let last = start; ;) {
-      const more = call(() => handle.advance(this.#work));
+    const end = performance.now() + milliseconds;
+    for (;;) {
+      const start = performance.now();
+      if (!call(() => handle.advance(this.#work))) return false;
       const now = performance.now();
-      const left = milliseconds - (now - start);
-      // At most twice as much as before: the next iterations may be dearer, and clocks are coarse.
-      const affordable = (left / Math.max(now - last, 0.1)) * this.#work;
-      this.#work = Math.max(1, Math.floor(Math.min(2 * this.#work, left > 0 ? affordable : this.#work)));
-      if (!more) return false;
-      // Not if even the least amount of work would take much too long.
-      if (left <= 0 || affordable < 0.5) return true;
-      last = now;
+      // Clocks are coarse, so at most twice as much as before.
+      const each = (now - start) / this.#work;
+      this.#work = Math.max(1, Math.floor(Math.min(2 * this.#work, SLICE / each)));
+      // Rather half a slice too early than half of one too late.
+      if (now + (each * this.#work) / 2 >= end) return true;
     }
   }
 

@@ -23,7 +23,7 @@ export class DevelopableWorker {
   #options;
   /** @type {Connection | undefined} */
   #connection;
-  /** @type {Promise<string | WebAssembly.Module | undefined> | undefined} */
+  /** @type {Promise<import('./connection.js').Source[]> | undefined} */
   #wasm;
   #disposed = false;
 
@@ -109,7 +109,8 @@ export class DevelopableWorker {
   async #request(run) {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      this.#wasm ??= portable(this.#options.wasm);
+      const { wasm, filesWasm } = this.#options;
+      this.#wasm ??= Promise.all([portable(wasm), portable(filesWasm)]);
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }
@@ -170,7 +171,7 @@ function orAborted(promise, signal) {
 /**
  * What a worker can be told about where the wasm is, again and again.
  * @param {import('./types.js').InitInput | undefined} wasm
- * @returns {Promise<string | WebAssembly.Module | undefined>}
+ * @returns {Promise<import('./connection.js').Source>}
  */
 async function portable(wasm) {
   if (wasm === undefined) return undefined;

@@ -6,6 +6,7 @@ import { wrap } from './wire.js';
 
 /**
  * @typedef {import('./vendor/comlink.mjs').Remote<typeof import('./service.js').service>} Remote
+ * @typedef {string | WebAssembly.Module | undefined} Source what a worker can be told about where a wasm file is
  * @typedef {{
  *   endpoint: import('./vendor/comlink.mjs').Endpoint,
  *   terminate: () => void,
@@ -24,14 +25,14 @@ export class Connection {
 
   /**
    * @param {string | URL | undefined} workerUrl
-   * @param {Promise<string | WebAssembly.Module | undefined>} wasm
+   * @param {Promise<Source[]>} wasm the solver's and the files'
    */
   constructor(workerUrl, wasm) {
     /** @param {string} reason */
     const died = (reason) => this.close(new DevelopableError('WORKER', reason));
     this.#thread = spawn(workerUrl, died);
     this.#remote = /** @type {Remote} */ (wrap(this.#thread.endpoint));
-    this.#ready = this.#settled(wasm.then((source) => this.#remote.init(source)));
+    this.#ready = this.#settled(wasm.then((sources) => this.#remote.init(...sources)));
     this.#ready.catch((error) => this.close(error));
   }
 

@@ -10,6 +10,11 @@ export function init(input?: InitInput): Promise<void>;
 /** The same, synchronously, from bytes or a compiled module. */
 export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
+/** Loads the second wasm file, which `read` and the `write…` functions need; otherwise like `init`. */
+export function initFiles(input?: InitInput): Promise<void>;
+/** The same, synchronously. */
+export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
 export class Solver {
   constructor(input: HeightImage | Heightfield, options?: SolverOptions);

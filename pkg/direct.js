@@ -1,15 +1,23 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { DevelopableError } from './errors.js';
 import { asBytes, asField, asImage, asLattice } from './input.js';
-import { alive, call } from './instance.js';
+import { files, solver } from './instances.js';
 import { makeDisposable } from './platform.js';
 
 export { DevelopableError } from './errors.js';
-export { init, initSync } from './instance.js';
+
+/** @type {typeof import('./direct.js').init} */
+export const init = (input) => solver.init(input);
+/** @type {typeof import('./direct.js').initSync} */
+export const initSync = (input) => solver.initSync(input);
+/** @type {typeof import('./direct.js').initFiles} */
+export const initFiles = (input) => files.init(input);
+/** @type {typeof import('./direct.js').initFilesSync} */
+export const initFilesSync = (input) => files.initSync(input);
 
 /**
  * @typedef {import('./direct.js').Solver} SolverApi
- * @typedef {import('./wasm/developable.js').Solver} Handle
+ * @typedef {import('./wasm/solver.js').Solver} Handle
  */
 
 /**
@@ -34,7 +42,7 @@ export class Solver {
    */
   constructor(input, options) {
     const field = asField(input);
-    this.#handle = call(({ Solver: { onImage, onLattice } }) =>
+    this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
   }
@@ -45,7 +53,7 @@ export class Solver {
     const end = performance.now() + milliseconds;
     for (;;) {
       const start = performance.now();
-      if (!call(() => handle.advance(this.#work))) return false;
+      if (!solver.call(() => handle.advance(this.#work))) return false;
       const now = performance.now();
       // Clocks are coarse, so at most twice as much as before.
       const each = (now - start) / this.#work;
@@ -57,17 +65,17 @@ export class Solver {
 
   progress() {
     const handle = this.#live();
-    return call(() => handle.progress());
+    return solver.call(() => handle.progress());
   }
 
   cancel() {
     const handle = this.#live();
-    call(() => handle.cancel());
+    solver.call(() => handle.cancel());
   }
 
   surface() {
     const handle = this.#live();
-    return call(() => handle.surface());
+    return solver.call(() => handle.surface());
   }
 
   get disposed() {
@@ -78,7 +86,7 @@ export class Solver {
     const handle = this.#handle;
     this.#handle = undefined;
     // After a trap there is nothing left that could be freed in an orderly way.
-    if (alive()) handle?.free();
+    if (solver.alive) handle?.free();
   }
 
   #live() {
@@ -92,22 +100,22 @@ makeDisposable(Solver);
 
 /** @type {typeof import('./direct.js').fit} */
 export function fit(input, { onProgress, ...options } = {}) {
-  const solver = new Solver(input, options);
+  const solve = new Solver(input, options);
   try {
-    while (solver.advance(PROGRESS_INTERVAL)) {
-      if (onProgress?.(solver.progress()) === false) solver.cancel();
+    while (solve.advance(PROGRESS_INTERVAL)) {
+      if (onProgress?.(solve.progress()) === false) solve.cancel();
     }
-    onProgress?.(solver.progress());
-    return solver.surface();
+    onProgress?.(solve.progress());
+    return solve.surface();
   } finally {
-    solver.dispose();
+    solve.dispose();
   }
 }
 
 /** @type {typeof import('./direct.js').read} */
 export function read(bytes, options) {
   const file = asBytes(bytes);
-  return call((wasm) => wasm.read(file, options));
+  return files.call((wasm) => wasm.read(file, options));
 }
 
 /** @type {typeof import('./direct.js').writeNpy} */
@@ -130,13 +138,13 @@ export function writeObj(input) {
 
 /** @type {typeof import('./direct.js').example} */
 export function example(name, options) {
-  return call((wasm) => wasm.example(name, options));
+  return solver.call((wasm) => wasm.example(name, options));
 }
 
 /**
  * A file, in memory that is not shared: only the type needs to be told.
- * @param {(wasm: import('./instance.js').Wasm) => Uint8Array} write
+ * @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write
  */
 function bytesOf(write) {
-  return /** @type {Uint8Array<ArrayBuffer>} */ (call(write));
+  return /** @type {Uint8Array<ArrayBuffer>} */ (files.call(write));
 }

@@ -8,8 +8,10 @@ export * from './types.js';
 export interface WorkerOptions {
   /** Where the worker's script is; default: `worker.js` beside this module. */
   workerUrl?: string | URL;
-  /** Where the wasm is; default: beside the worker. */
+  /** Where the solver's wasm is; default: beside the worker. */
   wasm?: InitInput;
+  /** Where the wasm is that reads and writes files, loaded when it is needed; default: beside the worker. */
+  filesWasm?: InitInput;
 }
 
 export interface FitOptions extends SolverOptions {

@@ -1,89 +1,117 @@
-/** The one wasm instance of this thread: loaded once, given up after a trap. */
-import * as glue from './wasm/developable.js';
+/** A wasm instance of this thread: loaded once, given up after a trap. */
 import { DevelopableError, messageOf } from './errors.js';
 import { compile } from './wasm-source.js';
 
-/** @typedef {typeof glue} Wasm */
+/**
+ * What wasm-bindgen makes of either wasm file, as far as it is the same for both.
+ * @typedef {{
+ *   default: (input: { module_or_path: WebAssembly.Module }) => Promise<unknown>,
+ *   initSync: (input: { module: WebAssembly.Module }) => unknown,
+ *   reportPanics: () => void,
+ * }} Glue
+ */
 
-/** @type {Promise<void> | undefined} */
-let loading;
-let ready = false;
-/** @type {DevelopableError | undefined} */
-let trap;
+/** @template {Glue} G */
+export class Instance {
+  #glue;
+  #place;
+  #hint;
+  /** @type {Promise<void> | undefined} */
+  #loading;
+  #ready = false;
+  /** @type {DevelopableError | undefined} */
+  #trap;
 
-/** @type {typeof import('./direct.js').init} */
-export function init(input) {
-  loading ??= load(input).catch((cause) => {
-    loading = undefined; // so that it can be tried again
-    throw initError(cause);
-  });
-  return loading;
-}
-
-/** @type {typeof import('./direct.js').initSync} */
-export function initSync(input) {
-  if (ready) return;
-  try {
-    const bytes = /** @type {BufferSource | WebAssembly.Module} */ (input);
-    glue.initSync({
-      module: bytes instanceof WebAssembly.Module ? bytes : new WebAssembly.Module(bytes),
-    });
-    start();
-  } catch (cause) {
-    throw initError(cause);
+  /**
+   * @param {G} glue
+   * @param {URL} place where the file is unless `init` is told otherwise
+   * @param {string} hint the call that loads it
+   */
+  constructor(glue, place, hint) {
+    this.#glue = glue;
+    this.#place = place;
+    this.#hint = hint;
   }
-  loading = Promise.resolve();
-}
 
-/** @param {import('./types.js').InitInput} [input] */
-async function load(input) {
-  const module = await compile(input);
-  if (ready) return; // `initSync` was faster
-  await glue.default({ module_or_path: module });
-  start();
-}
+  /**
+   * @param {import('./types.js').InitInput} [input]
+   * @returns {Promise<void>}
+   */
+  init(input) {
+    this.#loading ??= this.#load(input).catch((cause) => {
+      this.#loading = undefined; // so that it can be tried again
+      throw initError(cause);
+    });
+    return this.#loading;
+  }
 
-function start() {
-  glue.reportPanics();
-  ready = true;
+  /** @param {ArrayBuffer | ArrayBufferView | WebAssembly.Module} input */
+  initSync(input) {
+    if (this.#ready) return;
+    try {
+      const bytes = /** @type {BufferSource | WebAssembly.Module} */ (input);
+      this.#glue.initSync({
+        module: bytes instanceof WebAssembly.Module ? bytes : new WebAssembly.Module(bytes),
+      });
+      this.#start();
+    } catch (cause) {
+      throw initError(cause);
+    }
+    this.#loading = Promise.resolve();
+  }
+
+  /** @param {import('./types.js').InitInput} [input] */
+  async #load(input) {
+    const module = await compile(input ?? this.#place);
+    if (this.#ready) return; // `initSync` was faster
+    await this.#glue.default({ module_or_path: module });
+    this.#start();
+  }
+
+  #start() {
+    this.#glue.reportPanics();
+    this.#ready = true;
+  }
+
+  /**
+   * Calls into the wasm; whatever comes out of it is a `DevelopableError`.
+   *
+   * Rust's own errors carry a code. Anything else is a crash (a panic, an exhausted stack, memory
+   * that could not be had), after which nothing in the instance's memory can be relied on.
+   *
+   * @template T
+   * @param {(wasm: G) => T} run
+   * @returns {T}
+   */
+  call(run) {
+    if (this.#trap) throw this.#trap;
+    if (!this.#ready) {
+      throw new DevelopableError('NOT_INITIALIZED', `the wasm is not loaded yet: await ${this.#hint} first`);
+    }
+    try {
+      return run(this.#glue);
+    } catch (error) {
+      const { code } = /** @type {{ code?: import('./errors.js').ErrorCode }} */ (error);
+      if (error instanceof Error && typeof code === 'string') {
+        throw new DevelopableError(code, error.message);
+      }
+      this.#trap = new DevelopableError(
+        'TRAP',
+        `the wasm crashed and cannot be used in this thread any more (${messageOf(error)}); ` +
+          'please report this with the input that caused it',
+        { cause: error },
+      );
+      throw this.#trap;
+    }
+  }
+
+  /** Whether calls are still possible: false after a trap. */
+  get alive() {
+    return this.#trap === undefined;
+  }
 }
 
 /** @param {unknown} cause */
 function initError(cause) {
   return new DevelopableError('INIT', `the wasm could not be loaded: ${messageOf(cause)}`, { cause });
 }
-
-/**
- * Calls into the wasm; whatever comes out of it is a `DevelopableError`.
- *
- * Rust's own errors carry a code. Anything else is a crash (a panic, an exhausted stack, memory
- * that could not be had), after which nothing in the instance's memory can be relied on.
- *
- * @template T
- * @param {(wasm: Wasm) => T} run
- * @returns {T}
- */
-export function call(run) {
-  if (trap) throw trap;
-  if (!ready) {
-    throw new DevelopableError('NOT_INITIALIZED', 'the wasm is not loaded yet: await init() first');
-  }
-  try {
-    return run(glue);
-  } catch (error) {
-    const { code } = /** @type {{ code?: import('./errors.js').ErrorCode }} */ (error);
-    if (error instanceof Error && typeof code === 'string') {
-      throw new DevelopableError(code, error.message);
-    }
-    trap = new DevelopableError(
-      'TRAP',
-      `the solver crashed and cannot be used in this thread any more (${messageOf(error)}); ` +
-        'please report this with the input that caused it',
-      { cause: error },
-    );
-    throw trap;
-  }
-}
-
-/** Whether calls are still possible: false after a trap. */
-export const alive = () => trap === undefined;

@@ -7,8 +7,18 @@ import { transfer } from './wire.js';
 /** @type {Map<number, Job>} */
 const jobs = new Map();
 
+/** @type {import('./types.js').InitInput | undefined} where the wasm of the files is */
+let filesWasm;
+
 export const service = {
-  init: direct.init,
+  /**
+   * @param {import('./types.js').InitInput} [wasm]
+   * @param {import('./types.js').InitInput} [files] loaded when the first file is read or written
+   */
+  init(wasm, files) {
+    filesWasm = files;
+    return direct.init(wasm);
+  },
 
   /**
    * Begins a solve under a number of the client's choice, by which it can be stopped at any time.
@@ -50,18 +60,19 @@ export const service = {
     }
   },
 
-  /** @type {typeof direct.read} */
-  read(bytes, options) {
+  /**
+   * @param {Parameters<typeof direct.read>[0]} bytes
+   * @param {Parameters<typeof direct.read>[1]} [options]
+   */
+  async read(bytes, options) {
+    await direct.initFiles(filesWasm);
     const result = direct.read(bytes, options);
     return transfer(result, buffersOf(result.data));
   },
 
-  /** @type {typeof direct.writeNpy} */
-  writeNpy: (input) => handOver(direct.writeNpy(input)),
-  /** @type {typeof direct.writePng} */
-  writePng: (input) => handOver(direct.writePng(input)),
-  /** @type {typeof direct.writeObj} */
-  writeObj: (input) => handOver(direct.writeObj(input)),
+  writeNpy: written(direct.writeNpy),
+  writePng: written(direct.writePng),
+  writeObj: written(direct.writeObj),
 
   /** @type {typeof direct.example} */
   example(name, options) {
@@ -70,8 +81,18 @@ export const service = {
   },
 };
 
-/** @param {Uint8Array<ArrayBuffer>} bytes */
-const handOver = (bytes) => transfer(bytes, buffersOf(bytes));
+/**
+ * @template T
+ * @param {(input: T) => Uint8Array<ArrayBuffer>} write
+ */
+function written(write) {
+  /** @param {T} input */
+  return async (input) => {
+    await direct.initFiles(filesWasm);
+    const bytes = write(input);
+    return transfer(bytes, buffersOf(bytes));
+  };
+}
 
 /** @param {((Float64Array | Uint8Array) | undefined)[]} arrays */
 function buffersOf(...arrays) {

@@ -4,11 +4,11 @@ import { builtin } from './platform.js';
 /** @typedef {import('./types.js').InitInput} InitInput */
 
 /**
- * @param {InitInput} [input] nothing means the file beside this module
+ * @param {InitInput} input
  * @returns {Promise<WebAssembly.Module>}
  */
 export async function compile(input) {
-  const source = await (input ?? new URL('./wasm/developable_bg.wasm', import.meta.url));
+  const source = await input;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) {
     return WebAssembly.compile(/** @type {BufferSource} */ (source));

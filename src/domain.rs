@@ -296,7 +296,7 @@ impl RowRuns {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -130,7 +130,7 @@ pub(crate) fn gather_active(domain: &Domain, values: &[f64]) -> Vec<f64> {
     padded
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use super::*;
     use crate::domain::tests::{arbitrary_field, single_ring};

@@ -120,7 +120,7 @@ fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use super::*;
     use nalgebra::{Matrix2, SymmetricEigen, Vector2};

@@ -294,7 +294,7 @@ impl<T: Real> Gathered<'_, T> {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use super::*;
     use crate::lattice::Lattice;

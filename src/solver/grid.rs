@@ -191,7 +191,7 @@ pub(crate) fn part_mut<T>(values: &mut [T], run: Run) -> &mut [T] {
     &mut values[run.start..run.end]
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use super::*;
     use crate::HessianOperator;

@@ -189,7 +189,7 @@ impl Transfer {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use super::*;
     use crate::domain::tests::arbitrary_field;

@@ -6,8 +6,8 @@ use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
-use super::fields::ImageOutput;
 use super::options::{entries, option, unknown};
+use super::results::ImageOutput;
 use crate::examples::{Example, ExampleOptions};
 
 /// `Example` of `types.d.ts`.

@@ -1,7 +1,7 @@
 //! Heights in and out: plain JS objects around typed arrays.
 
 use js_sys::{Float64Array, Uint8Array};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
@@ -9,7 +9,6 @@ use super::{Failure, Result};
 use crate::error::{Error, checked_cells, try_filled};
 use crate::heightfield::{HeightImage, Heightfield};
 use crate::lattice::Lattice;
-use crate::solver::Report;
 
 /// `HeightImage` of `types.d.ts`.
 #[derive(Deserialize)]
@@ -77,42 +76,6 @@ impl LatticeInput {
             field = field.masked(&mask)?;
         }
         Ok(field)
-    }
-}
-
-/// `Surface` of `types.d.ts`.
-#[derive(Serialize)]
-pub(super) struct SurfaceOutput<'a> {
-    pub(super) rows: usize,
-    pub(super) cols: usize,
-    pub(super) spacing: f64,
-    pub(super) origin: [f64; 2],
-    #[serde(with = "preserve")]
-    pub(super) heights: Float64Array,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) image: Option<ImageOutput>,
-    pub(super) report: &'a Report,
-}
-
-/// A `HeightImage` of `types.d.ts` that is a result.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-pub(super) struct ImageOutput {
-    width: usize,
-    height: usize,
-    pixel_size: f64,
-    #[serde(with = "preserve")]
-    data: Float64Array,
-}
-
-impl From<&HeightImage> for ImageOutput {
-    fn from(image: &HeightImage) -> Self {
-        ImageOutput {
-            width: image.width(),
-            height: image.height(),
-            pixel_size: image.pixel_size(),
-            data: image.values().into(),
-        }
     }
 }
 

@@ -8,49 +8,6 @@ use wasm_bindgen::prelude::*;
 
 use super::{Failure, Result};
 use crate::error::Error;
-use crate::solver::{Lambda, Normalization, Options, Schedule};
-
-/// `SolverOptions` of `types.d.ts`; the lattice spacing is none of the solver's.
-pub(super) fn solver_options(options: &JsValue) -> Result<(Options, Option<f64>)> {
-    let mut out = Options::default();
-    let mut spacing = None;
-    for (name, value) in entries(options)? {
-        match name.as_str() {
-            "lambda" => {
-                let lambda: Lambda = option(
-                    "lambda",
-                    value,
-                    "must be small, medium, big or a number above zero",
-                )?;
-                out = out.lambda(lambda);
-            }
-            "schedule" => {
-                let schedule: Schedule = option("schedule", value, "must be default or paper")?;
-                out = out.schedule(schedule);
-            }
-            "gap" => out = out.gap(option("gap", value, "must be a number")?),
-            "maxIterations" => {
-                out = out.max_iterations(option("maxIterations", value, "must be a whole number")?);
-            }
-            "normalize" => {
-                let normalize = option("normalize", value, "must be true or false")?;
-                out = out.normalization(if normalize {
-                    Normalization::UnitSquare
-                } else {
-                    Normalization::Off
-                });
-            }
-            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
-            _ => {
-                return Err(unknown(
-                    &name,
-                    "lambda, schedule, gap, maxIterations, normalize and spacing",
-                ));
-            }
-        }
-    }
-    Ok((out, spacing))
-}
 
 /// What an options object says, without what is undefined in it.
 pub(super) fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {

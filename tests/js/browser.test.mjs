@@ -118,7 +118,7 @@ inPage('the direct API runs in the page itself', async (page) => {
 
 inPage('wasm from another place: relative address, response, bytes, module', async (page) => {
   const reasons = await page.evaluate(`(async () => {
-    const place = 'pkg/wasm/developable_bg.wasm';
+    const place = 'pkg/wasm/solver_bg.wasm';
     const bytes = await (await fetch(place)).arrayBuffer();
     const module = await WebAssembly.compile(bytes);
     const sources = [place, new URL(place, location.href), await fetch(place), fetch(place), bytes, module];

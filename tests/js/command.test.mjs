@@ -9,7 +9,7 @@ import * as direct from '../../pkg/direct.js';
 import { command, run, temporaryFolder } from './support/command.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 
-await direct.init();
+await Promise.all([direct.init(), direct.initFiles()]);
 const folder = await temporaryFolder();
 const ramp = image(24, 20, plane);
 const rough = image(40, 30, noisy(cylinder(40), 0.4));

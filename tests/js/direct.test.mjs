@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
-import { wasmFile } from './support/paths.mjs';
+import { filesWasmFile, wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane, rms } from './support/shapes.mjs';
 
 const { DevelopableError } = direct;
@@ -21,7 +21,7 @@ const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
 test('before init every function says so', () => {
   assert.throws(() => direct.fit(ramp), error('NOT_INITIALIZED', /init\(\)/));
   assert.throws(() => new direct.Solver(ramp), error('NOT_INITIALIZED'));
-  assert.throws(() => direct.read(new Uint8Array(8)), error('NOT_INITIALIZED'));
+  assert.throws(() => direct.read(new Uint8Array(8)), error('NOT_INITIALIZED', /initFiles\(\)/));
 });
 
 test('an init that fails can be tried again, one that is done stays', async () => {
@@ -34,6 +34,14 @@ test('an init that fails can be tried again, one that is done stays', async () =
   assert.equal(direct.init('does-not-exist.wasm'), first);
   await first;
   direct.initSync(new Uint8Array(0));
+});
+
+test('files have a wasm of their own', async () => {
+  assert.throws(() => direct.writeNpy(ramp), error('NOT_INITIALIZED', /initFiles\(\)/));
+  await assert.rejects(direct.initFiles('does-not-exist.wasm'), error('INIT', /does-not-exist/));
+  direct.initFilesSync(await readFile(filesWasmFile));
+  await direct.initFiles('does-not-exist.wasm'); // it is there already
+  assert.equal(direct.read(direct.writeNpy(ramp)).width, ramp.width);
 });
 
 test('a plane comes back', () => {

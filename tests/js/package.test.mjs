@@ -32,7 +32,7 @@ test('the package holds what it needs and nothing else', async () => {
   const paths = packed.files.map(({ path }) => path);
   const needed = [
     'index.js', 'index.d.ts', 'direct.js', 'direct.d.ts', 'types.d.ts', 'worker.js', 'bin/developable.js',
-    'wasm/developable.js', 'wasm/developable_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
+    'wasm/solver.js', 'wasm/solver_bg.wasm', 'wasm/files.js', 'wasm/files_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
     'LICENSE-MIT', 'LICENSE-APACHE', 'README.md',
   ];
   for (const path of needed) assert.ok(paths.includes(path), path);
@@ -160,7 +160,7 @@ async function checkApp(url) {
 test('an app bundled with Vite runs under the strict policy', { skip }, async () => {
   await build({ root: app, logLevel: 'error', configFile: false, build: { modulePreload: { polyfill: false } } });
   const assets = await readdir(join(app, 'dist/assets'));
-  assert.equal(assets.filter((name) => name.endsWith('.wasm')).length, 1, assets.join());
+  assert.equal(assets.filter((name) => name.endsWith('.wasm')).length, 2, assets.join());
   const server = await serve({ '/': join(app, 'dist') });
   after(() => server.close());
   await checkApp(server.url);

@@ -6,7 +6,7 @@ import { after, test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { pathToFileURL } from 'node:url';
 import * as developable from '../../pkg/index.js';
-import { pkg, wasmFile } from './support/paths.mjs';
+import { filesWasmFile, pkg, wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 
 const { DevelopableWorker } = developable;
@@ -239,6 +239,19 @@ test('wasm and worker can come from elsewhere', async () => {
   for (const wasm of sources) {
     const worker = new DevelopableWorker({ wasm, workerUrl: pathToFileURL(`${pkg}worker.js`) });
     assert.ok((await worker.fit(ramp)).image);
+    worker.dispose();
+  }
+});
+
+test('the wasm of the files is loaded when a file is read or written, and not before', async () => {
+  const lost = new DevelopableWorker({ filesWasm: pathToFileURL(`${pkg}nothing.wasm`) });
+  assert.ok((await lost.fit(ramp)).image);
+  await assert.rejects(lost.writeNpy(ramp), { code: 'INIT', message: /nothing\.wasm/ });
+  assert.ok((await lost.fit(ramp)).image); // the solver is none the worse for it
+  lost.dispose();
+  for (const filesWasm of [filesWasmFile, pathToFileURL(filesWasmFile), await readFile(filesWasmFile)]) {
+    const worker = new DevelopableWorker({ filesWasm });
+    assert.equal((await worker.read(await worker.writeNpy(ramp))).width, ramp.width);
     worker.dispose();
   }
 });

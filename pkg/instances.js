@@ -1,0 +1,16 @@
+/** The two wasm files: the solver, and what reads and writes files, which not everybody needs. */
+import { Instance } from './instance.js';
+import * as filesGlue from './wasm/files.js';
+import * as solverGlue from './wasm/solver.js';
+
+export const solver = new Instance(
+  solverGlue,
+  new URL('./wasm/solver_bg.wasm', import.meta.url),
+  'init()',
+);
+
+export const files = new Instance(
+  filesGlue,
+  new URL('./wasm/files_bg.wasm', import.meta.url),
+  'initFiles()',
+);

@@ -239,6 +239,22 @@ fn the_division_into_steps_changes_nothing() {
 }
 
 #[test]
+fn the_best_iterate_and_the_best_bound_are_kept() {
+    // So small a λ makes ADMM's own objective rise in between.
+    let field = noisy(&unit_square(20, waves), 0.05, 6);
+    let options = Options::default().lambda(300.0).gap(1e-10);
+    let mut solver = developable::Solver::new(&field, &options.max_iterations(400)).unwrap();
+    let mut last = solver.progress();
+    while solver.advance(1).unwrap() == developable::Status::Running {
+        let now = solver.progress();
+        assert!(now.objective <= last.objective, "{last:?} then {now:?}");
+        assert!(now.dual_bound >= last.dual_bound, "{last:?} then {now:?}");
+        assert!(now.dual_bound <= now.objective);
+        last = now;
+    }
+}
+
+#[test]
 fn a_cancelled_solve_returns_its_best_iterate() {
     let field = noisy(&unit_square(40, waves), 0.02, 5);
     let options = Options::default().gap(1e-9);

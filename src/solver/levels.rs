@@ -94,7 +94,49 @@ fn cell(domain: &Domain, vertex: (isize, isize), wanted: impl Fn(Role) -> bool) 
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
+    use crate::solver::frame::Frame;
+    use crate::{Normalization, Sym2};
+
+    #[test]
+    fn a_constant_dual_and_a_plane_carry_over_unchanged() {
+        let lattice = Lattice::new(17, 18, 0.1).unwrap();
+        // Bent, so that the best-fit plane that is taken away is not everything.
+        let field = Heightfield::from_fn(lattice, |x, y| x * x + 0.3 * y).unwrap();
+        let coarse_field = coarsen(&field).unwrap();
+        let domains = [&field, &coarse_field].map(|f| Arc::new(Domain::new(f).unwrap()));
+        let frame = Frame::new(&field, &domains[0], Normalization::Off);
+        let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
+            .map(|(f, d)| Problem::new(f, d.clone(), &frame, 1e3).unwrap());
+        let mut state = State::new(&coarse, 0.4).unwrap();
+        let (dual, hessian) = (Sym2::new(1.0, 0.0, 0.3), Sym2::new(2.0, 0.0, 0.0));
+        let plane = |domain: &Domain, cell: usize| {
+            let (row, col) = domain.lattice_vertex(cell);
+            let [x, y] = domain.lattice().position(row, col);
+            5.0 * x - 3.0 * y + 1.0
+        };
+        for cell in coarse.domain.active().cells() {
+            state.z[cell] = plane(&coarse.domain, cell);
+        }
+        for cell in coarse.domain.interior().cells() {
+            state.set_matrices(cell, dual, hessian);
+        }
+        let carried = prolong(&coarse, &state, &fine, 0.2).unwrap();
+        let mut checked = 0;
+        for cell in fine.domain.interior().cells() {
+            let (row, col) = fine.domain.lattice_vertex(cell);
+            if (3..14).contains(&row) && (3..14).contains(&col) {
+                let (y, h) = carried.matrices(cell);
+                assert!((y - dual).dot(y - dual) < 1e-24, "{row} {col}: {y:?}");
+                assert!((h - hessian).dot(h - hessian) < 1e-24, "{row} {col}: {h:?}");
+                assert!((carried.z[cell] - plane(&fine.domain, cell)).abs() < 1e-12);
+                checked += 1;
+            }
+        }
+        assert_eq!(checked, 121);
+    }
 
     #[test]
     fn coarsening_keeps_planes_and_holes() {

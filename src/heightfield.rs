@@ -205,7 +205,7 @@ impl HeightImage {
     pub fn position(&self, row: usize, col: usize) -> [f64; 2] {
         [
             (col as f64 + 0.5) * self.pixel_size,
-            ((self.height - row) as f64 - 0.5) * self.pixel_size,
+            (self.height as f64 - row as f64 - 0.5) * self.pixel_size,
         ]
     }
 }
@@ -228,7 +228,7 @@ fn check_values(what: &'static str, rows: usize, cols: usize, values: &[f64]) ->
             value: values[i],
             row: i / cols,
             col: i % cols,
-            advice: "mark it as no data with NaN or a mask, or repair it",
+            advice: "mark it as no data with NaN, or repair it",
         }),
     }
 }

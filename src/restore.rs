@@ -9,8 +9,9 @@ use crate::stencil::Quadratic;
 /// Gives every omitted vertex the value of the best-fit quadratic of an interior
 /// vertex close to it (paper, Sec. 4.1 and Fig. 9): the nearest one among those
 /// of its neighbours' choices, found by a search that spreads from the interior
-/// over valid vertices. Where no interior vertex can be reached in that way, as
-/// on an island without one, the input's own height stays. Linear cost.
+/// over valid vertices. Where none is within reach in that way, as on an island
+/// without one or far out on a thin strip, where a quadratic says nothing any
+/// more, the input's own height stays. Linear cost.
 pub(crate) fn restore_omitted(domain: &Domain, input: &Heightfield, heights: &mut [f64]) {
     if domain.omitted_len() == 0 {
         return;
@@ -28,6 +29,9 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Heightfield, heights: &mu
     };
 
     const NONE: usize = usize::MAX;
+    /// How far a quadratic is trusted, in spacings.
+    const REACH: f64 = 4.0;
+    let reach = (REACH * lattice.spacing()).powi(2);
     let mut source = vec![NONE; domain.cells()];
     let mut queue = VecDeque::new();
     for cell in domain.interior().cells() {
@@ -64,6 +68,7 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Heightfield, heights: &mu
         let index = domain.lattice_index(cell);
         heights[index] = match source[cell] {
             NONE => input.heights()[index],
+            from if distance(cell, from) > reach => input.heights()[index],
             from => {
                 let ring = domain
                     .neighbour_offsets(from / stride)

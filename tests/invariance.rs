@@ -214,7 +214,7 @@ fn refining_the_lattice_changes_the_surface_less_each_time() {
 
 #[test]
 fn the_division_into_steps_changes_nothing() {
-    let field = cut(&noisy(&unit_square(25, waves), 0.02, 4), |x, y| {
+    let field = cut(&noisy(&unit_square(60, waves), 0.02, 4), |x, y| {
         (x - 0.4).hypot(y - 0.5) > 0.1
     });
     for schedule in [Schedule::Default, Schedule::Paper] {
@@ -282,7 +282,37 @@ fn a_cancelled_solve_returns_its_best_iterate() {
             .all(|z| z.is_finite())
     );
 
+    // Never worse than the input, on whatever level it ends.
+    let field = noisy(&unit_square(80, waves), 0.002, 7);
+    for (lambda, work) in [(1e9, 1), (1e9, 60), (1e6, 1), (1e3, 1)] {
+        let options = Options::default().lambda(lambda).gap(1e-9);
+        let mut solver = developable::Solver::new(&field, &options).unwrap();
+        let _ = solver.advance(work).unwrap();
+        let on_coarse = solver.progress().level > 0;
+        assert!(on_coarse || work > 1);
+        solver.cancel();
+        let report = solver.surface().unwrap().report().clone();
+        let once = fit(&field, &options.max_iterations(1))
+            .unwrap()
+            .report()
+            .clone();
+        let input = developable::HessianOperator::new(&developable::Domain::new(&field).unwrap())
+            .apply(field.heights())
+            .iter()
+            .map(|h| h.nuclear_norm())
+            .sum::<f64>()
+            / report.scale;
+        assert!(
+            report.objective <= input * (1.0 + 1e-9),
+            "{report:?} {input}"
+        );
+        assert!(once.objective <= input * (1.0 + 1e-9), "{once:?} {input}");
+        assert!(report.dual_bound <= report.objective);
+    }
+
     // Before the first iteration that is the input itself.
+    let field = noisy(&unit_square(40, waves), 0.02, 5);
+    let options = Options::default().gap(1e-9);
     let mut solver = developable::Solver::new(&field, &options).unwrap();
     solver.cancel();
     let surface = solver.surface().unwrap();

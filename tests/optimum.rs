@@ -5,10 +5,10 @@ mod common;
 
 use common::conic::optimum;
 use common::{cut, noisy, unit_square};
-use developable::{Heightfield, Lambda, Normalization, Options, Schedule, StopReason, fit};
+use developable::{Heightfield, Lambda, Normalization, Options, Report, Schedule, StopReason, fit};
 
 /// Solves to a tiny gap and compares objective, bound and heights.
-fn check(field: &Heightfield, lambda: Lambda) {
+fn check(field: &Heightfield, lambda: Lambda) -> Report {
     let exact = optimum(field, lambda.value());
     let options = Options::default()
         .lambda(lambda)
@@ -36,6 +36,7 @@ fn check(field: &Heightfield, lambda: Lambda) {
         .map(|(a, b)| (a - b).powi(2))
         .sum();
     assert!(distance <= bound + 1e-12, "{distance:e} against {bound:e}");
+    report.clone()
 }
 
 fn bumps(x: f64, y: f64) -> f64 {
@@ -63,6 +64,21 @@ fn tiny_lambda_leaves_little_but_a_plane() {
         &noisy(&unit_square(10, bumps), 0.02, 4),
         Lambda::Value(300.0),
     );
+}
+
+#[test]
+fn optima_that_are_almost_planes_are_found() {
+    // Where λ or the relief is small there is hardly any curvature left to balance ρ by.
+    for (cols, relief, lambda) in [(30, 1.0, 1.0), (30, 1e-5, 1e6), (50, 1.0, 30.0)] {
+        let field = noisy(
+            &unit_square(cols, |x, y| relief * bumps(x, y)),
+            0.02 * relief,
+            11,
+        );
+        let options = Options::default().lambda(lambda);
+        let report = fit(&field, &options).unwrap().report().clone();
+        assert_eq!(report.stop_reason, StopReason::Gap, "{report:?}");
+    }
 }
 
 #[test]
@@ -101,8 +117,9 @@ fn coarse_to_fine_around_holes_that_vanish_on_the_way() {
         let island = (x - 0.9).hypot(y - 0.1);
         pinholes && slit && !(0.1..0.15).contains(&island)
     };
-    let field = cut(&noisy(&unit_square(36, bumps), 0.02, 10), keep);
-    check(&field, Lambda::Value(3e4));
+    let field = cut(&noisy(&unit_square(56, bumps), 0.02, 10), keep);
+    let report = check(&field, Lambda::Value(3e4));
+    assert!(report.levels.len() > 1, "{report:?}");
 }
 
 #[test]

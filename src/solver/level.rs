@@ -55,7 +55,7 @@ impl Best {
     pub(crate) fn gap(&self) -> f64 {
         let objective = self.objective();
         if objective > 0.0 {
-            (objective - self.dual_bound) / objective
+            ((objective - self.dual_bound) / objective).max(0.0)
         } else {
             0.0
         }
@@ -71,6 +71,18 @@ impl Best {
     }
 }
 
+impl Best {
+    /// The input itself, if it is better: a start from a coarser level need not be.
+    pub(crate) fn take_input(&mut self, problem: &Problem) {
+        let objective = problem.input_objective();
+        if objective < self.objective() {
+            self.z.copy_from_slice(&problem.target);
+            self.fidelity = 0.0;
+            self.nuclear_norm = objective;
+        }
+    }
+}
+
 impl Level {
     /// Starts from `state`; a reason to stop at once comes with it.
     pub(crate) fn new(
@@ -83,7 +95,8 @@ impl Level {
         let mut cg = ConjugateGradients::new(&problem, domains, state.rho)?;
         let certificate = state.certify(&problem);
         state.update(&problem, 0.0, &mut cg);
-        let best = Best::new(&state.z, &certificate);
+        let mut best = Best::new(&state.z, &certificate);
+        best.take_input(&problem);
         let reason = plan.stop(&problem, 0, &certificate, 0.0, best.objective(), best.gap());
         let mut level = Level {
             problem,
@@ -200,7 +213,9 @@ impl Level {
             self.best.objective(),
             self.best.gap(),
         );
-        let rho = self.plan.next_rho(self.state.rho, &certificate, change);
+        let rho = self
+            .plan
+            .next_rho(&self.problem, self.state.rho, &certificate, change);
         if reason.is_none() && rho != self.state.rho {
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(&self.problem, rho);

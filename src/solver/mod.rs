@@ -169,7 +169,7 @@ impl Solver {
             self.seconds = self.seconds + self.level.seconds;
             let done = self.coarser.iter().map(|level| level.iterations).sum();
             let plan = self.plan.on_level(!self.finer.is_empty(), done);
-            let rho = 0.5 * self.level.state.rho;
+            let rho = self.plan.finer_rho(self.level.state.rho, &fine);
             let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
             let (level, stop) = Level::new(fine, state, plan, &self.domains[self.finer.len()..])?;
             self.level = level;
@@ -196,7 +196,10 @@ impl Solver {
             cg_iterations: report.cg_iterations + coarser.map(|l| l.cg_iterations).sum::<usize>(),
             objective: share * self.level.best.objective(),
             dual_bound: share * self.level.best.dual_bound,
-            gap: self.level.best.gap(),
+            gap: match self.status {
+                Status::Stopped(StopReason::Rounding) => 0.0,
+                _ => self.level.best.gap(),
+            },
             rho: self.level.state.rho,
             elapsed: self.started.elapsed().as_secs_f64(),
         }
@@ -236,7 +239,11 @@ impl Solver {
             fidelity: best.fidelity,
             nuclear_norm: best.nuclear_norm,
             dual_bound: best.dual_bound,
-            gap: best.gap(),
+            gap: match self.status {
+                // Objective and optimum are the same but for rounding errors.
+                Status::Stopped(StopReason::Rounding) => 0.0,
+                _ => best.gap(),
+            },
             lambda: problem.lambda,
             rho: self.level.state.rho,
             scale: self.frame.scale,
@@ -261,17 +268,20 @@ impl Solver {
         let mut coarse = &self.level.problem;
         for fine in self.finer.iter().rev() {
             let from = state.as_ref().unwrap_or(&self.level.state);
-            state = Some(prolong(coarse, from, fine, 0.5 * from.rho)?);
+            state = Some(prolong(
+                coarse,
+                from,
+                fine,
+                self.plan.finer_rho(from.rho, fine),
+            )?);
             coarse = fine;
         }
         let Some(mut state) = state else {
             return Ok(None);
         };
-        let mut input = State::new(coarse, state.rho)?;
-        let certificate = input.certify(coarse);
-        let mut best = Best::new(&input.z, &certificate);
         let certificate = state.certify(coarse);
-        best.take(&state.z, &certificate);
+        let mut best = Best::new(&state.z, &certificate);
+        best.take_input(coarse);
         Ok(Some(best))
     }
 }

@@ -4,7 +4,10 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer};
 
-use crate::error::{Error, Result, positive};
+use crate::error::{Error, Result};
+
+/// Beyond these even double precision sees only one of the energy's two terms.
+const LAMBDAS: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 
 /// Weight λ of the fidelity term, stated for coordinates normalised to the
 /// unit square. The presets are the paper's (Sec. 5).
@@ -17,7 +20,7 @@ pub enum Lambda {
     Medium,
     /// 10⁷: for input that is developable but for small artefacts.
     Big,
-    /// Any number above zero.
+    /// Any number from 10⁻¹² to 10¹⁵.
     Value(f64),
 }
 
@@ -166,7 +169,13 @@ impl Options {
     /// # Errors
     /// [`Error::Option`] with the name of the first that is not.
     pub fn validate(&self) -> Result<()> {
-        positive("lambda", self.lambda.value())?;
+        if !LAMBDAS.contains(&self.lambda.value()) {
+            return Err(Error::option(
+                "lambda",
+                format!("{:e}", self.lambda.value()),
+                "must lie between 1e-12 and 1e15",
+            ));
+        }
         if !(self.gap > 0.0 && self.gap < 1.0) {
             return Err(Error::option(
                 "gap",
@@ -202,7 +211,7 @@ mod tests {
             Err(Error::Option { name, .. }) => name,
             other => panic!("{other:?}"),
         };
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for bad in [0.0, -1.0, 1e16, f64::NAN, f64::INFINITY] {
             assert_eq!(name(Options::default().lambda(bad)), "lambda");
         }
         for bad in [0.0, 1.0, f64::NAN] {

@@ -10,7 +10,7 @@ pub enum StopReason {
     Gap,
     /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
     Residuals,
-    /// The objective is zero up to rounding: the input is affine already.
+    /// The objective is zero up to rounding, hence optimal: the surface is affine.
     Rounding,
     /// [`Options::max_iterations`](crate::Options::max_iterations) was reached.
     MaxIterations,
@@ -28,7 +28,7 @@ pub struct Progress {
     pub iteration: usize,
     /// Conjugate-gradient iterations so far, over all z-steps.
     pub cg_iterations: usize,
-    /// Objective of the best iterate so far; that of the input before the first check.
+    /// Objective of the best iterate so far; that of the start before the first check.
     pub objective: f64,
     /// Best lower bound of the optimum so far.
     pub dual_bound: f64,
@@ -111,7 +111,8 @@ pub struct Report {
     pub nuclear_norm: f64,
     /// Certified lower bound of the optimum.
     pub dual_bound: f64,
-    /// `(objective − dual_bound) / objective`: the most by which the result can miss the optimum.
+    /// `(objective − dual_bound) / objective`: the most by which the result can miss the optimum;
+    /// 0 for [`StopReason::Rounding`].
     pub gap: f64,
     /// λ as a number.
     pub lambda: f64,

@@ -40,6 +40,12 @@ const COARSEST: usize = 500;
 /// over three λ and two gaps on a scan; 1 took three times as many to a gap of 0.1 %.
 const BALANCE: f64 = 0.15;
 
+/// Longest screening length of the z-step, in sizes of the domain.
+const SCREENING: f64 = 0.1;
+
+/// The same in cells: its fourth power is the condition number, and single precision ends at 10⁷.
+const CELLS: f64 = 16.0;
+
 /// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
 const COARSE_GAP: f64 = 0.01;
 
@@ -92,9 +98,24 @@ impl Plan {
     pub(crate) fn first_rho(&self, problem: &Problem) -> f64 {
         match self.schedule {
             // Creases have Hessians of order 1/h, which makes h the natural unit of ρ.
-            Schedule::Default => problem.spacing,
+            Schedule::Default => self.within_bounds(problem.spacing, problem),
             Schedule::Paper => 1e-6,
         }
+    }
+
+    /// The penalty to go on with on the lattice of half the spacing.
+    pub(crate) fn finer_rho(&self, rho: f64, fine: &Problem) -> f64 {
+        self.within_bounds(0.5 * rho, fine)
+    }
+
+    /// Where the optimum is nearly affine the relative primal residual stays at 1, and
+    /// balancing alone would let ρ grow without end. There is no use for a screening
+    /// length (ρ/2λ)^¼ beyond a part of the domain's size.
+    fn within_bounds(&self, rho: f64, problem: &Problem) -> f64 {
+        let domain = &problem.domain;
+        let size = problem.spacing * domain.rows().max(domain.stride()) as f64;
+        let length = (SCREENING * size).min(CELLS * problem.spacing);
+        rho.min(2.0 * problem.lambda * length.powi(4))
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations.
@@ -121,7 +142,13 @@ impl Plan {
     }
 
     /// Residual balancing (Boyd et al., Sec. 3.4.1): the penalty to go on with.
-    pub(crate) fn next_rho(&self, rho: f64, certificate: &Certificate, change: f64) -> f64 {
+    pub(crate) fn next_rho(
+        &self,
+        problem: &Problem,
+        rho: f64,
+        certificate: &Certificate,
+        change: f64,
+    ) -> f64 {
         let (primal, dual) = match self.schedule {
             Schedule::Default => (
                 certificate.primal_residual / certificate.primal_size,
@@ -129,12 +156,16 @@ impl Plan {
             ),
             Schedule::Paper => (certificate.primal_residual, change),
         };
-        if primal > self.imbalance * dual {
+        let next = if primal > self.imbalance * dual {
             rho * 2.0
         } else if dual > self.imbalance * primal {
             rho / 2.0
         } else {
             rho
+        };
+        match self.schedule {
+            Schedule::Default => self.within_bounds(next, problem),
+            Schedule::Paper => next,
         }
     }
 

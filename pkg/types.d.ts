@@ -44,7 +44,7 @@ export interface SolverOptions {
   /**
    * Weight of the fidelity term, for coordinates normalised to the unit square:
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
-   * (nearly developable input), or any number above zero. Default `'medium'`.
+   * (nearly developable input), or a number from 1e-12 to 1e15. Default `'medium'`.
    */
   lambda?: number | 'small' | 'medium' | 'big';
   /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
@@ -111,7 +111,7 @@ export interface Report {
   nuclearNorm: number;
   /** Certified lower bound of the optimum. */
   dualBound: number;
-  /** `(objective - dualBound) / objective`: how far from the optimum the result can be at most. */
+  /** `(objective - dualBound) / objective`: how far from the optimum the result can be at most; 0 for `'rounding'`. */
   gap: number;
   /** Lambda that was used, as a number. */
   lambda: number;
@@ -164,11 +164,13 @@ export interface ReadResult {
   format: 'png' | 'npy';
   width: number;
   height: number;
-  /** Values as stored (grey levels, numbers), row by row; NaN where an alpha channel is 0 or the value is NaN. */
+  /**
+   * Values as stored (grey levels, numbers), plus `offset / heightScale` where the file records an
+   * offset, row by row; NaN where an alpha channel is 0 or the value is NaN.
+   */
   data: Float64Array;
   pixelSize: number;
   heightScale: number;
-  /** Added to the scaled heights; 0 unless the file records an offset. Already contained in `data` (as `offset / heightScale`). */
   /** The type the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'`, ... */
   dataType: string;
 }

@@ -7,7 +7,7 @@ import { count, percentAtMost, seconds } from './format.js';
 export const STOP_REASONS = {
   gap: 'the wanted gap was certified',
   residuals: 'the residuals were small enough (the paper’s rule)',
-  rounding: 'rounding: 64-bit numbers get no closer',
+  rounding: 'nothing left to bend: the optimum, up to rounding',
   maxIterations: 'the most iterations allowed',
   cancelled: 'cancelled; this is the best surface so far',
 };
@@ -25,6 +25,7 @@ export function verdict({ gap, seconds: { total }, stopReason }) {
   if (stopReason === 'cancelled') {
     return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
   }
+  if (stopReason === 'rounding') return `Flat up to rounding: this is the optimum, found in ${time}.`;
   return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time}, too early for a useful certificate.`;
 }
 

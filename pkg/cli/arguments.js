@@ -1,4 +1,5 @@
 /** From the command line to a task. */
+import { realpathSync } from 'node:fs';
 import { extname, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { messageOf } from '../errors.js';
@@ -56,9 +57,8 @@ export function parse(args) {
 
   const { output, mask, report } = values;
   if (output === undefined) throw usage('the output is missing: -o FILE');
-  if (report !== undefined && resolve(report) === resolve(output)) {
-    throw usage('the output and the report are the same file');
-  }
+  if (report !== undefined) apart({ report }, { output, input, mask });
+  apart({ output }, { mask });
   /** @param {'spacing' | 'height-scale' | 'no-data' | 'gap' | 'max-iterations'} name */
   const number = (name) => asNumber(name, values[name]);
   return {
@@ -80,6 +80,29 @@ export function parse(args) {
       normalize: !values['no-normalize'],
     },
   };
+}
+
+/**
+ * Nothing that is read is overwritten, but for the input on demand: `-o INPUT`.
+ * @param {Record<string, string>} written
+ * @param {Record<string, string | undefined>} others
+ */
+function apart(written, others) {
+  const [[name, file]] = Object.entries(written);
+  for (const [other, path] of Object.entries(others)) {
+    if (path !== undefined && whereabouts(path) === whereabouts(file)) {
+      throw usage(`the ${other} and the ${name} are the same file`);
+    }
+  }
+}
+
+/** A file's place, by whatever links it is reached. @param {string} file */
+function whereabouts(file) {
+  try {
+    return realpathSync(file);
+  } catch {
+    return resolve(file); // not there yet
+  }
 }
 
 /** @param {string[]} args */

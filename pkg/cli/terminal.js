@@ -8,8 +8,9 @@ export function progressLine() {
   return {
     shown,
     /** @param {import('../types.js').Progress} progress */
-    show({ iteration, gap, elapsed }) {
-      terminal.write(`\r\x1b[Kiteration ${iteration}, gap ${percent(gap)}, ${elapsed.toFixed(1)} s`);
+    show({ level, iteration, gap, elapsed }) {
+      const state = level > 0 ? `coarse lattice, ${level} finer to come` : `gap ${percent(gap)}`;
+      terminal.write(`\r\x1b[Kiteration ${iteration}, ${state}, ${elapsed.toFixed(1)} s`);
     },
     clear() {
       if (shown) terminal.write('\r\x1b[K');

@@ -31,7 +31,9 @@ pub(super) fn option<T: DeserializeOwned>(
     requirement: &'static str,
 ) -> Result<T> {
     from_value(value.clone()).map_err(|_| {
-        let shown = js_sys::JSON::stringify(&value).ok().map(String::from);
+        // `undefined`, functions and symbols have no JSON: then this is no string.
+        let json = js_sys::JSON::stringify(&value);
+        let shown = json.ok().and_then(|text| JsValue::from(text).as_string());
         Failure::from(Error::option(
             name,
             shown.unwrap_or_else(|| format!("{value:?}")),

@@ -152,6 +152,8 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
     ['fit ramp.npy -o x.npy --lattice cubic', /--lattice.*cubic/],
     ['fit ramp.npy -o x.npy --no-normalize=yes', /no-normalize/],
     ['fit ramp.npy -o x.npy --report ./x.npy', /same file/],
+    ['fit ramp.npy -o x.npy --report ./ramp.npy', /input and the report are the same file/],
+    ['fit ramp.npy -o mask.npy --mask mask.npy', /mask and the output are the same file/],
   ];
   for (const [args, message] of cases) {
     const { status, stdout, stderr } = await run(folder, args.split(' ').filter(Boolean));

@@ -137,6 +137,9 @@ test('wrong inputs and options are named', () => {
   assert.throws(fit(ramp, { lamda: 1 }), error('OPTION', /lamda/));
   assert.throws(fit(ramp, { lambda: 'huge' }), error('OPTION', /lambda.*huge/));
   assert.throws(fit(ramp, { lambda: -1 }), error('OPTION', /lambda.*-1/));
+  // What JSON does not know, and what is left out.
+  for (const lambda of [() => 1, Symbol('big')]) assert.throws(fit(ramp, { lambda }), error('OPTION', /lambda/));
+  assert.throws(() => direct.example(/** @type {any} */ (undefined)), error('OPTION', /example/));
   assert.throws(fit(ramp, { gap: '0.1' }), error('OPTION', /gap.*0\.1/));
   assert.throws(fit(ramp, { gap: null }), error('OPTION', /gap.*null/));
   assert.throws(fit(ramp, { maxIterations: 1.5 }), error('OPTION', /maxIterations.*1\.5/));

@@ -20,7 +20,7 @@ export function runPanel(session) {
 
   form.addEventListener('submit', (event) => {
     event.preventDefault();
-    void session.run();
+    if (form.reportValidity()) void session.run();
   });
   // Only said to be disabled, so that the keyboard's focus is not lost when a run ends.
   cancel.addEventListener('click', () => {

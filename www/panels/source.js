@@ -43,6 +43,8 @@ export function sourcePanel(session) {
     const opened = await session.open(`“${chosen.name}” could not be read`, async () => {
       const { format, dataType, width, height, data, pixelSize: side, heightScale: step } = await session.api.read(chosen);
       if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
+      if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
+      if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
       values = data;
       const name = chosen.name.replace(/\.[^.]*$/, '') || 'heights';
       const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;

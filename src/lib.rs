@@ -47,7 +47,7 @@
 //!
 //! # Cost
 //!
-//! Linear in the number of vertices, and about 110 bytes for each. One thread.
+//! Linear in the number of vertices, and about 130 bytes for each. One thread.
 //! The result is the same on every run and, to rounding, on every machine.
 //!
 //! # References

@@ -81,7 +81,7 @@ pageTest('zeros become holes on request, and heights again', async (page) => {
 });
 
 pageTest('heights without any interior are refused with the reason', async (page) => {
-  await drop(page, 'line.npy', npy(WIDTH, plane.slice(0, WIDTH)));
+  await drop(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await page.locator('#input-caption', { hasText: 'line' }).waitFor();
   await run(page);
   assert.match(await page.getByRole('alert').innerText(), /interior/);
@@ -102,6 +102,8 @@ const broken = [
   { what: 'a truncated PNG', name: 'scan.png', bytes: png16(WIDTH, plane).subarray(0, 90), says: /cut short|end|truncated|incomplete/i },
   { what: 'a text called .npy', name: 'notes.npy', bytes: Buffer.from('heights: see the other file\n'), says: /PNG|NPY|format/ },
   { what: 'an NPY of NaN only', name: 'void.npy', bytes: npy(WIDTH, plane.map(() => NaN)), says: /NaN|no data/ },
+  { what: 'an NPY with an infinite height', name: 'spike.npy', bytes: npy(WIDTH, plane.map((value, i) => (i === 5 ? Infinity : value))), says: /infinite/ },
+  { what: 'a single row of pixels', name: 'line.npy', bytes: npy(WIDTH, plane.slice(0, WIDTH)), says: /at least 3 × 3/ },
   { what: 'an empty file', name: 'nothing.png', bytes: Buffer.alloc(0), says: /empty|PNG|NPY|no bytes/i },
 ];
 

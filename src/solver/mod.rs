@@ -196,10 +196,7 @@ impl Solver {
             cg_iterations: report.cg_iterations + coarser.map(|l| l.cg_iterations).sum::<usize>(),
             objective: share * self.level.best.objective(),
             dual_bound: share * self.level.best.dual_bound,
-            gap: match self.status {
-                Status::Stopped(StopReason::Rounding) => 0.0,
-                _ => self.level.best.gap(),
-            },
+            gap: self.gap_of(&self.level.best),
             rho: self.level.state.rho,
             elapsed: self.started.elapsed().as_secs_f64(),
         }
@@ -239,11 +236,7 @@ impl Solver {
             fidelity: best.fidelity,
             nuclear_norm: best.nuclear_norm,
             dual_bound: best.dual_bound,
-            gap: match self.status {
-                // Objective and optimum are the same but for rounding errors.
-                Status::Stopped(StopReason::Rounding) => 0.0,
-                _ => best.gap(),
-            },
+            gap: self.gap_of(best),
             lambda: problem.lambda,
             rho: self.level.state.rho,
             scale: self.frame.scale,
@@ -260,6 +253,14 @@ impl Solver {
             heightfield: Heightfield::new(*self.field.lattice(), heights)?,
             report,
         })
+    }
+
+    fn gap_of(&self, best: &Best) -> f64 {
+        match self.status {
+            // Objective and optimum are the same but for rounding errors.
+            Status::Stopped(StopReason::Rounding) => 0.0,
+            _ => best.gap(),
+        }
     }
 
     /// A coarse level's iterate on the finest lattice, or the input if that is better.

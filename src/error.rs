@@ -68,6 +68,21 @@ pub enum Error {
         valid: usize,
     },
 
+    /// A connected part of the surface that its constraints and fidelity do not hold in place.
+    #[error(
+        "the part of the surface around row {row}, column {col} ({vertices} vertices) is not held \
+         in place: it needs heights at three vertices that are not on a line, as constraints or \
+         with a confidence above 0; add some, or mask the part out"
+    )]
+    Underdetermined {
+        /// Row of its first vertex.
+        row: usize,
+        /// Column of its first vertex.
+        col: usize,
+        /// Number of its vertices.
+        vertices: usize,
+    },
+
     /// An option is outside its range.
     #[error("option `{name}` is {value}, but {requirement}")]
     Option {
@@ -140,6 +155,7 @@ impl Error {
             Error::Shape { .. } => "SHAPE",
             Error::NotFinite { .. } => "NOT_FINITE",
             Error::NoInterior { .. } => "NO_INTERIOR",
+            Error::Underdetermined { .. } => "UNDERDETERMINED",
             Error::Option { .. } => "OPTION",
             Error::Overflow { .. } => "OVERFLOW",
             Error::TooLarge { .. } => "TOO_LARGE",

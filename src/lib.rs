@@ -67,7 +67,9 @@ mod examples;
 pub mod formats;
 mod heightfield;
 mod hessian;
+mod input;
 mod lattice;
+mod occlusions;
 mod resample;
 mod restore;
 mod solver;
@@ -82,10 +84,12 @@ pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
 pub use heightfield::{HeightImage, Heightfield};
 pub use hessian::HessianOperator;
+pub use input::Input;
 pub use lattice::Lattice;
+pub use occlusions::{OCCLUSION_THRESHOLD, Occlusions};
 pub use solver::{
-    Lambda, LevelReport, Normalization, Options, Progress, Report, Schedule, Seconds, Solver,
-    Status, StopReason, fit, fit_with,
+    Energy, Lambda, LevelReport, Normalization, Options, Progress, Report, Schedule, Seconds,
+    Solver, Status, StopReason, fit, fit_with,
 };
 pub use spectral::Sym2;
 pub use stencil::Quadratic;

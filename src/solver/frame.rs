@@ -20,10 +20,7 @@ pub(crate) struct Frame {
 
 impl Frame {
     pub(crate) fn new(field: &Heightfield, domain: &Domain, normalization: Normalization) -> Self {
-        let scale = match normalization {
-            Normalization::Off => 1.0,
-            Normalization::UnitSquare => 1.0 / longer_side(field),
-        };
+        let scale = normalization.factor(field);
         let n = domain.active().len() as f64;
         let vertices = || domain.active().cells().map(|c| domain.lattice_vertex(c));
         let position = |(row, col)| field.lattice().position(row, col);
@@ -63,6 +60,16 @@ impl Frame {
     /// The way back.
     pub(crate) fn outward(&self, position: [f64; 2], z: f64) -> f64 {
         z / self.scale + self.plane(position)
+    }
+}
+
+impl Normalization {
+    /// Factor from the field's units to normalised coordinates.
+    pub(crate) fn factor(self, field: &Heightfield) -> f64 {
+        match self {
+            Normalization::Off => 1.0,
+            Normalization::UnitSquare => 1.0 / longer_side(field),
+        }
     }
 }
 

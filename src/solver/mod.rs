@@ -20,12 +20,13 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-pub use options::{Lambda, Normalization, Options, Schedule};
+pub use options::{Energy, Lambda, Normalization, Options, Schedule};
 pub use report::{LevelReport, Progress, Report, Seconds, StopReason};
 
 use crate::domain::Domain;
 use crate::error::{Error, Result};
 use crate::heightfield::Heightfield;
+use crate::input::Input;
 use crate::restore::restore_omitted;
 use crate::surface::Surface;
 use frame::Frame;
@@ -89,7 +90,8 @@ impl Solver {
     /// [`Error::Option`] for an option out of range, [`Error::NoInterior`] if
     /// there is nothing to solve, [`Error::Overflow`] if the heights are too
     /// large for their energy to be computed, [`Error::OutOfMemory`].
-    pub fn new(field: &Heightfield, options: &Options) -> Result<Self> {
+    pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
+        let field = &input.into().field;
         let started = Instant::now();
         options.validate()?;
         let plan = Plan::new(options);
@@ -145,6 +147,27 @@ impl Solver {
             solver.finish_level(reason)?;
         }
         Ok(solver)
+    }
+
+    /// Solves the same input again with other options, from where it stands:
+    /// for a slider. On an error nothing has changed.
+    ///
+    /// # Errors
+    /// As [`Solver::new`].
+    pub fn restart(&mut self, options: &Options) -> Result<()> {
+        *self = Solver::new(&self.field, options)?;
+        Ok(())
+    }
+
+    /// Solves another input, on a lattice of the same shape, from where it
+    /// stands: slightly other heights, another mask. On a lattice of another
+    /// shape it starts from nothing. On an error nothing has changed.
+    ///
+    /// # Errors
+    /// As [`Solver::new`].
+    pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
+        *self = Solver::new(input, options)?;
+        Ok(())
     }
 
     /// Runs about `work` conjugate-gradient iterations, at least one. Results
@@ -232,6 +255,12 @@ impl Solver {
             iterations: levels.iter().map(|level| level.iterations).sum(),
             cg_iterations: levels.iter().map(|level| level.cg_iterations).sum(),
             levels,
+            occluded: 0,
+            constrained: 0,
+            free: 0,
+            components: 1,
+            energy: Energy::Nuclear,
+            reweighting: 0,
             objective: best.objective(),
             fidelity: best.fidelity,
             nuclear_norm: best.nuclear_norm,
@@ -291,8 +320,8 @@ impl Solver {
 ///
 /// # Errors
 /// As [`Solver::new`].
-pub fn fit(field: &Heightfield, options: &Options) -> Result<Surface> {
-    fit_with(field, options, |_| ControlFlow::Continue(()))
+pub fn fit(input: impl Into<Input>, options: &Options) -> Result<Surface> {
+    fit_with(input, options, |_| ControlFlow::Continue(()))
 }
 
 /// Solves to the end, unless `on_progress` breaks off: it is called every few
@@ -302,13 +331,13 @@ pub fn fit(field: &Heightfield, options: &Options) -> Result<Surface> {
 /// # Errors
 /// As [`Solver::new`].
 pub fn fit_with(
-    field: &Heightfield,
+    input: impl Into<Input>,
     options: &Options,
     mut on_progress: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Surface> {
     /// About ten iterations of the default schedule.
     const WORK: usize = 20;
-    let mut solver = Solver::new(field, options)?;
+    let mut solver = Solver::new(input, options)?;
     while solver.advance(WORK)? == Status::Running {
         if on_progress(&solver.progress()).is_break() {
             solver.cancel();

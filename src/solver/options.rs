@@ -2,12 +2,15 @@
 
 use std::str::FromStr;
 
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, Result};
 
 /// Beyond these even double precision sees only one of the energy's two terms.
 const LAMBDAS: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
+
+/// More passes change nothing any more.
+const MOST_PASSES: usize = 20;
 
 /// Weight λ of the fidelity term, stated for coordinates normalised to the
 /// unit square. The presets are the paper's (Sec. 5).
@@ -92,6 +95,43 @@ pub enum Schedule {
     Paper,
 }
 
+/// What is minimised besides the fidelity term.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Energy {
+    /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15).
+    #[default]
+    Nuclear,
+    /// `Σ ‖H‖_F`: smooth where it should crease (Fig. 21).
+    Frobenius,
+    /// `Σ ‖H‖_*²`: likewise (Fig. 21).
+    SquaredNuclear,
+    /// `Σ n₃ ‖H‖_*`, the nuclear norm of the second fundamental form, with the factor
+    /// `n₃ = (1 + |∇z|²)^-½` taken from the input once: convex (Fig. 7, right).
+    SecondFormOfInput,
+    /// The same with the factor of the surface itself, updated in each iteration: not convex
+    /// (Fig. 7, centre right). What is certified is the energy with the last factor kept.
+    SecondForm,
+}
+
+impl FromStr for Energy {
+    type Err = Error;
+
+    /// Reads the names that JS has for them, as `squaredNuclear`.
+    fn from_str(text: &str) -> Result<Self> {
+        use serde::de::IntoDeserializer;
+        use serde::de::value::{Error as Unknown, StrDeserializer};
+        let name: StrDeserializer<'_, Unknown> = text.into_deserializer();
+        Energy::deserialize(name).map_err(|_| {
+            Error::option(
+                "energy",
+                text,
+                "must be nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm",
+            )
+        })
+    }
+}
+
 /// How the input's coordinates become the energy's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Normalization {
@@ -118,6 +158,9 @@ pub struct Options {
     pub(crate) gap: f64,
     pub(crate) max_iterations: usize,
     pub(crate) normalization: Normalization,
+    pub(crate) energy: Energy,
+    pub(crate) reweighting: usize,
+    pub(crate) tie_break: f64,
 }
 
 impl Default for Options {
@@ -128,6 +171,9 @@ impl Default for Options {
             gap: 0.01,
             max_iterations: 20_000,
             normalization: Normalization::UnitSquare,
+            energy: Energy::Nuclear,
+            reweighting: 0,
+            tie_break: 0.01,
         }
     }
 }
@@ -164,6 +210,30 @@ impl Options {
         self
     }
 
+    /// Default [`Energy::Nuclear`].
+    pub fn energy(mut self, energy: Energy) -> Self {
+        self.energy = energy;
+        self
+    }
+
+    /// Passes after the first solve in which each vertex's norm is weighted by
+    /// one over its size in the solution before: they take away most of the
+    /// shrinkage that the energy does to large curvatures. Default 0, at most
+    /// 20; two or three are usual. The figures of the report are those of the
+    /// last pass's weighted energy.
+    pub fn reweighting(mut self, passes: usize) -> Self {
+        self.reweighting = passes;
+        self
+    }
+
+    /// Weight, in place of λ, of the squared distance from the thin plate
+    /// through the constraints, at vertices that have no fidelity term of their
+    /// own: without it minimisers need not be unique. Default 0.01.
+    pub fn tie_break(mut self, weight: f64) -> Self {
+        self.tie_break = weight;
+        self
+    }
+
     /// Whether every option is within its range.
     ///
     /// # Errors
@@ -181,6 +251,20 @@ impl Options {
                 "gap",
                 self.gap,
                 "must lie between 0 and 1, both excluded",
+            ));
+        }
+        if self.reweighting > MOST_PASSES {
+            return Err(Error::option(
+                "reweighting",
+                self.reweighting,
+                "must be at most 20",
+            ));
+        }
+        if !LAMBDAS.contains(&self.tie_break) {
+            return Err(Error::option(
+                "tieBreak",
+                format!("{:e}", self.tie_break),
+                "must lie between 1e-12 and 1e15",
             ));
         }
         if self.max_iterations == 0 {

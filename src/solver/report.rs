@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::options::Energy;
+
 /// Why a solve stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -97,12 +99,24 @@ pub struct Report {
     pub boundary: usize,
     /// Valid vertices that no stencil touches: left out of the solve, restored afterwards.
     pub omitted: usize,
+    /// Vertices where no Hessian was taken because of an occlusion.
+    pub occluded: usize,
+    /// Vertices whose height was given for good.
+    pub constrained: usize,
+    /// Vertices of the solve with neither a constraint nor a fidelity term of their own.
+    pub free: usize,
+    /// Connected parts, each of which was solved for itself.
+    pub components: usize,
     /// ADMM iterations on all levels.
     pub iterations: usize,
     /// Conjugate-gradient iterations over all z-steps on all levels.
     pub cg_iterations: usize,
     /// The levels that were worked on, the coarsest first.
     pub levels: Vec<LevelReport>,
+    /// What was minimised besides the fidelity term.
+    pub energy: Energy,
+    /// Reweighted passes that were made after the first solve.
+    pub reweighting: usize,
     /// Energy of the returned surface.
     pub objective: f64,
     /// Its first term, `λ Σ (z − z̃)²`.

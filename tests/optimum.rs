@@ -3,40 +3,12 @@
 
 mod common;
 
-use common::conic::optimum;
+use common::conic::Instance;
 use common::{cut, noisy, unit_square};
 use developable::{Heightfield, Lambda, Normalization, Options, Report, Schedule, StopReason, fit};
 
-/// Solves to a tiny gap and compares objective, bound and heights.
 fn check(field: &Heightfield, lambda: Lambda) -> Report {
-    let exact = optimum(field, lambda.value());
-    let options = Options::default()
-        .lambda(lambda)
-        .gap(1e-8)
-        .max_iterations(200_000)
-        .normalization(Normalization::Off);
-    let surface = fit(field, &options).unwrap();
-    let report = surface.report();
-    assert_eq!(report.stop_reason, StopReason::Gap, "{report:?}");
-    let error = (report.objective - exact.objective) / exact.objective;
-    assert!(error.abs() < 1e-6, "objective off by {error:e}: {report:?}");
-    // The conic solver is exact to about 1e-9 itself.
-    let slack = 1e-8 * exact.objective;
-    assert!(report.dual_bound <= exact.objective + slack);
-    assert!(report.objective >= exact.objective - slack);
-
-    // Strong convexity bounds the distance to the optimum by the gap.
-    let bound = (report.objective - report.dual_bound + 2.0 * slack) / report.lambda;
-    let distance: f64 = surface
-        .heightfield()
-        .heights()
-        .iter()
-        .zip(&exact.heights)
-        .filter(|(_, z)| !z.is_nan())
-        .map(|(a, b)| (a - b).powi(2))
-        .sum();
-    assert!(distance <= bound + 1e-12, "{distance:e} against {bound:e}");
-    report.clone()
+    Instance::new(field, lambda.value()).check()
 }
 
 fn bumps(x: f64, y: f64) -> f64 {
@@ -159,7 +131,7 @@ fn normalisation_solves_the_normalised_problem() {
         small.heights().iter().map(|z| z / width).collect(),
     )
     .unwrap();
-    let exact = optimum(&normalised, 1e6);
+    let exact = Instance::new(&normalised, 1e6).optimum();
     assert!((report.objective / exact.objective - 1.0).abs() < 1e-6);
     let worst = surface
         .heightfield()
@@ -175,7 +147,7 @@ fn normalisation_solves_the_normalised_problem() {
 #[test]
 fn the_paper_schedule_ends_close_to_the_optimum_and_knows_how_close() {
     let field = noisy(&unit_square(14, bumps), 0.02, 9);
-    let exact = optimum(&field, 1e5);
+    let exact = Instance::new(&field, 1e5).optimum();
     let options = Options::default()
         .lambda(Lambda::Small)
         .schedule(Schedule::Paper)

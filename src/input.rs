@@ -113,7 +113,10 @@ impl Input {
             }
         }
         self.field = Heightfield::new(lattice, heights)?;
-        self.constrained = constraints.iter().map(|z| !z.is_nan()).collect();
+        let both = self.field.heights().iter().zip(&constraints);
+        self.constrained = both
+            .map(|(height, z)| !height.is_nan() && !z.is_nan())
+            .collect();
         Ok(self)
     }
 

@@ -83,6 +83,7 @@ impl Component {
             }
             if !problem.free.is_empty() {
                 plate::fill(&mut problem, &domains, &plan)?;
+                problem.take_first_normals(options.energy)?;
                 give_back(&mut input, &problem, frame)?;
             }
             coarse = Some(coarsen(&input)?);

@@ -90,15 +90,7 @@ impl Problem {
         if !alike || !problem.constrained.is_empty() {
             problem.set_fidelity(input, options.tie_break / lambda)?;
         }
-        if matches!(
-            options.energy,
-            Energy::SecondFormOfInput | Energy::SecondForm
-        ) {
-            let target = std::mem::take(&mut problem.target);
-            problem.take_normals(&target)?;
-            problem.target = target;
-            problem.first_weight = problem.weight.clone();
-        }
+        problem.take_first_normals(options.energy)?;
         Ok(problem)
     }
 
@@ -118,6 +110,18 @@ impl Problem {
         }
         self.fidelity = PerCell::Each(fidelity);
         self.inverse_fidelity = PerCell::Each(inverse);
+        Ok(())
+    }
+
+    /// The weights of an energy that has those of its input. Once more where that has
+    /// been given heights for free vertices.
+    pub(crate) fn take_first_normals(&mut self, energy: Energy) -> Result<()> {
+        if matches!(energy, Energy::SecondFormOfInput | Energy::SecondForm) {
+            let target = std::mem::take(&mut self.target);
+            self.take_normals(&target)?;
+            self.target = target;
+            self.first_weight = self.weight.clone();
+        }
         Ok(())
     }
 

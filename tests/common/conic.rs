@@ -23,6 +23,7 @@ pub struct Instance {
     pub constrained: Vec<bool>,
     pub torn: Vec<bool>,
     pub tie_break: f64,
+    pub gap: f64,
 }
 
 pub struct Optimum {
@@ -87,6 +88,7 @@ impl Instance {
             constrained: vec![false; n],
             torn: vec![false; n],
             tie_break: 0.01,
+            gap: 1e-8,
         }
     }
 
@@ -124,7 +126,7 @@ impl Instance {
             .lambda(self.lambda)
             .energy(self.energy)
             .tie_break(self.tie_break)
-            .gap(1e-8)
+            .gap(self.gap)
             .max_iterations(200_000)
             .normalization(Normalization::Off)
     }
@@ -314,7 +316,7 @@ impl Instance {
         fit(self.input(), &self.options()).unwrap()
     }
 
-    /// Solves to a tiny gap and compares objective, bound and heights with the optimum.
+    /// Solves and compares objective, bound and heights with the optimum.
     pub fn check(&self) -> Report {
         let surface = self.solve();
         let exact = self.optimum();
@@ -337,7 +339,7 @@ impl Instance {
         );
 
         let error = (report.objective - exact.objective) / exact.objective;
-        assert!(error.abs() < 1e-6, "objective off by {error:e}: {report:?}");
+        assert!(error < 1.1 * self.gap, "objective off by {error:e}: {report:?}");
         // The conic solver is exact to about 1e-9 itself.
         let slack = 1e-8 * exact.objective;
         assert!(

@@ -91,7 +91,10 @@ fn where_nothing_is_trusted_the_surface_goes_on_from_around() {
 
 #[test]
 fn heights_that_are_not_trusted_do_not_matter() {
-    for energy in [developable::Energy::Nuclear, developable::Energy::SecondFormOfInput] {
+    for energy in [
+        developable::Energy::Nuclear,
+        developable::Energy::SecondFormOfInput,
+    ] {
         let surfaces: Vec<_> = [0.0, -1.0, 1e6]
             .into_iter()
             .map(|nonsense| {

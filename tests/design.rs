@@ -23,7 +23,11 @@ fn constraints(field: &Heightfield, held: impl Fn(usize, usize) -> bool) -> Heig
     let lattice = *field.lattice();
     let heights = (0..lattice.len()).map(|i| {
         let (row, col) = (i / lattice.cols(), i % lattice.cols());
-        if held(row, col) { field.heights()[i] } else { f64::NAN }
+        if held(row, col) {
+            field.heights()[i]
+        } else {
+            f64::NAN
+        }
     });
     Heightfield::new(lattice, heights.collect()).unwrap()
 }
@@ -91,7 +95,10 @@ fn the_tie_break_costs_what_it_weighs() {
 fn points_of_a_plane_span_it() {
     let plane = unit_square(30, |x, y| 3.0 * x - 2.0 * y + 7.0);
     let mid = plane.lattice().rows() / 2;
-    for held in [[(2, 3), (mid, 20), (mid + 5, 4)], [(0, 0), (0, 30), (mid, 1)]] {
+    for held in [
+        [(2, 3), (mid, 20), (mid + 5, 4)],
+        [(0, 0), (0, 30), (mid, 1)],
+    ] {
         let points = constraints(&plane, |r, c| held.contains(&(r, c)));
         let surface = fit(Input::design(points, None).unwrap(), &Options::default()).unwrap();
         let worst = max_difference(&plane, surface.heightfield());
@@ -157,12 +164,22 @@ fn what_is_not_held_is_named() {
     assert_eq!(name(&first, Some(&islands)), Some((1, 7, 7 * 3)));
     // What lies in between does not count.
     let between = [(2, 5), (3, 5), (6, 5)];
-    assert_eq!(name(&[first, between].concat(), Some(&islands)), Some((1, 7, 7 * 3)));
-    assert_eq!(name(&[first, [(2, 8), (3, 8), (6, 9)]].concat(), Some(&islands)), None);
+    assert_eq!(
+        name(&[first, between].concat(), Some(&islands)),
+        Some((1, 7, 7 * 3))
+    );
+    assert_eq!(
+        name(&[first, [(2, 8), (3, 8), (6, 9)]].concat(), Some(&islands)),
+        None
+    );
 
     // The same where there are heights that nobody trusts.
     let input = Input::new(Heightfield::new(lattice, vec![0.0; lattice.len()]).unwrap())
-        .with_confidence((0..lattice.len()).map(|i| f64::from(i as u8 % 11 / 9)).collect())
+        .with_confidence(
+            (0..lattice.len())
+                .map(|i| f64::from(i as u8 % 11 / 9))
+                .collect(),
+        )
         .unwrap();
     assert!(fit(input.clone(), &Options::default()).is_ok());
     let untrusted = input.with_confidence(vec![0.0; lattice.len()]).unwrap();
@@ -186,7 +203,11 @@ fn constraints_outside_of_the_shape_are_ignored() {
     let inside = solve(&|r, c| (3..15).contains(&c) && (r + 2 * c) % 7 == 0);
     let everywhere = solve(&|r, c| (r + 2 * c) % 7 == 0);
     let bits = |s: &developable::Surface| -> Vec<u64> {
-        s.heightfield().heights().iter().map(|z| z.to_bits()).collect()
+        s.heightfield()
+            .heights()
+            .iter()
+            .map(|z| z.to_bits())
+            .collect()
     };
     assert_eq!(bits(&inside), bits(&everywhere));
     assert_eq!(inside.report().constrained, everywhere.report().constrained);

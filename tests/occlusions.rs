@@ -37,7 +37,9 @@ fn each<T>(field: &Heightfield, f: impl Fn(usize, usize, [f64; 2]) -> T) -> Vec<
 }
 
 fn solve(field: &Heightfield, occlusions: Occlusions) -> Surface {
-    let input = Input::new(field.clone()).with_occlusions(occlusions).unwrap();
+    let input = Input::new(field.clone())
+        .with_occlusions(occlusions)
+        .unwrap();
     fit(input, &Options::default()).unwrap()
 }
 
@@ -47,10 +49,14 @@ fn check(field: &Heightfield, occlusions: Occlusions) {
     let h = field.lattice().spacing();
     let errors = each(field, |row, col, [x, y]| {
         let z = surface.heightfield().height(row, col);
-        let [own, other] = [across(x, y) > 0.0, across(x, y) <= 0.0]
-            .map(|right| (z - side(x, y, right)).abs());
+        let [own, other] =
+            [across(x, y) > 0.0, across(x, y) <= 0.0].map(|right| (z - side(x, y, right)).abs());
         // At the step itself what is restored may go on from either side.
-        if across(x, y).abs() < 0.9 * h { own.min(other) } else { own }
+        if across(x, y).abs() < 0.9 * h {
+            own.min(other)
+        } else {
+            own
+        }
     });
     let worst = errors.into_iter().fold(0.0, f64::max);
     assert!(worst < 1e-11, "{worst:e}: {report:?}");
@@ -98,9 +104,15 @@ fn restored_vertices_go_on_as_their_own_side_does() {
     // A band of nonsense, wide enough that no stencil touches its middle.
     let garbled = each(&truth, |row, col, [x, y]| {
         let nonsense = across(x, y).abs() < 1.5 * h;
-        if nonsense { -5.0 } else { truth.height(row, col) }
+        if nonsense {
+            -5.0
+        } else {
+            truth.height(row, col)
+        }
     });
-    let band = each(&truth, |_, _, [x, y]| u8::from(across(x, y).abs() < 2.6 * h));
+    let band = each(&truth, |_, _, [x, y]| {
+        u8::from(across(x, y).abs() < 2.6 * h)
+    });
     let surface = solve(
         &Heightfield::new(lattice, garbled).unwrap(),
         Occlusions::from_vertices(&lattice, &band).unwrap(),

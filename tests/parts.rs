@@ -5,9 +5,7 @@ mod common;
 
 use common::conic::Instance;
 use common::{cut, max_difference, noisy, unit_square};
-use developable::{
-    Heightfield, Lattice, Normalization, Options, Solver, Status, StopReason, fit,
-};
+use developable::{Heightfield, Lattice, Normalization, Options, Solver, Status, StopReason, fit};
 
 fn bumps(x: f64, y: f64) -> f64 {
     0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
@@ -81,7 +79,11 @@ fn hinges_hold_parts_together() {
 #[test]
 fn two_hundred_hexagons_of_one_stencil() {
     let lattice = Lattice::new(40, 62, 0.01).unwrap();
-    let noise = noisy(&Heightfield::new(lattice, vec![0.0; lattice.len()]).unwrap(), 0.01, 4);
+    let noise = noisy(
+        &Heightfield::new(lattice, vec![0.0; lattice.len()]).unwrap(),
+        0.01,
+        4,
+    );
     let centre = |r: usize, c: usize| r % 4 == 1 && c % 3 == 1 && r < 40;
     let mut heights = vec![f64::NAN; lattice.len()];
     let mut count = 0;
@@ -142,7 +144,10 @@ fn figures_are_honest_all_along() {
                 assert_eq!(z.is_nan(), given.is_nan());
             }
             let energy: f64 = instance.terms(heights).iter().sum();
-            assert!((energy / report.objective - 1.0).abs() < 1e-9, "{energy}: {report:?}");
+            assert!(
+                (energy / report.objective - 1.0).abs() < 1e-9,
+                "{energy}: {report:?}"
+            );
         }
         if solver.advance(5).unwrap() != Status::Running {
             break;

@@ -77,7 +77,11 @@ fn another_lambda() {
 
 #[test]
 fn the_same_again_is_done_at_once() {
-    for energy in [Energy::Nuclear, Energy::Frobenius, Energy::SecondFormOfInput] {
+    for energy in [
+        Energy::Nuclear,
+        Energy::Frobenius,
+        Energy::SecondFormOfInput,
+    ] {
         let options = options(1e5).energy(energy);
         let mut solver = solved(&field(2), &options);
         let first = solver.surface().unwrap();
@@ -106,7 +110,10 @@ fn the_same_again_is_soon_done_by_other_energies_and_in_designs() {
         let again = run(&mut solver);
         assert_eq!(again.report().stop_reason, StopReason::Gap);
         let iterations = [first, again].map(|s| s.report().iterations);
-        assert!(iterations[1] <= 30 && iterations[1] < iterations[0], "{iterations:?}");
+        assert!(
+            iterations[1] <= 30 && iterations[1] < iterations[0],
+            "{iterations:?}"
+        );
     }
 }
 
@@ -155,7 +162,10 @@ fn another_lattice_or_energy_starts_from_nothing() {
     let next = noisy(&unit_square(40, bumps), 0.02, 5);
     let mut solver = solved(&field(5), &options);
     solver.restart_with(&next, &options).unwrap();
-    assert_eq!(bits(&run(&mut solver)), bits(&fit(&next, &options).unwrap()));
+    assert_eq!(
+        bits(&run(&mut solver)),
+        bits(&fit(&next, &options).unwrap())
+    );
     let smooth = options.energy(Energy::Frobenius);
     solver.restart(&smooth).unwrap();
     assert_eq!(bits(&run(&mut solver)), bits(&fit(&next, &smooth).unwrap()));
@@ -178,8 +188,14 @@ fn a_failed_restart_changes_nothing() {
     let stopped = solved(&field, &options);
     for solver in [running, stopped] {
         let mut tried = solver.clone();
-        assert_eq!(tried.restart(&options.gap(0.0)).unwrap_err().code(), "OPTION");
-        assert_eq!(tried.restart(&options.lambda(-1.0)).unwrap_err().code(), "OPTION");
+        assert_eq!(
+            tried.restart(&options.gap(0.0)).unwrap_err().code(),
+            "OPTION"
+        );
+        assert_eq!(
+            tried.restart(&options.lambda(-1.0)).unwrap_err().code(),
+            "OPTION"
+        );
         let none = cut(&field, |_, _| false);
         let error = tried.restart_with(&none, &options).unwrap_err();
         assert!(matches!(error, Error::NoInterior { .. }));
@@ -189,7 +205,10 @@ fn a_failed_restart_changes_nothing() {
         assert!(matches!(error, Error::Underdetermined { .. }));
         let mut untouched = solver.clone();
         assert_eq!(tried.progress().iteration, untouched.progress().iteration);
-        assert_eq!(bits(&tried.surface().unwrap()), bits(&untouched.surface().unwrap()));
+        assert_eq!(
+            bits(&tried.surface().unwrap()),
+            bits(&untouched.surface().unwrap())
+        );
         assert_eq!(bits(&run(&mut tried)), bits(&run(&mut untouched)));
     }
 }
@@ -227,7 +246,11 @@ fn in_the_middle_of_a_solve() {
     }
     solver.cancel();
     solver.restart(&options(2e5)).unwrap();
-    agree(&run(&mut solver), &fit(&split, &options(2e5)).unwrap(), &split);
+    agree(
+        &run(&mut solver),
+        &fit(&split, &options(2e5)).unwrap(),
+        &split,
+    );
 }
 
 #[test]
@@ -240,7 +263,9 @@ fn a_warm_start_saves_work() {
     let cold = fit(&field, &options.lambda(1.2e6)).unwrap();
     let work = |s: &Surface| {
         let levels = s.report().levels.iter();
-        levels.map(|level| level.interior * level.cg_iterations).sum::<usize>()
+        levels
+            .map(|level| level.interior * level.cg_iterations)
+            .sum::<usize>()
     };
     assert!(work(&warm) < work(&cold), "{} {}", work(&warm), work(&cold));
 }

@@ -234,3 +234,96 @@ impl Forest {
         self.parents[high as usize] = low;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Role;
+
+    /// Two bodies in columns 0..8 and 9..20, rows 3.. only, with attributes of every kind.
+    fn input() -> Input {
+        let lattice = Lattice::new(12, 20, 0.5)
+            .unwrap()
+            .with_origin([3.0, -1.0])
+            .unwrap();
+        let heights = (0..lattice.len()).map(|i| match (i / 20, i % 20) {
+            (0..3, _) | (_, 8) => f64::NAN,
+            _ => i as f64,
+        });
+        let value = |i: usize| {
+            if i.is_multiple_of(7) {
+                1e3 + i as f64
+            } else {
+                f64::NAN
+            }
+        };
+        let torn: Vec<u8> = (0..lattice.len()).map(|i| u8::from(i == 126)).collect();
+        Input::new(Heightfield::new(lattice, heights.collect()).unwrap())
+            .with_confidence((0..lattice.len()).map(|i| i as f64).collect())
+            .and_then(|input| input.with_constraints((0..lattice.len()).map(value).collect()))
+            .and_then(|input| input.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?))
+            .unwrap()
+    }
+
+    #[test]
+    fn crops_keep_positions_and_all_that_is_known() {
+        let input = input();
+        let whole = *input.field.lattice();
+        let domain = Domain::with_occlusions(&input.field, |v| input.is_occluded(v)).unwrap();
+        let parts = Parts::new(&domain).unwrap();
+        assert_eq!(parts.list.len(), 2);
+        let mut seen = 0;
+        for number in 0..2 {
+            let part = parts.crop(&input, &domain, number).unwrap();
+            let lattice = *part.field.lattice();
+            let (top, left) = parts.list[number].corner;
+            assert_eq!(top % 2, 0);
+            for i in 0..lattice.len() {
+                let (row, col) = (i / lattice.cols(), i % lattice.cols());
+                let from = whole.index(top + row, left + col);
+                let ([x, y], [u, v]) = (
+                    lattice.position(row, col),
+                    whole.position(top + row, left + col),
+                );
+                assert!((x - u).abs() < 1e-12 && (y - v).abs() < 1e-12);
+                if part.field.heights()[i].is_nan() {
+                    continue;
+                }
+                seen += 1;
+                assert_eq!(part.field.heights()[i], input.field.heights()[from]);
+                assert_eq!(part.weight(i), input.weight(from));
+                assert_eq!(part.is_constrained(i), input.is_constrained(from));
+                assert_eq!(part.is_occluded(i), input.is_occluded(from));
+            }
+            // The same stencils as in the whole.
+            let own = Domain::with_occlusions(&part.field, |v| part.is_occluded(v)).unwrap();
+            let interior = domain.interior().cells();
+            let expected = interior.filter(|cell| parts.of(*cell) == number).count();
+            assert_eq!(own.interior_len(), expected);
+        }
+        let active = domain.active().cells().count();
+        assert_eq!(seen, active);
+        let roles = (0..whole.len()).map(|i| domain.role(i / 20, i % 20));
+        assert_eq!(roles.filter(|role| *role >= Role::Boundary).count(), active);
+    }
+
+    #[test]
+    fn the_largest_comes_first_and_bridges_do_not_connect() {
+        let lattice = Lattice::new(9, 30, 1.0).unwrap();
+        // Columns 0..4, 5..15 and 16..30; the last two are joined in one row.
+        let valid = |row: usize, col: usize| col != 4 && (col != 15 || row == 4);
+        let heights = (0..lattice.len()).map(|i| match valid(i / 30, i % 30) {
+            true => 0.0,
+            false => f64::NAN,
+        });
+        let field = Heightfield::new(lattice, heights.collect()).unwrap();
+        let domain = Domain::new(&field).unwrap();
+        let parts = Parts::new(&domain).unwrap();
+        // A bridge without a stencil of its own joins nothing; it belongs to whom it touches.
+        assert_eq!(parts.list.len(), 3);
+        let corners: Vec<_> = parts.list.iter().map(|part| part.corner).collect();
+        assert_eq!(corners, [(0, 15), (0, 5), (0, 0)]);
+        let of = |row: isize, col: isize| parts.of(domain.cell((row, col)).unwrap());
+        assert_eq!([of(4, 20), of(4, 8), of(4, 2)], [0, 1, 2]);
+    }
+}

@@ -339,7 +339,10 @@ impl Instance {
         );
 
         let error = (report.objective - exact.objective) / exact.objective;
-        assert!(error < 1.1 * self.gap, "objective off by {error:e}: {report:?}");
+        assert!(
+            error < 1.1 * self.gap,
+            "objective off by {error:e}: {report:?}"
+        );
         // The conic solver is exact to about 1e-9 itself.
         let slack = 1e-8 * exact.objective;
         assert!(

@@ -83,7 +83,7 @@ fn the_same_again_is_done_at_once() {
         Energy::SecondFormOfInput,
     ] {
         let options = options(1e5).energy(energy);
-        let mut solver = solved(&field(2), &options);
+        let mut solver = solved(field(2), &options);
         let first = solver.surface().unwrap();
         solver.restart(&options).unwrap();
         let again = run(&mut solver);
@@ -160,7 +160,7 @@ fn other_heights_another_mask_other_constraints() {
 fn another_lattice_or_energy_starts_from_nothing() {
     let options = options(1e5);
     let next = noisy(&unit_square(40, bumps), 0.02, 5);
-    let mut solver = solved(&field(5), &options);
+    let mut solver = solved(field(5), &options);
     solver.restart_with(&next, &options).unwrap();
     assert_eq!(
         bits(&run(&mut solver)),

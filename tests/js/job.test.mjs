@@ -33,7 +33,7 @@ function counted() {
 
 test('a dropped job does not iterate any more', async () => {
   const solver = counted();
-  const job = new Job(solver, 60);
+  const job = new Job(() => solver, 60);
   const { progress, surface } = await job.next();
   assert.ok(progress.cgIterations > 0 && surface === undefined);
   const news = job.next();
@@ -47,7 +47,7 @@ test('a dropped job does not iterate any more', async () => {
 
 test('a finished job gives its best surface and is done', async () => {
   const solver = counted();
-  const job = new Job(solver, Infinity);
+  const job = new Job(() => solver, Infinity);
   await sleep(200);
   const news = job.next();
   job.finish();
@@ -59,7 +59,7 @@ test('a finished job gives its best surface and is done', async () => {
 
 test('the event loop gets its turn between batches, and two jobs share the thread', async () => {
   const [a, b] = [counted(), counted()];
-  const jobs = [new Job(a, 60), new Job(b, 60)];
+  const jobs = [new Job(() => a, 60), new Job(() => b, 60)];
   let turns = 0;
   const timer = setInterval(() => (turns += 1), 1);
   await sleep(600);

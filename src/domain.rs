@@ -15,7 +15,8 @@ pub enum Role {
     Omitted,
     /// Touched by a stencil without having one of its own: the set `∂I`.
     Boundary,
-    /// It and its six neighbours have heights, so that the Hessian is evaluated here: the set `I`.
+    /// It and its six neighbours have heights, and no occlusion is there, so that the Hessian is
+    /// evaluated here: the set `I`.
     Interior,
 }
 
@@ -49,6 +50,7 @@ pub struct Domain {
     interior: RowRuns,
     active: RowRuns,
     omitted: usize,
+    occluded: usize,
 }
 
 impl Domain {
@@ -57,6 +59,15 @@ impl Domain {
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
     pub fn new(field: &Heightfield) -> Result<Self> {
+        Domain::with_occlusions(field, |_| false)
+    }
+
+    /// The same, where the vertices that are `occluded`, by their index in the
+    /// lattice, have no Hessian (paper, Fig. 9).
+    pub(crate) fn with_occlusions(
+        field: &Heightfield,
+        occluded: impl Fn(usize) -> bool,
+    ) -> Result<Self> {
         let lattice = *field.lattice();
         let valid = |row: usize, col: usize| !field.height(row, col).is_nan();
         let no_interior = |valid| Error::NoInterior {
@@ -79,12 +90,18 @@ impl Domain {
         }
         // Interior first, then what its stencils touch: neither step sees its own changes.
         let valid = roles.clone();
+        let mut torn = 0;
         let offsets = |row: usize| neighbour_offsets(row, stride);
         for row in 1..=rows {
             for i in row * stride + 1..(row + 1) * stride - 1 {
                 let all = |j: isize| valid[j as usize] == Role::Omitted;
                 if valid[i] == Role::Omitted && offsets(row).iter().all(|o| all(i as isize + o)) {
-                    roles[i] = Role::Interior;
+                    let col = i - row * stride - 1 + corner.1;
+                    if occluded(lattice.index(row - 1 + corner.0, col)) {
+                        torn += 1;
+                    } else {
+                        roles[i] = Role::Interior;
+                    }
                 }
             }
         }
@@ -117,6 +134,7 @@ impl Domain {
             interior,
             active,
             omitted,
+            occluded: torn,
         })
     }
 
@@ -144,6 +162,11 @@ impl Domain {
     /// Number of valid vertices that no stencil touches.
     pub fn omitted_len(&self) -> usize {
         self.omitted
+    }
+
+    /// Number of vertices that would be interior were it not for an occlusion.
+    pub fn occluded_len(&self) -> usize {
+        self.occluded
     }
 
     /// Row (an even one) and column of the lattice that are row and column 1 of the padded box.

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::domain::{Domain, Role};
-use crate::heightfield::Heightfield;
+use crate::input::Input;
 use crate::stencil::Quadratic;
 
 /// Gives every omitted vertex the value of the best-fit quadratic of an interior
@@ -11,8 +11,8 @@ use crate::stencil::Quadratic;
 /// of its neighbours' choices, found by a search that spreads from the interior
 /// over valid vertices. Where none is within reach in that way, as on an island
 /// without one or far out on a thin strip, where a quadratic says nothing any
-/// more, the input's own height stays. Linear cost.
-pub(crate) fn restore_omitted(domain: &Domain, input: &Heightfield, heights: &mut [f64]) {
+/// more, the input's own height stays, if it means anything. Linear cost.
+pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64]) {
     if domain.omitted_len() == 0 {
         return;
     }
@@ -64,11 +64,19 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Heightfield, heights: &mu
         }
     }
 
+    let own = |index: usize| {
+        let given = input.weight(index) > 0.0 || input.is_constrained(index);
+        if given {
+            input.field.heights()[index]
+        } else {
+            f64::NAN
+        }
+    };
     for cell in (0..domain.cells()).filter(|cell| roles[*cell] == Role::Omitted) {
         let index = domain.lattice_index(cell);
         heights[index] = match source[cell] {
-            NONE => input.heights()[index],
-            from if distance(cell, from) > reach => input.heights()[index],
+            NONE => own(index),
+            from if distance(cell, from) > reach => own(index),
             from => {
                 let ring = domain
                     .neighbour_offsets(from / stride)
@@ -84,6 +92,7 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Heightfield, heights: &mu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::heightfield::Heightfield;
     use crate::lattice::Lattice;
 
     #[test]
@@ -115,7 +124,7 @@ mod tests {
                 }
             })
             .collect();
-        restore_omitted(&domain, &field, &mut restored);
+        restore_omitted(&domain, &field.clone().into(), &mut restored);
         for (i, (a, b)) in restored.iter().zip(field.heights()).enumerate() {
             assert_eq!(a.is_nan(), b.is_nan(), "vertex {i}");
             assert!(

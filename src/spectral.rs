@@ -45,6 +45,12 @@ impl Sym2 {
         2.0 * larger(self.mean.abs(), self.radius())
     }
 
+    /// Largest absolute eigenvalue.
+    #[inline(always)]
+    pub(crate) fn spectral_norm(self) -> f64 {
+        self.mean.abs() + self.radius()
+    }
+
     /// Frobenius inner product.
     #[inline(always)]
     pub fn dot(self, other: Sym2) -> f64 {

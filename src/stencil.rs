@@ -160,6 +160,19 @@ impl<'a, T: Real> Ring<'a, T> {
     }
 }
 
+impl Ring<'_, f64> {
+    /// Gradient of the best-fit quadratic about cell `i` of the run.
+    #[inline(always)]
+    pub(crate) fn gradient(&self, i: usize, spacing: f64) -> [f64; 2] {
+        let (right, left) = (self.ne[i] + self.se[i], self.nw[i] + self.sw[i]);
+        let (up, down) = (self.nw[i] + self.ne[i], self.sw[i] + self.se[i]);
+        [
+            (right - left + 2.0 * (self.e[i] - self.w[i])) / (6.0 * spacing),
+            3f64.sqrt() * (up - down) / (6.0 * spacing),
+        ]
+    }
+}
+
 impl<T: Real> Ring<'_, T> {
     /// Cell `i` of the run itself.
     #[inline(always)]

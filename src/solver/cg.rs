@@ -48,7 +48,7 @@ impl ConjugateGradients {
             correction: zeros()?,
             direction: zeros()?,
             image: zeros()?,
-            multigrid: Multigrid::new(domains, problem.spacing, problem.lambda, rho)?,
+            multigrid: Multigrid::new(problem, domains, rho)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
             energy: 0.0,
             previous: 0.0,
@@ -56,8 +56,8 @@ impl ConjugateGradients {
     }
 
     /// Changes `A`; the residual must be made anew.
-    pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
-        self.multigrid.set(problem.lambda, rho);
+    pub(crate) fn set_rho(&mut self, rho: f64) {
+        self.multigrid.set(rho);
     }
 
     /// Factor from `b − A z` to the system's scale.
@@ -69,6 +69,7 @@ impl ConjugateGradients {
     pub(crate) fn restart(&mut self, domain: &Domain) {
         self.previous = 0.0;
         self.energy = 0.0;
+        self.multigrid.matrix().pin(&mut self.residual);
         for run in domain.active().all() {
             part_mut(&mut self.correction, *run).fill(0.0);
             self.energy += lanes::weighted_square(
@@ -87,7 +88,8 @@ impl ConjugateGradients {
     pub(crate) fn relative_residual(&self, problem: &Problem) -> f64 {
         let matrix = self.multigrid.matrix();
         let squares = problem.domain.active().cells().map(|cell| {
-            let b = 2.0 * problem.lambda * self.residual_scale() * problem.target[cell];
+            let weight = 2.0 * problem.lambda * problem.fidelity.at(cell);
+            let b = weight * self.residual_scale() * problem.target[cell];
             b * b * f64::from(matrix.inverse_diagonal[cell])
         });
         (self.energy / squares.sum::<f64>()).sqrt()
@@ -157,7 +159,7 @@ mod tests {
     use super::*;
     use crate::solver::frame::Frame;
     use crate::solver::levels::coarsen;
-    use crate::{Heightfield, Lattice, Normalization};
+    use crate::{Heightfield, Input, Lattice, Normalization, Options};
 
     /// A disk with a hole, and its coarser lattices.
     fn lattices(cols: usize) -> (Heightfield, Vec<Arc<Domain>>) {
@@ -175,7 +177,7 @@ mod tests {
         let mut domains = Vec::new();
         while let Ok(domain) = Domain::new(&field) {
             domains.push(Arc::new(domain));
-            field = coarsen(&field).unwrap();
+            field = coarsen(&field.into()).unwrap().field;
         }
         (whole, domains)
     }
@@ -184,8 +186,10 @@ mod tests {
     fn the_number_of_iterations_does_not_depend_on_the_size() {
         for cols in [40, 80, 160] {
             let (field, domains) = lattices(cols);
-            let frame = Frame::new(&field, &domains[0], Normalization::Off);
-            let problem = Problem::new(&field, domains[0].clone(), &frame, 1e4).unwrap();
+            let input = Input::new(field);
+            let frame = Frame::new(&input, &domains[0], Normalization::Off);
+            let options = Options::default().lambda(1e4);
+            let problem = Problem::new(&input, domains[0].clone(), &frame, &options).unwrap();
             let rho = 4.0 * problem.spacing;
             let mut cg = ConjugateGradients::new(&problem, &domains, rho).unwrap();
             // Plain conjugate gradients would need about √κ times as many as this.

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::options::Normalization;
 use crate::domain::Domain;
 use crate::heightfield::Heightfield;
+use crate::input::Input;
 
 /// Normalised coordinates: lengths times `scale`, heights above the input's
 /// best-fit plane. The energy does not see affine functions, and without them
@@ -15,20 +16,27 @@ pub(crate) struct Frame {
     pub scale: f64,
     centre: [f64; 2],
     constant: f64,
-    slope: [f64; 2],
+    pub slope: [f64; 2],
 }
 
 impl Frame {
-    pub(crate) fn new(field: &Heightfield, domain: &Domain, normalization: Normalization) -> Self {
+    pub(crate) fn new(input: &Input, domain: &Domain, normalization: Normalization) -> Self {
+        let field = input.field();
         let scale = normalization.factor(field);
-        let n = domain.active().len() as f64;
-        let vertices = || domain.active().cells().map(|c| domain.lattice_vertex(c));
+        // Heights that mean nothing do not count.
+        let given = |v: &(usize, usize)| {
+            let vertex = field.lattice().index(v.0, v.1);
+            input.weight(vertex) > 0.0 || input.is_constrained(vertex)
+        };
+        let cells = || domain.active().cells();
+        let vertices = || cells().map(|c| domain.lattice_vertex(c)).filter(given);
+        let n = vertices().count() as f64;
         let position = |(row, col)| field.lattice().position(row, col);
         let height = |(row, col)| field.height(row, col);
         let centre = [0, 1].map(|k| vertices().map(|v| position(v)[k]).sum::<f64>() / n);
         let mean = vertices().map(height).sum::<f64>() / n;
 
-        // Least squares over I ∪ ∂I.
+        // Least squares over what is given in I ∪ ∂I.
         let mut normal = Matrix3::zeros();
         let mut right = Vector3::zeros();
         for v in vertices() {
@@ -37,7 +45,7 @@ impl Frame {
             normal += row * row.transpose();
             right += row * (height(v) - mean);
         }
-        // The seven vertices of a stencil always span a plane; zero is for overflow only.
+        // What holds a component in place spans a plane; zero is for overflow only.
         let solution = normal.cholesky().map(|c| c.solve(&right));
         let [constant, sx, sy] = solution.map_or([0.0; 3], |s| [s[0], s[1], s[2]]);
         Frame {

@@ -11,6 +11,7 @@
 use std::sync::Arc;
 
 use super::lanes;
+use super::per_cell::PerCell;
 use crate::domain::{Domain, Role, Run};
 use crate::error::{Result, try_filled};
 use crate::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
@@ -21,7 +22,10 @@ pub(crate) struct Grid {
     map: HessianMap,
     /// The diagonal away from the boundary that everything is divided by.
     pub diagonal: f64,
-    fidelity: f32,
+    /// `2λw`, and what holds coarse cells in place of constrained ones.
+    fidelity: PerCell<f32>,
+    /// Constrained cells: not unknowns of the system.
+    constrained: Vec<u32>,
     /// The weights of `d_k` and of `d₁ + d₂ + d₃` in `ρ CᵀC`.
     own: f32,
     sum: f32,
@@ -37,36 +41,51 @@ pub(crate) struct Grid {
 pub(crate) const LARGEST_EIGENVALUE: f32 = 2.4;
 
 impl Grid {
-    pub(crate) fn new(domain: Arc<Domain>, spacing: f64, lambda: f64, rho: f64) -> Result<Self> {
-        let mut grid = Grid {
+    /// With a fidelity that may differ from cell to cell, or the same for all.
+    pub(crate) fn new(
+        domain: Arc<Domain>,
+        spacing: f64,
+        constrained: Vec<u32>,
+        varied: bool,
+    ) -> Result<Self> {
+        Ok(Grid {
             map: HessianMap::new(spacing),
             diagonal: 1.0,
-            fidelity: 0.0,
+            fidelity: if varied {
+                PerCell::Each(try_filled("multigrid", domain.cells(), 0.0)?)
+            } else {
+                PerCell::same(&domain, 0.0)
+            },
+            constrained,
             own: 0.0,
             sum: 0.0,
             inverse_diagonal: try_filled("diagonal", domain.cells(), 0.0)?,
             rolling: Rolling::new(&domain),
             domain,
-        };
-        grid.set(lambda, rho);
-        Ok(grid)
+        })
     }
 
-    /// Changes the matrix.
-    pub(crate) fn set(&mut self, lambda: f64, rho: f64) {
+    /// The diagonal of `ρ CᵀC` away from the boundary.
+    pub(crate) fn stiffness(&self, rho: f64) -> f64 {
         let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
-        let entry = |centre: bool, stencils: usize| {
-            let as_centre = if centre {
-                4.0 * (3.0 * own + 6.0 * other)
-            } else {
-                0.0
-            };
-            2.0 * lambda + as_centre + stencils as f64 * own
-        };
-        self.diagonal = entry(true, 6);
-        self.fidelity = (2.0 * lambda / self.diagonal) as f32;
+        4.0 * (3.0 * own + 6.0 * other) + 6.0 * own
+    }
+
+    /// Changes the matrix: ρ, a typical `2λw`, and that of each cell.
+    pub(crate) fn set(&mut self, rho: f64, typical: f64, each: impl Fn(usize) -> f64) {
+        let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
+        let as_centre = 4.0 * (3.0 * own + 6.0 * other);
+        self.diagonal = typical + self.stiffness(rho);
         self.own = ((own - other) / self.diagonal) as f32;
         self.sum = (other / self.diagonal) as f32;
+        match &mut self.fidelity {
+            PerCell::Same(row) => row.fill((typical / self.diagonal) as f32),
+            PerCell::Each(values) => {
+                for cell in self.domain.active().cells() {
+                    values[cell] = (each(cell) / self.diagonal) as f32;
+                }
+            }
+        }
         let interior = |cell: usize| self.domain.roles()[cell] == Role::Interior;
         for row in 1..=self.domain.rows() {
             let offsets = self.domain.neighbour_offsets(row);
@@ -74,22 +93,66 @@ impl Grid {
                 for cell in start..end {
                     let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
                     let stencils = around.filter(|n| interior(*n)).count();
-                    self.inverse_diagonal[cell] =
-                        (self.diagonal / entry(interior(cell), stencils)) as f32;
+                    let centre = if interior(cell) { as_centre } else { 0.0 };
+                    let entry = each(cell) + centre + stencils as f64 * own;
+                    self.inverse_diagonal[cell] = (self.diagonal / entry) as f32;
                 }
             }
         }
+        // With 0 in its place, smoothing leaves a constrained cell alone.
+        for cell in &self.constrained {
+            self.inverse_diagonal[*cell as usize] = 0.0;
+        }
+    }
+
+    /// Makes `x` 0 at constrained cells.
+    pub(crate) fn pin(&self, x: &mut [f32]) {
+        for cell in &self.constrained {
+            x[*cell as usize] = 0.0;
+        }
+    }
+
+    /// Cells that are not unknowns.
+    pub(crate) fn constrained(&self) -> &[u32] {
+        &self.constrained
     }
 
     /// An upper bound of the condition number of `diag(A)⁻¹A`.
     pub(crate) fn condition(&self) -> f32 {
-        LARGEST_EIGENVALUE / self.fidelity.max(f32::MIN_POSITIVE)
+        let least = match &self.fidelity {
+            PerCell::Same(values) => values[0],
+            PerCell::Each(values) => {
+                let cells = self.domain.active().cells();
+                cells.fold(f32::INFINITY, |least, cell| least.min(values[cell]))
+            }
+        };
+        LARGEST_EIGENVALUE / least.max(f32::MIN_POSITIVE)
     }
 
-    /// One pass down `x`: `after(x, run, sums)` sees `ρCᵀCx` in each run of a
+    /// The matrix itself, scaled, as columns of unknowns in the order of the
+    /// domain's active cells: for few of them.
+    pub(crate) fn dense(&mut self) -> Vec<Vec<f32>> {
+        let cells: Vec<usize> = self.domain.active().cells().collect();
+        let mut unit = vec![0.0; self.domain.cells()];
+        let mut image = vec![0.0; self.domain.cells()];
+        let mut columns = Vec::with_capacity(cells.len());
+        for cell in &cells {
+            unit[*cell] = 1.0;
+            self.apply(&mut unit, &mut image);
+            unit[*cell] = 0.0;
+            columns.push(cells.iter().map(|c| image[*c]).collect());
+        }
+        columns
+    }
+
+    /// One pass down `x`: `after(x, row, run, sums)` sees `ρCᵀCx` in each run of a
     /// row, and may write `x` there, since no later row reads it.
     #[inline(always)]
-    fn pass(&mut self, x: &mut [f32], mut after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>)) {
+    fn pass(
+        &mut self,
+        x: &mut [f32],
+        mut after: impl FnMut(&mut [f32], usize, Run, &Gather<'_, f32>),
+    ) {
         let Grid {
             domain,
             own,
@@ -116,7 +179,7 @@ impl Grid {
             },
             |x, row, sums| {
                 for run in domain.active().row(row) {
-                    after(x, *run, sums);
+                    after(x, row, *run, sums);
                 }
             },
         );
@@ -124,32 +187,38 @@ impl Grid {
 
     /// `image = A x`. Returns `x·Ax`. (`x` is not changed.)
     pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
-        let fidelity = self.fidelity;
+        let domain = self.domain.clone();
+        let fidelity = self.take_fidelity();
         let mut product = 0.0;
-        self.pass(x, |x, run, sums| {
+        self.pass(x, |x, row, run, sums| {
             let sum = sums.run(run);
+            let fidelity = fidelity.run(&domain, row, run);
             let x = part(x, run);
             let image = part_mut(image, run);
             for i in 0..x.len() {
-                image[i] = fidelity * x[i] + sum.at(i);
+                image[i] = fidelity[i] * x[i] + sum.at(i);
             }
             product += lanes::dot(x, image);
         });
+        self.fidelity = fidelity;
         product
     }
 
     /// `residual = b − A x`. (`x` is not changed.)
     pub(crate) fn residual(&mut self, x: &mut [f32], b: &[f32], residual: &mut [f32]) {
-        let fidelity = self.fidelity;
-        self.pass(x, |x, run, sums| {
+        let domain = self.domain.clone();
+        let fidelity = self.take_fidelity();
+        self.pass(x, |x, row, run, sums| {
             let sum = sums.run(run);
+            let fidelity = fidelity.run(&domain, row, run);
             let x = part(x, run);
             let b = part(b, run);
             let residual = part_mut(residual, run);
             for i in 0..x.len() {
-                residual[i] = b[i] - (fidelity * x[i] + sum.at(i));
+                residual[i] = b[i] - (fidelity[i] * x[i] + sum.at(i));
             }
         });
+        self.fidelity = fidelity;
     }
 
     /// One step of Chebyshev's iteration with Jacobi's preconditioner:
@@ -162,22 +231,30 @@ impl Grid {
         momentum: f32,
         weight: f32,
     ) {
-        let fidelity = self.fidelity;
+        let domain = self.domain.clone();
+        let fidelity = self.take_fidelity();
         let inverse = std::mem::take(&mut self.inverse_diagonal);
-        self.pass(x, |x, run, sums| {
+        self.pass(x, |x, row, run, sums| {
             let sum = sums.run(run);
+            let fidelity = fidelity.run(&domain, row, run);
             let x = part_mut(x, run);
             let b = part(b, run);
             let d = part_mut(d, run);
             let m = part(&inverse, run);
             for i in 0..x.len() {
-                let residual = b[i] - (fidelity * x[i] + sum.at(i));
+                let residual = b[i] - (fidelity[i] * x[i] + sum.at(i));
                 let step = momentum * d[i] + weight * (m[i] * residual);
                 d[i] = step;
                 x[i] += step;
             }
         });
         self.inverse_diagonal = inverse;
+        self.fidelity = fidelity;
+    }
+
+    /// For the length of a pass, which borrows the rest.
+    fn take_fidelity(&mut self) -> PerCell<f32> {
+        std::mem::replace(&mut self.fidelity, PerCell::Same(Vec::new()))
     }
 }
 
@@ -212,7 +289,8 @@ mod tests {
     fn check(domain: Domain, lambda: f64, rho: f64) {
         let domain = Arc::new(domain);
         let spacing = domain.lattice().spacing();
-        let mut grid = Grid::new(domain.clone(), spacing, lambda, rho).unwrap();
+        let mut grid = Grid::new(domain.clone(), spacing, Vec::new(), false).unwrap();
+        grid.set(rho, 2.0 * lambda, |_| 2.0 * lambda);
         let mut x = values(&domain);
         let mut heights = vec![0.0; domain.lattice().len()];
         for cell in domain.active().cells() {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::balance::balanced_bound;
 use super::cg::ConjugateGradients;
 use super::problem::Problem;
 use super::report::{LevelReport, Seconds, StopReason};
@@ -38,6 +39,15 @@ pub(crate) struct Best {
     pub dual_bound: f64,
 }
 
+/// By how much an objective may miss the optimum, relative to itself.
+pub(crate) fn relative_gap(objective: f64, dual_bound: f64) -> f64 {
+    if objective > 0.0 {
+        ((objective - dual_bound) / objective).max(0.0)
+    } else {
+        0.0
+    }
+}
+
 impl Best {
     pub(crate) fn new(z: &[f64], certificate: &Certificate) -> Self {
         Best {
@@ -53,12 +63,7 @@ impl Best {
     }
 
     pub(crate) fn gap(&self) -> f64 {
-        let objective = self.objective();
-        if objective > 0.0 {
-            ((objective - self.dual_bound) / objective).max(0.0)
-        } else {
-            0.0
-        }
+        relative_gap(self.objective(), self.dual_bound)
     }
 
     pub(crate) fn take(&mut self, z: &[f64], certificate: &Certificate) {
@@ -74,7 +79,7 @@ impl Best {
 impl Best {
     /// The input itself, if it is better: a start from a coarser level need not be.
     pub(crate) fn take_input(&mut self, problem: &Problem) {
-        let objective = problem.input_objective();
+        let objective = problem.smoothness(&problem.target);
         if objective < self.objective() {
             self.z.copy_from_slice(&problem.target);
             self.fidelity = 0.0;
@@ -126,7 +131,10 @@ impl Level {
 
     /// Runs until `left` conjugate-gradient iterations are used up or there is a
     /// reason to stop.
-    pub(crate) fn advance(&mut self, left: &mut usize) -> Option<StopReason> {
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 {
             let start = Instant::now();
             let done = self.run_z_step(left);
@@ -134,13 +142,13 @@ impl Level {
             if done {
                 // The update costs about as much; so a solve without work for CG ends as well.
                 *left = left.saturating_sub(1);
-                let reason = self.finish_iteration();
+                let reason = self.finish_iteration()?;
                 if reason.is_some() {
-                    return reason;
+                    return Ok(reason);
                 }
             }
         }
-        None
+        Ok(None)
     }
 
     /// Goes on with the z-step under way; tells whether it is complete.
@@ -180,10 +188,13 @@ impl Level {
     }
 
     /// H-step, dual update and, when one is due, the certificate.
-    fn finish_iteration(&mut self) -> Option<StopReason> {
+    fn finish_iteration(&mut self) -> Result<Option<StopReason>> {
         let start = Instant::now();
         self.z_step = 0;
         self.iteration += 1;
+        if self.plan.follows_normals {
+            self.problem.take_normals(&self.state.z)?;
+        }
         let (state, relaxation) = (&mut self.state, self.plan.relaxation);
         let change = if self.plan.measures_change() {
             state.update_and_measure::<true>(&self.problem, relaxation, &mut self.cg)
@@ -194,17 +205,32 @@ impl Level {
         self.first_energy = self.cg.energy();
         self.seconds.h_step += start.elapsed().as_secs_f64();
         if !self.plan.is_check(self.iteration) {
-            return None;
+            return Ok(None);
         }
         let start = Instant::now();
-        let reason = self.check(change);
+        let reason = self.check(change)?;
         self.seconds.certificate += start.elapsed().as_secs_f64();
-        reason
+        Ok(reason)
     }
 
-    fn check(&mut self, change: f64) -> Option<StopReason> {
-        let certificate = self.state.certify(&self.problem);
-        self.best.take(&self.state.z, &certificate);
+    fn check(&mut self, change: f64) -> Result<Option<StopReason>> {
+        let mut certificate = self.state.certify(&self.problem);
+        let balance = !self.problem.free.is_empty() && self.plan.is_balance(self.iteration);
+        if balance {
+            let bound = balanced_bound(
+                &mut self.state,
+                &self.problem,
+                &mut self.cg,
+                &mut self.cg_iterations,
+            )?;
+            certificate.dual_bound = certificate.dual_bound.max(bound);
+        }
+        if self.plan.follows_normals {
+            // Another energy than at the last check.
+            self.best = Best::new(&self.state.z, &certificate);
+        } else {
+            self.best.take(&self.state.z, &certificate);
+        }
         let reason = self.plan.stop(
             &self.problem,
             self.iteration,
@@ -216,12 +242,35 @@ impl Level {
         let rho = self
             .plan
             .next_rho(&self.problem, self.state.rho, &certificate, change);
-        if reason.is_none() && rho != self.state.rho {
+        let changed = reason.is_none() && rho != self.state.rho;
+        if changed {
             self.state.set_rho(&self.problem, rho);
-            self.cg.set_rho(&self.problem, rho);
+            self.cg.set_rho(rho);
+        }
+        if changed || balance {
             self.state.update(&self.problem, 0.0, &mut self.cg);
             self.first_energy = self.cg.energy();
         }
-        reason
+        Ok(reason)
+    }
+
+    /// Another pass, in which every vertex's norm is weighted by one over its
+    /// size in the best surface so far. A reason to stop at once comes with it.
+    pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
+        self.problem.reweight(&self.best.z)?;
+        let mut certificate = self.state.certify(&self.problem);
+        self.best = Best::new(&self.state.z, &certificate);
+        certificate.dual_bound = self.best.dual_bound;
+        self.state.update(&self.problem, 0.0, &mut self.cg);
+        self.first_energy = self.cg.energy();
+        self.z_step = 0;
+        Ok(self.plan.stop(
+            &self.problem,
+            self.iteration,
+            &certificate,
+            f64::INFINITY,
+            self.best.objective(),
+            self.best.gap(),
+        ))
     }
 }

@@ -12,49 +12,119 @@ use super::transfer::parents;
 use crate::domain::{Domain, Role};
 use crate::error::Result;
 use crate::heightfield::Heightfield;
-use crate::lattice::{Lattice, Towards};
+use crate::input::Input;
+use crate::lattice::{Lattice, NEIGHBOURS, Towards};
+use crate::occlusions::Occlusions;
 
-/// The field on the lattice of twice the spacing. A coarse vertex is valid where
-/// its fine vertex is; its height is the mean over the opposite neighbours that
-/// are both there, which leaves planes alone and halves the noise.
-pub(crate) fn coarsen(field: &Heightfield) -> Result<Heightfield> {
-    let fine = field.lattice();
+/// The input on the lattice of twice the spacing. A coarse vertex is valid where
+/// its fine vertex is; its height is the mean, by confidence, over the opposite
+/// neighbours that are both there, which leaves planes alone and halves the
+/// noise. It is constrained if its fine vertex is, or else to the mean of its
+/// constrained neighbours; torn if its own or a neighbour's surroundings are.
+pub(crate) fn coarsen(input: &Input) -> Result<Input> {
+    let fine = input.field.lattice();
     let lattice = Lattice::new(
         fine.rows().div_ceil(2),
         fine.cols() / 2 + 1,
         2.0 * fine.spacing(),
     )?
     .with_origin(fine.origin())?;
-    let height = |(row, col): (isize, isize)| {
-        if fine.contains(row, col) {
-            field.height(row as usize, col as usize)
-        } else {
-            f64::NAN
-        }
+    let vertex = |(row, col): (isize, isize)| {
+        let inside = fine.contains(row, col);
+        inside.then(|| fine.index(row as usize, col as usize))
     };
     const OPPOSITE: [(Towards, Towards); 3] = [
         (Towards::West, Towards::East),
         (Towards::NorthWest, Towards::SouthEast),
         (Towards::NorthEast, Towards::SouthWest),
     ];
-    let mut heights = Vec::with_capacity(lattice.len());
+    let heights = input.field.heights();
+    let mut coarse = Input::new(Heightfield::new(lattice, vec![f64::NAN; lattice.len()])?);
+    let mut field = Vec::with_capacity(lattice.len());
+    let mut torn = Vec::new();
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
             let (r, c) = (2 * row as isize, 2 * col as isize - (row % 2) as isize);
-            let centre = height((r, c));
+            let centre = vertex((r, c)).filter(|v| !heights[*v].is_nan());
+            let ring = NEIGHBOURS.map(|t| vertex(t.step(r, c)));
+            let Some(centre) = centre else {
+                field.push(f64::NAN);
+                input.push_rest(&mut coarse, &mut torn, 0.0, false, false);
+                continue;
+            };
+            let pairs = || {
+                let pair = |(a, b): (Towards, Towards)| {
+                    let (a, b) = (vertex(a.step(r, c))?, vertex(b.step(r, c))?);
+                    let sum = heights[a] + heights[b];
+                    (!sum.is_nan()).then(|| (sum, input.weight(a).min(input.weight(b))))
+                };
+                OPPOSITE.into_iter().filter_map(pair)
+            };
             // Weights 2 and 1: those of linear interpolation, transposed.
-            let (mut sum, mut weight) = (2.0 * centre, 2.0);
-            for (a, b) in OPPOSITE {
-                let pair = height(a.step(r, c)) + height(b.step(r, c));
-                if !pair.is_nan() {
-                    sum += pair;
-                    weight += 2.0;
+            let own = input.weight(centre);
+            let (mut sum, mut weight) = (2.0 * own * heights[centre], 2.0 * own);
+            let mut count = 2.0;
+            for (pair, share) in pairs() {
+                sum += share * pair;
+                weight += 2.0 * share;
+                count += 2.0;
+            }
+            let held = ring
+                .into_iter()
+                .flatten()
+                .filter(|v| input.is_constrained(*v));
+            let (mut height, mut constrained) = if weight > 0.0 {
+                (sum / weight, false)
+            } else {
+                (heights[centre], false)
+            };
+            if input.is_constrained(centre) {
+                (height, constrained) = (heights[centre], true);
+            } else {
+                let (sum, n) = held.fold((0.0, 0.0), |(sum, n), v| (sum + heights[v], n + 1.0));
+                if n > 0.0 {
+                    (height, constrained) = (sum / n, true);
                 }
             }
-            heights.push(sum / weight);
+            let occluded = input.is_occluded(centre)
+                || ring.into_iter().flatten().any(|v| input.is_occluded(v));
+            field.push(height);
+            input.push_rest(
+                &mut coarse,
+                &mut torn,
+                weight / count,
+                constrained,
+                occluded,
+            );
         }
     }
-    Heightfield::new(lattice, heights)
+    coarse.field = Heightfield::new(lattice, field)?;
+    if input.occlusions.is_some() {
+        coarse = coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)?;
+    }
+    Ok(coarse)
+}
+
+impl Input {
+    /// Appends what goes with a vertex to the arrays that are there at all.
+    fn push_rest(
+        &self,
+        coarse: &mut Input,
+        torn: &mut Vec<u8>,
+        weight: f64,
+        constrained: bool,
+        occluded: bool,
+    ) {
+        if !self.confidence.is_empty() {
+            coarse.confidence.push(weight);
+        }
+        if !self.constrained.is_empty() {
+            coarse.constrained.push(constrained);
+        }
+        if self.occlusions.is_some() {
+            torn.push(u8::from(occluded));
+        }
+    }
 }
 
 /// An iterate on the fine lattice from one on the coarse lattice. Where a fine
@@ -75,13 +145,19 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
             let n = found.iter().flatten().count();
             if n > 0 {
                 let weight = 1.0 / n as f64;
-                let halves = found.into_iter().flatten().map(|cell| from.matrices(cell));
+                let halves = found
+                    .into_iter()
+                    .flatten()
+                    .map(|cell| from.matrices(coarse, cell));
                 let (dual, hessian) = halves.fold(Default::default(), |(y, h), (dy, dh)| {
                     (y + dy.scale(weight), h + dh.scale(weight))
                 });
                 state.set_matrices(i, dual, hessian);
             }
         }
+    }
+    for cell in &fine.constrained {
+        state.z[*cell as usize] = fine.target[*cell as usize];
     }
     Ok(state)
 }
@@ -98,18 +174,20 @@ mod tests {
 
     use super::*;
     use crate::solver::frame::Frame;
-    use crate::{Normalization, Sym2};
+    use crate::{Normalization, Options, Sym2};
 
     #[test]
     fn a_constant_dual_and_a_plane_carry_over_unchanged() {
         let lattice = Lattice::new(17, 18, 0.1).unwrap();
         // Bent, so that the best-fit plane that is taken away is not everything.
         let field = Heightfield::from_fn(lattice, |x, y| x * x + 0.3 * y).unwrap();
+        let field = Input::new(field);
         let coarse_field = coarsen(&field).unwrap();
-        let domains = [&field, &coarse_field].map(|f| Arc::new(Domain::new(f).unwrap()));
+        let domains = [&field, &coarse_field].map(|f| Arc::new(Domain::new(&f.field).unwrap()));
         let frame = Frame::new(&field, &domains[0], Normalization::Off);
+        let options = Options::default().lambda(1e3);
         let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
-            .map(|(f, d)| Problem::new(f, d.clone(), &frame, 1e3).unwrap());
+            .map(|(f, d)| Problem::new(f, d.clone(), &frame, &options).unwrap());
         let mut state = State::new(&coarse, 0.4).unwrap();
         let (dual, hessian) = (Sym2::new(1.0, 0.0, 0.3), Sym2::new(2.0, 0.0, 0.0));
         let plane = |domain: &Domain, cell: usize| {
@@ -128,7 +206,7 @@ mod tests {
         for cell in fine.domain.interior().cells() {
             let (row, col) = fine.domain.lattice_vertex(cell);
             if (3..14).contains(&row) && (3..14).contains(&col) {
-                let (y, h) = carried.matrices(cell);
+                let (y, h) = carried.matrices(&fine, cell);
                 assert!((y - dual).dot(y - dual) < 1e-24, "{row} {col}: {y:?}");
                 assert!((h - hessian).dot(h - hessian) < 1e-24, "{row} {col}: {h:?}");
                 assert!((carried.z[cell] - plane(&fine.domain, cell)).abs() < 1e-12);
@@ -152,7 +230,9 @@ mod tests {
                 2.0 * x - y + 1.0
             }
         };
-        let coarse = coarsen(&Heightfield::from_fn(lattice, plane).unwrap()).unwrap();
+        let coarse = coarsen(&Heightfield::from_fn(lattice, plane).unwrap().into())
+            .unwrap()
+            .field;
         let mut counts = [0, 0];
         for row in 0..coarse.lattice().rows() {
             for col in 0..coarse.lattice().cols() {

@@ -1,14 +1,20 @@
 //! ADMM for the nuclear norm of the Hessian (paper, Sec. 4.1), with a certified
 //! duality gap.
 
+mod balance;
 mod cg;
+mod component;
 mod frame;
 mod grid;
 mod lanes;
+mod law;
 mod level;
 mod levels;
 mod multigrid;
 mod options;
+mod parts;
+mod per_cell;
+mod plate;
 mod problem;
 mod report;
 mod schedule;
@@ -23,21 +29,19 @@ use web_time::Instant;
 pub use options::{Energy, Lambda, Normalization, Options, Schedule};
 pub use report::{LevelReport, Progress, Report, Seconds, StopReason};
 
-use crate::domain::Domain;
-use crate::error::{Error, Result};
+use crate::domain::{Domain, Role};
+use crate::error::{Error, Result, try_filled};
 use crate::heightfield::Heightfield;
 use crate::input::Input;
+use crate::lattice::Lattice;
 use crate::restore::restore_omitted;
 use crate::surface::Surface;
+use component::{Answer, Component, domain_of};
 use frame::Frame;
-use level::{Best, Level};
-use levels::{coarsen, prolong};
-use problem::Problem;
-use schedule::Plan;
+use level::{Best, relative_gap};
+use parts::{Parts, check_held};
+use problem::{Problem, position};
 use state::State;
-
-/// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
-const COARSEST_GRID: usize = 20;
 
 /// Whether a [`Solver`] has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,20 +70,22 @@ pub enum Status {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
-    field: Heightfield,
+    input: Input,
+    options: Options,
     frame: Frame,
-    plan: Plan,
-    /// The level under way; the finest one at the end.
-    level: Level,
-    /// The problems of the finer levels, the finest first.
-    finer: Vec<Problem>,
-    /// The domains of all lattices, the finest first.
-    domains: Vec<Arc<Domain>>,
-    /// The levels done, the coarsest first.
-    coarser: Vec<LevelReport>,
+    domain: Arc<Domain>,
+    parts: Parts,
+    /// Of the first parts.
+    answers: Vec<Answer>,
+    /// The part after those.
+    running: Option<Component>,
+    /// `P(z̃)` of each part, if there are several.
+    energies: Vec<f64>,
+    /// What the parts to come may start from.
+    memory: Option<Memory>,
     status: Status,
     started: Instant,
-    seconds: Seconds,
+    setup: f64,
 }
 
 impl Solver {
@@ -88,64 +94,48 @@ impl Solver {
     ///
     /// # Errors
     /// [`Error::Option`] for an option out of range, [`Error::NoInterior`] if
-    /// there is nothing to solve, [`Error::Overflow`] if the heights are too
+    /// there is nothing to solve, [`Error::Underdetermined`] if a part of the
+    /// surface is not held in place, [`Error::Overflow`] if the heights are too
     /// large for their energy to be computed, [`Error::OutOfMemory`].
     pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
-        let field = &input.into().field;
+        Solver::set_up(input.into(), options, None)
+    }
+
+    fn set_up(input: Input, options: &Options, memory: Option<Memory>) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
-        let plan = Plan::new(options);
-        let domain = Arc::new(Domain::new(field)?);
-        let frame = Frame::new(field, &domain, options.normalization);
-        let lambda = options.lambda.value();
-        let mut domains = vec![domain.clone()];
-        let mut finer = vec![Problem::new(field, domain, &frame, lambda)?];
-        let objective = finer[0].input_objective();
-        if !objective.is_finite() {
+        let domain = Arc::new(domain_of(&input)?);
+        check_held(&input, &domain)?;
+        let frame = Frame::new(&input, &domain, options.normalization);
+        let parts = Parts::new(&domain)?;
+        let energies = match parts.list.len() {
+            1 => Vec::new(),
+            n => {
+                let problem = Problem::new(&input, domain.clone(), &frame, options)?;
+                problem.smoothness_by(n, |cell| parts.of(cell))
+            }
+        };
+        if energies.iter().any(|energy| !energy.is_finite()) {
             return Err(Error::Overflow {
-                spacing: field.lattice().spacing(),
+                spacing: input.field.lattice().spacing(),
             });
         }
-        if objective > finer[0].rounding {
-            let mut coarse = coarsen(field)?;
-            while let Some(domain) = Domain::new(&coarse)
-                .ok()
-                .filter(|domain| domain.interior_len() >= COARSEST_GRID)
-            {
-                let domain = Arc::new(domain);
-                if plan.wants_level(domain.interior_len()) {
-                    finer.push(Problem::new(&coarse, domain.clone(), &frame, lambda)?);
-                }
-                domains.push(domain);
-                coarse = coarsen(&coarse)?;
-            }
-        }
-        let coarsest = finer.remove(finer.len() - 1);
-        let state = State::new(&coarsest, plan.first_rho(&coarsest))?;
-        let (level, reason) = Level::new(
-            coarsest,
-            state,
-            plan.on_level(!finer.is_empty(), 0),
-            &domains[finer.len()..],
-        )?;
         let mut solver = Solver {
-            field: field.clone(),
+            input,
+            options: *options,
             frame,
-            plan,
-            level,
-            finer,
-            domains,
-            coarser: Vec::new(),
+            domain,
+            parts,
+            answers: Vec::new(),
+            running: None,
+            energies,
+            memory,
             status: Status::Running,
             started,
-            seconds: Seconds {
-                setup: started.elapsed().as_secs_f64(),
-                ..Seconds::default()
-            },
+            setup: 0.0,
         };
-        if let Some(reason) = reason {
-            solver.finish_level(reason)?;
-        }
+        solver.next_part()?;
+        solver.setup = started.elapsed().as_secs_f64();
         Ok(solver)
     }
 
@@ -155,8 +145,7 @@ impl Solver {
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart(&mut self, options: &Options) -> Result<()> {
-        *self = Solver::new(&self.field, options)?;
-        Ok(())
+        self.restart_with(self.input.clone(), options)
     }
 
     /// Solves another input, on a lattice of the same shape, from where it
@@ -166,8 +155,82 @@ impl Solver {
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
-        *self = Solver::new(input, options)?;
+        let input = input.into();
+        let same = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
+        let memory = if same(input.field.lattice()) == same(self.input.field.lattice()) {
+            let mut answers = self.answers.clone();
+            if let Some(running) = self.running.as_ref().filter(|c| c.levels_left() == 0) {
+                answers.push(running.answer()?);
+            }
+            Some(Memory {
+                frame: self.frame,
+                domain: self.domain.clone(),
+                parts: self.parts.clone(),
+                answers,
+            })
+        } else {
+            None
+        };
+        *self = Solver::set_up(input, options, memory)?;
         Ok(())
+    }
+
+    /// Starts parts until one has something to do.
+    fn next_part(&mut self) -> Result<()> {
+        while let Some(number) = self.next_number() {
+            let (input, domain) = match self.parts.list.len() {
+                1 => (self.input.clone(), self.domain.clone()),
+                _ => {
+                    let input = self.parts.crop(&self.input, &self.domain, number)?;
+                    let domain = Arc::new(domain_of(&input)?);
+                    (input, domain)
+                }
+            };
+            let corner = self.corner(number);
+            let warm = |problem: &Problem| match &self.memory {
+                Some(memory) => memory.state(problem, corner, &self.frame),
+                None => Ok(None),
+            };
+            let component = Component::new(input, domain, &self.frame, &self.options, warm)?;
+            match component.reason() {
+                Some(reason) => self.answers.push(component.into_answer(reason)),
+                None => {
+                    self.running = Some(component);
+                    return Ok(());
+                }
+            }
+        }
+        self.memory = None;
+        self.status = Status::Stopped(self.reason());
+        Ok(())
+    }
+
+    fn next_number(&self) -> Option<usize> {
+        let next = self.answers.len();
+        (next < self.parts.list.len()).then_some(next)
+    }
+
+    /// Vertex of the whole lattice that is `(0, 0)` of a part's.
+    fn corner(&self, number: usize) -> (usize, usize) {
+        match self.parts.list.len() {
+            1 => (0, 0),
+            _ => self.parts.list[number].corner,
+        }
+    }
+
+    /// The worst of the reasons why parts stopped.
+    fn reason(&self) -> StopReason {
+        let reasons = || self.answers.iter().map(|answer| answer.reason);
+        let any = |reason| reasons().any(|r| r == reason);
+        [
+            StopReason::Cancelled,
+            StopReason::MaxIterations,
+            StopReason::Residuals,
+            StopReason::Gap,
+        ]
+        .into_iter()
+        .find(|reason| any(*reason))
+        .unwrap_or(StopReason::Rounding)
     }
 
     /// Runs about `work` conjugate-gradient iterations, at least one. Results
@@ -178,51 +241,57 @@ impl Solver {
     pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while left > 0 && self.status == Status::Running {
-            if let Some(reason) = self.level.advance(&mut left) {
-                self.finish_level(reason)?;
+            let Some(running) = &mut self.running else {
+                break;
+            };
+            let reason = running.advance(&mut left)?;
+            if let (Some(reason), Some(done)) = (reason, self.running.take_if(|_| reason.is_some()))
+            {
+                self.answers.push(done.into_answer(reason));
+                self.next_part()?;
             }
         }
         Ok(self.status)
     }
 
-    /// Goes on to finer levels as long as they have nothing to do.
-    fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
-        while let Some(fine) = self.finer.pop() {
-            self.coarser.push(self.level.report());
-            self.seconds = self.seconds + self.level.seconds;
-            let done = self.coarser.iter().map(|level| level.iterations).sum();
-            let plan = self.plan.on_level(!self.finer.is_empty(), done);
-            let rho = self.plan.finer_rho(self.level.state.rho, &fine);
-            let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
-            let (level, stop) = Level::new(fine, state, plan, &self.domains[self.finer.len()..])?;
-            self.level = level;
-            match stop {
-                Some(next) => reason = next,
-                None => return Ok(()),
-            }
-        }
-        self.status = Status::Stopped(reason);
-        Ok(())
-    }
-
     /// Figures of the last check. While a coarse level is under way, its
     /// objective and bound are scaled by the number of vertices: estimates of
-    /// the finest level's, which alone certifies.
+    /// the finest level's, which alone certifies. Parts of the surface that are
+    /// still to come count as they are in the input, with 0 as their bound.
     pub fn progress(&self) -> Progress {
-        let report = self.level.report();
-        let finest = self.finer.first().unwrap_or(&self.level.problem);
-        let share = finest.domain.interior_len() as f64 / report.interior as f64;
-        let coarser = self.coarser.iter();
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.best, answer.dual_bound(), 1.0);
+            total.add_work(&answer.levels);
+        }
+        let mut pending = self.answers.len();
+        if let Some(running) = &self.running {
+            let level = running.level();
+            let share = running.problem().domain.interior_len() as f64
+                / level.problem.domain.interior_len() as f64;
+            total.add(&level.best, level.best.dual_bound, share);
+            total.add_work(&running.levels());
+            pending += 1;
+        }
+        let pending = self.energies.iter().skip(pending);
+        let objective = total.objective() + pending.sum::<f64>();
         Progress {
-            level: self.finer.len(),
-            iteration: report.iterations + coarser.clone().map(|l| l.iterations).sum::<usize>(),
-            cg_iterations: report.cg_iterations + coarser.map(|l| l.cg_iterations).sum::<usize>(),
-            objective: share * self.level.best.objective(),
-            dual_bound: share * self.level.best.dual_bound,
-            gap: self.gap_of(&self.level.best),
-            rho: self.level.state.rho,
+            level: self.running.as_ref().map_or(0, Component::levels_left),
+            iteration: total.iterations,
+            cg_iterations: total.cg_iterations,
+            objective,
+            dual_bound: total.dual_bound,
+            gap: relative_gap(objective, total.dual_bound),
+            rho: self.rho(),
             elapsed: self.started.elapsed().as_secs_f64(),
         }
+    }
+
+    /// Of the largest part.
+    fn rho(&self) -> f64 {
+        let running = || self.running.as_ref().map(|c| c.level().state.rho);
+        let first = self.answers.first().map(|answer| answer.state.rho);
+        first.or_else(running).unwrap_or(0.0)
     }
 
     /// Stops a running solve: its surface is then the best one so far, marked
@@ -235,84 +304,192 @@ impl Solver {
 
     /// The best surface so far, in the input's units, omitted vertices
     /// restored. While the solve is running it is reported as cancelled; from a
-    /// coarse level it is carried to the finest one, and certified there.
+    /// coarse level it is carried to the finest one, and certified there; parts
+    /// that are still to come are as in the input, without the free vertices
+    /// that have no height there.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn surface(&self) -> Result<Surface> {
-        let carried = self.carry_to_finest()?;
-        let best = carried.as_ref().unwrap_or(&self.level.best);
-        let problem = self.finer.first().unwrap_or(&self.level.problem);
-        let domain = &problem.domain;
-        let mut heights = problem.heights(&self.frame, &best.z);
-        restore_omitted(domain, &self.field, &mut heights);
-        let mut levels = self.coarser.clone();
-        levels.push(self.level.report());
+        let unfinished = self.running.as_ref().map(Component::answer).transpose()?;
+        let answers = || self.answers.iter().chain(&unfinished);
+        let lattice = *self.input.field.lattice();
+        let mut heights = try_filled("surface", lattice.len(), f64::NAN)?;
+        let mut total = Totals::default();
+        let mut levels: Vec<LevelReport> = Vec::new();
+        let mut seconds = Seconds::default();
+        for (number, answer) in answers().enumerate() {
+            let (top, left) = self.corner(number);
+            answer
+                .problem
+                .write_heights(&self.frame, &answer.best.z, |(row, col), z| {
+                    heights[lattice.index(top + row, left + col)] = z;
+                });
+            total.add(&answer.best, answer.dual_bound(), 1.0);
+            total.add_work(&answer.levels);
+            add_levels(&mut levels, &answer.levels);
+            seconds = seconds + answer.seconds;
+        }
+        let pending = answers().count();
+        for cell in self.domain.active().cells() {
+            let vertex = self.domain.lattice_index(cell);
+            let given = self.input.weight(vertex) > 0.0;
+            if self.parts.of(cell) >= pending && given {
+                heights[vertex] = self.input.field.heights()[vertex];
+            }
+        }
+        restore_omitted(&self.domain, &self.input, &mut heights);
+        let constrained = (0..lattice.len())
+            .filter(|v| self.input.is_constrained(*v) && !self.input.field.heights()[*v].is_nan());
+        for vertex in constrained.clone() {
+            // To the last bit.
+            heights[vertex] = self.input.field.heights()[vertex];
+        }
+        let objective = total.objective() + self.energies.iter().skip(pending).sum::<f64>();
         let report = Report {
-            interior: domain.interior_len(),
-            boundary: domain.boundary_len(),
-            omitted: domain.omitted_len(),
-            iterations: levels.iter().map(|level| level.iterations).sum(),
-            cg_iterations: levels.iter().map(|level| level.cg_iterations).sum(),
+            interior: self.domain.interior_len(),
+            boundary: self.domain.boundary_len(),
+            omitted: self.domain.omitted_len(),
+            occluded: self.domain.occluded_len(),
+            constrained: constrained.count(),
+            free: answers().map(|answer| answer.problem.free.len()).sum(),
+            components: self.parts.list.len(),
+            iterations: total.iterations,
+            cg_iterations: total.cg_iterations,
             levels,
-            occluded: 0,
-            constrained: 0,
-            free: 0,
-            components: 1,
-            energy: Energy::Nuclear,
-            reweighting: 0,
-            objective: best.objective(),
-            fidelity: best.fidelity,
-            nuclear_norm: best.nuclear_norm,
-            dual_bound: best.dual_bound,
-            gap: self.gap_of(best),
-            lambda: problem.lambda,
-            rho: self.level.state.rho,
+            energy: self.options.energy,
+            reweighting: answers().map(|answer| answer.passes).max().unwrap_or(0),
+            objective,
+            fidelity: total.fidelity,
+            nuclear_norm: objective - total.fidelity,
+            dual_bound: total.dual_bound,
+            gap: relative_gap(objective, total.dual_bound),
+            lambda: self.options.lambda.value(),
+            rho: answers().next().map_or(0.0, |answer| answer.state.rho),
             scale: self.frame.scale,
             stop_reason: match self.status {
                 Status::Running => StopReason::Cancelled,
                 Status::Stopped(reason) => reason,
             },
             seconds: Seconds {
+                setup: self.setup,
                 total: self.started.elapsed().as_secs_f64(),
-                ..self.seconds + self.level.seconds
+                ..seconds
             },
         };
         Ok(Surface {
-            heightfield: Heightfield::new(*self.field.lattice(), heights)?,
+            heightfield: Heightfield::new(lattice, heights)?,
             report,
         })
     }
+}
 
-    fn gap_of(&self, best: &Best) -> f64 {
-        match self.status {
-            // Objective and optimum are the same but for rounding errors.
-            Status::Stopped(StopReason::Rounding) => 0.0,
-            _ => best.gap(),
-        }
-    }
+/// What an earlier solve has found, to start from.
+#[derive(Debug, Clone)]
+struct Memory {
+    frame: Frame,
+    domain: Arc<Domain>,
+    parts: Parts,
+    answers: Vec<Answer>,
+}
 
-    /// A coarse level's iterate on the finest lattice, or the input if that is better.
-    fn carry_to_finest(&self) -> Result<Option<Best>> {
-        let mut state: Option<State> = None;
-        let mut coarse = &self.level.problem;
-        for fine in self.finer.iter().rev() {
-            let from = state.as_ref().unwrap_or(&self.level.state);
-            state = Some(prolong(
-                coarse,
-                from,
-                fine,
-                self.plan.finer_rho(from.rho, fine),
-            )?);
-            coarse = fine;
-        }
-        let Some(mut state) = state else {
+impl Memory {
+    /// The state to start from, unless nothing of it is known. `corner` is the
+    /// vertex of the whole lattice that is `(0, 0)` of the problem's.
+    fn state(
+        &self,
+        problem: &Problem,
+        corner: (usize, usize),
+        frame: &Frame,
+    ) -> Result<Option<State>> {
+        let Some(rho) = self.answers.first().map(|answer| answer.state.rho) else {
             return Ok(None);
         };
-        let certificate = state.certify(coarse);
-        let mut best = Best::new(&state.z, &certificate);
-        best.take_input(coarse);
-        Ok(Some(best))
+        let mut state = State::new(problem, rho)?;
+        // Hessians scale as one over lengths.
+        let factor = self.frame.scale / frame.scale;
+        let mut found = 0;
+        for cell in problem.domain.active().cells() {
+            let (row, col) = problem.domain.lattice_vertex(cell);
+            let vertex = (row + corner.0, col + corner.1);
+            let Some((answer, old)) = self.find(vertex) else {
+                continue;
+            };
+            found += 1;
+            let z = self
+                .frame
+                .outward(position(&answer.problem.domain, old), answer.state.z[old]);
+            state.z[cell] = frame.inward(position(&problem.domain, cell), z);
+            let interior = |domain: &Domain, cell: usize| domain.roles()[cell] == Role::Interior;
+            if interior(&problem.domain, cell) && interior(&answer.problem.domain, old) {
+                let (dual, hessian) = answer.state.matrices(&answer.problem, old);
+                state.set_matrices(cell, dual, hessian.scale(factor));
+            }
+        }
+        for cell in &problem.constrained {
+            state.z[*cell as usize] = problem.target[*cell as usize];
+        }
+        Ok((found > 0).then_some(state))
+    }
+
+    /// The answer that has a vertex of the whole lattice, and its cell there.
+    fn find(&self, (row, col): (usize, usize)) -> Option<(&Answer, usize)> {
+        let cell = self.domain.cell((row as isize, col as isize))?;
+        if !self.domain.roles()[cell].is_active() {
+            return None;
+        }
+        let number = self.parts.of(cell);
+        let answer = self.answers.get(number)?;
+        let (top, left) = match self.parts.list.len() {
+            1 => (0, 0),
+            _ => self.parts.list[number].corner,
+        };
+        let own = ((row - top) as isize, (col - left) as isize);
+        Some((answer, answer.problem.domain.cell(own)?))
+    }
+}
+
+/// Sums over the parts.
+#[derive(Default)]
+struct Totals {
+    fidelity: f64,
+    nuclear_norm: f64,
+    dual_bound: f64,
+    iterations: usize,
+    cg_iterations: usize,
+}
+
+impl Totals {
+    fn add(&mut self, best: &Best, dual_bound: f64, share: f64) {
+        self.fidelity += share * best.fidelity;
+        self.nuclear_norm += share * best.nuclear_norm;
+        self.dual_bound += share * dual_bound;
+    }
+
+    fn add_work(&mut self, levels: &[LevelReport]) {
+        self.iterations += levels.iter().map(|level| level.iterations).sum::<usize>();
+        self.cg_iterations += levels
+            .iter()
+            .map(|level| level.cg_iterations)
+            .sum::<usize>();
+    }
+
+    fn objective(&self) -> f64 {
+        self.fidelity + self.nuclear_norm
+    }
+}
+
+/// Adds the work on one part's lattices to that on the others' of the same spacing.
+fn add_levels(levels: &mut Vec<LevelReport>, part: &[LevelReport]) {
+    let missing = part.len().saturating_sub(levels.len());
+    levels.splice(0..0, part[..missing].iter().copied());
+    let first = levels.len() - part.len();
+    for (i, (level, more)) in levels[first..].iter_mut().zip(part).enumerate() {
+        if i >= missing {
+            level.interior += more.interior;
+            level.iterations += more.iterations;
+            level.cg_iterations += more.cg_iterations;
+        }
     }
 }
 

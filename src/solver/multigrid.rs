@@ -9,7 +9,11 @@
 
 use std::sync::Arc;
 
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
 use super::grid::{Grid, LARGEST_EIGENVALUE, part, part_mut};
+use super::per_cell::PerCell;
+use super::problem::Problem;
 use super::transfer::Transfer;
 use crate::domain::Domain;
 use crate::error::{Result, try_filled};
@@ -26,6 +30,13 @@ const WELL_CONDITIONED: f32 = 8.0;
 /// Most smoothing steps on the coarsest lattice.
 const BOTTOM_STEPS: f32 = 40.0;
 
+/// Added to its diagonal, relative: keeps a matrix that is singular but for rounding positive.
+const SHIFT: f32 = 1e-5;
+
+/// A lattice that needs more steps than that, and has no more unknowns than
+/// this, is solved directly.
+const DIRECT: usize = 300;
+
 #[derive(Debug, Clone)]
 pub(crate) struct Multigrid {
     /// The finest first.
@@ -34,11 +45,16 @@ pub(crate) struct Multigrid {
     transfers: Vec<Transfer>,
     /// How many of them a cycle visits.
     depth: usize,
+    lambda: f64,
 }
 
 #[derive(Debug, Clone)]
 struct Floor {
     grid: Grid,
+    /// What differs from cell to cell, if anything does.
+    shares: Option<Shares>,
+    /// On the last floor of a cycle, if Chebyshev's iteration would take too long.
+    direct: Option<Cholesky<f32, Dyn>>,
     /// Right-hand side, solution, last step of the smoother, residual.
     b: Vec<f32>,
     x: Vec<f32>,
@@ -46,51 +62,81 @@ struct Floor {
     residual: Vec<f32>,
 }
 
+/// Fidelity and constraints, as the mean of those of the finest vertices that a
+/// vertex stands for. A constrained vertex is out of the finest system; on
+/// coarser lattices a spring as stiff as the finest lattice itself stands for it.
+#[derive(Debug, Clone)]
+struct Shares {
+    fidelity: Vec<f32>,
+    constrained: Vec<f32>,
+}
+
 impl Multigrid {
-    /// For the first of `domains`, each of which has twice the spacing of the one before.
-    pub(crate) fn new(
-        domains: &[Arc<Domain>],
-        spacing: f64,
-        lambda: f64,
-        rho: f64,
-    ) -> Result<Self> {
-        let mut floors = Vec::with_capacity(domains.len());
-        let mut spacing = spacing;
-        for domain in domains {
+    /// For a problem on the first of `domains`, each of which has twice the
+    /// spacing of the one before.
+    pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
+        let transfers: Vec<Transfer> = domains
+            .windows(2)
+            .map(|pair| Transfer::new(&pair[0], &pair[1]))
+            .collect();
+        let mut floors: Vec<Floor> = Vec::with_capacity(domains.len());
+        let mut spacing = problem.spacing;
+        let varied = matches!(problem.fidelity, PerCell::Each(_));
+        for (i, domain) in domains.iter().enumerate() {
             let zeros = || try_filled("multigrid", domain.cells(), 0.0);
-            floors.push(Floor {
-                grid: Grid::new(domain.clone(), spacing, lambda, rho)?,
+            let constrained = if i == 0 {
+                problem.constrained.clone()
+            } else {
+                Vec::new()
+            };
+            let mut floor = Floor {
+                grid: Grid::new(domain.clone(), spacing, constrained, varied)?,
+                shares: None,
+                direct: None,
                 b: zeros()?,
                 x: zeros()?,
                 step: zeros()?,
                 residual: zeros()?,
-            });
+            };
+            floor.shares = match floors.last_mut() {
+                None => Shares::of(problem)?,
+                Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
+            };
+            floors.push(floor);
             spacing *= 2.0;
         }
-        let pairs = domains.windows(2);
         let mut multigrid = Multigrid {
             floors,
-            transfers: pairs
-                .map(|pair| Transfer::new(&pair[0], &pair[1]))
-                .collect(),
+            transfers,
             depth: 1,
+            lambda: problem.lambda,
         };
-        multigrid.find_depth();
+        multigrid.set(rho);
         Ok(multigrid)
     }
 
     /// Changes the matrix.
-    pub(crate) fn set(&mut self, lambda: f64, rho: f64) {
+    pub(crate) fn set(&mut self, rho: f64) {
+        let typical = 2.0 * self.lambda;
+        let spring = self.floors[0].grid.stiffness(rho);
         for floor in &mut self.floors {
-            floor.grid.set(lambda, rho);
+            match &floor.shares {
+                None => floor.grid.set(rho, typical, |_| typical),
+                Some(Shares {
+                    fidelity,
+                    constrained,
+                }) => {
+                    let each = |cell: usize| {
+                        typical * f64::from(fidelity[cell]) + spring * f64::from(constrained[cell])
+                    };
+                    floor.grid.set(rho, typical, each);
+                }
+            }
         }
-        self.find_depth();
-    }
-
-    fn find_depth(&mut self) {
         let good = |floor: &Floor| floor.grid.condition() <= WELL_CONDITIONED;
         let last = self.floors.len() - 1;
         self.depth = self.floors.iter().position(good).unwrap_or(last) + 1;
+        self.floors[self.depth - 1].prepare();
     }
 
     /// The matrix itself.
@@ -125,6 +171,7 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     fine.start(low);
     fine.smooth(STEPS - 1, low, true);
     fine.grid.residual(&mut fine.x, &fine.b, &mut fine.residual);
+    fine.grid.pin(&mut fine.residual);
     let scale = 0.25 * fine.grid.diagonal / coarse.grid.diagonal;
     transfer.restrict(
         (&fine.grid.domain, &fine.residual, &mut fine.step),
@@ -137,12 +184,85 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
         (&coarse.grid.domain, &coarse.x),
         (&fine.grid.domain, &mut fine.x, &mut fine.residual),
     );
+    fine.grid.pin(&mut fine.x);
     fine.smooth(STEPS, low, false);
 }
 
+impl Shares {
+    fn of(problem: &Problem) -> Result<Option<Self>> {
+        let PerCell::Each(weights) = &problem.fidelity else {
+            return Ok(None);
+        };
+        let domain = &problem.domain;
+        let zeros = || try_filled("multigrid", domain.cells(), 0.0);
+        let (mut fidelity, mut constrained) = (zeros()?, zeros()?);
+        for cell in domain.active().cells() {
+            fidelity[cell] = weights[cell] as f32;
+        }
+        for cell in &problem.constrained {
+            fidelity[*cell as usize] = 0.0;
+            constrained[*cell as usize] = 1.0;
+        }
+        Ok(Some(Shares {
+            fidelity,
+            constrained,
+        }))
+    }
+}
+
 impl Floor {
-    /// On the coarsest floor: Chebyshev's iteration on the whole spectrum.
+    /// The means on the next floor; leaves the work space as clean as it was.
+    fn coarser_shares(
+        &mut self,
+        transfer: &Transfer,
+        coarse: &mut Floor,
+    ) -> Result<Option<Shares>> {
+        let Some(shares) = &self.shares else {
+            return Ok(None);
+        };
+        let mean = |fine: &[f32], work: &mut [f32]| {
+            let mut means = try_filled("multigrid", coarse.grid.domain.cells(), 0.0)?;
+            transfer.restrict(
+                (&self.grid.domain, fine, work),
+                (&coarse.grid.domain, &mut means),
+                0.25,
+            );
+            Ok(means)
+        };
+        Ok(Some(Shares {
+            fidelity: mean(&shares.fidelity, &mut self.step)?,
+            constrained: mean(&shares.constrained, &mut self.step)?,
+        }))
+    }
+
+    /// Factors the matrix if this is the last floor and iterating would take too long.
+    fn prepare(&mut self) {
+        let steps = 1.5 * self.grid.condition().sqrt();
+        let unknowns = self.grid.domain.active().len();
+        let slow = steps > BOTTOM_STEPS && unknowns <= DIRECT && self.grid.constrained().is_empty();
+        self.direct = None;
+        if slow {
+            let columns = self.grid.dense();
+            let mut matrix = DMatrix::from_fn(unknowns, unknowns, |i, j| columns[j][i]);
+            for i in 0..unknowns {
+                matrix[(i, i)] *= 1.0 + SHIFT;
+            }
+            self.direct = matrix.cholesky();
+        }
+    }
+
+    /// On the last floor of a cycle: directly, or by Chebyshev's iteration on the whole spectrum.
     fn solve(&mut self) {
+        if let Some(direct) = &self.direct {
+            let cells = || self.grid.domain.active().cells();
+            let mut solution =
+                DVector::from_iterator(self.grid.domain.active().len(), cells().map(|c| self.b[c]));
+            direct.solve_mut(&mut solution);
+            for (cell, value) in cells().zip(solution.iter()) {
+                self.x[cell] = *value;
+            }
+            return;
+        }
         let condition = self.grid.condition();
         let steps = (1.5 * condition.sqrt()).ceil().clamp(2.0, BOTTOM_STEPS);
         let low = LARGEST_EIGENVALUE / condition;

@@ -1,7 +1,7 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
-use super::options::{Options, Schedule};
+use super::options::{Energy, Options, Schedule};
 use super::problem::Problem;
 use super::report::StopReason;
 use super::state::Certificate;
@@ -23,6 +23,8 @@ pub(crate) struct Plan {
     imbalance: f64,
     gap: f64,
     max_iterations: usize,
+    /// Whether the weights are those of the surface itself.
+    pub follows_normals: bool,
 }
 
 /// Absolute and relative residuals at which `Schedule::Paper` stops: those of
@@ -62,6 +64,7 @@ impl Plan {
             imbalance: 3.0,
             gap: options.gap,
             max_iterations: options.max_iterations,
+            follows_normals: options.energy == Energy::SecondForm,
         };
         match options.schedule {
             Schedule::Default => common,
@@ -114,6 +117,10 @@ impl Plan {
     fn within_bounds(&self, rho: f64, problem: &Problem) -> f64 {
         let domain = &problem.domain;
         let size = problem.spacing * domain.rows().max(domain.stride()) as f64;
+        if !problem.free.is_empty() {
+            // No screening length, but the ratio of dual and Hessian of a surface as large as this.
+            return rho.min(10.0 * size);
+        }
         let length = (SCREENING * size).min(CELLS * problem.spacing);
         rho.min(2.0 * problem.lambda * length.powi(4))
     }
@@ -135,6 +142,11 @@ impl Plan {
     /// Whether a certificate is due.
     pub(crate) fn is_check(&self, iteration: usize) -> bool {
         iteration.is_multiple_of(self.check_every) || self.is_last(iteration)
+    }
+
+    /// Whether the certificate is to be balanced: it costs about as much as ten iterations.
+    pub(crate) fn is_balance(&self, iteration: usize) -> bool {
+        iteration.is_multiple_of(3 * self.check_every) || self.is_last(iteration)
     }
 
     fn is_last(&self, iteration: usize) -> bool {

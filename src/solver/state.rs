@@ -2,12 +2,14 @@
 //! dual, and the certificate.
 //!
 //! Paper, Eq. 18 and 19, in the form of one matrix `V = Y + ρH` per interior
-//! vertex, from which both follow: the dual `Y = ρU` is the projection of `V`
-//! onto the dual ball, and `ρH = V − Y` its soft threshold. So `Y` is feasible
-//! by construction, and nothing else has to be stored.
+//! vertex, from which both follow: for the nuclear norm, the dual `Y = ρU` is the
+//! projection of `V` onto the dual ball, and `ρH = V − Y` its soft threshold
+//! (`law` has the other energies). So `Y` is feasible by construction, and
+//! nothing else has to be stored.
 
 use super::cg::ConjugateGradients;
 use super::lanes;
+use super::law::{Frobenius, Kind, Law, Nuclear, SquaredNuclear, with_law};
 use super::problem::Problem;
 use crate::domain::Run;
 use crate::error::{Result, try_filled};
@@ -18,9 +20,9 @@ use crate::stencil::{Ring, Rolling, weights_of};
 #[derive(Debug, Clone)]
 pub(crate) struct State {
     pub z: Vec<f64>,
-    v: MatrixField,
+    pub(super) v: MatrixField,
     pub rho: f64,
-    rolling: Rolling<f64>,
+    pub(super) rolling: Rolling<f64>,
     /// A row of what the certificate sums, over matrices and over heights.
     terms: [Terms; 2],
 }
@@ -28,7 +30,7 @@ pub(crate) struct State {
 type Terms = [Vec<f64>; SUMS];
 
 /// Sums over matrices, and as many over heights, that a certificate takes.
-const SUMS: usize = 5;
+const SUMS: usize = 6;
 
 /// The first `n` terms of each sum.
 #[inline(always)]
@@ -44,14 +46,14 @@ fn add_sums<const N: usize>(sums: &mut [f64; SUMS], terms: [&mut [f64]; N]) {
 
 /// A symmetric matrix per cell, each coordinate of [`Sym2`] contiguous.
 #[derive(Debug, Clone)]
-struct MatrixField {
+pub(super) struct MatrixField {
     mean: Vec<f64>,
     diff: Vec<f64>,
     off: Vec<f64>,
 }
 
 /// One run of a [`MatrixField`].
-struct MatrixRun<'a> {
+pub(super) struct MatrixRun<'a> {
     mean: &'a mut [f64],
     diff: &'a mut [f64],
     off: &'a mut [f64],
@@ -59,7 +61,7 @@ struct MatrixRun<'a> {
 
 impl MatrixField {
     #[inline(always)]
-    fn run(&mut self, run: Run) -> MatrixRun<'_> {
+    pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
         let n = run.end - run.start;
         MatrixRun {
             mean: &mut self.mean[run.start..][..n],
@@ -71,7 +73,7 @@ impl MatrixField {
 
 impl MatrixRun<'_> {
     #[inline(always)]
-    fn get(&self, i: usize) -> Sym2 {
+    pub(super) fn get(&self, i: usize) -> Sym2 {
         Sym2 {
             mean: self.mean[i],
             diff: self.diff[i],
@@ -90,11 +92,11 @@ impl MatrixRun<'_> {
 /// What one pass over an iterate finds out about it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Certificate {
-    /// `λ Σ (z − z̃)²`.
+    /// `λ Σ w (z − z̃)²`.
     pub fidelity: f64,
-    /// `Σ ‖Cz‖_*`.
+    /// `Σ ω f(Cz)`.
     pub nuclear_norm: f64,
-    /// `D(tY)`, with the best `t` between 0 and 1: a lower bound of the optimum.
+    /// `D(tY)` with the best `t`: a lower bound of the optimum.
     pub dual_bound: f64,
     /// `‖Cz − H‖`, and the larger of `‖Cz‖` and `‖H‖`.
     pub primal_residual: f64,
@@ -135,26 +137,36 @@ impl State {
 
     /// Changes ρ, leaving `H` and `Y` as they are.
     pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
+        with_law!(problem.kind, self.rho, |law| self
+            .set_rho_of(law, problem, rho))
+    }
+
+    fn set_rho_of(&mut self, law: impl Law, problem: &Problem, rho: f64) {
         let factor = rho / self.rho;
         self.rho = rho;
-        for run in problem.domain.interior().all() {
-            let mut v = self.v.run(*run);
-            for i in 0..v.mean.len() {
-                let value = v.get(i);
-                let dual = value.clamp(1.0);
-                v.set(i, dual + (value - dual).scale(factor));
+        let domain = &problem.domain;
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let weight = problem.weight.run(domain, row, *run);
+                let mut v = self.v.run(*run);
+                for (i, weight) in weight.iter().enumerate() {
+                    let value = v.get(i);
+                    let dual = law.dual(value, *weight);
+                    v.set(i, dual + (value - dual).scale(factor));
+                }
             }
         }
     }
 
     /// `Y` and `H` at an interior cell.
-    pub(crate) fn matrices(&self, cell: usize) -> (Sym2, Sym2) {
+    pub(crate) fn matrices(&self, problem: &Problem, cell: usize) -> (Sym2, Sym2) {
         let v = Sym2 {
             mean: self.v.mean[cell],
             diff: self.v.diff[cell],
             off: self.v.off[cell],
         };
-        let dual = v.clamp(1.0);
+        let weight = problem.weight.at(cell);
+        let dual = with_law!(problem.kind, self.rho, |law| law.dual(v, weight));
         (dual, (v - dual).scale(1.0 / self.rho))
     }
 
@@ -185,6 +197,17 @@ impl State {
         relaxation: f64,
         cg: &mut ConjugateGradients,
     ) -> f64 {
+        with_law!(problem.kind, self.rho, |law| self
+            .update_of::<MEASURE>(law, problem, relaxation, cg))
+    }
+
+    fn update_of<const MEASURE: bool>(
+        &mut self,
+        law: impl Law,
+        problem: &Problem,
+        relaxation: f64,
+        cg: &mut ConjugateGradients,
+    ) -> f64 {
         let State {
             z,
             v,
@@ -207,15 +230,16 @@ impl State {
                     let ring = Ring::new(z, domain, row, *run);
                     let mut v = v.run(*run);
                     let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let weight = problem.weight.run(domain, row, *run);
                     let n = w1.len();
                     for i in 0..n {
                         let hessian = map.hessian(ring.differences(i)).scale(rho);
                         let old = v.get(i);
-                        let old_dual = old.clamp(1.0);
+                        let old_dual = law.dual(old, weight[i]);
                         let step = hessian - old + old_dual;
                         let new = old + step.scale(relaxation);
                         v.set(i, new);
-                        let dual = new.clamp(1.0);
+                        let dual = law.dual(new, weight[i]);
                         if MEASURE {
                             let moved = new - dual - old + old_dual;
                             squares[i] = moved.dot(moved);
@@ -234,8 +258,9 @@ impl State {
                     let z = &z[run.start..][..n];
                     let target = &problem.target[run.start..][..n];
                     let residual = &mut residual[run.start..][..n];
+                    let weight = problem.fidelity.run(domain, row, *run);
                     for i in 0..n {
-                        let value = fidelity * (target[i] - z[i]) + sum.at(i);
+                        let value = fidelity * (weight[i] * (target[i] - z[i])) + sum.at(i);
                         residual[i] = (scale * value) as f32;
                     }
                 }
@@ -247,6 +272,10 @@ impl State {
 
     /// Objective, dual bound and residuals, in one pass.
     pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
+        with_law!(problem.kind, self.rho, |law| self.certify_of(law, problem))
+    }
+
+    fn certify_of<L: Law>(&mut self, law: L, problem: &Problem) -> Certificate {
         let State {
             z,
             v,
@@ -267,22 +296,24 @@ impl State {
                     let ring = Ring::new(z, domain, row, *run);
                     let v = v.run(*run);
                     let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let weight = problem.weight.run(domain, row, *run);
                     let n = w1.len();
-                    let [t1, t2, t3, t4, t5] = terms_of(matrix_terms, n);
+                    let [t1, t2, t3, t4, t5, t6] = terms_of(matrix_terms, n);
                     for i in 0..n {
                         let hessian = map.hessian(ring.differences(i));
                         let value = v.get(i);
-                        let y = value.clamp(1.0);
+                        let y = law.dual(value, weight[i]);
                         (w1[i], w2[i], w3[i]) = map.adjoint(y).into();
                         let h = (value - y).scale(inverse_rho);
                         let gap = hessian - h;
-                        t1[i] = hessian.nuclear_norm();
+                        t1[i] = law.value(hessian, weight[i]);
                         t2[i] = gap.dot(gap);
                         t3[i] = hessian.dot(hessian);
                         t4[i] = h.dot(h);
                         t5[i] = y.dot(y);
+                        t6[i] = law.conjugate(y, weight[i]);
                     }
-                    add_sums(&mut matrices, [t1, t2, t3, t4, t5]);
+                    add_sums(&mut matrices, [t1, t2, t3, t4, t5, t6]);
                 }
             },
             |_, row, sums| {
@@ -291,37 +322,58 @@ impl State {
                     let n = run.end - run.start;
                     let z = &z[run.start..][..n];
                     let target = &problem.target[run.start..][..n];
-                    let [t1, t2, t3, t4, _] = terms_of(height_terms, n);
+                    let weight = problem.fidelity.run(domain, row, *run);
+                    let inverse = problem.inverse_fidelity.run(domain, row, *run);
+                    let [t1, t2, t3, t4, t5, _] = terms_of(height_terms, n);
                     for i in 0..n {
                         let offset = z[i] - target[i];
                         let adjoint = sum.at(i);
-                        let gradient = fidelity * offset + adjoint;
-                        t1[i] = offset * offset;
+                        let gradient = fidelity * (weight[i] * offset) + adjoint;
+                        let square = adjoint * adjoint;
+                        // Nothing is asked of the gradient at constrained cells.
+                        let asked = inverse[i] > 0.0;
+                        t1[i] = weight[i] * (offset * offset);
                         t2[i] = adjoint * target[i];
-                        t3[i] = adjoint * adjoint;
-                        t4[i] = gradient * gradient;
+                        t3[i] = square * inverse[i];
+                        t4[i] = if asked { gradient * gradient } else { 0.0 };
+                        t5[i] = if asked { square } else { 0.0 };
                     }
-                    add_sums(&mut heights, [t1, t2, t3, t4]);
+                    add_sums(&mut heights, [t1, t2, t3, t4, t5]);
                 }
             },
         );
-        let [nuclear, primal, image, split, dual_norm] = matrices;
-        let [distance, inner, dual_size, dual, _] = heights;
-        // D(tY) = t⟨CᵀY, z̃⟩ − t²‖CᵀY‖²/4λ is concave in t, and tY is feasible up to t = 1.
-        let t = if dual_size > 0.0 {
-            (fidelity * inner / dual_size).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let [nuclear, primal, image, split, dual_norm, conjugate] = matrices;
+        let [distance, inner, quadratic, dual, dual_size, _] = heights;
+        let bound = dual_bound(problem, inner, quadratic, conjugate, L::LARGEST);
         Certificate {
             fidelity: problem.lambda * distance,
             nuclear_norm: nuclear,
-            dual_bound: t * inner - t * t * dual_size / (2.0 * fidelity),
+            dual_bound: bound,
             primal_residual: primal.sqrt(),
             primal_size: image.sqrt().max(split.sqrt()),
             dual_residual: dual.sqrt(),
             dual_size: dual_size.sqrt(),
             dual_norm: dual_norm.sqrt(),
         }
+    }
+}
+
+/// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
+/// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic.
+pub(super) fn dual_bound(
+    problem: &Problem,
+    inner: f64,
+    quadratic: f64,
+    conjugate: f64,
+    largest: f64,
+) -> f64 {
+    let square = quadratic / (4.0 * problem.lambda) + conjugate;
+    if square > 0.0 {
+        let t = (inner / (2.0 * square)).clamp(0.0, largest);
+        t * inner - t * t * square
+    } else if largest < f64::INFINITY {
+        largest * inner.max(0.0)
+    } else {
+        0.0
     }
 }

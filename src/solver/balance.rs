@@ -1,0 +1,120 @@
+//! A certificate where some vertices have no fidelity term of their own.
+//!
+//! There `CᵀY` must all but vanish for the bound `D(Y)` to say anything, and
+//! ADMM's dual comes close to that only in the end. So it is balanced first:
+//! with `A q = −(2λw(z − z̃) + CᵀY)`, one more z-step as it were, `Y + ρCq` and
+//! `z + q` satisfy the optimality condition of `z` exactly. What is left is to
+//! scale the new dual back into the ball.
+
+use super::cg::ConjugateGradients;
+use super::law::{Frobenius, Kind, Law, Nuclear, SquaredNuclear, with_law};
+use super::problem::Problem;
+use super::state::{State, dual_bound};
+use crate::error::{Result, try_filled};
+use crate::stencil::{Ring, weights_of};
+
+/// Rounds of conjugate gradients, each from a residual in double precision.
+const ROUNDS: usize = 6;
+
+/// Iterations in a round, at most: single precision carries no further.
+const STEPS: usize = 12;
+
+/// Squared residuals at which a round and the whole are done, relative to the first.
+const ROUND: f64 = 1e-8;
+const DONE: f64 = 1e-18;
+
+/// A lower bound of the optimum; `cg` has to be given a new residual afterwards.
+/// `rounds` of conjugate gradients are added to `iterations`.
+pub(crate) fn balanced_bound(
+    state: &mut State,
+    problem: &Problem,
+    cg: &mut ConjugateGradients,
+    iterations: &mut usize,
+) -> Result<f64> {
+    let mut q = try_filled("certificate", problem.domain.cells(), 0.0)?;
+    let mut bound = state.balance(problem, &q, cg);
+    let first = cg.energy();
+    for _ in 0..ROUNDS {
+        let start = cg.energy();
+        if start <= DONE * first {
+            break;
+        }
+        for _ in 0..STEPS {
+            if cg.energy() <= ROUND * start || !cg.step(&problem.domain) {
+                break;
+            }
+            *iterations += 1;
+        }
+        cg.correct(&problem.domain, &mut q);
+        bound = bound.max(state.balance(problem, &q, cg));
+    }
+    Ok(bound)
+}
+
+impl State {
+    /// `D(t(Y + ρCq))` for the best feasible `t`; the residual
+    /// `−(2λw(z + q − z̃) + Cᵀ(Y + ρCq))` goes to `cg`.
+    fn balance(&mut self, problem: &Problem, q: &[f64], cg: &mut ConjugateGradients) -> f64 {
+        with_law!(problem.kind, self.rho, |law| self
+            .balance_of(law, problem, q, cg))
+    }
+
+    fn balance_of<L: Law>(
+        &mut self,
+        law: L,
+        problem: &Problem,
+        q: &[f64],
+        cg: &mut ConjugateGradients,
+    ) -> f64 {
+        let State {
+            z, v, rho, rolling, ..
+        } = self;
+        let (domain, rho) = (&problem.domain, *rho);
+        let fidelity = 2.0 * problem.lambda;
+        let scale = cg.residual_scale();
+        let (mut excess, mut conjugate) = (0.0f64, 0.0);
+        let (mut inner, mut quadratic) = (0.0, 0.0);
+        let residual = &mut cg.residual;
+        rolling.sweep(
+            domain,
+            v,
+            |v, row, weights| {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(q, domain, row, *run);
+                    let v = v.run(*run);
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let weight = problem.weight.run(domain, row, *run);
+                    for i in 0..w1.len() {
+                        let change = problem.map.hessian(ring.differences(i)).scale(rho);
+                        let y = law.dual(v.get(i), weight[i]) + change;
+                        (w1[i], w2[i], w3[i]) = problem.map.adjoint(y).into();
+                        excess = excess.max(law.size(y, weight[i]));
+                        conjugate += law.conjugate(y, weight[i]);
+                    }
+                }
+            },
+            |_, row, sums| {
+                for run in domain.active().row(row) {
+                    let sum = sums.run(*run);
+                    let weight = problem.fidelity.run(domain, row, *run);
+                    let inverse = problem.inverse_fidelity.run(domain, row, *run);
+                    for (i, cell) in (run.start..run.end).enumerate() {
+                        let adjoint = sum.at(i);
+                        let offset = z[cell] + q[cell] - problem.target[cell];
+                        let gradient = fidelity * (weight[i] * offset) + adjoint;
+                        residual[cell] = (-scale * gradient) as f32;
+                        inner += adjoint * problem.target[cell];
+                        quadratic += adjoint * adjoint * inverse[i];
+                    }
+                }
+            },
+        );
+        cg.restart(domain);
+        let largest = if excess > 0.0 {
+            L::LARGEST / excess
+        } else {
+            f64::INFINITY
+        };
+        dual_bound(problem, inner, quadratic, conjugate, largest)
+    }
+}

@@ -75,10 +75,11 @@ export class Job {
       if (this.#outcome || !begin) return;
       const solver = (this.#solver = begin());
       if (this.#finishing) solver.cancel();
-      do {
+      await breathe();
+      while (!this.#outcome && solver.advance(BATCH)) {
         this.#tell();
         await breathe();
-      } while (!this.#outcome && solver.advance(BATCH));
+      }
       this.#outcome ??= { news: { progress: solver.progress(), surface: solver.surface() } };
     } catch (error) {
       this.#outcome = { error };

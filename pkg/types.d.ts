@@ -25,9 +25,9 @@ export interface Known {
    * the constraints and is free everywhere else; its outline is the whole image or lattice, or
    * the `mask`. Such a surface needs three constraints that are not on a line.
    *
-   * Constraints hold exactly at the vertices of the lattice. Of an image, each vertex whose
-   * nearest pixel has a constraint gets one, bilinear between those of the pixels around it, and
-   * a pixel that is nearest to no vertex constrains the vertex nearest to it.
+   * Constraints hold exactly at the vertices of the lattice. Of an image, each pixel with a
+   * constraint constrains the vertex nearest to it, and in an area of such pixels all vertices
+   * are constrained; heights are bilinear between the pixels around a vertex that have one.
    */
   constraints?: Numbers;
   /**

@@ -39,13 +39,13 @@ test('three points give their plane, at every pixel', () => {
   const surface = direct.fit(design);
   const { constrained, free, interior, boundary, objective } = surface.report;
   assert.equal(constrained + free, interior + boundary);
-  assert.ok(constrained >= 3);
+  assert.equal(constrained, 3);
   // Up to half a pixel from where the pixels are: that is where the vertices are.
   assert.ok(objective < 1e-6, `${objective}`);
   assert.equal(surface.image?.data.length, 24 * 18);
   for (const [i, z] of surface.image?.data.entries() ?? []) {
     const [x, y] = [(i % 24) + 0.5, 18 - Math.floor(i / 24) - 0.5];
-    assert.ok(Math.abs(z - plane(x, y)) < 0.5, `pixel ${i}: ${z}`);
+    assert.ok(Math.abs(z - plane(x, y)) < 0.3, `pixel ${i}: ${z}`);
   }
 });
 
@@ -69,9 +69,9 @@ test('constraints of an image are in its steps, and take the place of its height
   const levels = { ...image(26, 22, () => 10), heightScale: 0.5 };
   const constraints = levels.data.map((_, i) => (i === 26 * 11 + 13 ? 16 : NaN));
   const surface = direct.fit({ ...levels, constraints }, { lambda: 'big' });
-  const pinned = [...vertices(surface)].filter(({ x, y }) => Math.abs(x - 13.5) < 0.5 && Math.abs(y - 10.5) < 0.5);
-  assert.ok(surface.report.constrained >= 1);
-  assert.ok(pinned.some(({ z }) => Math.abs(z - 8) < 1e-9));
+  const pinned = [...vertices(surface)].filter(({ z }) => Math.abs(z - 8) < 1e-9);
+  assert.deepEqual([surface.report.constrained, pinned.length], [1, 1]);
+  assert.ok(Math.hypot(pinned[0].x - 13.5, pinned[0].y - 10.5) < 0.6);
   // In the corner nothing of it is left.
   assert.ok(Math.abs((surface.image?.data[0] ?? NaN) - 5) < 0.1);
 });
@@ -144,8 +144,10 @@ test('occlusions in an image come at its pixels as well', () => {
   assert.ok(coarse.cols < 25 && coarse.image?.length === 800);
   // And go in as pixels.
   const { report, image: out } = direct.fit({ ...jump, occlusions: found.image }, { lambda: 'small' });
-  assert.ok(report.occluded > 20 && report.objective < 1e-6);
-  assert.ok(deviation(out?.data ?? [], jump.data) < 4.6, 'all but the pixels that the jump goes through');
+  assert.ok(Math.abs(report.occluded - found.count) < 8);
+  const plain = direct.fit(jump, { lambda: 'small' });
+  assert.ok(report.objective < plain.report.objective / 10);
+  assert.ok(out && plain.image && rms(out.data, jump.data) < rms(plain.image.data, jump.data) / 2);
 });
 
 test('each energy is minimised and named', () => {

@@ -196,7 +196,7 @@ impl Level {
             self.problem.take_normals(&self.state.z)?;
         }
         let (state, relaxation) = (&mut self.state, self.plan.relaxation);
-        let change = if self.plan.measures_change() {
+        let change = if self.plan.measures_change(&self.problem) {
             state.update_and_measure::<true>(&self.problem, relaxation, &mut self.cg)
         } else {
             state.update(&self.problem, relaxation, &mut self.cg);

@@ -27,6 +27,10 @@ const DONE: f64 = 1e-16;
 pub(crate) fn fill(problem: &mut Problem, domains: &[Arc<Domain>], plan: &Plan) -> Result<()> {
     let rho = plan.first_rho(problem);
     let kind = std::mem::replace(&mut problem.kind, Kind::Nuclear);
+    // From the plane that the frame has taken away.
+    for cell in &problem.free {
+        problem.target[*cell as usize] = 0.0;
+    }
     let mut state = State::new(problem, rho)?;
     let mut cg = ConjugateGradients::new(problem, domains, rho)?;
     let mut first = 0.0;

@@ -14,9 +14,8 @@ const worker = () => (shared ??= new DevelopableWorker());
 
 /** @type {typeof import('./index.js').init} */
 export async function init(options) {
-  if (options !== undefined && !shared?.connected) {
-    shared = new DevelopableWorker(isInitInput(options) ? { wasm: options } : asOptions(options));
-  }
+  const places = isInitInput(options) ? { wasm: options } : asOptions(options);
+  if (options !== undefined && !shared?.connected) shared = new DevelopableWorker(places);
   return worker().init();
 }
 
@@ -44,7 +43,7 @@ export function dispose() {
 }
 
 /**
- * @param {import('./index.js').WorkerOptions | InitInput} options
+ * @param {import('./index.js').WorkerOptions | InitInput | undefined} options
  * @returns {options is InitInput}
  */
 function isInitInput(options) {
@@ -55,6 +54,6 @@ function isInitInput(options) {
     ArrayBuffer.isView(options) ||
     options instanceof WebAssembly.Module ||
     (typeof Response === 'function' && options instanceof Response) ||
-    (options !== null && typeof options === 'object' && 'then' in options)
+    (typeof options === 'object' && options !== null && 'then' in options)
   );
 }

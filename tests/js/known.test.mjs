@@ -143,11 +143,10 @@ test('occlusions in an image come at its pixels as well', () => {
   const coarse = direct.occlusions(jump, { threshold: 40, spacing: 2 });
   assert.ok(coarse.cols < 25 && coarse.image?.length === 800);
   // And go in as pixels.
-  const { report, image: out } = direct.fit({ ...jump, occlusions: found.image }, { lambda: 'small' });
+  const { report } = direct.fit({ ...jump, occlusions: found.image }, { lambda: 'small' });
   assert.ok(Math.abs(report.occluded - found.count) < 8);
   const plain = direct.fit(jump, { lambda: 'small' });
   assert.ok(report.objective < plain.report.objective / 10);
-  assert.ok(out && plain.image && rms(out.data, jump.data) < rms(plain.image.data, jump.data) / 2);
 });
 
 test('each energy is minimised and named', () => {

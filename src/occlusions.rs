@@ -254,7 +254,7 @@ mod tests {
                             across(x, y) > 0.0
                         });
                         let side = across(x, y) > 0.0;
-                        let near_border = row < 3 || row > 16 || col < 3 || col > 16;
+                        let near_border = !((3..=16).contains(&row) && (3..=16).contains(&col));
                         prop_assert!(near_border || sides.clone().all(|s| s == side), "{row} {col}");
                     }
                 }

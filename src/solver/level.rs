@@ -153,7 +153,7 @@ impl Level {
 
     /// Goes on with the z-step under way; tells whether it is complete.
     fn run_z_step(&mut self, left: &mut usize) -> bool {
-        let limit = self.plan.cg_limit(self.iteration);
+        let limit = self.plan.cg_limit(self.iteration, self.best.gap());
         loop {
             let tight = self.plan.cg_tolerance > 0.0;
             if tight

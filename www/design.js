@@ -1,12 +1,23 @@
 /** A procedural design: lines and points that a surface is to pass through, free everywhere else. */
 
+/** @import {Input} from './session.js' */
+
+/** Pixels along a side. */
+const SIZE = 120;
+
+/** @returns {Input} */
+export function designInput() {
+  const data = constraintsOf(SIZE);
+  return { name: 'design', width: SIZE, height: SIZE, data, pixelSize: 1, heightScale: 1, design: true };
+}
+
 /**
- * Two sheets' edges, curled differently, and a few pins between them: after the paper's Figs. 18
- * and 19, where a designer fixes curves and points and lets the surface find its folds.
+ * Two edges, curled differently, and a few pins between them: in the way of the paper's Figs. 18
+ * and 19, where curves and points are given and the surface finds its folds.
  * @param {number} size pixels along a side
  * @returns {Float64Array} heights in pixels, NaN where the surface is free
  */
-export function designConstraints(size) {
+function constraintsOf(size) {
   const constraints = new Float64Array(size * size).fill(NaN);
   /** @param {number} x @param {number} y both from 0 to 1, y up @param {number} z in sides */
   const pin = (x, y, z) => {

@@ -15,7 +15,7 @@ export const STOP_REASONS = {
 /** What is marked on the input, by how many there are. */
 export const MARKS = {
   /** @param {number} n */
-  torn: (n) => `torn at ${count(n)} ${n === 1 ? 'vertex' : 'vertices'}`,
+  torn: (n) => (n > 0 ? `torn at ${count(n)} ${n === 1 ? 'vertex' : 'vertices'}` : 'no jumps found'),
   /** @param {number} n */
   doubted: (n) => `little or no confidence at ${count(n)} pixels`,
   /** @param {number} n */

@@ -40,7 +40,7 @@ export function viewsPanel(session) {
 
   session.on('input', (input) => {
     const { name, width, height } = input;
-    before.show(inputNormals(input));
+    before.show(inputNormals(input), !input.design);
     views.style.setProperty('--aspect', String(width / height));
     inputCaption.textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
     torn = null;
@@ -58,7 +58,8 @@ export function viewsPanel(session) {
   });
   session.on('result', (result) => {
     after.show(resultNormals(result));
-    caption.textContent = `λ = ${shortest(result.settings.lambda)}`;
+    // λ has no say in a design.
+    caption.textContent = result.input.design ? '' : `λ = ${shortest(result.settings.lambda)}`;
     stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
     stamp.hidden = !stamp.textContent;
     empty.hidden = true;

@@ -53,12 +53,15 @@ export class SurfaceView {
     this.#tell();
   }
 
-  /** @param {Normals | null} normals */
-  show(normals) {
+  /**
+   * @param {Normals | null} normals
+   * @param {boolean} [lit] whether there is much to be lit
+   */
+  show(normals, lit = normals !== null) {
     this.#normals = normals;
     this.#raster = null;
     this.#overlay = null;
-    if (this.sun) this.sun.hidden = !normals;
+    if (this.sun) this.sun.hidden = !lit;
     this.#paintSoon();
   }
 

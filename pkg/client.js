@@ -1,8 +1,11 @@
 /** The promise API, over a worker of its own. Documented in `index.d.ts`. */
 import { Connection } from './connection.js';
+import { asOptions, controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
-import { asBytes, asField, asImage, asLattice, detached } from './input.js';
+import { asBytes, asField, asImage, asInput, asLattice, detached } from './input.js';
+import { OpenSolver } from './open.js';
 import { makeDisposable } from './platform.js';
+import { orAborted, solve } from './solve.js';
 import { compile, locate } from './wasm-source.js';
 import { transfer } from './wire.js';
 
@@ -15,8 +18,8 @@ import { transfer } from './wire.js';
  * @typedef {import('./connection.js').Remote} Remote
  */
 
-/** Milliseconds between two calls of `onProgress`, at least. */
-const PROGRESS_INTERVAL = 60;
+/** Number of the last solver that was opened. */
+let opened = 0;
 
 /** @implements {Omit<DevelopableWorkerApi, typeof Symbol.dispose>} */
 export class DevelopableWorker {
@@ -28,8 +31,8 @@ export class DevelopableWorker {
   #disposed = false;
 
   /** @param {WorkerOptions} [options] */
-  constructor(options = {}) {
-    this.#options = options;
+  constructor(options) {
+    this.#options = asOptions(options);
   }
 
   init() {
@@ -38,18 +41,40 @@ export class DevelopableWorker {
 
   /**
    * @param {HeightImage | Heightfield} input
-   * @param {FitOptions} [options]
+   * @param {FitOptions} [given]
    */
-  async fit(input, { signal, onAbort = 'reject', onProgress, transfer: handOver = false, ...options } = {}) {
-    if (onAbort !== 'reject' && onAbort !== 'keep') {
-      throw new DevelopableError('OPTION', "option `onAbort` must be 'reject' or 'keep'");
-    }
-    const keep = onAbort === 'keep';
-    if (!keep) signal?.throwIfAborted();
-    const { field, buffers } = detached(asField(input), handOver);
+  async fit(input, given) {
+    const { control, options: { transfer: handOver, ...options } } = controlOf(given);
+    if (!control.keep) control.signal?.throwIfAborted();
+    const { field, buffers } = detached(asInput(input), { transfer: handOver });
     const sent = transfer(field, buffers);
-    const surface = this.#request((remote) => solve(remote, sent, options, { signal, keep, onProgress }));
-    return signal && !keep ? orAborted(surface, signal) : surface;
+    const surface = this.#request((remote) =>
+      solve(remote, (id, interval) => remote.start(id, sent, options, interval), control));
+    return orAborted(surface, control);
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./index.js').HandOver} [options]
+   */
+  async open(input, options) {
+    const { field, buffers } = detached(asInput(input), options);
+    const sent = transfer(field, buffers);
+    const connection = this.#connect();
+    opened += 1;
+    const id = opened;
+    await connection.request((remote) => remote.open(id, sent));
+    const solver = new OpenSolver(connection, id);
+    return /** @type {import('./index.js').OpenSolver} */ (/** @type {unknown} */ (solver)); // for `using`
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').OcclusionOptions} [options]
+   */
+  async occlusions(input, options) {
+    const { field, buffers } = detached(asField(input));
+    return this.#request((remote) => remote.occlusions(transfer(field, buffers), options));
   }
 
   /**
@@ -64,19 +89,19 @@ export class DevelopableWorker {
 
   /** @param {HeightImage | Heightfield} input */
   async writeNpy(input) {
-    const { field, buffers } = detached(asField(input), false);
+    const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.writeNpy(transfer(field, buffers)));
   }
 
   /** @param {HeightImage} input */
   async writePng(input) {
-    const { field, buffers } = detached(asImage(input), false);
+    const { field, buffers } = detached(asImage(input));
     return this.#request((remote) => remote.writePng(transfer(field, buffers)));
   }
 
   /** @param {Heightfield} input */
   async writeObj(input) {
-    const { field, buffers } = detached(asLattice(input), false);
+    const { field, buffers } = detached(asLattice(input));
     return this.#request((remote) => remote.writeObj(transfer(field, buffers)));
   }
 
@@ -107,6 +132,11 @@ export class DevelopableWorker {
    * @returns {Promise<T>}
    */
   async #request(run) {
+    return this.#connect().request(run);
+  }
+
+  /** The worker that runs, or else a new one. */
+  #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
       const { wasm, filesWasm } = this.#options;
@@ -114,59 +144,10 @@ export class DevelopableWorker {
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }
-    return this.#connection.request(run);
+    return this.#connection;
   }
 }
 makeDisposable(DevelopableWorker);
-
-/** Number of the last solve: numbers are chosen here, so that a solve can be stopped at any time. */
-let solves = 0;
-
-/**
- * @param {Remote} remote
- * @param {import('./input.js').Image | import('./input.js').Lattice} field
- * @param {import('./types.js').SolverOptions} options
- * @param {{ signal?: AbortSignal, keep: boolean, onProgress: FitOptions['onProgress'] }} control
- */
-async function solve(remote, field, options, { signal, keep, onProgress }) {
-  if (!keep) signal?.throwIfAborted();
-  solves += 1;
-  const id = solves;
-  /** @param {boolean} keep */
-  const stop = (keep) => void remote.stop(id, keep).catch(() => {});
-  const onAbort = () => stop(keep);
-  signal?.addEventListener('abort', onAbort);
-  try {
-    const started = remote.start(id, field, options, onProgress ? PROGRESS_INTERVAL : Infinity);
-    if (signal?.aborted) stop(keep);
-    await started;
-    for (;;) {
-      // Asked for piece by piece, so that a busy page is not flooded with old news.
-      const { progress, surface } = await remote.next(id);
-      onProgress?.(progress);
-      if (surface) return surface;
-    }
-  } catch (error) {
-    stop(false); // it may be `onProgress` that threw
-    throw error;
-  } finally {
-    signal?.removeEventListener('abort', onAbort);
-  }
-}
-
-/**
- * @template T
- * @param {Promise<T>} promise
- * @param {AbortSignal} signal
- * @returns {Promise<T>}
- */
-function orAborted(promise, signal) {
-  return new Promise((resolve, reject) => {
-    const abort = () => reject(signal.reason);
-    signal.addEventListener('abort', abort);
-    promise.then(resolve, reject).finally(() => signal.removeEventListener('abort', abort));
-  });
-}
 
 /**
  * What a worker can be told about where the wasm is, again and again.

@@ -40,6 +40,11 @@ export class Connection {
     return this.#end === undefined;
   }
 
+  /** Why it ended, if it has. */
+  get end() {
+    return this.#end;
+  }
+
   /**
    * Calls the worker once it is ready. Ends with the connection: Comlink alone would wait for ever.
    * @template T

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
-  Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Progress,
-  ReadOptions, ReadResult, SolverOptions, Surface,
+  DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
+  OcclusionOptions, Progress, ReadOptions, ReadResult, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
 
@@ -18,6 +18,14 @@ export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
 export class Solver {
   constructor(input: HeightImage | Heightfield, options?: SolverOptions);
+  /**
+   * Solves the same input again with other options, from where it stands: much sooner done, where
+   * they differ little. What is left out of the options has its default. Another `spacing` starts
+   * from nothing. If it throws, the solver is as it was.
+   */
+  restart(options?: SolverOptions): void;
+  /** Solves another input likewise, from where it stands if its lattice has the same shape. */
+  restartWith(input: HeightImage | Heightfield, options?: SolverOptions): void;
   /** Runs for about `milliseconds` (at least one step); true while there is more to do. */
   advance(milliseconds: number): boolean;
   /** Figures of the last check. */
@@ -37,6 +45,8 @@ export function fit(
   input: HeightImage | Heightfield,
   options?: SolverOptions & { onProgress?: (progress: Progress) => boolean | void },
 ): Surface;
+/** The occlusions in heights, to be looked at before a solve. */
+export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
 /** Decodes a PNG or NPY file. */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
 /** NPY file (float64) of an image or of lattice heights. */

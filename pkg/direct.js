@@ -1,6 +1,7 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
+import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
-import { asBytes, asField, asImage, asLattice } from './input.js';
+import { asBytes, asField, asImage, asInput, asLattice } from './input.js';
 import { files, solver } from './instances.js';
 import { makeDisposable } from './platform.js';
 
@@ -41,10 +42,30 @@ export class Solver {
    * @param {import('./types.js').SolverOptions} [options]
    */
   constructor(input, options) {
-    const field = asField(input);
+    const field = asInput(input);
     this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
+  }
+
+  /** @param {import('./types.js').SolverOptions} [options] */
+  restart(options) {
+    const handle = this.#live();
+    solver.call(() => handle.restart(options));
+    this.#work = 1;
+  }
+
+  /**
+   * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
+   * @param {import('./types.js').SolverOptions} [options]
+   */
+  restartWith(input, options) {
+    const handle = this.#live();
+    const field = asInput(input);
+    solver.call(() =>
+      field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
+    );
+    this.#work = 1;
   }
 
   /** @param {number} milliseconds */
@@ -99,7 +120,8 @@ export class Solver {
 makeDisposable(Solver);
 
 /** @type {typeof import('./direct.js').fit} */
-export function fit(input, { onProgress, ...options } = {}) {
+export function fit(input, given) {
+  const { onProgress, ...options } = asOptions(given);
   const solve = new Solver(input, options);
   try {
     while (solve.advance(PROGRESS_INTERVAL)) {
@@ -110,6 +132,14 @@ export function fit(input, { onProgress, ...options } = {}) {
   } finally {
     solve.dispose();
   }
+}
+
+/** @type {typeof import('./direct.js').occlusions} */
+export function occlusions(input, options) {
+  const field = asField(input);
+  return solver.call((wasm) =>
+    field.kind === 'image' ? wasm.occlusionsOfImage(field, options) : wasm.occlusionsOfLattice(field, options),
+  );
 }
 
 /** @type {typeof import('./direct.js').read} */

@@ -1,6 +1,7 @@
 /**
  * Error codes. Those of the Rust crate (`Error::code`):
  * - `EMPTY`, `SHAPE`, `NOT_FINITE`, `NO_INTERIOR`, `OVERFLOW`, `TOO_LARGE`: something about the heights;
+ * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `OPTION`: an option is unknown, of the wrong type or out of range;
  * - `FORMAT`, `UNSUPPORTED`: something about a file;
  * - `OUT_OF_MEMORY`.
@@ -10,13 +11,15 @@
  * - `NOT_INITIALIZED`: a direct function was called before `init` was done;
  * - `INIT`: the wasm could not be loaded (may be tried again);
  * - `DISPOSED`: the solver or worker was used after its disposal, or disposed while it worked;
+ * - `REPLACED`: a newer `fit` of the same open solver took the place of this one;
  * - `TRAP`: the wasm crashed, which is a bug to report; direct functions stay unusable, workers are replaced;
  * - `WORKER`: the worker could not be started or died.
  */
 export type ErrorCode =
-  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'OPTION' | 'OVERFLOW' | 'TOO_LARGE' | 'OUT_OF_MEMORY'
+  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'OPTION' | 'OVERFLOW' | 'TOO_LARGE'
+  | 'OUT_OF_MEMORY'
   | 'FORMAT' | 'UNSUPPORTED'
-  | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'TRAP' | 'WORKER';
+  | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';
 
 /** What every function of the package throws or rejects with (besides an abort signal's own reason). */
 export class DevelopableError extends Error {

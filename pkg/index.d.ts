@@ -1,7 +1,7 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
-  Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Progress,
-  ReadOptions, ReadResult, SolverOptions, Surface,
+  DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
+  OcclusionOptions, Progress, ReadOptions, ReadResult, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
 
@@ -14,18 +14,50 @@ export interface WorkerOptions {
   filesWasm?: InitInput;
 }
 
-export interface FitOptions extends SolverOptions {
+export interface OpenFitOptions extends SolverOptions {
   /** Stops the work itself, not only the waiting: within about 50 ms. */
   signal?: AbortSignal;
   /** What an abort does: reject with the signal's reason (default), or resolve with the best surface so far. */
   onAbort?: 'reject' | 'keep';
   /** Called in the caller's thread, several times a second. */
   onProgress?: (progress: Progress) => void;
+}
+
+export interface HandOver {
   /**
    * Hand the input's buffers over to the worker instead of copying them (the caller loses them).
    * Arrays that are only a part of their buffer are copied all the same.
    */
   transfer?: boolean;
+}
+
+export interface FitOptions extends OpenFitOptions, HandOver {}
+
+/**
+ * An input that stays in the worker with its solver, to be solved again and again: with other
+ * options, as for a slider, or slightly changed.
+ *
+ * If its worker ends, calls under way reject as they do everywhere, and later ones with code
+ * `WORKER` (or `DISPOSED`, where the worker was disposed of): open the input again then.
+ */
+export interface OpenSolver {
+  /**
+   * Solves: from nothing the first time, later from where the last solve ended, whatever ended it.
+   * What is left out of the options has its default. What is wrong with the input or the options
+   * rejects, and changes nothing.
+   *
+   * The newest wish wins: a new call ends the one under way, which rejects with code `REPLACED`.
+   */
+  fit(options?: OpenFitOptions): Promise<Surface>;
+  /**
+   * Another input for the next call of `fit`, which starts from the last answer if the lattice
+   * keeps its shape; a call under way goes on with the one before.
+   */
+  replace(input: HeightImage | Heightfield, options?: HandOver): Promise<void>;
+  readonly disposed: boolean;
+  /** Frees the memory in the worker; a call under way rejects with code `DISPOSED`. Harmless when repeated. */
+  dispose(): void;
+  [Symbol.dispose](): void;
 }
 
 /**
@@ -34,6 +66,10 @@ export interface FitOptions extends SolverOptions {
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
 export function fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
+/** Sends an input to the shared worker to stay there. It takes memory until it is disposed of. */
+export function open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
+/** The occlusions in heights, to be looked at before a solve. */
+export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
@@ -52,6 +88,8 @@ export class DevelopableWorker {
   constructor(options?: WorkerOptions);
   init(): Promise<void>;
   fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
+  open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
+  occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
   read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
   writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;

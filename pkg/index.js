@@ -1,5 +1,6 @@
 /** The promise API: one worker for all who do not want one of their own. Documented in `index.d.ts`. */
 import { DevelopableWorker } from './client.js';
+import { asOptions } from './control.js';
 
 export { DevelopableError } from './errors.js';
 export { DevelopableWorker };
@@ -12,15 +13,18 @@ let shared;
 const worker = () => (shared ??= new DevelopableWorker());
 
 /** @type {typeof import('./index.js').init} */
-export function init(options) {
-  if (options !== undefined && !shared?.connected) {
-    shared = new DevelopableWorker(isInitInput(options) ? { wasm: options } : options);
-  }
+export async function init(options) {
+  const places = isInitInput(options) ? { wasm: options } : asOptions(options);
+  if (options !== undefined && !shared?.connected) shared = new DevelopableWorker(places);
   return worker().init();
 }
 
 /** @type {typeof import('./index.js').fit} */
 export const fit = (input, options) => worker().fit(input, options);
+/** @type {typeof import('./index.js').open} */
+export const open = (input, options) => worker().open(input, options);
+/** @type {typeof import('./index.js').occlusions} */
+export const occlusions = (input, options) => worker().occlusions(input, options);
 /** @type {typeof import('./index.js').read} */
 export const read = (bytes, options) => worker().read(bytes, options);
 /** @type {typeof import('./index.js').writeNpy} */
@@ -39,7 +43,7 @@ export function dispose() {
 }
 
 /**
- * @param {import('./index.js').WorkerOptions | InitInput} options
+ * @param {import('./index.js').WorkerOptions | InitInput | undefined} options
  * @returns {options is InitInput}
  */
 function isInitInput(options) {
@@ -50,6 +54,6 @@ function isInitInput(options) {
     ArrayBuffer.isView(options) ||
     options instanceof WebAssembly.Module ||
     (typeof Response === 'function' && options instanceof Response) ||
-    'then' in options
+    (typeof options === 'object' && options !== null && 'then' in options)
   );
 }

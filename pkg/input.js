@@ -2,29 +2,54 @@
  * Inputs: checked as far as JS has to, and copied field by field. Sizes and values are checked in
  * Rust, where the messages know the most.
  */
+import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
 
 /**
  * @typedef {import('./types.js').HeightImage} HeightImage
  * @typedef {import('./types.js').Heightfield} Heightfield
  * @typedef {Exclude<import('./types.js').Numbers, readonly number[]>} NumericArray
- * @typedef {HeightImage & { kind: 'image', data: NumericArray }} Image
- * @typedef {Heightfield & { kind: 'lattice', heights: NumericArray }} Lattice
+ * @typedef {{ confidence?: NumericArray, constraints?: NumericArray }} Known
+ * @typedef {HeightImage & Known & { kind: 'image', data?: NumericArray }} Image
+ * @typedef {Heightfield & Known & { kind: 'lattice', heights?: NumericArray }} Lattice
  */
 
+/** The arrays that an input may have. */
+const ARRAYS = ['data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges'];
+
+const SHAPES =
+  'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +
+  'with constraints in the place of data or heights if there is nothing else';
+
 /**
+ * What can be solved: heights, and all that is known about them, or constraints alone.
+ * @param {HeightImage | Heightfield} input
+ * @returns {Image | Lattice}
+ */
+export function asInput(input) {
+  /** @type {Record<string, unknown>} */
+  const given = Object(input);
+  /** @param {string} name */
+  const has = (name) => given[name] !== undefined;
+  const design = has('constraints');
+  if (has('heights') || (design && has('rows'))) return latticeInput(/** @type {Heightfield} */ (input));
+  if (has('data') || design) return imageInput(/** @type {HeightImage} */ (input));
+  throw new DevelopableError('INPUT', `the input must be ${SHAPES}`);
+}
+
+/**
+ * Heights, without what else may be known about them.
  * @param {HeightImage | Heightfield} input
  * @returns {Image | Lattice}
  */
 export function asField(input) {
-  if (input !== null && typeof input === 'object') {
-    if ('heights' in input) return asLattice(input);
-    if ('data' in input) return asImage(input);
-  }
+  /** @type {Record<string, unknown>} */
+  const given = Object(input);
+  if (given.heights !== undefined) return asLattice(/** @type {Heightfield} */ (input));
+  if (given.data !== undefined) return asImage(/** @type {HeightImage} */ (input));
   throw new DevelopableError(
     'INPUT',
-    'the input must be an image ({ width, height, data }) or heights on the lattice ' +
-      '({ rows, cols, spacing, heights })',
+    'there must be heights: an image ({ width, height, data }) or a lattice ({ rows, cols, spacing, heights })',
   );
 }
 
@@ -33,17 +58,7 @@ export function asField(input) {
  * @returns {Image}
  */
 export function asImage(input) {
-  const { width, height, data, mask, noData, pixelSize, heightScale } = Object(input);
-  return {
-    kind: 'image',
-    width: count('width', width),
-    height: count('height', height),
-    data: numbers('data', data),
-    mask: asMask(mask),
-    noData: sentinel(noData, data),
-    pixelSize: optional('pixelSize', pixelSize),
-    heightScale: optional('heightScale', heightScale),
-  };
+  return { ...pixels(input), data: numbers('data', Object(input).data) };
 }
 
 /**
@@ -51,19 +66,81 @@ export function asImage(input) {
  * @returns {Lattice}
  */
 export function asLattice(input) {
-  const { rows, cols, spacing, heights, origin, mask, noData } = Object(input);
+  return { ...vertices(input), heights: numbers('heights', Object(input).heights) };
+}
+
+/**
+ * @param {HeightImage} input
+ * @returns {Image}
+ */
+function imageInput(input) {
+  if ('brokenEdges' in input && input.brokenEdges !== undefined) {
+    throw new DevelopableError('INPUT', 'brokenEdges are for heights on the lattice: an image has none of its edges');
+  }
+  const data = input.data === undefined ? undefined : numbers('data', input.data);
+  return { ...pixels(input), data, ...known(input, data === undefined) };
+}
+
+/**
+ * @param {Heightfield} input
+ * @returns {Lattice}
+ */
+function latticeInput(input) {
+  const heights = input.heights === undefined ? undefined : numbers('heights', input.heights);
+  const brokenEdges = flags('brokenEdges', input.brokenEdges);
+  return { ...vertices(input), heights, ...known(input, heights === undefined), brokenEdges };
+}
+
+/**
+ * An image without what is at its pixels.
+ * @param {HeightImage} input
+ */
+function pixels(input) {
+  const { width, height, mask, noData, pixelSize, heightScale } = Object(input);
+  return {
+    kind: /** @type {const} */ ('image'),
+    width: count('width', width),
+    height: count('height', height),
+    mask: flags('mask', mask),
+    noData: optional('noData', noData),
+    pixelSize: optional('pixelSize', pixelSize),
+    heightScale: optional('heightScale', heightScale),
+  };
+}
+
+/**
+ * A lattice without what is at its vertices.
+ * @param {Heightfield} input
+ */
+function vertices(input) {
+  const { rows, cols, spacing, origin, mask, noData } = Object(input);
   if (origin !== undefined && !(origin?.length === 2 && isNumber(origin[0]) && isNumber(origin[1]))) {
     throw new DevelopableError('INPUT', `origin must be two numbers [x, y], but is ${show(origin)}`);
   }
   return {
-    kind: 'lattice',
+    kind: /** @type {const} */ ('lattice'),
     rows: count('rows', rows),
     cols: count('cols', cols),
     spacing: number('spacing', spacing),
-    heights: numbers('heights', heights),
-    origin: origin && [origin[0], origin[1]],
-    mask: asMask(mask),
-    noData: sentinel(noData, heights),
+    origin: origin && /** @type {[number, number]} */ ([origin[0], origin[1]]),
+    mask: flags('mask', mask),
+    noData: optional('noData', noData),
+  };
+}
+
+/**
+ * What may be known besides the heights.
+ * @param {HeightImage | Heightfield} input
+ * @param {boolean} design whether there are none
+ */
+function known({ confidence, constraints, occlusions }, design) {
+  if (design && confidence !== undefined) {
+    throw new DevelopableError('INPUT', 'confidence is about heights, and there are only constraints');
+  }
+  return {
+    confidence: confidence === undefined ? undefined : numbers('confidence', confidence),
+    constraints: constraints === undefined ? undefined : numbers('constraints', constraints),
+    occlusions: flags('occlusions', occlusions),
   };
 }
 
@@ -71,15 +148,16 @@ export function asLattice(input) {
  * The same field with arrays of its own, and their buffers, ready to be transferred.
  * @template {Image | Lattice} F
  * @param {F} field
- * @param {boolean} handOver take the caller's arrays themselves where that is possible
+ * @param {import('./index.js').HandOver} [options] whether to take the caller's arrays themselves where that is possible
  * @returns {{ field: F, buffers: ArrayBuffer[] }}
  */
-export function detached(field, handOver) {
+export function detached(field, options) {
+  const handOver = asOptions(options).transfer === true;
   /** @type {Set<ArrayBuffer>} */
   const buffers = new Set();
   /** @type {Record<string, unknown>} */
   const own = { ...field };
-  for (const name of ['data', 'heights', 'mask']) {
+  for (const name of ARRAYS) {
     const array = /** @type {NumericArray | undefined} */ (own[name]);
     if (array === undefined) continue;
     own[name] = handOver && ownsItsBuffer(array) ? array : copied(array);
@@ -140,22 +218,13 @@ function numbers(name, value) {
 }
 
 /**
- * @param {unknown} mask
+ * @param {string} name
+ * @param {unknown} value
  * @returns {Uint8Array | undefined}
  */
-function asMask(mask) {
-  if (mask === undefined || mask instanceof Uint8Array) return mask;
-  throw new DevelopableError('INPUT', `mask must be a Uint8Array, but is ${show(mask)}`);
-}
-
-/**
- * The no-data value as the array can hold it: -9999.9 is another number in 32 bits.
- * @param {unknown} value
- * @param {unknown} data
- */
-function sentinel(value, data) {
-  const noData = optional('noData', value);
-  return noData !== undefined && data instanceof Float32Array ? Math.fround(noData) : noData;
+function flags(name, value) {
+  if (value === undefined || value instanceof Uint8Array) return value;
+  throw new DevelopableError('INPUT', `${name} must be a Uint8Array, but is ${show(value)}`);
 }
 
 /**

@@ -6,6 +6,7 @@ import { DevelopableError } from './errors.js';
 const BATCH = 25;
 
 /**
+ * @typedef {import('./direct.js').Solver} Solver
  * @typedef {import('./types.js').Progress} Progress
  * @typedef {import('./types.js').Surface} Surface
  * @typedef {{ progress: Progress, surface?: Surface }} News with the surface once the solve is done
@@ -13,21 +14,29 @@ const BATCH = 25;
 
 /** Jobs of one thread take turns, a batch each. */
 export class Job {
-  #solver;
+  /** @type {(() => Solver) | undefined} */
+  #begin;
+  #release;
   #interval;
   #told = performance.now();
+  /** @type {Solver | undefined} */
+  #solver;
   /** @type {{ resolve: (news: News) => void, reject: (error: unknown) => void } | undefined} */
   #listener;
   /** @type {{ news: News } | { error: unknown } | undefined} */
   #outcome;
+  /** Whether it is to end with the best surface so far. */
+  #finishing = false;
 
   /**
-   * @param {import('./direct.js').Solver} solver disposed of when the job is done
+   * @param {() => Solver} begin sets the solver up; not called for a job that is dropped at once
    * @param {number} interval milliseconds between two pieces of news, at least
+   * @param {(solver: Solver) => void} [release] what becomes of the solver when the job is done
    */
-  constructor(solver, interval) {
-    this.#solver = solver;
+  constructor(begin, interval, release = (solver) => solver.dispose()) {
+    this.#begin = begin;
     this.#interval = interval;
+    this.#release = release;
     void this.#run();
   }
 
@@ -44,28 +53,45 @@ export class Job {
 
   /** Finishes with the best surface so far. */
   finish() {
-    if (!this.#outcome) this.#solver.cancel();
+    this.#finishing = true;
+    if (!this.#outcome) this.#solver?.cancel();
   }
 
-  /** Stops, and forgets what was done. */
-  drop() {
-    this.#outcome ??= { error: new DevelopableError('DISPOSED', 'this solve was dropped') };
-    this.#solver.dispose();
-    this.#tell();
+  /**
+   * Stops, and forgets what was done.
+   * @param {DevelopableError} [error] what those get who wait for it
+   */
+  drop(error = new DevelopableError('DISPOSED', 'this solve was dropped')) {
+    this.#outcome ??= { error };
+    this.#end();
   }
 
   async #run() {
-    const solver = this.#solver;
     try {
-      do {
+      // Not at once: it may be dropped before its turn comes.
+      await breathe();
+      const begin = this.#begin;
+      this.#begin = undefined; // and with it what it holds on to
+      if (this.#outcome || !begin) return;
+      const solver = (this.#solver = begin());
+      if (this.#finishing) solver.cancel();
+      await breathe();
+      while (!this.#outcome && solver.advance(BATCH)) {
         this.#tell();
         await breathe();
-      } while (!this.#outcome && solver.advance(BATCH));
+      }
       this.#outcome ??= { news: { progress: solver.progress(), surface: solver.surface() } };
     } catch (error) {
       this.#outcome = { error };
     }
-    solver.dispose();
+    this.#end();
+  }
+
+  /** Lets go of the solver, once, and says so. */
+  #end() {
+    const solver = this.#solver;
+    this.#solver = undefined;
+    if (solver) this.#release(solver);
     this.#tell();
   }
 
@@ -74,9 +100,10 @@ export class Job {
     const outcome = this.#outcome;
     const now = performance.now();
     if (!listener || (!outcome && now - this.#told < this.#interval)) return;
+    if (!outcome && !this.#solver) return;
     this.#listener = undefined;
     this.#told = now;
-    if (!outcome) listener.resolve({ progress: this.#solver.progress() });
+    if (!outcome) listener.resolve({ progress: /** @type {Solver} */ (this.#solver).progress() });
     else if ('news' in outcome) listener.resolve(outcome.news);
     else listener.reject(outcome.error);
   }

@@ -2,10 +2,16 @@
 import * as direct from './direct.js';
 import { DevelopableError } from './errors.js';
 import { Job } from './job.js';
+import { KeptSolver } from './kept.js';
 import { transfer } from './wire.js';
 
 /** @type {Map<number, Job>} */
 const jobs = new Map();
+
+/** @type {Map<number, KeptSolver>} */
+const kept = new Map();
+
+/** @typedef {import('./input.js').Image | import('./input.js').Lattice} Input */
 
 /** @type {import('./types.js').InitInput | undefined} where the wasm of the files is */
 let filesWasm;
@@ -23,12 +29,49 @@ export const service = {
   /**
    * Begins a solve under a number of the client's choice, by which it can be stopped at any time.
    * @param {number} id
-   * @param {import('./input.js').Image | import('./input.js').Lattice} input
+   * @param {Input} input
    * @param {import('./types.js').SolverOptions} options
    * @param {number} interval milliseconds between two pieces of news, at least
    */
   start(id, input, options, interval) {
-    jobs.set(id, new Job(new direct.Solver(input, options), interval));
+    jobs.set(id, new Job(() => new direct.Solver(input, options), interval));
+  },
+
+  /**
+   * Keeps a solver under a number of the client's choice.
+   * @param {number} solver
+   * @param {Input} input
+   */
+  open(solver, input) {
+    kept.set(solver, new KeptSolver(input));
+  },
+
+  /**
+   * Begins a solve, as `start` does, with a solver that is kept.
+   * @param {number} solver
+   * @param {number} id
+   * @param {import('./types.js').SolverOptions} options
+   * @param {number} interval
+   */
+  startOpen(solver, id, options, interval) {
+    jobs.set(id, keptSolver(solver).start(options, interval));
+  },
+
+  /**
+   * @param {number} solver
+   * @param {Input} input
+   */
+  replace(solver, input) {
+    keptSolver(solver).replace(input);
+  },
+
+  /**
+   * Gives a kept solver up; harmless when there is none.
+   * @param {number} solver
+   */
+  close(solver) {
+    kept.get(solver)?.dispose();
+    kept.delete(solver);
   },
 
   /**
@@ -38,7 +81,10 @@ export const service = {
   async next(id) {
     const job = jobs.get(id);
     if (!job) throw new DevelopableError('DISPOSED', 'there is no such solve');
-    const news = await job.next();
+    const news = await job.next().catch((error) => {
+      jobs.delete(id);
+      throw error;
+    });
     const { surface } = news;
     if (!surface) return news;
     jobs.delete(id);
@@ -58,6 +104,12 @@ export const service = {
       job?.drop();
       jobs.delete(id);
     }
+  },
+
+  /** @type {(input: Input, options?: import('./types.js').OcclusionOptions) => import('./types.js').DetectedOcclusions} */
+  occlusions(input, options) {
+    const result = direct.occlusions(/** @type {import('./types.js').HeightImage} */ (input), options);
+    return transfer(result, buffersOf(result.vertices, result.edges, result.image));
   },
 
   /**
@@ -80,6 +132,13 @@ export const service = {
     return transfer(result, buffersOf(result.input.data, result.truth));
   },
 };
+
+/** @param {number} solver */
+function keptSolver(solver) {
+  const found = kept.get(solver);
+  if (!found) throw new DevelopableError('DISPOSED', 'there is no such solver');
+  return found;
+}
 
 /**
  * @template T

@@ -8,37 +8,84 @@ export type Numbers =
   | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array
   | readonly number[];
 
+/** What may be known about an input besides its heights: one value for each pixel or vertex. */
+export interface Known {
+  /**
+   * Factors of the fidelity term: how far each height is to be trusted. 1 is what a height has
+   * without it, 0 leaves it free. Finite and not below 0. Of an image they are resampled as its
+   * heights are.
+   */
+  confidence?: Numbers;
+  /**
+   * Heights that must be met exactly, in the same steps as the heights; NaN and `noData` are no
+   * constraint. They count within the outline only, and take the place of the height that is
+   * there.
+   *
+   * Where there are neither `data` nor `heights` this is a *design*: the surface passes through
+   * the constraints and is free everywhere else; its outline is the whole image or lattice, or
+   * the `mask`. Such a surface needs three constraints that are not on a line.
+   *
+   * Constraints hold exactly at the vertices of the lattice. Of an image, each pixel with a
+   * constraint constrains the vertex nearest to it, and in an area of such pixels all vertices
+   * are constrained; heights are bilinear between the pixels around a vertex that have one.
+   */
+  constraints?: Numbers;
+  /**
+   * Not 0 where the surface is torn: no Hessian is taken there, so that it may jump or crease at
+   * no cost. Of an image, each vertex has its nearest pixel's.
+   */
+  occlusions?: Uint8Array;
+}
+
 /** Heights at the centres of square pixels, row by row, top row first. */
-export interface HeightImage {
+export interface HeightImage extends Known {
   width: number;
   height: number;
-  /** `width * height` values. NaN is no data. */
-  data: Numbers;
+  /** `width * height` values. NaN is no data. May be left out if there are `constraints`. */
+  data?: Numbers;
   /** One value for each pixel; 0 takes the pixel out. */
   mask?: Uint8Array;
   /** A value that means "no data" (besides NaN). */
   noData?: number;
   /** Side length of a pixel, in the unit of the result. Default 1. */
   pixelSize?: number;
-  /** Height of one step of `data`, in the same unit. Default 1. */
+  /** Height of one step of `data` and `constraints`, in the same unit. Default 1. */
   heightScale?: number;
 }
 
 /** Heights at the vertices of a hexagonal lattice: row 0 at the top, odd rows half a spacing to the left. */
-export interface Heightfield {
+export interface Heightfield extends Known {
   rows: number;
   cols: number;
   /** Distance between neighbours, in the unit of the heights. */
   spacing: number;
-  /** `rows * cols` heights, row by row. NaN is no data. */
-  heights: Numbers;
+  /** `rows * cols` heights, row by row. NaN is no data. May be left out if there are `constraints`. */
+  heights?: Numbers;
   /** Position `[x, y]` of vertex (0, 0), `y` up. Default `[0, 0]`. */
   origin?: readonly [number, number];
   /** One value for each vertex; 0 takes the vertex out. */
   mask?: Uint8Array;
   /** A value that means "no data" (besides NaN). */
   noData?: number;
+  /**
+   * Edges of the lattice across which the surface is torn, six bits for each vertex: bit 0 for
+   * the edge to the west, then east, north-west, north-east, south-west, south-east. No Hessian
+   * is taken at either end.
+   */
+  brokenEdges?: Uint8Array;
 }
+
+/**
+ * What is minimised besides the fidelity term, over the vertices' Hessians H:
+ * - `'nuclear'`: the sum of their nuclear norms; piecewise developable, as in the paper;
+ * - `'frobenius'`, `'squaredNuclear'`: of their Frobenius norms, or squared nuclear norms, which
+ *   are smooth where a developable surface creases (the paper's Fig. 21, for comparison);
+ * - `'secondFormOfInput'`: of the nuclear norms of the second fundamental form, with the slopes
+ *   of the input;
+ * - `'secondForm'`: the same with the surface's own slopes, which is not convex: what is certified
+ *   is the energy with the last slopes kept.
+ */
+export type Energy = 'nuclear' | 'frobenius' | 'squaredNuclear' | 'secondFormOfInput' | 'secondForm';
 
 export interface SolverOptions {
   /**
@@ -57,6 +104,57 @@ export interface SolverOptions {
   normalize?: boolean;
   /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
   spacing?: number;
+  /** What is minimised besides the fidelity term. Default `'nuclear'`. */
+  energy?: Energy;
+  /**
+   * Passes after the first solve in which each vertex's norm is weighted by one over its size
+   * before: they take away most of the shrinkage of large curvatures. A whole number up to 20;
+   * two or three are usual. Default 0.
+   */
+  reweighting?: number;
+  /**
+   * Weight, in place of lambda, of the squared distance from the thin plate through the
+   * constraints, at vertices without a fidelity term, where the surface need not be unique
+   * otherwise. From 1e-12 to 1e15. Default 0.01.
+   */
+  tieBreak?: number;
+  /**
+   * Looks for occlusions first, as {@link OcclusionOptions.threshold} says; they come to those
+   * that the input names. 4e4 is the authors' value. Default: none are looked for. A design has
+   * no heights to find any in.
+   */
+  occlusionThreshold?: number;
+}
+
+export interface OcclusionOptions {
+  /**
+   * Least magnitude of curvature, in normalised coordinates, that counts as a jump: larger than
+   * any fold has, and growing as the lattice gets finer. Above 0. Default 4e4, the authors' value.
+   */
+  threshold?: number;
+  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
+  spacing?: number;
+  /** Whether the threshold is meant for the unit square. Default true. */
+  normalize?: boolean;
+}
+
+/**
+ * Occlusions that were found in heights. On the lattice they can be given back as they are:
+ * `vertices` as `occlusions`, `edges` as `brokenEdges`.
+ */
+export interface DetectedOcclusions {
+  rows: number;
+  cols: number;
+  spacing: number;
+  origin: [number, number];
+  /** 1 for each vertex where no Hessian would be taken, 0 for the others, row by row. */
+  vertices: Uint8Array;
+  /** Broken edges, six bits for each vertex as in `Heightfield.brokenEdges`. */
+  edges: Uint8Array;
+  /** Number of vertices that are 1. */
+  count: number;
+  /** For an image input: 1 at the pixels with data whose nearest vertex is 1. */
+  image?: Uint8Array;
 }
 
 export type StopReason = 'gap' | 'residuals' | 'rounding' | 'maxIterations' | 'cancelled';
@@ -76,7 +174,7 @@ export interface Progress {
   gap: number;
   /** ADMM penalty. */
   rho: number;
-  /** Seconds since the solver was made. */
+  /** Seconds since the solver was made or restarted. */
   elapsed: number;
 }
 
@@ -97,17 +195,29 @@ export interface Report {
   boundary: number;
   /** Valid vertices that no stencil touches: left out of the solve, restored afterwards. */
   omitted: number;
+  /** Vertices where no Hessian was taken because of an occlusion. */
+  occluded: number;
+  /** Vertices whose height was given for good. */
+  constrained: number;
+  /** Vertices of the solve with neither a constraint nor a fidelity term of their own. */
+  free: number;
+  /** Connected parts, each of which was solved for itself. */
+  components: number;
   /** ADMM iterations. */
   iterations: number;
   /** Conjugate-gradient iterations over all z-steps. */
   cgIterations: number;
   /** The lattices that were worked on, the coarsest first. */
   levels: LevelReport[];
+  /** What was minimised besides the fidelity term. */
+  energy: Energy;
+  /** Reweighted passes that were made after the first solve; the figures are the last one's. */
+  reweighting: number;
   /** Value of the energy at the returned surface, in normalised coordinates. */
   objective: number;
-  /** `lambda * sum (z - input)^2`. */
+  /** `lambda * sum (z - input)^2`, with the confidences as factors. */
   fidelity: number;
-  /** `sum of nuclear norms of the Hessians`. */
+  /** `sum of nuclear norms of the Hessians`, or what `energy` has in its place. */
   nuclearNorm: number;
   /** Certified lower bound of the optimum. */
   dualBound: number;
@@ -131,7 +241,11 @@ export interface Surface {
   origin: [number, number];
   /** Heights on the lattice, row by row; NaN where the input had no data. */
   heights: Float64Array;
-  /** For an image input: the surface at the input's pixels, NaN where the input had no data. */
+  /**
+   * For an image input: the surface at the input's pixels, NaN where the input had no data. Of a
+   * design, at all pixels within its outline; where there are constraints, too, it is resampled
+   * from the vertices, which are what meets them exactly.
+   */
   image?: { width: number; height: number; pixelSize: number; data: Float64Array };
   report: Report;
 }

@@ -1,6 +1,8 @@
 //! From square pixels to the hexagonal lattice and back, without looking at
 //! pixels or vertices that have no data.
 
+mod nearest;
+
 use std::collections::VecDeque;
 
 use crate::error::{Result, try_filled};
@@ -43,14 +45,21 @@ impl HeightImage {
             self.position(0, self.width() - 1),
             spacing.unwrap_or(self.pixel_size()),
         )?;
+        self.sampled_on(&lattice)
+    }
+
+    /// Samples the image at the vertices of any lattice, as [`HeightImage::to_lattice`] does on
+    /// its own: for another image of the same scene, such as one of confidences.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn sampled_on(&self, lattice: &Lattice) -> Result<Heightfield> {
         let mut heights = try_filled("lattice heights", lattice.len(), f64::NAN)?;
         for (i, z) in heights.iter_mut().enumerate() {
-            *z = sample(
-                self,
-                lattice.position(i / lattice.cols(), i % lattice.cols()),
-            );
+            let p = lattice.position(i / lattice.cols(), i % lattice.cols());
+            *z = sample(&Cell::around(self, p));
         }
-        Heightfield::new(lattice, heights)
+        Heightfield::new(*lattice, heights)
     }
 }
 
@@ -214,31 +223,60 @@ impl Heightfield {
     }
 }
 
-/// The image's height at a point; NaN where it has none. See [`HeightImage::to_lattice`].
-fn sample(image: &HeightImage, [x, y]: [f64; 2]) -> f64 {
-    let u = x / image.pixel_size() - 0.5;
-    let v = image.height() as f64 - 0.5 - y / image.pixel_size();
-    let (left, top) = (u.floor(), v.floor());
-    let (fx, fy) = (u - left, v - top);
-    // Corner k lies to the right if bit 0 is set and below if bit 1 is set.
-    let corners: [f64; 4] = std::array::from_fn(|k| {
-        let (row, col) = (top + (k >> 1) as f64, left + (k & 1) as f64);
-        let inside = (0.0..image.height() as f64).contains(&row)
-            && (0.0..image.width() as f64).contains(&col);
-        if inside {
-            image.values()[row as usize * image.width() + col as usize]
-        } else {
-            f64::NAN
+/// The four pixels around a point.
+struct Cell {
+    /// Their heights, NaN outside of the image. Corner k lies to the right if bit 0 is set and
+    /// below if bit 1 is set.
+    corners: [f64; 4],
+    /// The point's place between them, from the upper left one.
+    fx: f64,
+    fy: f64,
+}
+
+impl Cell {
+    fn around(image: &HeightImage, p: [f64; 2]) -> Self {
+        let [u, v] = in_pixels(image, p);
+        let (left, top) = (u.floor(), v.floor());
+        let corners = std::array::from_fn(|k| {
+            pixel_at(image, top + (k >> 1) as f64, left + (k & 1) as f64)
+                .map_or(f64::NAN, |i| image.values()[i])
+        });
+        Cell {
+            corners,
+            fx: u - left,
+            fy: v - top,
         }
-    });
+    }
+}
+
+/// A point in pixels to the right of and below the centre of the first one.
+fn in_pixels(image: &HeightImage, [x, y]: [f64; 2]) -> [f64; 2] {
+    [
+        x / image.pixel_size() - 0.5,
+        image.height() as f64 - 0.5 - y / image.pixel_size(),
+    ]
+}
+
+/// Index of the pixel in a whole-numbered row and column; `None` outside of the image.
+fn pixel_at(image: &HeightImage, row: f64, col: f64) -> Option<usize> {
+    let inside =
+        (0.0..image.height() as f64).contains(&row) && (0.0..image.width() as f64).contains(&col);
+    inside.then(|| row as usize * image.width() + col as usize)
+}
+
+fn bilinear_weights(fx: f64, fy: f64) -> [f64; 4] {
+    [
+        (1.0 - fx) * (1.0 - fy),
+        fx * (1.0 - fy),
+        (1.0 - fx) * fy,
+        fx * fy,
+    ]
+}
+
+/// The height within a cell; NaN where there is none. See [`HeightImage::to_lattice`].
+fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
     let bilinear = |fx: f64, fy: f64| -> f64 {
-        let weights = [
-            (1.0 - fx) * (1.0 - fy),
-            fx * (1.0 - fy),
-            (1.0 - fx) * fy,
-            fx * fy,
-        ];
-        (corners.iter().zip(weights))
+        (corners.iter().zip(bilinear_weights(fx, fy)))
             .filter(|(_, w)| *w != 0.0)
             .map(|(z, w)| w * z)
             .sum()

@@ -6,11 +6,17 @@ mod examples;
 mod fields;
 #[cfg(feature = "formats")]
 mod files;
+#[cfg(feature = "js-solver")]
+mod occlusions;
 mod options;
 #[cfg(feature = "js-solver")]
 mod results;
 #[cfg(feature = "js-solver")]
+mod settings;
+#[cfg(feature = "js-solver")]
 mod solver;
+#[cfg(feature = "js-solver")]
+mod source;
 
 use js_sys::Reflect;
 use wasm_bindgen::prelude::*;

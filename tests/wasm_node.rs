@@ -8,6 +8,9 @@ mod case;
 mod check;
 #[path = "fixtures/errors.rs"]
 mod errors;
+#[path = "wasm/known.rs"]
+mod known_everywhere;
 
 check::fixture_tests!(wasm_bindgen_test::wasm_bindgen_test, 1e-9);
 errors::error_tests!(wasm_bindgen_test::wasm_bindgen_test);
+known_everywhere::known_tests!(wasm_bindgen_test::wasm_bindgen_test);

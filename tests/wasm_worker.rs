@@ -8,8 +8,11 @@ mod case;
 mod check;
 #[path = "fixtures/errors.rs"]
 mod errors;
+#[path = "wasm/known.rs"]
+mod known_everywhere;
 
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_dedicated_worker);
 
 check::fixture_tests!(wasm_bindgen_test::wasm_bindgen_test, 1e-9);
 errors::error_tests!(wasm_bindgen_test::wasm_bindgen_test);
+known_everywhere::known_tests!(wasm_bindgen_test::wasm_bindgen_test);

@@ -1,7 +1,10 @@
 /** The one place that knows where the package is: `pkg/` beside this page. */
 
 /** @typedef {typeof import('../pkg/index.js')} Api */
+/** @typedef {import('../pkg/types.js').Energy} Energy */
 /** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
+/** @typedef {import('../pkg/index.js').OpenSolver} OpenSolver */
+/** @typedef {import('../pkg/types.js').DetectedOcclusions} Occlusions */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
 /** @typedef {import('../pkg/types.js').Report} Report */
 /** @typedef {import('../pkg/types.js').StopReason} StopReason */

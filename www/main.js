@@ -1,6 +1,7 @@
 /** Puts the page together. */
 import { connect } from './api.js';
 import { element } from './dom.js';
+import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
 import { headline, showNotice } from './panels/headline.js';
 import { reportPanel } from './panels/report.js';
@@ -17,6 +18,7 @@ async function start() {
   headline(session);
   viewsPanel(session);
   settingsPanel(session);
+  besidePanel(session);
   runPanel(session);
   curvePanel(session);
   reportPanel(session);

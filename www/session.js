@@ -7,7 +7,7 @@
  * runs it again, so that what is seen is what is set.
  */
 
-/** @import {Api, Progress, Surface} from './api.js' */
+/** @import {Api, Energy, OpenSolver, Occlusions, Progress, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -15,6 +15,9 @@
  * @property {number} width
  * @property {number} height
  * @property {Float64Array} data steps of height, row by row, NaN for no data
+ * @property {boolean} [design] the data are constraints, and there is nothing else
+ * @property {Float64Array} [confidence] how far each height is to be trusted
+ * @property {Float64Array} [constraints] steps of height to be met exactly, NaN for none
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {Float64Array} [truth] the surface without noise, where it is known
@@ -27,6 +30,9 @@
  * @property {number} gap
  * @property {'default' | 'paper'} schedule
  * @property {number} coarsening lattice spacing in pixels
+ * @property {Energy} energy
+ * @property {number} reweighting passes
+ * @property {number} [occlusionThreshold] none are looked for without it
  */
 
 /** @typedef {{ input: Input, settings: Settings, surface: Surface }} Result */
@@ -39,6 +45,7 @@
  * @property {Progress} progress
  * @property {Result} result
  * @property {null} cleared the last result is gone, for another input is there
+ * @property {Occlusions | null} occlusions where the present input is torn, if that was asked for
  * @property {Phase} phase
  * @property {null} unsolved a run has ended with nothing
  * @property {{ doing: string, error: unknown }} failure
@@ -48,7 +55,7 @@
 
 export class Session {
   /** @type {Settings} */
-  settings = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1 };
+  settings = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0 };
   /** @type {Input | null} */
   input = null;
   /** @type {Result | null} */
@@ -60,8 +67,12 @@ export class Session {
   #listeners = {};
   /** @type {AbortController | null} */
   #job = null;
+  /** The solver in the worker, which remembers its last answer. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
+  #kept = null;
   /** Counts what was opened, to tell the newest. */
   #opened = 0;
+  /** Counts what was looked for in the input, likewise. */
+  #looked = 0;
   /** Whether the present input has been run. */
   #tried = false;
 
@@ -118,11 +129,13 @@ export class Session {
       const input = await load();
       if (turn !== this.#opened) return false;
       this.#stop();
+      this.#forget();
       this.input = input;
       this.result = null;
       this.#tried = false;
       this.#emit('input', input);
       this.#emit('cleared', null);
+      void this.#look();
       return true;
     } catch (error) {
       if (turn === this.#opened) this.fail(doing, error);
@@ -134,35 +147,38 @@ export class Session {
 
   /**
    * The same input, understood otherwise.
-   * @param {Partial<Pick<Input, 'data' | 'pixelSize' | 'heightScale'>>} change
+   * @param {Partial<Pick<Input, 'data' | 'pixelSize' | 'heightScale' | 'design' | 'confidence' | 'constraints'>>} change
    */
   amend(change) {
     if (!this.input) return;
     this.input = { ...this.input, ...change };
     this.#emit('input', this.input);
+    void this.#look();
     if (this.#tried) void this.run();
   }
 
   /** @param {Partial<Settings>} change */
   set(change) {
     this.settings = { ...this.settings, ...change };
+    if ('occlusionThreshold' in change || 'coarsening' in change) void this.#look();
     if (this.#tried) void this.run();
   }
 
-  /** Solves the present input; ends a run that is under way. */
+  /** Solves the present input, from the last answer if there is one; ends a run that is under way. */
   async run() {
     const { input, settings } = this;
     if (!input) return;
-    this.#job?.abort();
     const job = (this.#job = new AbortController());
     this.#tried = true;
     this.#emit('start', settings);
     this.#enter('running');
-    const { width, height, data, pixelSize, heightScale } = input;
-    const { lambda, gap, schedule, coarsening } = settings;
+    const { coarsening, ...options } = settings;
     try {
-      const surface = await this.api.fit({ width, height, data, pixelSize, heightScale }, {
-        lambda, gap, schedule, spacing: coarsening * pixelSize,
+      const solver = await this.#solverOf(input);
+      if (this.#job !== job) return;
+      const surface = await solver.fit({
+        ...options,
+        spacing: coarsening * input.pixelSize,
         signal: job.signal,
         onAbort: 'keep',
         onProgress: (progress) => {
@@ -174,6 +190,7 @@ export class Session {
       this.#emit('result', this.result);
     } catch (error) {
       if (this.#job !== job) return;
+      this.#forget();
       this.#emit('unsolved', null);
       this.fail('This could not be solved', error);
     } finally {
@@ -181,6 +198,48 @@ export class Session {
         this.#job = null;
         this.#enter('idle');
       }
+    }
+  }
+
+  /**
+   * The solver of an input; of the same one understood otherwise it goes on from the last answer.
+   * @param {Input} input
+   * @returns {Promise<OpenSolver>}
+   */
+  #solverOf(input) {
+    const kept = this.#kept;
+    if (kept?.input === input) return kept.solver;
+    const solver = kept
+      ? kept.solver.then(async (open) => {
+          await open.replace(heightsOf(input));
+          return open;
+        })
+      : this.api.open(heightsOf(input));
+    this.#kept = { input, solver };
+    return solver;
+  }
+
+  /** Gives the solver up: the next run starts from nothing. */
+  #forget() {
+    this.#kept?.solver.then((solver) => solver.dispose(), () => {});
+    this.#kept = null;
+  }
+
+  /** Looks where the present input is torn, if that is wanted. */
+  async #look() {
+    const turn = ++this.#looked;
+    const { input, settings: { occlusionThreshold: threshold, coarsening } } = this;
+    if (!input || input.design || threshold === undefined) {
+      this.#emit('occlusions', null);
+      return;
+    }
+    try {
+      const found = await this.api.occlusions(heightsOf(input), { threshold, spacing: coarsening * input.pixelSize });
+      if (turn === this.#looked) this.#emit('occlusions', found);
+    } catch (error) {
+      if (turn !== this.#looked) return;
+      this.#emit('occlusions', null);
+      this.fail('Occlusions could not be looked for', error);
     }
   }
 
@@ -196,4 +255,13 @@ export class Session {
     job?.abort();
     if (this.phase === 'running') this.#enter('idle');
   }
+}
+
+/**
+ * An input as the package takes it.
+ * @param {Input} input
+ */
+function heightsOf({ width, height, data, pixelSize, heightScale, design, confidence, constraints }) {
+  const frame = { width, height, pixelSize, heightScale };
+  return design ? { ...frame, constraints: data } : { ...frame, data, confidence, constraints };
 }

@@ -1,7 +1,7 @@
 /** What happened, in plain words. */
 import { count, percentAtMost, seconds } from './format.js';
 
-/** @import {Report, StopReason} from './api.js' */
+/** @import {Energy, Report, StopReason} from './api.js' */
 
 /** @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
@@ -10,6 +10,25 @@ export const STOP_REASONS = {
   rounding: 'nothing left to bend: the optimum, up to rounding',
   maxIterations: 'the most iterations allowed',
   cancelled: 'cancelled; this is the best surface so far',
+};
+
+/** What is marked on the input, by how many there are. */
+export const MARKS = {
+  /** @param {number} n */
+  torn: (n) => (n > 0 ? `torn at ${count(n)} ${n === 1 ? 'vertex' : 'vertices'}` : 'no jumps found'),
+  /** @param {number} n */
+  doubted: (n) => `little or no confidence at ${count(n)} pixels`,
+  /** @param {number} n */
+  held: (n) => `held at ${count(n)} ${n === 1 ? 'pixel' : 'pixels'}`,
+};
+
+/** @type {Record<Energy, string>} */
+export const ENERGIES = {
+  nuclear: 'Nuclear norms of the Hessians: piecewise developable.',
+  frobenius: 'Frobenius norms of the Hessians: smooth where it should crease, for comparison.',
+  squaredNuclear: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.',
+  secondFormOfInput: 'Nuclear norms of the second fundamental form, with the slopes of the input.',
+  secondForm: 'Nuclear norms of the second fundamental form, with the surface’s own slopes: the bound is for its last slopes.',
 };
 
 /** A gap above this says little: the objective could be twice the optimum. */
@@ -53,6 +72,9 @@ export function lambdaHint(lambda) {
   if (exponent < 7.5) return 'Big: for input that is nearly developable but for small artefacts.';
   return 'Very big: stays close to the input, and keeps its noise.';
 }
+
+/** In the place of a hint, where there are only constraints. */
+export const NO_FIDELITY = 'A design has no input to stay close to: λ has no say in it.';
 
 /**
  * A failure as one message.

@@ -1,83 +1,100 @@
 /** From the command line to a task. */
 import { realpathSync } from 'node:fs';
 import { extname, resolve } from 'node:path';
-import { parseArgs } from 'node:util';
-import { messageOf } from '../errors.js';
-import { Problem, status } from './problem.js';
+import { commandOf, split, usage } from './flags.js';
 
 /**
+ * @typedef {import('./flags.js').Flag} Flag
+ * @typedef {import('./flags.js').Values} Values
+ * @typedef {import('../types.js').SolverOptions} SolverOptions
  * @typedef {'.npy' | '.png' | '.obj'} Extension
- * @typedef {object} FitTask
- * @property {'fit'} command
+ *
+ * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
  * @property {string} output
  * @property {Extension} extension the output's
- * @property {string} [report]
  * @property {string} [mask]
  * @property {'square' | 'hex'} lattice
  * @property {number} [spacing]
  * @property {number} [heightScale]
  * @property {number} [noData]
- * @property {import('../types.js').SolverOptions} options
+ * @property {boolean} normalize
+ *
+ * @typedef {object} KnownTask what there may be besides the heights
+ * @property {boolean} design whether the input is one of constraints
+ * @property {string} [confidence]
+ * @property {string} [constraints]
+ * @property {number} [free]
+ * @property {string} [occlusionMask]
+ *
+ * @typedef {InputTask & KnownTask & {
+ *   command: 'fit' | 'design', report?: string, options: SolverOptions,
+ * }} FitTask
+ * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
  */
-
-const flags = /** @type {const} */ ({
-  output: { type: 'string', short: 'o' },
-  lambda: { type: 'string' },
-  gap: { type: 'string' },
-  schedule: { type: 'string' },
-  'max-iterations': { type: 'string' },
-  lattice: { type: 'string' },
-  spacing: { type: 'string' },
-  'height-scale': { type: 'string' },
-  mask: { type: 'string' },
-  'no-data': { type: 'string' },
-  'no-normalize': { type: 'boolean' },
-  report: { type: 'string' },
-  help: { type: 'boolean', short: 'h' },
-  version: { type: 'boolean' },
-});
 
 const lattices = /** @type {const} */ (['square', 'hex']);
 const schedules = /** @type {const} */ (['default', 'paper']);
+const energies = /** @type {const} */ (['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm']);
+
+/** The threshold of the paper's authors, which `auto` stands for. */
+const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
- * @returns {FitTask | { command: 'help' } | { command: 'version' }}
+ * @returns {FitTask | OcclusionsTask | { command: 'help' } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
   if (values.help) return { command: 'help' };
   if (values.version) return { command: 'version' };
-  const [command, input, ...more] = positionals;
-  if (command === undefined) throw usage('there is nothing to do');
-  if (command !== 'fit') throw usage(`there is no command "${command}", only "fit"`);
+  const [name, input, ...more] = positionals;
+  if (name === undefined) throw usage('there is nothing to do');
+  const command = commandOf(name, values);
   if (input === undefined) throw usage('the input is missing');
   if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`);
-
-  const { output, mask, report } = values;
+  const { output, report, mask, confidence, constraints } = values;
   if (output === undefined) throw usage('the output is missing: -o FILE');
-  if (report !== undefined) apart({ report }, { output, input, mask });
-  apart({ output }, { mask });
-  /** @param {'spacing' | 'height-scale' | 'no-data' | 'gap' | 'max-iterations'} name */
-  const number = (name) => asNumber(name, values[name]);
-  return {
-    command: 'fit',
+  const read = { mask, confidence, constraints, 'occlusion mask': values['occlusion-mask'] };
+  if (report !== undefined) apart({ report }, { output, input, ...read });
+  apart({ output }, read);
+
+  /** @type {InputTask} */
+  const about = {
     input,
     output,
-    extension: extension(output),
-    report,
+    extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : ['.npy', '.png', '.obj']),
     mask,
     lattice: choice('lattice', values.lattice ?? 'square', lattices),
-    spacing: number('spacing'),
-    heightScale: number('height-scale'),
-    noData: number('no-data'),
+    spacing: number('spacing', values),
+    heightScale: number('height-scale', values),
+    noData: number('no-data', values),
+    normalize: !values['no-normalize'],
+  };
+  if (command === 'occlusions') return { command, ...about, threshold: number('threshold', values) };
+  const free = number('free', values);
+  if (free !== undefined && command === 'fit' && constraints === undefined) {
+    throw usage('--free says which value of --constraints means free, and there are none');
+  }
+  return {
+    command,
+    ...about,
+    design: command === 'design',
+    confidence,
+    constraints,
+    free,
+    occlusionMask: values['occlusion-mask'],
+    report,
     options: {
       lambda: lambda(values.lambda),
-      gap: number('gap'),
+      gap: number('gap', values),
       schedule: choice('schedule', values.schedule ?? 'default', schedules),
-      maxIterations: number('max-iterations'),
-      normalize: !values['no-normalize'],
+      maxIterations: number('max-iterations', values),
+      normalize: about.normalize,
+      energy: choice('energy', values.energy ?? 'nuclear', energies),
+      reweighting: number('reweight', values),
+      tieBreak: number('tie-break', values),
+      occlusionThreshold: values.occlusions === 'auto' ? THRESHOLD : number('occlusions', values, 'auto or '),
     },
   };
 }
@@ -105,46 +122,25 @@ function whereabouts(file) {
   }
 }
 
-/** @param {string[]} args */
-function split(args) {
-  try {
-    return parseArgs({ args: joined(args), options: flags, allowPositionals: true });
-  } catch (error) {
-    throw usage(messageOf(error).replace(/\. To specify a positional.*$/s, ''));
-  }
-}
-
-/**
- * Joins negative numbers to the flags before them, which `parseArgs` would take for flags.
- * @param {string[]} args
- */
-function joined(args) {
-  /** @type {string[]} */
-  const out = [];
-  for (const arg of args) {
-    const last = out.at(-1);
-    if (last?.startsWith('--') && /^-(\.?\d|inf|nan)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
-    else out.push(arg);
-  }
-  return out;
-}
-
 /**
  * @param {string} output
+ * @param {readonly Extension[]} known
  * @returns {Extension}
  */
-function extension(output) {
+function extension(output, known) {
   const found = extname(output).toLowerCase();
-  if (found === '.npy' || found === '.png' || found === '.obj') return found;
-  throw usage(`the output must end in .npy, .png or .obj, but is "${output}"`);
+  const extension = known.find((one) => one === found);
+  if (extension) return extension;
+  throw usage(`the output must end in ${known.slice(0, -1).join(', ')} or ${known.at(-1)}, but is "${output}"`);
 }
 
 /**
  * @param {string | undefined} text
- * @returns {import('../types.js').SolverOptions['lambda']}
+ * @returns {SolverOptions['lambda']}
  */
 function lambda(text) {
-  return text === 'small' || text === 'medium' || text === 'big' ? text : asNumber('lambda', text);
+  if (text === 'small' || text === 'medium' || text === 'big') return text;
+  return number('lambda', { lambda: text }, 'small, medium, big or ');
 }
 
 /**
@@ -161,19 +157,15 @@ function choice(name, value, choices) {
 }
 
 /**
- * @param {string} name
- * @param {string | undefined} text
+ * @param {Exclude<Flag, 'help' | 'version' | 'no-normalize'>} name
+ * @param {Values} values
+ * @param {string} [names] what may stand there besides a number
  */
-function asNumber(name, text) {
+function number(name, values, names = '') {
+  const text = values[name];
   if (text === undefined) return undefined;
   // `Number` takes blanks for 0.
   const value = text.trim() === '' ? NaN : Number(text);
   if (!Number.isNaN(value)) return value;
-  const names = name === 'lambda' ? 'small, medium, big or ' : '';
   throw usage(`--${name} must be ${names}a number, but is "${text}"`);
-}
-
-/** @param {string} message */
-function usage(message) {
-  return new Problem(status.usage, `${message}\nTry "developable --help".`);
 }

@@ -1,7 +1,7 @@
 /** Reading files, and writing them whole or not at all. */
 import { constants } from 'node:fs';
 import { access, open, readFile, realpath, rename, rm, stat } from 'node:fs/promises';
-import { basename, dirname, join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 
@@ -44,9 +44,10 @@ export async function writeWhole(files, signal) {
   /** @type {{ path: string, target: string, draft: string }[]} */
   const drafts = [];
   try {
-    for (const { path, bytes } of files) {
+    for (const [i, { path, bytes }] of files.entries()) {
       const target = await followed(path);
-      const draft = join(dirname(target), `.${basename(target)}.${process.pid}.tmp`);
+      // Not made from the target's name, which may be as long as a name can be.
+      const draft = join(dirname(target), `.developable-${process.pid}-${i}.tmp`);
       drafts.push({ path, target, draft });
       await write(path, draft, bytes);
     }
@@ -104,6 +105,7 @@ function failed(what, error) {
     EPERM: 'not permitted',
     EROFS: 'the file system is read-only',
     ENOSPC: 'the disk is full',
+    ENAMETOOLONG: 'the name is too long',
   };
   return new Problem(status.input, `${what}: ${reasons[code ?? ''] ?? messageOf(error)}`);
 }

@@ -3,16 +3,38 @@ Fits a piecewise-developable surface to a heightfield, with a certified bound of
 how far from the optimum it can be.
 
 Usage: developable fit INPUT -o OUTPUT [options]
+       developable design CONSTRAINTS -o OUTPUT [options]
+       developable occlusions INPUT -o MASK [options]
+
+"fit" follows heights, "design" passes through heights and is free elsewhere,
+"occlusions" looks for places where a surface is torn, and prints how many
+vertices it has found.
 
   INPUT                  heights: a grey PNG (8 or 16 bit) or a 2D NumPy array
+  CONSTRAINTS            the same; transparent pixels and NaN are free
   -o, --output FILE      .npy or .png (heights at the input's pixels) or .obj
                          (a mesh); the file appears whole or not at all
+  MASK                   .png or .npy, white (or 1) where the surface is torn
+
+What to minimise
   --lambda L             how closely to follow the input: small (1e5), medium
                          (1e6, the default), big (1e7) or any number above zero
+  --energy E             nuclear (the default), frobenius, squaredNuclear,
+                         secondFormOfInput or secondForm
+  --reweight N           passes that undo the shrinking of curvature; 2 or 3 are
+                         usual (default 0)
+  --tie-break E          weight that keeps free vertices near a thin plate
+                         (default 0.01)
+  --no-normalize         take the coordinates as they are, instead of scaling
+                         them to the unit square, for which lambda is meant
+
+When to stop
   --gap G                certified relative gap to stop at (default 0.01)
   --schedule S           default, or paper: the published schedule, which stops
                          on residuals
   --max-iterations N     most iterations (default 20000)
+
+How to read the heights
   --lattice L            square (the default): INPUT is an image; hex: its
                          values are on the hexagonal lattice already (odd rows
                          half a spacing to the left, 0 or NaN is no data), and
@@ -24,8 +46,19 @@ Usage: developable fit INPUT -o OUTPUT [options]
                          quarter of the longer side above black; 1 for NPY)
   --mask FILE            PNG or NPY of the same shape; 0 takes a value out
   --no-data V            value that means no data, besides NaN
-  --no-normalize         take the coordinates as they are, instead of scaling
-                         them to the unit square, for which lambda is meant
+
+What else is known (files of the same shape)
+  --confidence FILE      how far each height is to be trusted: whole numbers as
+                         shares of their largest, so that white is 1 and black
+                         0; others as they are
+  --constraints FILE     heights to be met exactly, in the input's scale;
+                         transparent pixels and NaN are free
+  --free V               value of the constraints that means free, besides
+  --occlusion-mask FILE  not 0 where the surface is torn
+  --occlusions T         look for more such places: where it bends by more than
+                         T; auto is the authors' value, 4e4
+  --threshold T          the same for "occlusions" (default 4e4)
+
   --report FILE          JSON file for the figures of the solve
   -h, --help             this text
   --version              the version

@@ -6,6 +6,7 @@ import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
 import { fit } from './fit.js';
 import { help } from './help.js';
+import { occlusions } from './occlusions.js';
 
 /**
  * @param {string[]} args
@@ -21,6 +22,7 @@ export async function main(args) {
     const task = parse(args);
     if (task.command === 'help') process.stdout.write(help);
     else if (task.command === 'version') process.stdout.write(`${await version()}\n`);
+    else if (task.command === 'occlusions') await occlusions(task, interruption.signal);
     else await fit(task, interruption.signal);
     return status.success;
   } catch (error) {
@@ -53,6 +55,9 @@ function explain(error) {
   }
 }
 
+/** Flags that are not called as their options are. @type {Record<string, string>} */
+const shorter = { reweighting: 'reweight', occlusionThreshold: 'occlusions' };
+
 /**
  * `maxIterations` is `--max-iterations` here.
  * @param {string} message
@@ -60,7 +65,7 @@ function explain(error) {
 function asFlags(message) {
   return message.replace(
     /option `(\w+)`/,
-    (_, name) => `--${name.replace(/[A-Z]/g, (/** @type {string} */ letter) => `-${letter.toLowerCase()}`)}`,
+    (_, name) => `--${shorter[name] ?? name.replace(/[A-Z]/g, (/** @type {string} */ letter) => `-${letter.toLowerCase()}`)}`,
   );
 }
 

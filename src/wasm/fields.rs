@@ -1,6 +1,6 @@
 //! Heights in and out: plain JS objects around typed arrays.
 
-use js_sys::{Float64Array, Uint8Array};
+use js_sys::{Float32Array, Float64Array, Uint8Array};
 use serde::Deserialize;
 use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
@@ -10,14 +10,14 @@ use crate::error::{Error, checked_cells, try_filled};
 use crate::heightfield::{HeightImage, Heightfield};
 use crate::lattice::Lattice;
 
-/// `HeightImage` of `types.d.ts`.
+/// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct ImageInput {
-    width: usize,
-    height: usize,
-    #[serde(with = "preserve")]
-    data: JsValue,
+    pub(super) width: usize,
+    pub(super) height: usize,
+    #[serde(default, with = "preserve")]
+    pub(super) data: JsValue,
     #[serde(default, with = "preserve")]
     mask: JsValue,
     no_data: Option<f64>,
@@ -26,34 +26,40 @@ pub(super) struct ImageInput {
 }
 
 impl ImageInput {
+    #[cfg(feature = "formats")]
     pub(super) fn into_image(self) -> Result<HeightImage> {
-        let values = values(
-            "height image",
-            self.height,
-            self.width,
-            &self.data,
-            self.no_data,
-        )?;
-        let mut image = HeightImage::new(self.width, self.height, values)?;
-        if let Some(mask) = mask(&self.mask) {
-            image = image.masked(&mask)?;
-        }
-        if let Some(scale) = self.height_scale {
-            image = image.scaled(scale)?;
-        }
-        Ok(image.with_pixel_size(self.pixel_size.unwrap_or(1.0))?)
+        self.heights("height image", &self.data)
+    }
+
+    /// Heights at the pixels, in units of length, within the mask.
+    pub(super) fn heights(&self, what: &'static str, data: &JsValue) -> Result<HeightImage> {
+        let values = values(what, self.height, self.width, data, self.no_data)?;
+        Ok(self
+            .image(what, values)?
+            .scaled(self.height_scale.unwrap_or(1.0))?)
+    }
+
+    /// Any values at the pixels, within the mask.
+    pub(super) fn image(&self, what: &'static str, values: Vec<f64>) -> Result<HeightImage> {
+        let image = HeightImage::new(self.width, self.height, values)
+            .and_then(|image| image.with_pixel_size(self.pixel_size.unwrap_or(1.0)))
+            .map_err(|error| about(what, error))?;
+        Ok(match bytes(&self.mask) {
+            Some(mask) => image.masked(&mask)?,
+            None => image,
+        })
     }
 }
 
-/// `Heightfield` of `types.d.ts`.
+/// `Heightfield` of `types.d.ts`, without what only a solve wants to know.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct LatticeInput {
-    rows: usize,
-    cols: usize,
+    pub(super) rows: usize,
+    pub(super) cols: usize,
     spacing: f64,
-    #[serde(with = "preserve")]
-    heights: JsValue,
+    #[serde(default, with = "preserve")]
+    pub(super) heights: JsValue,
     origin: Option<[f64; 2]>,
     #[serde(default, with = "preserve")]
     mask: JsValue,
@@ -61,33 +67,51 @@ pub(super) struct LatticeInput {
 }
 
 impl LatticeInput {
+    #[cfg(feature = "formats")]
     pub(super) fn into_heightfield(self) -> Result<Heightfield> {
+        self.heights("heightfield", &self.heights)
+    }
+
+    /// Heights at the vertices, within the mask.
+    pub(super) fn heights(&self, what: &'static str, data: &JsValue) -> Result<Heightfield> {
+        self.field(
+            what,
+            values(what, self.rows, self.cols, data, self.no_data)?,
+        )
+    }
+
+    /// Any values at the vertices, within the mask.
+    pub(super) fn field(&self, what: &'static str, values: Vec<f64>) -> Result<Heightfield> {
         let lattice = Lattice::new(self.rows, self.cols, self.spacing)?
             .with_origin(self.origin.unwrap_or_default())?;
-        let values = values(
-            "heightfield",
-            self.rows,
-            self.cols,
-            &self.heights,
-            self.no_data,
-        )?;
-        let mut field = Heightfield::new(lattice, values)?;
-        if let Some(mask) = mask(&self.mask) {
-            field = field.masked(&mask)?;
-        }
-        Ok(field)
+        let field = Heightfield::new(lattice, values).map_err(|error| about(what, error))?;
+        Ok(match bytes(&self.mask) {
+            Some(mask) => field.masked(&mask)?,
+            None => field,
+        })
     }
 }
 
-/// A copy of a typed array of any kind, with NaN for `no_data`. The size is
-/// checked before anything is allocated.
-fn values(
+/// The same error about something that has a name of its own.
+fn about(name: &'static str, mut error: Error) -> Error {
+    if let Error::NotFinite { what, .. } = &mut error {
+        *what = name;
+    }
+    error
+}
+
+/// A copy of a typed array of any kind, with NaN for `no_data` (as the array
+/// can hold it: -9999.9 is another number in 32 bits). The size is checked
+/// before anything is allocated.
+pub(super) fn values(
     what: &'static str,
     rows: usize,
     cols: usize,
     data: &JsValue,
     no_data: Option<f64>,
 ) -> Result<Vec<f64>> {
+    let short = data.is_instance_of::<Float32Array>();
+    let no_data = no_data.map(|v| if short { f64::from(v as f32) } else { v });
     let data = match data.dyn_ref::<Float64Array>() {
         Some(data) => data.clone(),
         None => Float64Array::new(data),
@@ -113,6 +137,6 @@ fn values(
     Ok(values)
 }
 
-fn mask(mask: &JsValue) -> Option<Vec<u8>> {
-    mask.dyn_ref::<Uint8Array>().map(Uint8Array::to_vec)
+pub(super) fn bytes(array: &JsValue) -> Option<Vec<u8>> {
+    array.dyn_ref::<Uint8Array>().map(Uint8Array::to_vec)
 }

@@ -1,20 +1,20 @@
 //! The solver, in steps.
 
-use serde_wasm_bindgen::{from_value, to_value};
+use serde_wasm_bindgen::to_value;
 use wasm_bindgen::prelude::*;
 
-use super::fields::{ImageInput, LatticeInput};
-use super::options::{entries, option, unknown};
+use super::Result;
 use super::results::{ImageOutput, SurfaceOutput};
-use super::{Failure, Result};
-use crate::heightfield::HeightImage;
-use crate::solver::{Lambda, Normalization, Options, Schedule, Status};
+use super::settings::Settings;
+use super::source::Source;
+use crate::solver::Status;
 
-/// A solver and, if its input was one, the image to bring the result back to.
+/// A solver and what it is about, for other options and for the way back to an image.
 #[wasm_bindgen]
 pub struct Solver {
     solver: crate::Solver,
-    image: Option<HeightImage>,
+    source: Source,
+    settings: Settings,
 }
 
 #[wasm_bindgen]
@@ -22,28 +22,56 @@ impl Solver {
     /// A solver on an image's heights, resampled to the lattice.
     #[wasm_bindgen(js_name = onImage)]
     pub fn on_image(image: JsValue, options: JsValue) -> Result<Solver> {
-        let image = from_value::<ImageInput>(image)?.into_image()?;
-        let (options, spacing) = solver_options(&options)?;
-        Ok(Solver {
-            solver: crate::Solver::new(&image.to_lattice(spacing)?, &options)?,
-            image: Some(image),
-        })
+        Solver::on(Source::image(image)?, &options)
     }
 
     /// A solver on heights that are on the lattice already.
     #[wasm_bindgen(js_name = onLattice)]
     pub fn on_lattice(field: JsValue, options: JsValue) -> Result<Solver> {
-        let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
-        let (options, spacing) = solver_options(&options)?;
-        if spacing.is_some() {
-            return Err(Failure::option(
-                "option `spacing` is for images; a lattice has the spacing of its input",
-            ));
-        }
+        Solver::on(Source::lattice(field)?, &options)
+    }
+
+    fn on(source: Source, options: &JsValue) -> Result<Solver> {
+        let settings = Settings::new(options)?;
         Ok(Solver {
-            solver: crate::Solver::new(&field, &options)?,
-            image: None,
+            solver: crate::Solver::new(source.input(&settings)?, &settings.options)?,
+            source,
+            settings,
         })
+    }
+
+    /// Solves the same again with other options, from where it stands.
+    pub fn restart(&mut self, options: JsValue) -> Result<()> {
+        let settings = Settings::new(&options)?;
+        if settings.leave_input(&self.settings) {
+            self.solver.restart(&settings.options)?;
+        } else {
+            let input = self.source.input(&settings)?;
+            self.solver.restart_with(input, &settings.options)?;
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Solves another image from where it stands.
+    #[wasm_bindgen(js_name = restartWithImage)]
+    pub fn restart_with_image(&mut self, image: JsValue, options: JsValue) -> Result<()> {
+        self.restart_with(Source::image(image)?, &options)
+    }
+
+    /// Solves other heights on the lattice from where it stands.
+    #[wasm_bindgen(js_name = restartWithLattice)]
+    pub fn restart_with_lattice(&mut self, field: JsValue, options: JsValue) -> Result<()> {
+        self.restart_with(Source::lattice(field)?, &options)
+    }
+
+    fn restart_with(&mut self, source: Source, options: &JsValue) -> Result<()> {
+        let settings = Settings::new(options)?;
+        let input = source.input(&settings)?;
+        self.solver.restart_with(input, &settings.options)?;
+        self.source = source;
+        self.settings = settings;
+        Ok(())
     }
 
     /// Runs about `work` conjugate-gradient iterations; whether to go on.
@@ -65,7 +93,7 @@ impl Solver {
     pub fn surface(&self) -> Result<JsValue> {
         let surface = self.solver.surface()?;
         let field = surface.heightfield();
-        let image = match &self.image {
+        let image = match self.source.pixels() {
             Some(image) => Some(ImageOutput::from(&field.to_image(image)?)),
             None => None,
         };
@@ -79,46 +107,4 @@ impl Solver {
             report: surface.report(),
         })?)
     }
-}
-
-/// `SolverOptions` of `types.d.ts`; the lattice spacing is none of the solver's.
-fn solver_options(options: &JsValue) -> Result<(Options, Option<f64>)> {
-    let mut out = Options::default();
-    let mut spacing = None;
-    for (name, value) in entries(options)? {
-        match name.as_str() {
-            "lambda" => {
-                let lambda: Lambda = option(
-                    "lambda",
-                    value,
-                    "must be small, medium, big or a number above zero",
-                )?;
-                out = out.lambda(lambda);
-            }
-            "schedule" => {
-                let schedule: Schedule = option("schedule", value, "must be default or paper")?;
-                out = out.schedule(schedule);
-            }
-            "gap" => out = out.gap(option("gap", value, "must be a number")?),
-            "maxIterations" => {
-                out = out.max_iterations(option("maxIterations", value, "must be a whole number")?);
-            }
-            "normalize" => {
-                let normalize = option("normalize", value, "must be true or false")?;
-                out = out.normalization(if normalize {
-                    Normalization::UnitSquare
-                } else {
-                    Normalization::Off
-                });
-            }
-            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
-            _ => {
-                return Err(unknown(
-                    &name,
-                    "lambda, schedule, gap, maxIterations, normalize and spacing",
-                ));
-            }
-        }
-    }
-    Ok((out, spacing))
 }

@@ -48,7 +48,8 @@ test('help and version', async () => {
   assert.equal(help.status, 0);
   const flags = [
     '--output', '--lambda', '--gap', '--schedule', '--max-iterations', '--lattice', '--spacing', '--height-scale',
-    '--mask', '--no-data', '--no-normalize', '--report', '--help', '--version',
+    '--mask', '--no-data', '--no-normalize', '--report', '--help', '--version', '--energy', '--reweight', '--tie-break',
+    '--confidence', '--constraints', '--free', '--occlusions', '--threshold', '--occlusion-mask',
   ];
   for (const flag of flags) assert.ok(help.stdout.includes(flag), flag);
   assert.ok(help.stdout.split('\n').every((line) => line.length <= 80));
@@ -135,7 +136,7 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
   /** @type {[string, RegExp][]} */
   const cases = [
     ['', /nothing to do/],
-    ['solve ramp.npy -o x.npy', /"solve"/],
+    ['solve ramp.npy -o x.npy', /"solve".*fit, design, occlusions/],
     ['fit', /input is missing/],
     ['fit ramp.npy', /output is missing/],
     ['fit ramp.npy more.npy -o x.npy', /more\.npy/],
@@ -154,6 +155,23 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
     ['fit ramp.npy -o x.npy --report ./x.npy', /same file/],
     ['fit ramp.npy -o x.npy --report ./ramp.npy', /input and the report are the same file/],
     ['fit ramp.npy -o mask.npy --mask mask.npy', /mask and the output are the same file/],
+    ['fit ramp.npy -o mask.npy --confidence mask.npy', /confidence and the output are the same file/],
+    ['fit ramp.npy -o mask.npy --constraints mask.npy', /constraints and the output are the same file/],
+    ['fit ramp.npy -o mask.npy --occlusion-mask ./mask.npy', /occlusion mask and the output are the same file/],
+    ['fit ramp.npy -o x.npy --energy isotropic', /--energy.*squaredNuclear.*isotropic/],
+    ['fit ramp.npy -o x.npy --reweight 1.5', /--reweight.*1\.5/],
+    ['fit ramp.npy -o x.npy --reweight 99', /--reweight.*99/],
+    ['fit ramp.npy -o x.npy --tie-break 0', /--tie-break.*0/],
+    ['fit ramp.npy -o x.npy --occlusions many', /--occlusions.*auto or a number.*many/],
+    ['fit ramp.npy -o x.npy --occlusions -1', /--occlusions.*-1/],
+    ['fit ramp.npy -o x.npy --threshold 1', /--threshold is not for "fit"/],
+    ['fit ramp.npy -o x.npy --free 0', /--free.*--constraints/],
+    ['design ramp.npy -o x.npy --constraints mask.npy', /--constraints is not for "design"/],
+    ['design ramp.npy -o x.tiff', /x\.tiff/],
+    ['occlusions ramp.npy -o x.obj', /\.png or \.npy.*x\.obj/],
+    ['occlusions ramp.npy -o x.png --lambda 1', /--lambda is not for "occlusions"/],
+    ['occlusions ramp.npy -o x.png --threshold -1', /--threshold.*-1/],
+    ['occlusions ramp.npy', /output is missing/],
   ];
   for (const [args, message] of cases) {
     const { status, stdout, stderr } = await run(folder, args.split(' ').filter(Boolean));
@@ -177,6 +195,10 @@ test('bad input: status 3, what is wrong, and no output', async () => {
     ['tiny.npy -o x.npy', /interior/],
     ['ramp.npy -o x.npy --mask missing.png', /missing\.png/],
     ['ramp.npy -o x.npy --mask rough.npy', /40.*30.*24.*20/],
+    ['ramp.npy -o x.npy --confidence rough.npy', /confidence has 40.*30.*24.*20/],
+    ['ramp.npy -o x.npy --constraints rough.npy', /constraints have 40.*30.*24.*20/],
+    ['ramp.npy -o x.npy --occlusion-mask missing.png', /missing\.png/],
+    ['ramp.npy -o x.npy --constraints ramp.npy', /every value is a constraint.*--free/],
     ['ramp.npy -o nowhere/x.npy', /nowhere.*no such/],
     ['ramp.npy -o x.npy --report nowhere/x.json', /nowhere.*no such/],
     ['ramp.npy -o directory.npy', /directory\.npy.*no file/],
@@ -204,6 +226,16 @@ test('an output is replaced whole, through a link as well', async () => {
   await silently(fit('self.npy', '-o', 'self.npy'));
   assert.ok(deviation((await load('self.npy')).data, ramp.data) < 1e-9);
   assert.ok(!(await readdir(folder)).some((name) => name.endsWith('.tmp')));
+});
+
+test('a name may be as long as a name can be', async () => {
+  const name = `${'n'.repeat(251)}.npy`;
+  await silently(fit('ramp.npy', '-o', name));
+  assert.equal((await load(name)).width, 24);
+  const { status, stderr } = await fit('ramp.npy', '-o', `n${name}`);
+  assert.equal(status, 3);
+  assert.match(stderr, /too long/);
+  assert.ok(!(await readdir(folder)).some((entry) => entry.endsWith('.tmp')));
 });
 
 test('nothing is left when one of several files cannot be written', async () => {

@@ -31,9 +31,10 @@ function counted() {
   return new Counted(input, options);
 }
 
-test('a dropped job does not iterate any more', async () => {
+test('a dropped job does not iterate any more', async (t) => {
   const solver = counted();
-  const job = new Job(solver, 60);
+  const job = new Job(() => solver, 60);
+  t.after(() => job.drop());
   const { progress, surface } = await job.next();
   assert.ok(progress.cgIterations > 0 && surface === undefined);
   const news = job.next();
@@ -47,7 +48,7 @@ test('a dropped job does not iterate any more', async () => {
 
 test('a finished job gives its best surface and is done', async () => {
   const solver = counted();
-  const job = new Job(solver, Infinity);
+  const job = new Job(() => solver, Infinity);
   await sleep(200);
   const news = job.next();
   job.finish();
@@ -59,7 +60,7 @@ test('a finished job gives its best surface and is done', async () => {
 
 test('the event loop gets its turn between batches, and two jobs share the thread', async () => {
   const [a, b] = [counted(), counted()];
-  const jobs = [new Job(a, 60), new Job(b, 60)];
+  const jobs = [new Job(() => a, 60), new Job(() => b, 60)];
   let turns = 0;
   const timer = setInterval(() => (turns += 1), 1);
   await sleep(600);
@@ -69,6 +70,32 @@ test('the event loop gets its turn between batches, and two jobs share the threa
   assert.ok(a.iterations > 0 && b.iterations > 0);
   const ratio = a.iterations / b.iterations;
   assert.ok(ratio > 0.3 && ratio < 3, `${a.iterations} and ${b.iterations} iterations`);
+});
+
+test('a job that is dropped before its turn is never begun', async () => {
+  let begun = 0;
+  const job = new Job(() => {
+    begun += 1;
+    return counted();
+  }, 60);
+  const news = job.next();
+  job.drop();
+  await assert.rejects(news, { code: 'DISPOSED' });
+  await sleep(50);
+  assert.equal(begun, 0);
+});
+
+test('a job can leave its solver as it is', async () => {
+  const solver = counted();
+  /** @type {unknown[]} */
+  const released = [];
+  const job = new Job(() => solver, 60, (its) => void released.push(its));
+  await job.next();
+  job.drop();
+  job.drop();
+  await sleep(50);
+  assert.deepEqual([solver.disposed, released.length, released[0] === solver], [false, 1, true]);
+  solver.dispose();
 });
 
 test('stopping what is not there is harmless, waiting for it an error', async () => {

@@ -45,6 +45,15 @@ test('errors arrive with their code, as errors of the package', async () => {
   await assert.rejects(developable.fit(/** @type {any} */ ({})), error('INPUT', /lattice/));
   await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ gapp: 1 })), error('OPTION', /gapp/));
   await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ onAbort: 'stop' })), error('OPTION', /onAbort/));
+  const wrong = /** @type {any[]} */ ([null, 7, 'fast']);
+  for (const options of wrong) await assert.rejects(developable.fit(ramp, options), error('OPTION', /object/));
+  for (const options of wrong) await assert.rejects(developable.open(ramp, options), error('OPTION', /object/));
+  for (const options of [null, 7]) await assert.rejects(developable.init(/** @type {any} */ (options)), error('OPTION', /object/));
+  assert.throws(() => new DevelopableWorker(/** @type {any} */ (null)), error('OPTION', /object/));
+  for (const signal of [null, 7, {}]) {
+    await assert.rejects(developable.fit(ramp, { signal: /** @type {any} */ (signal) }), error('OPTION', /signal/));
+  }
+  await assert.rejects(developable.fit(ramp, { onProgress: /** @type {any} */ ('log') }), error('OPTION', /onProgress/));
   await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ f: () => {} })), error('INPUT', /sent/));
   await assert.rejects(developable.read(new Uint8Array(9)), error('UNSUPPORTED', /./));
   await assert.rejects(developable.example(/** @type {any} */ ('torus')), error('OPTION', /torus/));

@@ -2,12 +2,12 @@
 import { element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { STOP_REASONS } from '../words.js';
+import { ENERGIES, STOP_REASONS } from '../words.js';
 
 /** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
 
-/** @typedef {{ name: string, value: string, meaning: string }} Line */
+/** @typedef {{ name: string, value: string, meaning: string, told: boolean }} Line */
 /** @typedef {{ title: string, lines: Line[] }} Group */
 
 /** @param {Session} session */
@@ -35,7 +35,8 @@ function certificate(report) {
       line('Gap', percentAtMost(report.gap), 'At most this share of the objective is above the optimum.'),
       line('Objective', number(report.objective, 5), 'The energy of the result: the sum of the next two.'),
       line('Fidelity', number(report.fidelity, 4), 'λ times the squared distances from the input.'),
-      line('Nuclear norms', number(report.nuclearNorm, 4), 'Bending and creasing; what makes it developable.'),
+      line('Nuclear norms', number(report.nuclearNorm, 4), 'Bending and creasing; what makes it developable.', report.energy === 'nuclear'),
+      line('Bending', number(report.nuclearNorm, 4), ENERGIES[report.energy], report.energy !== 'nuclear'),
       line('Dual bound', number(report.dualBound, 5), 'No surface has less energy than this.'),
       line('Stopped by', STOP_REASONS[report.stopReason], ''),
     ],
@@ -50,6 +51,10 @@ function domain(report) {
       line('Interior', count(report.interior), 'With all six neighbours: curvature is measured here.'),
       line('Boundary', count(report.boundary), 'Neighbours of interior ones.'),
       line('Omitted', count(report.omitted), 'Left out of the solve, restored from what is nearest.'),
+      line('Torn', count(report.occluded), 'No curvature is measured here.', report.occluded > 0),
+      line('Held', count(report.constrained), 'Their heights are given for good.', report.constrained > 0),
+      line('Free', count(report.free), 'Neither held nor drawn towards the input.', report.free > 0),
+      line('Parts', count(report.components), 'Not connected; each was solved for itself.', report.components > 1),
     ],
   };
 }
@@ -61,6 +66,7 @@ function work(report) {
     title: 'Work',
     lines: [
       line('λ', number(report.lambda), 'Weight of the fidelity, in the unit square.'),
+      line('Reweighted', count(report.reweighting), 'Passes after the first; the certificate is the last one’s.', report.reweighting > 0),
       line('Lattices', count(report.levels.length), `From coarse to fine, with ${report.levels.map(({ interior }) => count(interior)).join(', ')} interior vertices.`),
       line('Iterations', count(report.iterations), `Of ADMM; ${count(report.levels.at(-1)?.iterations ?? 0)} of them on the finest lattice.`),
       line('CG iterations', count(report.cgIterations), 'Conjugate gradients, within its z-steps.'),
@@ -89,9 +95,9 @@ function accuracy(result) {
   };
 }
 
-/** @param {string} name @param {string} value @param {string} meaning @returns {Line} */
-function line(name, value, meaning) {
-  return { name, value, meaning };
+/** @param {string} name @param {string} value @param {string} meaning @param {boolean} [told] whether it says something @returns {Line} */
+function line(name, value, meaning, told = true) {
+  return { name, value, meaning, told };
 }
 
 /** @param {Group} group */
@@ -104,7 +110,7 @@ function rowGroup({ title, lines }) {
   heading.scope = 'rowgroup';
   heading.textContent = title;
   head.append(heading);
-  for (const { name, value, meaning } of lines) {
+  for (const { name, value, meaning } of lines.filter(({ told }) => told)) {
     const row = body.insertRow();
     const header = document.createElement('th');
     header.scope = 'row';

@@ -47,9 +47,9 @@ async function encode({ api }, { surface }, format) {
 
 /** @param {Result} result */
 function fileStem({ input, settings, surface }) {
-  const lambda = settings.lambda.toExponential().replace('e+', 'e');
+  const lambda = input.design ? '' : `-${settings.lambda.toExponential().replace('e+', 'e')}`;
   const cancelled = surface.report.stopReason === 'cancelled' ? '-cancelled' : '';
-  return `${input.name}-developable-${lambda}${cancelled}`;
+  return `${input.name}-developable${lambda}${cancelled}`;
 }
 
 /**

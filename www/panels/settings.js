@@ -1,15 +1,20 @@
 /** λ on a logarithmic slider with the paper's presets, and the further options. */
 import { element, elements } from '../dom.js';
 import { shortest } from '../format.js';
-import { lambdaHint } from '../words.js';
+import { ENERGIES, NO_FIDELITY, lambdaHint } from '../words.js';
 
+/** @import {Energy} from '../api.js' */
 /** @import {Session} from '../session.js' */
+
+/** Milliseconds that the slider has to rest before what it says is tried. */
+const REST = 80;
 
 /** @param {Session} session */
 export function settingsPanel(session) {
   const slider = element('lambda', HTMLInputElement);
   const field = element('lambda-value', HTMLInputElement);
   const hint = element('lambda-hint', HTMLElement);
+  const fieldset = element('fidelity', HTMLFieldSetElement);
   const presets = elements('button[data-exponent]', HTMLButtonElement);
 
   /** @param {number} lambda */
@@ -31,8 +36,17 @@ export function settingsPanel(session) {
   // To the digits that are shown.
   const fromSlider = () => Number(shortest(10 ** slider.valueAsNumber));
 
-  slider.addEventListener('input', () => display(fromSlider()));
-  slider.addEventListener('change', () => choose(fromSlider()));
+  // While it is dragged, too: the solver starts from its last answer, and the newest wish wins.
+  let rest = 0;
+  slider.addEventListener('input', () => {
+    display(fromSlider());
+    clearTimeout(rest);
+    rest = window.setTimeout(() => choose(fromSlider()), REST);
+  });
+  slider.addEventListener('change', () => {
+    clearTimeout(rest);
+    choose(fromSlider());
+  });
   for (const preset of presets) {
     preset.addEventListener('click', () => choose(10 ** Number(preset.dataset.exponent)));
   }
@@ -44,6 +58,10 @@ export function settingsPanel(session) {
     else field.reportValidity();
   });
   display(session.settings.lambda);
+  session.on('input', ({ design }) => {
+    fieldset.disabled = design === true;
+    hint.textContent = design ? NO_FIDELITY : lambdaHint(session.settings.lambda);
+  });
 
   const gap = element('gap', HTMLSelectElement);
   gap.addEventListener('change', () => session.set({ gap: Number(gap.value) }));
@@ -52,4 +70,27 @@ export function settingsPanel(session) {
     session.set({ schedule: schedule.value === 'paper' ? 'paper' : 'default' }));
   const coarsening = element('coarsening', HTMLSelectElement);
   coarsening.addEventListener('change', () => session.set({ coarsening: Number(coarsening.value) }));
+
+  const energy = element('energy', HTMLSelectElement);
+  const energyHint = element('energy-hint', HTMLElement);
+  const chosen = () => /** @type {Energy} */ (energy.value);
+  energy.addEventListener('change', () => {
+    energyHint.textContent = ENERGIES[chosen()];
+    session.set({ energy: chosen() });
+  });
+  energyHint.textContent = ENERGIES[chosen()];
+  const reweighting = element('reweighting', HTMLSelectElement);
+  reweighting.addEventListener('change', () => session.set({ reweighting: Number(reweighting.value) }));
+
+  const find = element('find-occlusions', HTMLInputElement);
+  const threshold = element('threshold', HTMLInputElement);
+  const tear = () => {
+    element('threshold-field', HTMLElement).hidden = !find.checked;
+    const value = Number(threshold.value.trim() || NaN);
+    const sound = value > 0 && Number.isFinite(value);
+    threshold.setCustomValidity(sound || !find.checked ? '' : 'It must be a number above 0, such as 4e4.');
+    if (threshold.reportValidity()) session.set({ occlusionThreshold: find.checked ? value : undefined });
+  };
+  find.addEventListener('change', tear);
+  threshold.addEventListener('change', tear);
 }

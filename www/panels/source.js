@@ -1,4 +1,5 @@
 /** Where the heights come from: an example, or a file with its scale. */
+import { designInput } from '../design.js';
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
 import { watchDrops } from './drop.js';
@@ -19,6 +20,8 @@ export function sourcePanel(session) {
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
   const zero = element('zero-is-nothing', HTMLInputElement);
+  const design = element('is-design', HTMLInputElement);
+  const designHint = element('design-hint', HTMLElement);
   /** The open file's values as they are stored. @type {Float64Array} */
   let stored = new Float64Array();
 
@@ -26,9 +29,10 @@ export function sourcePanel(session) {
   const openExample = async () => {
     const radio = radios.find((button) => button.checked);
     if (!radio) return;
-    const name = /** @type {ExampleName} */ (radio.value);
     const options = { size: Number(size.value), noise: Number(noise.value) };
     const opened = await session.open('The example could not be made', async () => {
+      if (radio.value === 'design') return designInput();
+      const name = /** @type {ExampleName} */ (radio.value);
       const { input, truth } = await session.api.example(name, options);
       const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
       return { name, width, height, data, pixelSize: side, heightScale: step, truth };
@@ -53,6 +57,7 @@ export function sourcePanel(session) {
     if (!opened) return;
     stored = values;
     zero.checked = false;
+    design.checked = false;
   };
 
   const dropZeros = () => {
@@ -71,6 +76,7 @@ export function sourcePanel(session) {
   for (const control of [...radios, size, noise]) control.addEventListener('change', openExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
   zero.addEventListener('change', dropZeros);
+  design.addEventListener('change', () => session.amend({ design: design.checked }));
   element('open', HTMLButtonElement).addEventListener('click', () => file.click());
   file.addEventListener('change', () => {
     const chosen = file.files?.[0];
@@ -82,7 +88,8 @@ export function sourcePanel(session) {
 
   session.on('input', (input) => {
     const isFile = input.kind !== undefined;
-    exampleOptions.hidden = isFile;
+    exampleOptions.hidden = isFile || input.design === true;
+    designHint.hidden = isFile || !input.design;
     fileOptions.hidden = !isFile;
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
     if (!isFile) return;

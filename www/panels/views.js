@@ -4,8 +4,11 @@ import { number, shortest } from '../format.js';
 import { inputNormals, resultNormals } from '../surface/known.js';
 import { Light } from '../surface/light.js';
 import { SurfaceView } from '../surface/view.js';
+import { MARKS } from '../words.js';
 
-/** @import {Session} from '../session.js' */
+/** @import {Occlusions} from '../api.js' */
+/** @import {Input, Session} from '../session.js' */
+/** @import {Marks} from '../surface/marks.js' */
 
 /** @param {Session} session */
 export function viewsPanel(session) {
@@ -16,30 +19,76 @@ export function viewsPanel(session) {
   const figure = element('result-view', HTMLElement);
   const inputCaption = element('input-caption', HTMLElement);
   const caption = element('result-caption', HTMLElement);
-  const mark = element('result-mark', HTMLElement);
+  const stamp = element('result-mark', HTMLElement);
   const empty = element('result-empty', HTMLElement);
+  const legend = element('input-legend', HTMLElement);
+  /** @type {Occlusions | null} */
+  let torn = null;
+
+  const mark = () => {
+    const { input } = session;
+    const marks = input ? marksOf(input, torn, getComputedStyle(views)) : [];
+    before.mark(marks);
+    legend.replaceChildren(...marks.map(({ colour, words }) => {
+      const item = document.createElement('span');
+      item.className = 'key';
+      item.style.setProperty('--colour', colour);
+      item.textContent = words;
+      return item;
+    }));
+  };
 
   session.on('input', (input) => {
     const { name, width, height } = input;
-    before.show(inputNormals(input));
+    before.show(inputNormals(input), !input.design);
     views.style.setProperty('--aspect', String(width / height));
     inputCaption.textContent = `${name}, ${number(width, 6)} × ${number(height, 6)}`;
+    torn = null;
+    mark();
+  });
+  session.on('occlusions', (found) => {
+    torn = found;
+    mark();
   });
   session.on('cleared', () => {
     after.show(null);
     caption.textContent = '';
-    mark.hidden = true;
+    stamp.hidden = true;
     empty.hidden = false;
   });
   session.on('result', (result) => {
     after.show(resultNormals(result));
-    caption.textContent = `λ = ${shortest(result.settings.lambda)}`;
-    mark.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
-    mark.hidden = !mark.textContent;
+    // λ has no say in a design.
+    caption.textContent = result.input.design ? '' : `λ = ${shortest(result.settings.lambda)}`;
+    stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
+    stamp.hidden = !stamp.textContent;
     empty.hidden = true;
   });
   session.on('phase', (phase) => {
     figure.setAttribute('aria-busy', String(phase === 'running'));
     empty.textContent = phase === 'running' ? 'Solving…' : 'Not solved yet';
   });
+}
+
+/**
+ * What is drawn over the input: where it is torn, where it is not trusted, and where it is held.
+ * @param {Input} input
+ * @param {Occlusions | null} torn
+ * @param {CSSStyleDeclaration} style
+ * @returns {(Marks & { words: string })[]}
+ */
+function marksOf({ width, height, data, design, confidence, constraints }, torn, style) {
+  const held = design ? data : constraints;
+  /** @param {string} name @param {(pixel: number) => boolean} has @param {(number: number) => string} words */
+  const marks = (name, has, words) => {
+    let number = 0;
+    for (let i = 0; i < width * height; i++) if (has(i)) number++;
+    return { width, height, has, colour: style.getPropertyValue(name).trim(), words: words(number) };
+  };
+  const found = [];
+  if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < 0.5 && !Number.isNaN(data[i]), MARKS.doubted));
+  const flags = torn?.image;
+  if (torn && flags) found.push({ ...marks('--mark-torn', (i) => flags[i] !== 0, String), words: MARKS.torn(torn.count) });
+  if (held) found.push(marks('--mark-held', (i) => !Number.isNaN(held[i]), MARKS.held));
+  return found;
 }

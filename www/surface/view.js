@@ -1,9 +1,11 @@
 /** One surface on a canvas, lit by the shared light, which can be moved from here. */
 import { eachFrame, followDevicePixels } from '../dom.js';
+import { markedCanvas } from './marks.js';
 import { rasterOf } from './raster.js';
 
 /** @import {Light} from './light.js' */
 /** @import {Normals} from './normals.js' */
+/** @import {Marks} from './marks.js' */
 /** @import {Raster} from './raster.js' */
 
 /** Of the way from the middle to the rim, for each press of an arrow key. */
@@ -20,6 +22,10 @@ export class SurfaceView {
   #shaded = document.createElement('canvas');
   /** @type {ImageData | null} */
   #pixels = null;
+  /** What is drawn over the surface. @type {readonly Marks[]} */
+  #marks = [];
+  /** The same in the canvas' pixels. @type {HTMLCanvasElement | null} */
+  #overlay = null;
   #paintSoon = eachFrame(() => this.#paint());
 
   /**
@@ -35,6 +41,7 @@ export class SurfaceView {
     canvas.setAttribute('aria-valuemax', '359');
     followDevicePixels(canvas, () => {
       this.#raster = null;
+      this.#overlay = null;
       // At once, for a resized canvas is blank.
       this.#paint();
     });
@@ -46,11 +53,25 @@ export class SurfaceView {
     this.#tell();
   }
 
-  /** @param {Normals | null} normals */
-  show(normals) {
+  /**
+   * @param {Normals | null} normals
+   * @param {boolean} [lit] whether there is much to be lit
+   */
+  show(normals, lit = normals !== null) {
     this.#normals = normals;
     this.#raster = null;
-    if (this.sun) this.sun.hidden = !normals;
+    this.#overlay = null;
+    if (this.sun) this.sun.hidden = !lit;
+    this.#paintSoon();
+  }
+
+  /**
+   * Marks pixels of what is shown.
+   * @param {readonly Marks[]} marks
+   */
+  mark(marks) {
+    this.#marks = marks;
+    this.#overlay = null;
     this.#paintSoon();
   }
 
@@ -71,6 +92,9 @@ export class SurfaceView {
     context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;
     context.imageSmoothingQuality = 'medium';
     context.drawImage(this.#shaded, left, top, width, height);
+    if (this.#marks.length === 0) return;
+    this.#overlay ??= markedCanvas(this.#marks, width, height, window.devicePixelRatio);
+    context.drawImage(this.#overlay, left, top);
   }
 
   /** @param {Raster} raster */

@@ -1,0 +1,91 @@
+/** The flags: what there is, which command takes what, and the command line taken apart. */
+import { parseArgs } from 'node:util';
+import { messageOf } from '../errors.js';
+import { Problem, status } from './problem.js';
+
+const text = /** @type {const} */ ({ type: 'string' });
+const plain = /** @type {const} */ ({ type: 'boolean' });
+
+const flags = {
+  output: /** @type {const} */ ({ type: 'string', short: 'o' }),
+  lambda: text,
+  gap: text,
+  schedule: text,
+  'max-iterations': text,
+  energy: text,
+  reweight: text,
+  'tie-break': text,
+  lattice: text,
+  spacing: text,
+  'height-scale': text,
+  mask: text,
+  'no-data': text,
+  'no-normalize': plain,
+  confidence: text,
+  constraints: text,
+  free: text,
+  occlusions: text,
+  threshold: text,
+  'occlusion-mask': text,
+  report: text,
+  help: /** @type {const} */ ({ type: 'boolean', short: 'h' }),
+  version: plain,
+};
+
+/** @typedef {keyof typeof flags} Flag */
+/** @typedef {'fit' | 'design' | 'occlusions'} Command */
+
+/** What a command does not take. @type {Record<Command, readonly Flag[]>} */
+const foreign = {
+  fit: ['threshold'],
+  design: ['no-data', 'confidence', 'constraints', 'occlusions', 'threshold'],
+  occlusions: [
+    'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
+    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report',
+  ],
+};
+
+/** @param {string[]} args */
+export function split(args) {
+  try {
+    return parseArgs({ args: joined(args), options: flags, allowPositionals: true });
+  } catch (error) {
+    throw usage(messageOf(error).replace(/\. To specify a positional.*$/s, ''));
+  }
+}
+
+/** @typedef {ReturnType<typeof split>['values']} Values */
+
+/**
+ * @param {string} name
+ * @param {Values} values
+ * @returns {Command}
+ */
+export function commandOf(name, values) {
+  const commands = /** @type {Command[]} */ (Object.keys(foreign));
+  const command = commands.find((known) => known === name);
+  if (!command) throw usage(`there is no command "${name}", only ${commands.join(', ')}`);
+  const stray = foreign[command].find((flag) => values[flag] !== undefined);
+  if (stray) throw usage(`--${stray} is not for "${command}"`);
+  return command;
+}
+
+/**
+ * Joins negative numbers to the flags before them, which `parseArgs` would take for flags.
+ * @param {string[]} args
+ */
+function joined(args) {
+  /** @type {string[]} */
+  const out = [];
+  for (const arg of args) {
+    const last = out.at(-1);
+    if (last?.startsWith('--') && /^-(\.?\d|inf|nan)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
+    else out.push(arg);
+  }
+  return out;
+}
+
+/** @param {string} message */
+export function usage(message) {
+  return new Problem(status.usage, `${message}\nTry "developable --help".`);
+}

@@ -1,0 +1,126 @@
+/** What a solve is about, from files: the heights, and what else is known. */
+import * as developable from '../index.js';
+import { readBytes } from './files.js';
+import { Problem, status } from './problem.js';
+
+/**
+ * @typedef {import('./arguments.js').InputTask} InputTask
+ * @typedef {import('./arguments.js').KnownTask} KnownTask
+ * @typedef {import('../types.js').ReadResult} ReadResult
+ * @typedef {import('../types.js').HeightImage | import('../types.js').Heightfield} Input
+ */
+
+/**
+ * @param {InputTask & Partial<KnownTask>} task
+ * @returns {Promise<Input>}
+ */
+export async function readInput(task) {
+  const file = await readImage(task.input);
+  const { mask, confidence, constraints, occlusionMask } = task;
+  const known = {
+    mask: mask && flags(await readBeside('mask', mask, file)),
+    confidence: confidence && weights(await readBeside('confidence', confidence, file)),
+    occlusions: occlusionMask && flags(await readBeside('occlusion mask', occlusionMask, file)),
+  };
+  const pins = task.design ? file : constraints && (await readBeside('constraints', constraints, file));
+  const heightScale = task.heightScale ?? file.heightScale;
+  if (task.lattice === 'square') {
+    return /** @type {Input} */ ({
+      width: file.width,
+      height: file.height,
+      pixelSize: file.pixelSize,
+      heightScale,
+      ...known,
+      ...(task.design ? {} : { data: file.data, noData: asStored(task.noData, file) }),
+      constraints: pins && pinned(pins, task.free),
+    });
+  }
+  // On the lattice 0 is no data unless something else is, and no constraint likewise.
+  const noData = asStored(task.noData, file) ?? 0;
+  /** @param {Float64Array} values */
+  const scaled = (values) => values.map((value) => value * heightScale);
+  return /** @type {Input} */ ({
+    rows: file.height,
+    cols: file.width,
+    spacing: task.spacing ?? file.pixelSize,
+    ...known,
+    ...(task.design ? {} : { heights: scaled(without(file.data, noData)) }),
+    constraints: pins && scaled(pinned(pins, task.free ?? noData)),
+  });
+}
+
+/**
+ * @param {string} path
+ * @returns {Promise<ReadResult>}
+ */
+async function readImage(path) {
+  const bytes = await readBytes(path);
+  try {
+    return await developable.read(bytes);
+  } catch (error) {
+    if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
+      throw new Problem(status.input, `${path}: ${error.message}`);
+    }
+    throw error;
+  }
+}
+
+/**
+ * Another file about the same pixels.
+ * @param {string} what
+ * @param {string} path
+ * @param {ReadResult} input
+ */
+async function readBeside(what, path, input) {
+  const file = await readImage(path);
+  if (file.width === input.width && file.height === input.height) return file;
+  const [verb, its] = [what.endsWith('s') ? 'have' : 'has', `${file.width} × ${file.height}`];
+  throw new Problem(
+    status.input,
+    `the ${what} ${verb} ${its} pixels and the input ${input.width} × ${input.height}`,
+  );
+}
+
+/** @param {ReadResult} file */
+function flags({ data }) {
+  return Uint8Array.from(data, (value) => (value === 0 || Number.isNaN(value) ? 0 : 1));
+}
+
+/**
+ * Whole numbers as shares of the largest of their type, so that white is 1; others as they are.
+ * No data is no confidence.
+ * @param {ReadResult} file
+ */
+function weights({ data, dataType }) {
+  const [, kind, bits] = /^([ui])(\d+)$/.exec(dataType) ?? [];
+  const largest = kind ? 2 ** (Number(bits) - (kind === 'i' ? 1 : 0)) - 1 : 1;
+  return data.map((value) => (Number.isNaN(value) ? 0 : value / largest));
+}
+
+/**
+ * @param {ReadResult} file
+ * @param {number | undefined} free
+ */
+function pinned(file, free) {
+  const value = asStored(free, file);
+  const constraints = value === undefined ? file.data : without(file.data, value);
+  if (constraints.some(Number.isNaN)) return constraints;
+  throw new Problem(status.input, 'every value is a constraint: --free V says which one means free');
+}
+
+/**
+ * @param {Float64Array} values
+ * @param {number} nothing
+ */
+function without(values, nothing) {
+  return values.map((value) => (value === nothing ? NaN : value));
+}
+
+/**
+ * The value as the file could store it: -9999.9 is another number in 32 bits.
+ * @param {number | undefined} value
+ * @param {ReadResult} file
+ */
+function asStored(value, file) {
+  return value !== undefined && file.dataType === 'f32' ? Math.fround(value) : value;
+}

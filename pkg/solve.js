@@ -1,0 +1,62 @@
+/** The client's end of a solve in the worker. */
+
+/**
+ * @typedef {import('./connection.js').Remote} Remote
+ * @typedef {import('./control.js').Control} Control
+ * @typedef {import('./types.js').Surface} Surface
+ */
+
+/** Milliseconds between two calls of `onProgress`, at least. */
+const PROGRESS_INTERVAL = 60;
+
+/** Number of the last solve: numbers are chosen here, so that a solve can be stopped at any time. */
+let solves = 0;
+
+/**
+ * Starts a solve, tells of its progress and waits for its surface.
+ * @param {Remote} remote
+ * @param {(id: number, interval: number) => Promise<void>} start
+ * @param {Control} control
+ * @returns {Promise<Surface>}
+ */
+export async function solve(remote, start, { signal, keep, onProgress }) {
+  if (!keep) signal?.throwIfAborted();
+  solves += 1;
+  const id = solves;
+  /** @param {boolean} keep */
+  const stop = (keep) => void remote.stop(id, keep).catch(() => {});
+  const onAbort = () => stop(keep);
+  signal?.addEventListener('abort', onAbort);
+  try {
+    const started = start(id, onProgress ? PROGRESS_INTERVAL : Infinity);
+    if (signal?.aborted) stop(keep);
+    await started;
+    for (;;) {
+      // Asked for piece by piece, so that a busy page is not flooded with old news.
+      const { progress, surface } = await remote.next(id);
+      onProgress?.(progress);
+      if (surface) return surface;
+    }
+  } catch (error) {
+    stop(false); // it may be `onProgress` that threw
+    throw error;
+  } finally {
+    signal?.removeEventListener('abort', onAbort);
+  }
+}
+
+/**
+ * The same promise, but that it does not wait for the worker to hear of an abort.
+ * @template T
+ * @param {Promise<T>} promise
+ * @param {Control} control
+ * @returns {Promise<T>}
+ */
+export function orAborted(promise, { signal, keep }) {
+  if (!signal || keep) return promise;
+  return new Promise((resolve, reject) => {
+    const abort = () => reject(signal.reason);
+    signal.addEventListener('abort', abort);
+    promise.then(resolve, reject).finally(() => signal.removeEventListener('abort', abort));
+  });
+}

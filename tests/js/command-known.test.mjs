@@ -1,0 +1,121 @@
+/** The Node command, told more than heights: confidence, constraints, occlusions. */
+import assert from 'node:assert/strict';
+import { readFile, readdir, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+import { deviation, image, lattice, plane } from './support/shapes.mjs';
+
+await Promise.all([direct.init(), direct.initFiles()]);
+const folder = await temporaryFolder();
+const ramp = image(30, 24, plane);
+const step = image(30, 24, (x, y) => plane(x, y) + (x > 15 ? 9 : 0));
+
+/** @param {string} name @param {Parameters<typeof direct.writeNpy>[0]} input */
+const store = (name, input) => writeFile(join(folder, name), direct.writeNpy(input));
+/** @param {string} name */
+const load = async (name) => direct.read(await readFile(join(folder, name)));
+/** Runs a command that has nothing to say but what is expected. @param {string} args @param {string} [expected] */
+async function command(args, expected = '') {
+  assert.deepEqual(await run(folder, args.split(' ')), { status: 0, stdout: expected, stderr: '' });
+}
+/** @param {string} args */
+async function report(args) {
+  await command(`${args} --report r.json`);
+  return JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
+}
+
+test('energies, passes and thresholds reach the solver', async () => {
+  await store('step.npy', step);
+  const plain = await report('fit step.npy -o out.npy');
+  assert.deepEqual([plain.energy, plain.reweighting, plain.occluded], ['nuclear', 0, 0]);
+  assert.equal((await report('fit step.npy -o out.npy --energy frobenius')).energy, 'frobenius');
+  assert.equal((await report('fit step.npy -o out.npy --reweight 2')).reweighting, 2);
+  const torn = await report('fit step.npy -o out.npy --occlusions 150');
+  assert.ok(torn.occluded > 20 && torn.objective < 1e-6);
+  assert.ok(deviation((await load('out.npy')).data, step.data) < 9.1);
+  assert.equal((await report('fit step.npy -o out.npy --occlusions auto')).occluded, 0);
+});
+
+test('occlusions are written as a mask that can be given back', async () => {
+  await store('step.npy', step);
+  const found = direct.occlusions(step, { threshold: 150 });
+  assert.ok(found.image && found.count > 20);
+  await command('occlusions step.npy -o mask.png --threshold 150', `${found.count}\n`);
+  const png = await load('mask.png');
+  assert.deepEqual([png.width, png.height, png.dataType], [30, 24, 'u8']);
+  assert.deepEqual([...png.data], [...found.image].map((flag) => 255 * flag));
+  await command('occlusions step.npy -o mask.npy --threshold 150', `${found.count}\n`);
+  assert.deepEqual([...(await load('mask.npy')).data], [...found.image]);
+  await command('occlusions step.npy -o none.png', '0\n');
+  assert.ok((await load('none.png')).data.every((level) => level === 0));
+  const { occluded, objective } = await report('fit step.npy -o out.npy --occlusion-mask mask.png');
+  const plain = await report('fit step.npy -o out.npy');
+  assert.ok(occluded > 20 && objective < plain.objective / 5);
+
+  const hex = lattice(24, 30, (x, y) => plane(x, y) + (x > 14.2 ? 6 : 0));
+  await store('hex.npy', hex);
+  const there = direct.occlusions(hex, { threshold: 100 });
+  await command('occlusions hex.npy -o hex.png --lattice hex --threshold 100', `${there.count}\n`);
+  assert.deepEqual([...(await load('hex.png')).data], [...there.vertices].map((flag) => 255 * flag));
+});
+
+test('a file of confidences: whole numbers are shares of the largest', async () => {
+  const spoilt = (/** @type {number} */ i) => i % 30 >= 10 && i % 30 < 16 && i > 240 && i < 450;
+  const wide = (/** @type {number} */ i) => [-31, -30, -29, -1, 0, 1, 29, 30, 31].some((by) => spoilt(i + by));
+  await store('spoilt.npy', { ...ramp, data: ramp.data.map((z, i) => (spoilt(i) ? 40 * Math.sin(i) : z)) });
+  await store('trust.npy', { ...ramp, data: ramp.data.map((_, i) => (wide(i) ? 0 : 1)) });
+  await command('fit spoilt.npy -o out.npy --confidence trust.npy');
+  const { data } = await load('out.npy');
+  assert.ok(deviation(data, ramp.data) < 0.02, `${deviation(data, ramp.data)}`);
+  const whole = direct.writeNpy({ ...ramp, data: ramp.data.map((_, i) => (wide(i) ? 0 : 1)) });
+  // An array of bytes, which this package does not write.
+  const text = "{'descr': '|u1', 'fortran_order': False, 'shape': (24, 30), }".padEnd(117) + '\n';
+  const bytes = Buffer.concat([
+    Buffer.from(whole.subarray(0, 8)), Buffer.from([118, 0]), Buffer.from(text),
+    Buffer.from(ramp.data.map((_, i) => (wide(i) ? 0 : 255))),
+  ]);
+  await writeFile(join(folder, 'bytes.npy'), bytes);
+  await command('fit spoilt.npy -o same.npy --confidence bytes.npy');
+  assert.deepEqual((await load('same.npy')).data, data);
+});
+
+test('a design passes through its constraints', async () => {
+  const pins = new Map([32, 57, 662, 687].map((i) => [i, ramp.data[i]]));
+  const constraints = { ...ramp, data: ramp.data.map((_, i) => pins.get(i) ?? 0) };
+  await store('pins.npy', constraints);
+  const { constrained } = await report('design pins.npy -o out.npy --free 0 --height-scale 2');
+  assert.equal(constrained, 4);
+  const { data } = await load('out.npy');
+  // The vertices are up to half a pixel from the pixels.
+  assert.ok(deviation(data, ramp.data.map((z) => 2 * z)) < 0.7, `${deviation(data, ramp.data.map((z) => 2 * z))}`);
+  await store('nan.npy', { ...constraints, data: constraints.data.map((z) => z || NaN) });
+  await command('design nan.npy -o same.npy --height-scale 2');
+  assert.deepEqual((await load('same.npy')).data, data);
+  await command('design pins.npy -o out.obj --free 0');
+  const vertices = [...(await readFile(join(folder, 'out.obj'), 'utf8')).matchAll(/^v /gm)];
+  assert.ok(vertices.length > 24 * 30 * 0.9);
+  // On the lattice they are met where they are, and 0 is free.
+  const hex = lattice(12, 14, plane);
+  await store('hex.npy', { ...hex, heights: hex.heights.map((z, i) => ([15, 26, 143].includes(i) ? z : 0)) });
+  await command('design hex.npy -o out.npy --lattice hex');
+  assert.ok(deviation((await load('out.npy')).data, hex.heights) < 1e-5);
+});
+
+test('constraints besides heights, and what is wrong with either', async () => {
+  await store('ramp.npy', ramp);
+  await store('pin.npy', { ...ramp, data: ramp.data.map((z, i) => (i === 375 ? z + 4 : -1)) });
+  const { constrained } = await report('fit ramp.npy -o out.npy --constraints pin.npy --free -1 --lambda big');
+  assert.equal(constrained, 1);
+  const moved = (await load('out.npy')).data.map((z, i) => z - ramp.data[i]);
+  assert.ok(moved[375] > 2 && Math.abs(moved[0]) < 0.1);
+  await writeFile(join(folder, 'kept.npy'), 'kept');
+  for (const args of ['design pin.npy -o kept.npy --free -1', 'design pin.npy -o kept.npy']) {
+    const { status, stdout, stderr } = await run(folder, args.split(' '));
+    assert.deepEqual([status, stdout], [3, '']);
+    assert.match(stderr, args.includes('free') ? /not held in place/ : /--free V/);
+  }
+  assert.equal(await readFile(join(folder, 'kept.npy'), 'utf8'), 'kept');
+  assert.ok(!(await readdir(folder)).some((name) => name.endsWith('.tmp')));
+});

@@ -1,0 +1,157 @@
+/** More than heights: designs, occlusions, confidence, constraints; other energies; a slider that restarts. */
+import assert from 'node:assert/strict';
+import { grid, npy, parseNpy } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
+import { drop, look, pageTest, reported, runBy, save } from './support/page.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const [WIDTH, HEIGHT] = [48, 36];
+/** @param {number} col @param {number} row */
+const slope = (col, row) => 20 + 0.3 * col + 0.5 * row;
+const plane = grid(WIDTH, HEIGHT, slope);
+
+/** @param {Page} page */
+const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+/** @param {Page} page */
+const more = (page) => page.locator('summary').click();
+/** @param {Page} page */
+const result = async (page) => parseNpy((await save(page, 'NPY')).bytes).values;
+/** @param {Page} page */
+const names = (page) => page.locator('#report-table tr:not(.group) th').allInnerTexts();
+
+/** @param {number[]} found @param {number[]} expected */
+const deviation = (found, expected) => Math.max(...found.map((value, i) => Math.abs(value - expected[i])));
+
+/**
+ * @param {Page} page
+ * @param {string} button
+ * @param {string} name
+ * @param {Buffer} buffer
+ */
+async function choose(page, button, name, buffer) {
+  const [chooser] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    page.getByRole('button', { name: button }).click(),
+  ]);
+  await chooser.setFiles({ name, mimeType: '', buffer });
+}
+
+pageTest('a design passes through what is marked', async (page) => {
+  assert.ok(!(await names(page)).some((name) => ['Torn', 'Held', 'Free', 'Parts', 'Reweighted'].includes(name)));
+  await runBy(page, () => page.locator('input[value="design"]').check());
+  assert.match(await page.locator('#verdict').innerText(), /^Certified/);
+  assert.match(await page.locator('#input-legend').innerText(), /held at \d+ pixels/);
+  const held = parsed(await reported(page, 'Held'));
+  const vertices = parsed(await reported(page, 'Interior')) + parsed(await reported(page, 'Boundary'));
+  assert.ok(held > 200);
+  assert.ok(Math.abs(parsed(await reported(page, 'Free')) + held - vertices) <= 4);
+  assert.equal(await page.locator('#lambda').isDisabled(), true);
+  assert.ok((await look(page, '#result-canvas')).covered > 0.3);
+  await runBy(page, () => page.locator('input[value="cone"]').check());
+  assert.equal(await page.locator('#lambda').isDisabled(), false);
+  assert.equal(await page.locator('#input-legend').innerText(), '');
+});
+
+pageTest('a file can be a design', async (page) => {
+  const pins = new Map([3 * WIDTH + 4, 5 * WIDTH + 40, 30 * WIDTH + 20].map((i) => [i, plane[i]]));
+  await drop(page, 'pins.npy', npy(WIDTH, plane.map((_, i) => pins.get(i) ?? 0)));
+  await page.getByLabel('0 means no data').check();
+  await page.getByLabel('Pass through these').check();
+  await page.locator('#input-legend', { hasText: 'held at 3 pixels' }).waitFor();
+  await run(page);
+  assert.equal(await reported(page, 'Held'), '3');
+  // The vertices are up to half a pixel from the pixels.
+  const off = deviation(await result(page), plane);
+  assert.ok(off < 0.6, `off by ${off}`);
+});
+
+pageTest('where it jumps it is torn, which can be seen before and after', async (page) => {
+  const step = grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (col > 20 ? 15 : 0));
+  await drop(page, 'step.npy', npy(WIDTH, step));
+  await page.locator('#input-caption', { hasText: 'step' }).waitFor();
+  const plain = (await look(page, '#input-canvas')).hash;
+  await more(page);
+  await page.getByLabel('Tear where it jumps').check();
+  await page.locator('#input-legend', { hasText: 'no jumps found' }).waitFor(); // at 4e4
+  const field = page.getByLabel('Least bend that counts as a jump');
+  await field.fill('150');
+  await field.press('Tab');
+  await page.locator('#input-legend', { hasText: 'torn at' }).waitFor();
+  assert.notEqual((await look(page, '#input-canvas')).hash, plain);
+  assert.equal(await page.locator('#result-empty').isVisible(), true, 'not solved yet');
+  await run(page);
+  assert.ok(parsed(await reported(page, 'Torn')) > 40);
+  // The pixels at the jump itself are between vertices on either side.
+  const away = (/** @type {number[]} */ values) => values.filter((_, i) => Math.abs((i % WIDTH) - 20.5) > 2);
+  const torn = deviation(away(await result(page)), away(step));
+  await field.fill('-1');
+  await field.press('Tab');
+  assert.equal(await field.evaluate((input) => /** @type {HTMLInputElement} */ (input).validity.valid), false);
+  await runBy(page, () => page.getByLabel('Tear where it jumps').uncheck());
+  assert.equal(await page.locator('#input-legend').innerText(), '');
+  const smoothed = deviation(away(await result(page)), away(step));
+  assert.ok(torn < smoothed / 2, `${torn} against ${smoothed}`);
+});
+
+pageTest('heights without confidence do not count', async (page) => {
+  const spoilt = (/** @type {number} */ col, /** @type {number} */ row) => col > 20 && col < 28 && row > 12 && row < 20;
+  await drop(page, 'spoilt.npy', npy(WIDTH, grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (spoilt(col, row) ? 30 * Math.sin(col * row) : 0))));
+  await run(page);
+  assert.ok(deviation(await result(page), plane) > 1);
+  await more(page);
+  const trust = grid(WIDTH, HEIGHT, (col, row) => (col > 19 && col < 29 && row > 11 && row < 21 ? 0 : 1));
+  await runBy(page, () => choose(page, 'Confidence image', 'trust.npy', npy(WIDTH, trust)));
+  assert.ok(deviation(await result(page), plane) < 0.05);
+  assert.ok((await names(page)).includes('Free'));
+  assert.match(await page.locator('#input-legend').innerText(), /confidence at 81 pixels/);
+  assert.equal(await page.locator('#confidence-name').innerText(), 'trust.npy');
+  await runBy(page, () => page.getByRole('button', { name: 'Do without the confidence image' }).click());
+  assert.ok(deviation(await result(page), plane) > 1);
+  assert.match(await page.locator('#confidence-name').innerText(), /white/);
+});
+
+pageTest('constraints hold besides heights, and wrong ones are refused', async (page) => {
+  await drop(page, 'slope.npy', npy(WIDTH, plane));
+  await page.locator('#input-caption', { hasText: 'slope' }).waitFor();
+  await run(page);
+  await more(page);
+  const middle = 18 * WIDTH + 24;
+  await choose(page, 'Constraint image', 'small.npy', npy(10, plane.slice(0, 100)));
+  assert.match(await page.getByRole('alert').innerText(), /small\.npy.*10 × 10.*48 × 36/);
+  await choose(page, 'Constraint image', 'empty.npy', npy(WIDTH, plane.map(() => 0)));
+  await page.getByRole('alert').filter({ hasText: 'holds nothing' }).waitFor();
+  await choose(page, 'Constraint image', 'broken.npy', Buffer.from('no array'));
+  await page.getByRole('alert').filter({ hasText: 'broken.npy' }).waitFor();
+  await runBy(page, () =>
+    choose(page, 'Constraint image', 'pin.npy', npy(WIDTH, plane.map((z, i) => (i === middle ? z + 5 : 0)))));
+  assert.equal(await reported(page, 'Held'), '1');
+  const moved = (await result(page)).map((z, i) => z - plane[i]);
+  assert.ok(moved[middle] > 1 && Math.abs(moved[0]) < 0.2, `${moved[middle]}`);
+});
+
+pageTest('another energy, and reweighted passes, are told of', async (page) => {
+  await more(page);
+  await runBy(page, () => page.locator('#size').selectOption('100'));
+  await runBy(page, () => page.locator('#energy').selectOption('frobenius'));
+  assert.ok((await names(page)).includes('Bending') && !(await names(page)).includes('Nuclear norms'));
+  assert.match(await page.locator('#energy-hint').innerText(), /Frobenius/);
+  await runBy(page, () => page.locator('#energy').selectOption('nuclear'));
+  await runBy(page, () => page.getByLabel('Reweighted passes').selectOption('2'));
+  assert.equal(await reported(page, 'Reweighted'), '2');
+});
+
+pageTest('the slider restarts the solver while it is dragged', async (page) => {
+  await runBy(page, () => page.locator('#size').selectOption('100'));
+  const cold = parsed(await reported(page, 'Iterations'));
+  const box = await page.locator('#lambda').boundingBox();
+  assert.ok(box);
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + box.width / 2, y);
+  await page.mouse.down();
+  await runBy(page, () => page.mouse.move(box.x + box.width * 0.53, y, { steps: 3 }));
+  const dragged = parsed(await reported(page, 'λ'));
+  assert.ok(dragged > 1e6 && dragged < 1e7, `λ is ${dragged}, with the button still down`);
+  assert.ok(parsed(await reported(page, 'Iterations')) <= cold);
+  await page.mouse.up();
+});

@@ -111,7 +111,8 @@ fn points_of_a_plane_span_it() {
 /// rulings run from rim to rim, it is the only concave surface there, and no other bends less.
 #[test]
 fn the_rims_of_cylinders_and_cones_give_them_back() {
-    let shapes: [(&str, fn(f64, f64) -> f64); 3] = [
+    type Shape = fn(f64, f64) -> f64;
+    let shapes: [(&str, Shape); 3] = [
         ("cylinder", |x, _| (1.0 - (x - 0.5).powi(2)).sqrt()),
         ("oblique cylinder", |x, y| {
             (1.0 - (0.8 * x + 0.6 * y - 0.7).powi(2)).sqrt()

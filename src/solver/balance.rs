@@ -7,7 +7,7 @@
 //! scale the new dual back into the ball.
 
 use super::cg::ConjugateGradients;
-use super::law::{Frobenius, Kind, Law, Nuclear, SquaredNuclear, with_law};
+use super::law::Law;
 use super::problem::Problem;
 use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
@@ -55,17 +55,7 @@ impl State {
     /// `D(t(Y + ρCq))` for the best feasible `t`; the residual
     /// `−(2λw(z + q − z̃) + Cᵀ(Y + ρCq))` goes to `cg`.
     fn balance(&mut self, problem: &Problem, q: &[f64], cg: &mut ConjugateGradients) -> f64 {
-        with_law!(problem.kind, self.rho, |law| self
-            .balance_of(law, problem, q, cg))
-    }
-
-    fn balance_of<L: Law>(
-        &mut self,
-        law: L,
-        problem: &Problem,
-        q: &[f64],
-        cg: &mut ConjugateGradients,
-    ) -> f64 {
+        let law = self.law(problem);
         let State {
             z, v, rho, rolling, ..
         } = self;
@@ -111,7 +101,7 @@ impl State {
         );
         cg.restart(domain);
         let largest = if excess > 0.0 {
-            L::LARGEST / excess
+            law.largest() / excess
         } else {
             f64::INFINITY
         };

@@ -10,7 +10,9 @@ use crate::spectral::Sym2;
 
 pub(crate) trait Law: Copy {
     /// The largest [`Law::size`] of a feasible dual: 1, or infinity if all are.
-    const LARGEST: f64;
+    fn largest(self) -> f64 {
+        1.0
+    }
 
     /// `Y` from `V`, for the weight `ω`.
     fn dual(self, v: Sym2, weight: f64) -> Sym2;
@@ -27,8 +29,6 @@ pub(crate) trait Law: Copy {
 pub(crate) struct Nuclear;
 
 impl Law for Nuclear {
-    const LARGEST: f64 = 1.0;
-
     #[inline(always)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
         v.clamp(weight)
@@ -52,8 +52,6 @@ impl Law for Nuclear {
 pub(crate) struct Frobenius;
 
 impl Law for Frobenius {
-    const LARGEST: f64 = 1.0;
-
     #[inline(always)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
         let size = v.dot(v).sqrt();
@@ -82,8 +80,9 @@ pub(crate) struct SquaredNuclear {
 }
 
 impl Law for SquaredNuclear {
-    const LARGEST: f64 = f64::INFINITY;
-
+    fn largest(self) -> f64 {
+        f64::INFINITY
+    }
     #[inline(always)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
         let both = v.nuclear_norm() / (self.rho + 4.0 * weight);
@@ -125,10 +124,20 @@ impl Energy {
     }
 }
 
-/// Calls a generic function with the law of a kind.
-macro_rules! with_law {
-    ($kind:expr, $rho:expr, |$law:ident| $call:expr) => {
-        match $kind {
+/// The law of a kind, looked up at every vertex. Kernels that are seldom run, or
+/// seldom for another energy than the nuclear norm, are compiled for this alone:
+/// a version for each law, which is what inlining comes to, would make the wasm a
+/// quarter larger.
+#[derive(Clone, Copy)]
+pub(crate) struct Any {
+    pub kind: Kind,
+    pub rho: f64,
+}
+
+/// Calls the same method of the law itself.
+macro_rules! the_law {
+    ($any:expr, |$law:ident| $call:expr) => {
+        match $any.kind {
             Kind::Nuclear => {
                 let $law = Nuclear;
                 $call
@@ -138,13 +147,34 @@ macro_rules! with_law {
                 $call
             }
             Kind::SquaredNuclear => {
-                let $law = SquaredNuclear { rho: $rho };
+                let $law = SquaredNuclear { rho: $any.rho };
                 $call
             }
         }
     };
 }
-pub(crate) use with_law;
+
+impl Law for Any {
+    fn largest(self) -> f64 {
+        the_law!(self, |law| law.largest())
+    }
+    #[inline(never)]
+    fn dual(self, v: Sym2, weight: f64) -> Sym2 {
+        the_law!(self, |law| law.dual(v, weight))
+    }
+    #[inline(never)]
+    fn value(self, hessian: Sym2, weight: f64) -> f64 {
+        the_law!(self, |law| law.value(hessian, weight))
+    }
+    #[inline(never)]
+    fn size(self, dual: Sym2, weight: f64) -> f64 {
+        the_law!(self, |law| law.size(dual, weight))
+    }
+    #[inline(never)]
+    fn conjugate(self, dual: Sym2, weight: f64) -> f64 {
+        the_law!(self, |law| law.conjugate(dual, weight))
+    }
+}
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {

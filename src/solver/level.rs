@@ -196,15 +196,16 @@ impl Level {
             self.problem.take_normals(&self.state.z)?;
         }
         let (state, relaxation) = (&mut self.state, self.plan.relaxation);
-        let change = if self.plan.measures_change(&self.problem) {
-            state.update_and_measure::<true>(&self.problem, relaxation, &mut self.cg)
+        let check = self.plan.is_check(self.iteration);
+        let change = if check && self.plan.measures_change(&self.problem) {
+            state.update_and_measure(&self.problem, relaxation, &mut self.cg)
         } else {
             state.update(&self.problem, relaxation, &mut self.cg);
             0.0
         };
         self.first_energy = self.cg.energy();
         self.seconds.h_step += start.elapsed().as_secs_f64();
-        if !self.plan.is_check(self.iteration) {
+        if !check {
             return Ok(None);
         }
         let start = Instant::now();

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::frame::Frame;
-use super::law::{Frobenius, Nuclear, SquaredNuclear};
-use super::law::{Kind, Law, with_law};
+use super::law::{Any, Kind, Law};
 use super::options::{Energy, Options};
 use super::per_cell::PerCell;
 use crate::domain::{Domain, Run};
@@ -178,7 +177,27 @@ impl Problem {
 
     /// `Σ ω f(H(z))`.
     pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
-        with_law!(self.kind, 0.0, |law| self.smoothness_of(law, z))
+        let law = self.law();
+        let domain = &self.domain;
+        let mut sum = 0.0;
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let ring = Ring::new(z, domain, row, *run);
+                let weight = self.weight.run(domain, row, *run);
+                for (i, weight) in weight.iter().enumerate() {
+                    sum += law.value(self.map.hessian(ring.differences(i)), *weight);
+                }
+            }
+        }
+        sum
+    }
+
+    /// For values, which do not depend on ρ.
+    fn law(&self) -> Any {
+        Any {
+            kind: self.kind,
+            rho: f64::NAN,
+        }
     }
 
     /// The same for the input, by the parts that cells belong to.
@@ -193,24 +212,9 @@ impl Problem {
             let ring = Ring::new(&self.target, &self.domain, row, run);
             let hessian = self.map.hessian(ring.differences(0));
             let weight = self.weight.at(cell);
-            sums[part(cell)] += with_law!(self.kind, 0.0, |law| law.value(hessian, weight));
+            sums[part(cell)] += self.law().value(hessian, weight);
         }
         sums
-    }
-
-    fn smoothness_of(&self, law: impl Law, z: &[f64]) -> f64 {
-        let domain = &self.domain;
-        let mut sum = 0.0;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(z, domain, row, *run);
-                let weight = self.weight.run(domain, row, *run);
-                for (i, weight) in weight.iter().enumerate() {
-                    sum += law.value(self.map.hessian(ring.differences(i)), *weight);
-                }
-            }
-        }
-        sum
     }
 
     /// Calls `write` with each vertex of `I ∪ ∂I` and its height in the user's units.

@@ -9,7 +9,7 @@
 
 use super::cg::ConjugateGradients;
 use super::lanes;
-use super::law::{Frobenius, Kind, Law, Nuclear, SquaredNuclear, with_law};
+use super::law::{Any, Kind, Law, Nuclear};
 use super::problem::Problem;
 use crate::domain::Run;
 use crate::error::{Result, try_filled};
@@ -137,11 +137,7 @@ impl State {
 
     /// Changes ρ, leaving `H` and `Y` as they are.
     pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
-        with_law!(problem.kind, self.rho, |law| self
-            .set_rho_of(law, problem, rho))
-    }
-
-    fn set_rho_of(&mut self, law: impl Law, problem: &Problem, rho: f64) {
+        let law = self.law(problem);
         let factor = rho / self.rho;
         self.rho = rho;
         let domain = &problem.domain;
@@ -166,7 +162,7 @@ impl State {
             off: self.v.off[cell],
         };
         let weight = problem.weight.at(cell);
-        let dual = with_law!(problem.kind, self.rho, |law| law.dual(v, weight));
+        let dual = self.law(problem).dual(v, weight);
         (dual, (v - dual).scale(1.0 / self.rho))
     }
 
@@ -187,18 +183,27 @@ impl State {
         relaxation: f64,
         cg: &mut ConjugateGradients,
     ) {
-        self.update_and_measure::<false>(problem, relaxation, cg);
+        match problem.kind {
+            Kind::Nuclear => self.update_of::<false>(Nuclear, problem, relaxation, cg),
+            _ => self.update_of::<false>(self.law(problem), problem, relaxation, cg),
+        };
     }
 
-    /// The same; returns `ρ‖ΔH‖`, the change of the Hessians, if `MEASURE`.
-    pub(crate) fn update_and_measure<const MEASURE: bool>(
+    /// The same; returns `ρ‖ΔH‖`, the change of the Hessians.
+    pub(crate) fn update_and_measure(
         &mut self,
         problem: &Problem,
         relaxation: f64,
         cg: &mut ConjugateGradients,
     ) -> f64 {
-        with_law!(problem.kind, self.rho, |law| self
-            .update_of::<MEASURE>(law, problem, relaxation, cg))
+        self.update_of::<true>(self.law(problem), problem, relaxation, cg)
+    }
+
+    pub(super) fn law(&self, problem: &Problem) -> Any {
+        Any {
+            kind: problem.kind,
+            rho: self.rho,
+        }
     }
 
     fn update_of<const MEASURE: bool>(
@@ -272,10 +277,13 @@ impl State {
 
     /// Objective, dual bound and residuals, in one pass.
     pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
-        with_law!(problem.kind, self.rho, |law| self.certify_of(law, problem))
+        match problem.kind {
+            Kind::Nuclear => self.certify_of(Nuclear, problem),
+            _ => self.certify_of(self.law(problem), problem),
+        }
     }
 
-    fn certify_of<L: Law>(&mut self, law: L, problem: &Problem) -> Certificate {
+    fn certify_of(&mut self, law: impl Law, problem: &Problem) -> Certificate {
         let State {
             z,
             v,
@@ -344,7 +352,7 @@ impl State {
         );
         let [nuclear, primal, image, split, dual_norm, conjugate] = matrices;
         let [distance, inner, quadratic, dual, dual_size, _] = heights;
-        let bound = dual_bound(problem, inner, quadratic, conjugate, L::LARGEST);
+        let bound = dual_bound(problem, inner, quadratic, conjugate, law.largest());
         Certificate {
             fidelity: problem.lambda * distance,
             nuclear_norm: nuclear,

@@ -70,34 +70,27 @@ impl Component {
         }
         let trivial = objective <= problem.rounding && problem.free.is_empty();
         let warm = warm(&problem)?;
-        let mut coarse = None;
+        let mut coarse = Vec::new();
         if !trivial {
             // The lattices for multigrid come first: free heights are found with their help.
-            let mut next = coarsen(&input)?;
-            while let Some(domain) = domain_of(&next)
-                .ok()
-                .filter(|domain| domain.interior_len() >= COARSEST_GRID)
-            {
-                domains.push(Arc::new(domain));
-                next = coarsen(&next)?;
-            }
+            let found = coarser(&input)?;
+            domains.extend(found.iter().map(|(_, domain)| domain.clone()));
+            coarse = found;
             if !problem.free.is_empty() {
                 plate::fill(&mut problem, &domains, &plan)?;
                 problem.take_first_normals(options.energy)?;
                 give_back(&mut input, &problem, frame)?;
+                coarse = coarser(&input)?;
             }
-            coarse = Some(coarsen(&input)?);
         }
         let state = match warm {
             Some(state) => state,
             None => {
                 finer.push(problem);
-                for domain in &domains[1..] {
-                    let Some(input) = &coarse else { break };
+                for (input, domain) in &coarse {
                     if plan.wants_level(domain.interior_len()) {
                         finer.push(Problem::new(input, domain.clone(), frame, options)?);
                     }
-                    coarse = Some(coarsen(input)?);
                 }
                 problem = finer.remove(finer.len() - 1);
                 State::new(&problem, plan.first_rho(&problem))?
@@ -254,6 +247,20 @@ impl Answer {
 
 pub(crate) fn domain_of(input: &Input) -> Result<Domain> {
     Domain::with_occlusions(&input.field, |vertex| input.is_occluded(vertex))
+}
+
+/// The input on all coarser lattices that are of use, the finest first.
+fn coarser(input: &Input) -> Result<Vec<(Input, Arc<Domain>)>> {
+    let mut found: Vec<(Input, Arc<Domain>)> = Vec::new();
+    loop {
+        let next = coarsen(found.last().map_or(input, |(last, _)| last))?;
+        match domain_of(&next) {
+            Ok(domain) if domain.interior_len() >= COARSEST_GRID => {
+                found.push((next, Arc::new(domain)));
+            }
+            _ => return Ok(found),
+        }
+    }
 }
 
 /// Puts the heights that were found for free vertices where the given ones are.

@@ -28,6 +28,15 @@ pub enum Lambda {
 }
 
 impl Lambda {
+    fn named(name: &str) -> Option<Self> {
+        match name {
+            "small" => Some(Lambda::Small),
+            "medium" => Some(Lambda::Medium),
+            "big" => Some(Lambda::Big),
+            _ => None,
+        }
+    }
+
     /// The number that stands in the energy.
     pub fn value(self) -> f64 {
         match self {
@@ -50,18 +59,14 @@ impl FromStr for Lambda {
 
     /// Reads `small`, `medium`, `big` or a number.
     fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "small" => Ok(Lambda::Small),
-            "medium" => Ok(Lambda::Medium),
-            "big" => Ok(Lambda::Big),
-            _ => text.parse().map(Lambda::Value).map_err(|_| {
-                Error::option(
-                    "lambda",
-                    text,
-                    "must be small, medium, big or a number above zero",
-                )
-            }),
-        }
+        let number = || text.parse().ok().map(Lambda::Value);
+        Lambda::named(text).or_else(number).ok_or_else(|| {
+            Error::option(
+                "lambda",
+                text,
+                "must be small, medium, big or a number above zero",
+            )
+        })
     }
 }
 
@@ -75,7 +80,9 @@ impl<'de> Deserialize<'de> for Lambda {
         }
         match Raw::deserialize(deserializer)? {
             Raw::Number(value) => Ok(Lambda::Value(value)),
-            Raw::Name(name) => name.parse().map_err(serde::de::Error::custom),
+            // Numbers come as numbers: reading them from text would cost the wasm 15 kB.
+            Raw::Name(name) => Lambda::named(&name)
+                .ok_or_else(|| serde::de::Error::custom("must be small, medium or big")),
         }
     }
 }

@@ -21,7 +21,7 @@ pub(crate) struct Part {
 pub(crate) struct Parts {
     /// The part of each cell, or [`NONE`]; empty if there is only one part.
     labels: Vec<u32>,
-    /// The largest first.
+    /// The largest first, the others about in reading order.
     pub list: Vec<Part>,
 }
 
@@ -75,7 +75,10 @@ impl Parts {
             }
         };
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        order.sort_by_key(|number| std::cmp::Reverse(interior[*number]));
+        let largest = (0..boxes.len())
+            .rev()
+            .max_by_key(|number| interior[*number]);
+        order.swap(0, largest.unwrap_or(0));
         let list: Vec<Part> = order.iter().map(|number| part(*number)).collect();
         if list.len() == 1 {
             return Ok(Parts {

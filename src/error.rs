@@ -56,8 +56,8 @@ pub enum Error {
     /// No vertex has a height and six neighbours with heights, so there is nothing to solve.
     #[error(
         "no interior vertex: of {valid} valid vertices on a lattice of {rows} rows by {cols} \
-         columns none has all six neighbours valid; use a finer spacing, a larger input or a \
-         mask with fewer holes"
+         columns none has all six neighbours valid and no occlusion; use a finer spacing, a larger \
+         input, a mask with fewer holes or a higher threshold for occlusions"
     )]
     NoInterior {
         /// Rows of the lattice.

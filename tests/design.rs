@@ -257,6 +257,7 @@ proptest! {
             Err(Error::Underdetermined { .. } | Error::NoInterior { .. }) => return Ok(()),
             other => other.unwrap(),
         };
+        prop_assume!(instance.plate().is_some());
         let report = surface.report();
         let best = surface.heightfield().heights();
         prop_assert!(report.dual_bound <= report.objective);

@@ -8,23 +8,16 @@
 
 use super::cg::ConjugateGradients;
 use super::law::Law;
+use super::precise::Precise;
 use super::problem::Problem;
 use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
 use crate::stencil::{Ring, weights_of};
 
-/// Rounds of conjugate gradients, each from a residual in double precision.
-const ROUNDS: usize = 6;
+/// Residual at which the dual is balanced, relative to the first, and most iterations.
+const ENOUGH: (f64, usize) = (1e-9, 100);
 
-/// Iterations in a round, at most: single precision carries no further.
-const STEPS: usize = 12;
-
-/// Squared residuals at which a round and the whole are done, relative to the first.
-const ROUND: f64 = 1e-8;
-const DONE: f64 = 1e-18;
-
-/// A lower bound of the optimum; `cg` has to be given a new residual afterwards.
-/// `rounds` of conjugate gradients are added to `iterations`.
+/// A lower bound of the optimum. The iterations that it takes are added to `iterations`.
 pub(crate) fn balanced_bound(
     state: &mut State,
     problem: &Problem,
@@ -32,39 +25,25 @@ pub(crate) fn balanced_bound(
     iterations: &mut usize,
 ) -> Result<f64> {
     let mut q = try_filled("certificate", problem.domain.cells(), 0.0)?;
-    let mut bound = state.balance(problem, &q, cg);
-    let first = cg.energy();
-    for _ in 0..ROUNDS {
-        let start = cg.energy();
-        if start <= DONE * first {
-            break;
-        }
-        for _ in 0..STEPS {
-            if cg.energy() <= ROUND * start || !cg.step(&problem.domain) {
-                break;
-            }
-            *iterations += 1;
-        }
-        cg.correct(&problem.domain, &mut q);
-        bound = bound.max(state.balance(problem, &q, cg));
-    }
-    Ok(bound)
+    let mut precise = Precise::new(problem)?;
+    let rho = state.rho;
+    state.balance(problem, &q, &mut precise.residual);
+    *iterations += precise.solve(problem, rho, cg.multigrid(), &mut q, ENOUGH);
+    Ok(state.balance(problem, &q, &mut precise.residual))
 }
 
 impl State {
     /// `D(t(Y + ρCq))` for the best feasible `t`; the residual
-    /// `−(2λw(z + q − z̃) + Cᵀ(Y + ρCq))` goes to `cg`.
-    fn balance(&mut self, problem: &Problem, q: &[f64], cg: &mut ConjugateGradients) -> f64 {
+    /// `−(2λw(z + q − z̃) + Cᵀ(Y + ρCq))` goes to `residual`.
+    fn balance(&mut self, problem: &Problem, q: &[f64], residual: &mut [f64]) -> f64 {
         let law = self.law(problem);
         let State {
             z, v, rho, rolling, ..
         } = self;
         let (domain, rho) = (&problem.domain, *rho);
         let fidelity = 2.0 * problem.lambda;
-        let scale = cg.residual_scale();
         let (mut excess, mut conjugate) = (0.0f64, 0.0);
         let (mut inner, mut quadratic) = (0.0, 0.0);
-        let residual = &mut cg.residual;
         rolling.sweep(
             domain,
             v,
@@ -92,14 +71,13 @@ impl State {
                         let adjoint = sum.at(i);
                         let offset = z[cell] + q[cell] - problem.target[cell];
                         let gradient = fidelity * (weight[i] * offset) + adjoint;
-                        residual[cell] = (-scale * gradient) as f32;
+                        residual[cell] = -gradient;
                         inner += adjoint * problem.target[cell];
                         quadratic += adjoint * adjoint * inverse[i];
                     }
                 }
             },
         );
-        cg.restart(domain);
         let largest = if excess > 0.0 {
             law.largest() / excess
         } else {

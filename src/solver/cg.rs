@@ -60,6 +60,11 @@ impl ConjugateGradients {
         self.multigrid.set(rho);
     }
 
+    /// The preconditioner.
+    pub(crate) fn multigrid(&mut self) -> &mut Multigrid {
+        &mut self.multigrid
+    }
+
     /// Factor from `b − A z` to the system's scale.
     pub(crate) fn residual_scale(&self) -> f64 {
         1.0 / (self.multigrid.matrix().diagonal * self.unit)

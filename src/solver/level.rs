@@ -27,6 +27,8 @@ pub(crate) struct Level {
     /// Right-hand side energy at the start of the round.
     first_energy: f64,
     iteration: usize,
+    /// When the certificate was last balanced.
+    balanced: usize,
     cg_iterations: usize,
 }
 
@@ -114,6 +116,7 @@ impl Level {
             z_step: 0,
             round: 0,
             iteration: 0,
+            balanced: 0,
             cg_iterations: 0,
         };
         level.seconds.setup = start.elapsed().as_secs_f64();
@@ -153,7 +156,9 @@ impl Level {
 
     /// Goes on with the z-step under way; tells whether it is complete.
     fn run_z_step(&mut self, left: &mut usize) -> bool {
-        let limit = self.plan.cg_limit(self.iteration, self.best.gap());
+        let limit = self
+            .plan
+            .cg_limit(&self.problem, self.iteration, self.best.gap());
         loop {
             let tight = self.plan.cg_tolerance > 0.0;
             if tight
@@ -216,8 +221,10 @@ impl Level {
 
     fn check(&mut self, change: f64) -> Result<Option<StopReason>> {
         let mut certificate = self.state.certify(&self.problem);
-        let balance = !self.problem.free.is_empty() && self.plan.is_balance(self.iteration);
+        let balance =
+            !self.problem.free.is_empty() && self.plan.is_balance(self.iteration, self.balanced);
         if balance {
+            self.balanced = self.iteration;
             let bound = balanced_bound(
                 &mut self.state,
                 &self.problem,
@@ -248,7 +255,7 @@ impl Level {
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(rho);
         }
-        if changed || balance {
+        if changed {
             self.state.update(&self.problem, 0.0, &mut self.cg);
             self.first_energy = self.cg.energy();
         }

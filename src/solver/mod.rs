@@ -15,6 +15,7 @@ mod options;
 mod parts;
 mod per_cell;
 mod plate;
+mod precise;
 mod problem;
 mod report;
 mod schedule;

@@ -224,10 +224,13 @@ impl Options {
     }
 
     /// Passes after the first solve in which each vertex's norm is weighted by
-    /// one over its size in the solution before: they take away most of the
-    /// shrinkage that the energy does to large curvatures. Default 0, at most
-    /// 20; two or three are usual. The figures of the report are those of the
-    /// last pass's weighted energy.
+    /// one over its size around there in the solution before, which takes away a
+    /// part of the shrinkage that the energy does to large curvatures. It pays
+    /// where λ is small for the noise: at 10⁴ a noisy roof comes three times
+    /// closer to the truth, and a cylinder's curvature a fifth of the way; where
+    /// λ is large already, noise comes back. One pass does most of it. Default
+    /// 0, at most 20. The figures of the report are those of the last pass's
+    /// weighted energy.
     pub fn reweighting(mut self, passes: usize) -> Self {
         self.reweighting = passes;
         self

@@ -2,23 +2,18 @@
 
 use std::sync::Arc;
 
-use super::cg::ConjugateGradients;
-use super::law::Kind;
+use super::multigrid::Multigrid;
+use super::precise::Precise;
 use super::problem::Problem;
 use super::schedule::Plan;
-use super::state::State;
 use crate::domain::Domain;
 use crate::error::Result;
 
-/// Rounds of conjugate gradients, each from a residual in double precision.
-const ROUNDS: usize = 20;
+/// Residual at which a pass is done, relative to its first, and most iterations.
+const ENOUGH: (f64, usize) = (1e-10, 200);
 
-/// Iterations in a round, at most: single precision carries no further.
-const STEPS: usize = 12;
-
-/// Squared residuals at which a round and the whole are done, relative to the first.
-const ROUND: f64 = 1e-6;
-const DONE: f64 = 1e-16;
+/// Passes in which the tie break pulls towards the last one's plate: then it has no say.
+const PASSES: usize = 3;
 
 /// Sets `z̃` at the free vertices of a problem to the minimiser of
 /// `λ Σ w(z − z̃)² + ρ/2 Σ ‖H‖_F²` over what is given: the plate that ties are
@@ -26,37 +21,19 @@ const DONE: f64 = 1e-16;
 /// about `H = Y = 0`, solved to the end.
 pub(crate) fn fill(problem: &mut Problem, domains: &[Arc<Domain>], plan: &Plan) -> Result<()> {
     let rho = plan.first_rho(problem);
-    let kind = std::mem::replace(&mut problem.kind, Kind::Nuclear);
     // From the plane that the frame has taken away.
     for cell in &problem.free {
         problem.target[*cell as usize] = 0.0;
     }
-    let mut state = State::new(problem, rho)?;
-    let mut cg = ConjugateGradients::new(problem, domains, rho)?;
-    let mut first = 0.0;
-    for round in 0..ROUNDS {
-        // What the tie break pulls towards is where the plate is now, so that it has no say.
+    let mut z = problem.target.clone();
+    let mut multigrid = Multigrid::new(problem, domains, rho)?;
+    let mut precise = Precise::new(problem)?;
+    for _ in 0..PASSES {
+        precise.start(problem, rho, &z);
+        precise.solve(problem, rho, &mut multigrid, &mut z, ENOUGH);
         for cell in &problem.free {
-            problem.target[*cell as usize] = state.z[*cell as usize];
+            problem.target[*cell as usize] = z[*cell as usize];
         }
-        state.update(problem, 0.0, &mut cg);
-        let start = cg.energy();
-        if round == 0 {
-            first = start;
-        }
-        if start <= DONE * first {
-            break;
-        }
-        for _ in 0..STEPS {
-            if cg.energy() <= ROUND * start || !cg.step(&problem.domain) {
-                break;
-            }
-        }
-        cg.correct(&problem.domain, &mut state.z);
     }
-    for cell in &problem.free {
-        problem.target[*cell as usize] = state.z[*cell as usize];
-    }
-    problem.kind = kind;
     Ok(())
 }

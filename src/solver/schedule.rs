@@ -16,6 +16,8 @@ pub(crate) struct Plan {
     /// in the first one of a level.
     cg_iterations: usize,
     cg_rough: usize,
+    /// The same where vertices are free: there one V-cycle does less.
+    cg_free: usize,
     cg_first: usize,
     /// Residual, relative to `2λ z̃`, at which a z-step is solved; 0 if it need not be.
     pub cg_tolerance: f64,
@@ -69,6 +71,7 @@ impl Plan {
             relaxation: 1.8,
             cg_iterations: 1,
             cg_rough: 2,
+            cg_free: 4,
             cg_first: 3,
             cg_tolerance: 0.0,
             check_every: 10,
@@ -83,6 +86,7 @@ impl Plan {
                 relaxation: 1.0,
                 cg_iterations: 5000,
                 cg_rough: 5000,
+                cg_free: 5000,
                 cg_first: 5000,
                 cg_tolerance: 1e-8,
                 imbalance: 5000.0,
@@ -138,8 +142,10 @@ impl Plan {
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.
-    pub(crate) fn cg_limit(&self, iteration: usize, gap: f64) -> usize {
-        if iteration == 0 {
+    pub(crate) fn cg_limit(&self, problem: &Problem, iteration: usize, gap: f64) -> usize {
+        if !problem.free.is_empty() {
+            self.cg_free
+        } else if iteration == 0 {
             self.cg_first
         } else if gap > ROUGH {
             self.cg_rough
@@ -158,9 +164,10 @@ impl Plan {
         iteration.is_multiple_of(self.check_every) || self.is_last(iteration)
     }
 
-    /// Whether the certificate is to be balanced: it costs about as much as ten iterations.
-    pub(crate) fn is_balance(&self, iteration: usize) -> bool {
-        iteration.is_multiple_of(3 * self.check_every) || self.is_last(iteration)
+    /// Whether the certificate is to be balanced, which costs as much as some tens of iterations:
+    /// a quarter more of them than the `last` time.
+    pub(crate) fn is_balance(&self, iteration: usize, last: usize) -> bool {
+        iteration >= last + last / 4 + 2 * self.check_every || self.is_last(iteration)
     }
 
     fn is_last(&self, iteration: usize) -> bool {

@@ -157,6 +157,12 @@ impl Instance {
     /// The heights, and the thin plate through them where they mean nothing: the
     /// minimiser of `Σ λw(z − z̃)² + h/2 Σ ‖H‖_F²`.
     pub fn target(&self) -> Vec<f64> {
+        self.plate().expect("a plate that is held in place")
+    }
+
+    /// The same; `None` if what is given does not hold the plate, which on a strip one stencil
+    /// wide may bend without bending any stencil.
+    pub fn plate(&self) -> Option<Vec<f64>> {
         let given = |i: usize| self.constrained[i] || self.confidence[i] > 0.0;
         let mut target = self.field.heights().to_vec();
         let stencils = self.stencils();
@@ -165,7 +171,7 @@ impl Instance {
             .filter(|i| !self.constrained[*i])
             .collect();
         if unknown.iter().all(|i| given(*i)) {
-            return target;
+            return Some(target);
         }
         let mut place = vec![usize::MAX; target.len()];
         for (k, i) in unknown.iter().enumerate() {
@@ -195,11 +201,11 @@ impl Instance {
                 right[k] += self.weight(*i) * target[*i];
             }
         }
-        let plate = matrix.cholesky().unwrap().solve(&right);
+        let plate = matrix.cholesky()?.solve(&right);
         for (k, i) in unknown.iter().enumerate().filter(|(_, i)| !given(**i)) {
             target[*i] = plate[k];
         }
-        target
+        Some(target)
     }
 
     /// `1/√(1 + |∇z|²)` at each stencil.

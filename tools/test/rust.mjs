@@ -10,6 +10,8 @@ import { Skip, check } from './step.mjs';
 export async function format() {
   await component('fmt', 'rustfmt', native);
   await check('cargo', ['fmt', '--check'], native);
+  // A crate of its own; all else about it is left to `npm run bench`, for it takes minutes to compile.
+  await check('cargo', ['fmt', '--check', '--manifest-path', 'benches/Cargo.toml'], native);
 }
 
 export async function lint() {

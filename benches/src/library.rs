@@ -1,0 +1,37 @@
+//! The library itself.
+
+use std::error::Error;
+
+use developable::{Heightfield, Normalization, Options, fit};
+
+use crate::task::{Outcome, Settings};
+
+pub fn options(settings: &Settings) -> Options {
+    Options::default()
+        .lambda(settings.lambda)
+        .schedule(settings.schedule)
+        .gap(settings.gap)
+        .max_iterations(settings.max_iterations)
+        .normalization(if settings.normalize {
+            Normalization::UnitSquare
+        } else {
+            Normalization::Off
+        })
+}
+
+pub fn solve(field: &Heightfield, settings: &Settings) -> Result<Outcome, Box<dyn Error>> {
+    let surface = fit(field, &options(settings))?;
+    let report = surface.report();
+    Ok(Outcome {
+        vertices: report.interior + report.boundary + report.omitted,
+        seconds: report.seconds.total,
+        objective: report.objective,
+        dual_bound: Some(report.dual_bound),
+        iterations: report.iterations,
+        finest: report.levels.last().map_or(0, |level| level.iterations),
+        stop: serde_json::to_value(report.stop_reason)?
+            .as_str()
+            .unwrap_or_default()
+            .to_owned(),
+    })
+}

@@ -1,0 +1,120 @@
+/** Measurements, each in a process of its own and each made once, however many tables use it. */
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { native } from '../util/env.mjs';
+import { root } from '../util/paths.mjs';
+import { Problem } from '../util/problem.mjs';
+import { run } from '../util/process.mjs';
+import { exampleInput } from './inputs.mjs';
+import { count, seconds } from './text.mjs';
+
+/**
+ * @typedef {import('./task.mjs').Input} Input
+ * @typedef {import('./task.mjs').Settings} Settings
+ * @typedef {import('./task.mjs').Method} Method
+ * @typedef {import('./task.mjs').Measurement} Measurement
+ * @typedef {import('../../pkg/types.js').ExampleName} ExampleName
+ */
+
+const wasmProgram = fileURLToPath(new URL('wasm.mjs', import.meta.url));
+const target = join(root, 'target/bench');
+const nativeProgram = join(
+  target, 'release', process.platform === 'win32' ? 'developable-bench.exe' : 'developable-bench');
+
+/** @type {Omit<Settings, 'normalize'>} */
+const defaults = { lambda: 1e6, schedule: 'default', gap: 0.01, maxIterations: 20_000 };
+
+/** A measurement that takes longer than this hangs. */
+const limit = 15 * 60;
+
+/** Compiles the native program. */
+export async function buildNative() {
+  const manifest = join(root, 'benches/Cargo.toml');
+  const args = ['build', '--release', '--manifest-path', manifest, '--target-dir', target];
+  const { ok, failure } = await run('cargo', args, { env: native, cwd: root, show: true });
+  if (!ok) throw new Problem(`The native benchmark was not built (${failure}): see what cargo says above.`);
+}
+
+export class Bench {
+  /** @type {Map<string, Promise<any>>} */
+  #known = new Map();
+  #folder;
+
+  /**
+   * @param {object} options
+   * @param {string} options.folder for inputs
+   * @param {boolean} options.quick
+   * @param {Input} [options.file] the user's own input
+   */
+  constructor({ folder, quick, file }) {
+    this.#folder = folder;
+    this.quick = quick;
+    this.file = file;
+  }
+
+  /**
+   * @param {ExampleName} name
+   * @param {number} vertices about so many
+   * @param {Input['lattice']} [lattice]
+   * @returns {Promise<Input>}
+   */
+  example(name, vertices, lattice) {
+    return this.#once({ name, vertices, lattice }, () =>
+      exampleInput(this.#folder, name, vertices, lattice));
+  }
+
+  /**
+   * @param {Input} input
+   * @param {Partial<Settings>} [options]
+   * @param {Method} [method]
+   */
+  native(input, options, method = 'library') {
+    return this.#measure('native', nativeProgram, [], input, options, method);
+  }
+
+  /**
+   * @param {Input} input
+   * @param {Partial<Settings>} [options]
+   */
+  wasm(input, options) {
+    return this.#measure('wasm', process.execPath, [wasmProgram], input, options, 'library');
+  }
+
+  /**
+   * @param {string} where
+   * @param {string} program
+   * @param {string[]} args
+   * @param {Input} input
+   * @param {Partial<Settings> | undefined} options
+   * @param {Method} method
+   * @returns {Promise<Measurement>}
+   */
+  #measure(where, program, args, input, options, method) {
+    const settings = { ...defaults, normalize: input.normalize, ...options };
+    const task = JSON.stringify({ method, input, options: settings });
+    return this.#once({ where, task }, async () => {
+      const { ok, output, failure } = await run(program, [...args, task], { cwd: root, limit });
+      const result = output.split('\n').find((line) => line.startsWith('{'));
+      if (!ok || !result) throw new Problem(`The measurement ${where} ${task} gave nothing (${failure}): ${output}`);
+      /** @type {Measurement} */
+      const measurement = JSON.parse(result);
+      const what = method === 'library' ? `${settings.schedule} schedule` : method;
+      const to = `lambda ${settings.lambda.toExponential()}, gap ${settings.gap.toExponential(1)}`;
+      console.log(`  ${where}, ${what}, ${input.name} of ${count(measurement.vertices)}, ${to}: ${seconds(measurement.seconds)}`);
+      return measurement;
+    });
+  }
+
+  /**
+   * @template T
+   * @param {object} key
+   * @param {() => Promise<T>} make
+   * @returns {Promise<T>}
+   */
+  #once(key, make) {
+    const name = JSON.stringify(key);
+    const found = this.#known.get(name) ?? make();
+    this.#known.set(name, found);
+    return found;
+  }
+}

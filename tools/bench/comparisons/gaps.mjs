@@ -1,0 +1,46 @@
+/** Time to a certified gap, at the paper's three λ. */
+import { count, lambdaOf, ratio, seconds } from '../text.mjs';
+
+/**
+ * @typedef {import('../bench.mjs').Bench} Bench
+ * @typedef {import('../task.mjs').Input} Input
+ */
+
+/** @param {Bench} bench */
+export async function gaps(bench) {
+  const inputs = [await bench.example('page', bench.quick ? 20_000 : 300_000)];
+  if (bench.file) inputs.push(bench.file);
+  const rows = [];
+  for (const input of inputs) {
+    for (const lambda of [1e5, 1e6, 1e7]) {
+      const [vertices, ...cells] = await row(bench, input, lambda);
+      rows.push([input.name, vertices, lambdaOf(lambda), ...cells]);
+    }
+  }
+  return {
+    title: 'Time to a certified gap',
+    text: 'A large input at the paper\'s three λ, until the certificate says 1 % and 0.1 %. '
+      + 'Ratios: of the second time to the first, and of wasm to native.',
+    columns: ['input', 'vertices', 'λ', 'native 1 %', '0.1 %', 'ratio', 'wasm 1 %', '0.1 %', 'ratio',
+      'wasm : native, 1 %', '0.1 %'],
+    rows,
+  };
+}
+
+/**
+ * @param {Bench} bench
+ * @param {Input} input
+ * @param {number} lambda
+ */
+async function row(bench, input, lambda) {
+  const native = await bench.native(input, { lambda });
+  const nativeFine = await bench.native(input, { lambda, gap: 0.001 });
+  const wasm = await bench.wasm(input, { lambda });
+  const wasmFine = await bench.wasm(input, { lambda, gap: 0.001 });
+  return [
+    count(native.vertices),
+    seconds(native.seconds), seconds(nativeFine.seconds), ratio(nativeFine.seconds / native.seconds),
+    seconds(wasm.seconds), seconds(wasmFine.seconds), ratio(wasmFine.seconds / wasm.seconds),
+    ratio(wasm.seconds / native.seconds), ratio(wasmFine.seconds / nativeFine.seconds),
+  ];
+}

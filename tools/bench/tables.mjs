@@ -1,0 +1,19 @@
+/** Every comparison there is, by the name that chooses it. */
+import { accuracy } from './comparisons/accuracy.mjs';
+import { conic } from './comparisons/conic.mjs';
+import { gaps } from './comparisons/gaps.mjs';
+import { memory } from './comparisons/memory.mjs';
+import { nativeAndWasm } from './comparisons/native-and-wasm.mjs';
+import { schedules } from './comparisons/schedules.mjs';
+import { sizes } from './comparisons/sizes.mjs';
+
+/** @type {Record<string, (bench: import('./bench.mjs').Bench) => Promise<import('./text.mjs').Table>>} */
+export const tables = {
+  schedules,
+  conic,
+  'native-and-wasm': nativeAndWasm,
+  sizes,
+  memory,
+  gaps,
+  accuracy,
+};

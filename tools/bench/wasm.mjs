@@ -1,0 +1,56 @@
+/**
+ * One measurement in wasm: a task as JSON in, what it cost and what came out as JSON. The
+ * counterpart of the native program in `benches/`.
+ */
+import { readFile } from 'node:fs/promises';
+import { fit, init, initFiles, read } from '../../pkg/direct.js';
+import solverGlue from '../../pkg/wasm/solver.js';
+import { fastest } from './task.mjs';
+
+/**
+ * @typedef {import('./task.mjs').Task} Task
+ * @typedef {import('./task.mjs').Input} Input
+ * @typedef {import('./task.mjs').Measurement} Measurement
+ */
+
+/** @type {Task} */
+const task = JSON.parse(process.argv[2] ?? '');
+await init();
+// The file is decoded in the other instance: the solver's memory holds the solve alone.
+await initFiles();
+// The glue's own initialisation is done; again, it gives what it gave then.
+const { memory } = await solverGlue();
+const input = await readInput(task.input);
+/** The solver's memory after the first solve. */
+let bytes = 0;
+
+console.log(JSON.stringify(fastest(solve)));
+
+/** @param {Input} source */
+async function readInput({ file, lattice, spacing, noData }) {
+  const { width, height, data } = read(await readFile(file));
+  const common = { noData: noData ?? undefined };
+  return lattice === 'hex'
+    ? { rows: height, cols: width, spacing, heights: data, ...common }
+    : { width, height, pixelSize: spacing, data, ...common };
+}
+
+/** @returns {Measurement} */
+function solve() {
+  const surface = fit(input, task.options);
+  // It never shrinks; a second solve would add what fragmentation costs.
+  bytes ||= memory.buffer.byteLength;
+  const { report } = surface;
+  const given = 'heights' in input ? input.heights : input.data;
+  return {
+    vertices: report.interior + report.boundary + report.omitted,
+    seconds: report.seconds.total,
+    objective: report.objective,
+    dualBound: report.dualBound,
+    iterations: report.iterations,
+    finest: report.levels.at(-1)?.iterations ?? 0,
+    bytes,
+    copies: given.byteLength + surface.heights.byteLength + (surface.image?.data.byteLength ?? 0),
+    stop: report.stopReason,
+  };
+}

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use developable::{Heightfield, Normalization, Options, fit};
+use developable::{Heightfield, Normalization, Options, Report, fit};
 
 use crate::task::{Outcome, Settings};
 
@@ -20,8 +20,10 @@ pub fn options(settings: &Settings) -> Options {
 }
 
 pub fn solve(field: &Heightfield, settings: &Settings) -> Result<Outcome, Box<dyn Error>> {
-    let surface = fit(field, &options(settings))?;
-    let report = surface.report();
+    outcome(fit(field, &options(settings))?.report())
+}
+
+pub fn outcome(report: &Report) -> Result<Outcome, Box<dyn Error>> {
     Ok(Outcome {
         vertices: report.interior + report.boundary + report.omitted,
         seconds: report.seconds.total,

@@ -8,6 +8,7 @@ mod energy;
 mod input;
 mod library;
 mod memory;
+mod restart;
 mod task;
 
 use std::error::Error;
@@ -22,7 +23,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let task: Task = serde_json::from_str(&json)?;
     let field = input::read(&task.input)?;
     let measurement = best(|| match task.method {
-        Method::Library => library::solve(&field, &task.options),
+        Method::Library => match &task.from {
+            None => library::solve(&field, &task.options),
+            Some(from) => restart::solve(&field, from, &task.options),
+        },
         Method::Cholesky => cholesky::solve(&field, &task.options),
         Method::Conic => conic::solve(&field, &task.options),
     })?;

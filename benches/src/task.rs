@@ -13,6 +13,8 @@ pub struct Task {
     pub method: Method,
     pub input: Input,
     pub options: Settings,
+    /// Solve with these first, which is not measured, and go on from there.
+    pub from: Option<Settings>,
 }
 
 #[derive(Deserialize)]

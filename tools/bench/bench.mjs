@@ -13,6 +13,7 @@ import { count, seconds } from './text.mjs';
  * @typedef {import('./task.mjs').Settings} Settings
  * @typedef {import('./task.mjs').Method} Method
  * @typedef {import('./task.mjs').Measurement} Measurement
+ * @typedef {{ method?: Method, from?: Partial<Settings> }} How by which method, and from where
  * @typedef {import('../../pkg/types.js').ExampleName} ExampleName
  */
 
@@ -66,18 +67,19 @@ export class Bench {
   /**
    * @param {Input} input
    * @param {Partial<Settings>} [options]
-   * @param {Method} [method]
+   * @param {How} [how]
    */
-  native(input, options, method = 'library') {
-    return this.#measure('native', nativeProgram, [], input, options, method);
+  native(input, options, how) {
+    return this.#measure('native', nativeProgram, [], input, options, how);
   }
 
   /**
    * @param {Input} input
    * @param {Partial<Settings>} [options]
+   * @param {Pick<How, 'from'>} [how]
    */
-  wasm(input, options) {
-    return this.#measure('wasm', process.execPath, [wasmProgram], input, options, 'library');
+  wasm(input, options, how) {
+    return this.#measure('wasm', process.execPath, [wasmProgram], input, options, how);
   }
 
   /**
@@ -86,19 +88,20 @@ export class Bench {
    * @param {string[]} args
    * @param {Input} input
    * @param {Partial<Settings> | undefined} options
-   * @param {Method} method
+   * @param {How} [how]
    * @returns {Promise<Measurement>}
    */
-  #measure(where, program, args, input, options, method) {
-    const settings = { ...defaults, normalize: input.normalize, ...options };
-    const task = JSON.stringify({ method, input, options: settings });
+  #measure(where, program, args, input, options, { method = 'library', from } = {}) {
+    const all = { ...defaults, normalize: input.normalize };
+    const settings = { ...all, ...options };
+    const task = JSON.stringify({ method, input, options: settings, from: from && { ...all, ...from } });
     return this.#once({ where, task }, async () => {
       const { ok, output, failure } = await run(program, [...args, task], { cwd: root, limit });
       const result = output.split('\n').find((line) => line.startsWith('{'));
       if (!ok || !result) throw new Problem(`The measurement ${where} ${task} gave nothing (${failure}): ${output}`);
       /** @type {Measurement} */
       const measurement = JSON.parse(result);
-      const what = method === 'library' ? `${settings.schedule} schedule` : method;
+      const what = from ? 'restart' : method === 'library' ? `${settings.schedule} schedule` : method;
       const to = `lambda ${settings.lambda.toExponential()}, gap ${settings.gap.toExponential(1)}`;
       console.log(`  ${where}, ${what}, ${input.name} of ${count(measurement.vertices)}, ${to}: ${seconds(measurement.seconds)}`);
       return measurement;

@@ -4,6 +4,7 @@ import { conic } from './comparisons/conic.mjs';
 import { gaps } from './comparisons/gaps.mjs';
 import { memory } from './comparisons/memory.mjs';
 import { nativeAndWasm } from './comparisons/native-and-wasm.mjs';
+import { restarts } from './comparisons/restarts.mjs';
 import { schedules } from './comparisons/schedules.mjs';
 import { sizes } from './comparisons/sizes.mjs';
 
@@ -16,4 +17,5 @@ export const tables = {
   memory,
   gaps,
   accuracy,
+  restarts,
 };

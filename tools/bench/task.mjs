@@ -23,6 +23,7 @@
  * @property {Method} method
  * @property {Input} input
  * @property {Settings} options
+ * @property {Settings} [from] solve with these first, which is not measured, and go on from there
  *
  * @typedef {object} Measurement
  * @property {number} vertices

@@ -5,12 +5,14 @@
 import { readFile } from 'node:fs/promises';
 import { fit, init, initFiles, read } from '../../pkg/direct.js';
 import solverGlue from '../../pkg/wasm/solver.js';
+import { restart } from './restart.mjs';
 import { fastest } from './task.mjs';
 
 /**
  * @typedef {import('./task.mjs').Task} Task
  * @typedef {import('./task.mjs').Input} Input
  * @typedef {import('./task.mjs').Measurement} Measurement
+ * @typedef {Parameters<typeof fit>[0]} Field
  */
 
 /** @type {Task} */
@@ -35,16 +37,26 @@ async function readInput({ file, lattice, spacing, noData }) {
     : { width, height, pixelSize: spacing, data, ...common };
 }
 
+/**
+ * @param {Field} field
+ * @param {import('./task.mjs').Settings} options
+ */
+function cold(field, options) {
+  const surface = fit(field, options);
+  return { surface, seconds: surface.report.seconds.total };
+}
+
 /** @returns {Measurement} */
 function solve() {
-  const surface = fit(input, task.options);
+  const { from, options } = task;
+  const { surface, seconds } = from ? restart(input, from, options) : cold(input, options);
   // It never shrinks; a second solve would add what fragmentation costs.
   bytes ||= memory.buffer.byteLength;
   const { report } = surface;
   const given = 'heights' in input ? input.heights : input.data;
   return {
     vertices: report.interior + report.boundary + report.omitted,
-    seconds: report.seconds.total,
+    seconds,
     objective: report.objective,
     dualBound: report.dualBound,
     iterations: report.iterations,

@@ -17,8 +17,8 @@ export async function conic(bench) {
     /** @type {[string, Measurement][]} */
     const runs = [
       ['developable, 1e-3', ours],
-      ['Clarabel, 1e-3', await bench.native(input, { gap: 1e-3 }, 'conic')],
-      ['Clarabel, 1e-8', await bench.native(input, { gap: 1e-8 }, 'conic')],
+      ['Clarabel, 1e-3', await bench.native(input, { gap: 1e-3 }, { method: 'conic' })],
+      ['Clarabel, 1e-8', await bench.native(input, { gap: 1e-8 }, { method: 'conic' })],
     ];
     for (const [name, run] of runs) {
       rows.push([

@@ -46,7 +46,7 @@ async function rowsOf(bench, input) {
   const reference = await bench.native(input, paper);
   const same = { gap: gap(reference) };
   const base = { native: await bench.native(input, same), wasm: await bench.wasm(input, same) };
-  const cholesky = await bench.native(input, paper, 'cholesky');
+  const cholesky = await bench.native(input, paper, { method: 'cholesky' });
   if (Math.abs(excess(cholesky)) > agreement) {
     throw new Problem(`The paper's schedule gives objectives that differ by ${excess(cholesky)}: one of the two programs is wrong.`);
   }

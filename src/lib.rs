@@ -36,6 +36,10 @@
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
 //! [`Heightfield::to_image`], or [`formats`] for files.
 //!
+//! An [`Input`] may say more than heights: how far each is to be trusted, which must be met
+//! exactly, where the surface is torn ([`Occlusions`]). A [`Solver`] that has stopped can be
+//! restarted with other options or another input, from the answer it has.
+//!
 //! Wherever a height is NaN there is no data: holes, islands and outlines of any
 //! shape are welcome. Lengths and heights are in one unit of the user's choice.
 //!

@@ -53,5 +53,5 @@ Times change from machine to machine; what to look at are the ratios, all of whi
 one run. Each measurement has a process of its own and is ${rule}. Everything runs in one thread.
 Inputs are the library's own examples under noise, so that nothing else is needed to repeat this.
 `;
-  return [head, ...made.map(asMarkdown)].join('\n').concat('\n');
+  return [head.trimEnd(), ...made.map(asMarkdown)].join('\n\n').concat('\n');
 }

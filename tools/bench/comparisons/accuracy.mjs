@@ -9,7 +9,7 @@ const maxIterations = 20_000;
 
 /** @param {Bench} bench */
 export async function accuracy(bench) {
-  const input = await bench.example('page', bench.quick ? 5_000 : 50_000);
+  const input = await bench.example('roof', bench.quick ? 5_000 : 50_000);
   const goals = [0.01, 1e-3, 1e-4, 1e-5, 1e-6];
   const rows = [];
   let first;

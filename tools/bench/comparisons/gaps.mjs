@@ -8,7 +8,7 @@ import { count, lambdaOf, ratio, seconds } from '../text.mjs';
 
 /** @param {Bench} bench */
 export async function gaps(bench) {
-  const inputs = [await bench.example('page', bench.quick ? 20_000 : 300_000)];
+  const inputs = [await bench.example('roof', bench.quick ? 20_000 : 250_000)];
   if (bench.file) inputs.push(bench.file);
   const rows = [];
   for (const input of inputs) {

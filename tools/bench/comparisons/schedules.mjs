@@ -17,9 +17,8 @@ export async function schedules(bench) {
   const inputs = bench.quick
     ? [await bench.example('page', 3_000)]
     : [
+        await bench.example('page', 3_000),
         await bench.example('page', 10_000),
-        await bench.example('page', 30_000),
-        await bench.example('roof', 100_000),
       ];
   const rows = [];
   for (const input of inputs) rows.push(...await rowsOf(bench, input));

@@ -195,6 +195,26 @@ pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Res
     Ok(requested)
 }
 
+/// Whether `found` values fill a shape within [`MAX_CELLS`].
+pub(crate) fn check_shape(
+    what: &'static str,
+    rows: usize,
+    cols: usize,
+    found: usize,
+) -> Result<()> {
+    let expected = checked_cells(what, rows, cols)?;
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::Shape {
+        what,
+        rows,
+        cols,
+        expected,
+        found,
+    })
+}
+
 /// A vector of `len` copies of `value`, with a failed allocation as an error.
 pub(crate) fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
     let mut out = Vec::new();

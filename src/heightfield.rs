@@ -1,6 +1,6 @@
 //! Heights: on the hexagonal lattice, and on the square pixels of an image.
 
-use crate::error::{Error, Result, checked_cells, positive};
+use crate::error::{Error, Result, check_shape, positive};
 use crate::lattice::Lattice;
 
 /// Heights at the vertices of a [`Lattice`], in the lattice's own units.
@@ -211,16 +211,7 @@ impl HeightImage {
 }
 
 fn check_values(what: &'static str, rows: usize, cols: usize, values: &[f64]) -> Result<()> {
-    let expected = checked_cells(what, rows, cols)?;
-    if values.len() != expected {
-        return Err(Error::Shape {
-            what,
-            rows,
-            cols,
-            expected,
-            found: values.len(),
-        });
-    }
+    check_shape(what, rows, cols, values.len())?;
     match values.iter().position(|v| v.is_infinite()) {
         None => Ok(()),
         Some(i) => Err(Error::NotFinite {
@@ -234,15 +225,7 @@ fn check_values(what: &'static str, rows: usize, cols: usize, values: &[f64]) ->
 }
 
 fn apply_mask(rows: usize, cols: usize, values: &mut [f64], keep: &[u8]) -> Result<()> {
-    if keep.len() != values.len() {
-        return Err(Error::Shape {
-            what: "mask",
-            rows,
-            cols,
-            expected: values.len(),
-            found: keep.len(),
-        });
-    }
+    check_shape("mask", rows, cols, keep.len())?;
     for (v, k) in values.iter_mut().zip(keep) {
         if *k == 0 {
             *v = f64::NAN;

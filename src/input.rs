@@ -1,6 +1,6 @@
 //! What a solve is about: heights, and what is known about them.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_shape};
 use crate::heightfield::Heightfield;
 use crate::occlusions::Occlusions;
 
@@ -70,28 +70,11 @@ impl Input {
     /// 0 where there is a height.
     pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
         self.check_length("confidence", confidence.len())?;
-        let cols = self.field.lattice().cols();
-        for (i, (weight, height)) in confidence.iter().zip(self.field.heights()).enumerate() {
-            if height.is_nan() {
-                continue;
-            }
-            if !weight.is_finite() {
-                return Err(Error::NotFinite {
-                    what: "confidence",
-                    value: *weight,
-                    row: i / cols,
-                    col: i % cols,
-                    advice: "0 means that a height is not to be trusted at all",
-                });
-            }
-            if *weight < 0.0 {
-                return Err(Error::option(
-                    "confidence",
-                    format!("{weight} at row {}, column {}", i / cols, i % cols),
-                    "must not be below 0",
-                ));
-            }
-        }
+        check_confidence(
+            &confidence,
+            self.field.heights(),
+            self.field.lattice().cols(),
+        )?;
         self.confidence = confidence;
         Ok(self)
     }
@@ -137,16 +120,7 @@ impl Input {
 
     fn check_length(&self, what: &'static str, found: usize) -> Result<()> {
         let lattice = self.field.lattice();
-        if found == lattice.len() {
-            return Ok(());
-        }
-        Err(Error::Shape {
-            what,
-            rows: lattice.rows(),
-            cols: lattice.cols(),
-            expected: lattice.len(),
-            found,
-        })
+        check_shape(what, lattice.rows(), lattice.cols(), found)
     }
 
     /// Whether the height of a vertex is given for good.
@@ -159,12 +133,43 @@ impl Input {
         self.confidence.get(vertex).copied().unwrap_or(1.0)
     }
 
+    /// Whether the height of a vertex means anything.
+    pub(crate) fn is_given(&self, vertex: usize) -> bool {
+        self.weight(vertex) > 0.0 || self.is_constrained(vertex)
+    }
+
     /// Whether no Hessian is taken at a vertex though there could be one.
     pub(crate) fn is_occluded(&self, vertex: usize) -> bool {
         self.occlusions
             .as_ref()
             .is_some_and(|occlusions| occlusions.vertices()[vertex] != 0)
     }
+}
+
+/// Makes sure that every height, in rows of `cols`, has a confidence that is finite and not below 0.
+pub(crate) fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
+    for (i, (weight, height)) in confidence.iter().zip(heights).enumerate() {
+        if height.is_nan() {
+            continue;
+        }
+        if !weight.is_finite() {
+            return Err(Error::NotFinite {
+                what: "confidence",
+                value: *weight,
+                row: i / cols,
+                col: i % cols,
+                advice: "0 means that a height is not to be trusted at all",
+            });
+        }
+        if *weight < 0.0 {
+            return Err(Error::option(
+                "confidence",
+                format!("{weight} at row {}, column {}", i / cols, i % cols),
+                "must not be below 0",
+            ));
+        }
+    }
+    Ok(())
 }
 
 impl From<Heightfield> for Input {

@@ -1,7 +1,7 @@
 //! Occlusions: where a heightfield jumps, as a scan does at the edge of what
 //! hides something behind it (paper, Sec. 4.1 and Fig. 9).
 
-use crate::error::{Error, Result, positive};
+use crate::error::{Result, check_shape, positive};
 use crate::heightfield::Heightfield;
 use crate::lattice::{Lattice, NEIGHBOURS, Towards};
 use crate::solver::Normalization;
@@ -33,7 +33,7 @@ impl Occlusions {
     /// Linear cost.
     ///
     /// # Errors
-    /// [`Error::Option`] unless the threshold is finite and above zero.
+    /// [`Error::Option`](crate::Error::Option) unless the threshold is finite and above zero.
     pub fn detect(
         field: &Heightfield,
         threshold: f64,
@@ -84,9 +84,9 @@ impl Occlusions {
     /// Vertices where no Hessian is to be taken: those where `mask` is not 0.
     ///
     /// # Errors
-    /// [`Error::Shape`] if there is not one value for each vertex.
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one value for each vertex.
     pub fn from_vertices(lattice: &Lattice, mask: &[u8]) -> Result<Self> {
-        check_length("occlusions", lattice, mask.len())?;
+        check_shape("occlusions", lattice.rows(), lattice.cols(), mask.len())?;
         Ok(Occlusions {
             edges: vec![0; mask.len()],
             vertices: mask.iter().map(|keep| u8::from(*keep != 0)).collect(),
@@ -98,9 +98,9 @@ impl Occlusions {
     /// either of its ends says so.
     ///
     /// # Errors
-    /// [`Error::Shape`] if there is not one byte for each vertex.
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one byte for each vertex.
     pub fn from_edges(lattice: &Lattice, edges: &[u8]) -> Result<Self> {
-        check_length("broken edges", lattice, edges.len())?;
+        check_shape("broken edges", lattice.rows(), lattice.cols(), edges.len())?;
         let mut both = vec![0; edges.len()];
         for (i, bits) in edges.iter().enumerate() {
             let (row, col) = (i / lattice.cols(), i % lattice.cols());
@@ -117,17 +117,9 @@ impl Occlusions {
     /// Both sets together.
     ///
     /// # Errors
-    /// [`Error::Shape`] if they are of different lattices.
+    /// [`Error::Shape`](crate::Error::Shape) if they are of different lattices.
     pub fn union(mut self, other: &Occlusions) -> Result<Self> {
-        if self.vertices.len() != other.vertices.len() {
-            return Err(Error::Shape {
-                what: "occlusions",
-                rows: 1,
-                cols: self.vertices.len(),
-                expected: self.vertices.len(),
-                found: other.vertices.len(),
-            });
-        }
+        check_shape("occlusions", 1, self.vertices.len(), other.vertices.len())?;
         for (a, b) in self.edges.iter_mut().zip(&other.edges) {
             *a |= b;
         }
@@ -183,19 +175,6 @@ fn mark(
             edges[lattice.index(row as usize, col as usize)] |= 1 << k;
         }
     }
-}
-
-fn check_length(what: &'static str, lattice: &Lattice, found: usize) -> Result<()> {
-    if found == lattice.len() {
-        return Ok(());
-    }
-    Err(Error::Shape {
-        what,
-        rows: lattice.rows(),
-        cols: lattice.cols(),
-        expected: lattice.len(),
-        found,
-    })
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native

@@ -65,8 +65,7 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
     }
 
     let own = |index: usize| {
-        let given = input.weight(index) > 0.0 || input.is_constrained(index);
-        if given {
+        if input.is_given(index) {
             input.field.heights()[index]
         } else {
             f64::NAN

@@ -5,7 +5,7 @@ use std::io;
 use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar, WriteOptions, WriterBuilder};
 
 use super::{Buffer, Decoded, Format};
-use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
 
 /// Longest header read, in bytes; NumPy has the same limit.
 const MAX_HEADER: usize = 10_000;
@@ -170,16 +170,7 @@ pub fn write_npy(rows: usize, cols: usize, values: &[f64]) -> Result<Vec<u8>> {
     if rows == 0 || cols == 0 {
         return Err(Error::Empty { what });
     }
-    let expected = checked_cells(what, rows, cols)?;
-    if values.len() != expected {
-        return Err(Error::Shape {
-            what,
-            rows,
-            cols,
-            expected,
-            found: values.len(),
-        });
-    }
+    check_shape(what, rows, cols, values.len())?;
     let mut file = Buffer::default();
     let written = write(&mut file, rows, cols, values);
     file.finish("NPY file", written)

@@ -2,7 +2,7 @@
 //! the vertex, that is nearest.
 
 use super::{Cell, ON_GRID, bilinear_weights, in_pixels, pixel_at};
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Result, check_shape, try_filled};
 use crate::heightfield::{HeightImage, Heightfield};
 use crate::lattice::Lattice;
 
@@ -17,7 +17,7 @@ impl HeightImage {
     /// the pixels that constrain the vertex.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn constraints_on(&self, surface: &Heightfield) -> Result<Heightfield> {
         let lattice = surface.lattice();
         let within = |vertex: usize| !surface.heights()[vertex].is_nan();
@@ -48,9 +48,9 @@ impl HeightImage {
     /// Flags of the pixels, at the vertices of a lattice: each has its nearest pixel's.
     ///
     /// # Errors
-    /// [`Error::Shape`] if there is not one for each pixel, [`Error::OutOfMemory`].
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn flags_on(&self, lattice: &Lattice, flags: &[u8]) -> Result<Vec<u8>> {
-        check_flags(self.height(), self.width(), flags)?;
+        check_shape("occlusions", self.height(), self.width(), flags.len())?;
         let mut out = try_filled("flags", lattice.len(), 0)?;
         for (i, flag) in out.iter_mut().enumerate() {
             let p = lattice.position(i / lattice.cols(), i % lattice.cols());
@@ -63,9 +63,9 @@ impl HeightImage {
     /// has its nearest vertex's, the others 0.
     ///
     /// # Errors
-    /// [`Error::Shape`] if there is not one for each vertex, [`Error::OutOfMemory`].
+    /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn flags_from(&self, lattice: &Lattice, flags: &[u8]) -> Result<Vec<u8>> {
-        check_flags(lattice.rows(), lattice.cols(), flags)?;
+        check_shape("occlusions", lattice.rows(), lattice.cols(), flags.len())?;
         let mut out = try_filled("flags", self.values().len(), 0)?;
         for (i, flag) in out.iter_mut().enumerate() {
             if !self.values()[i].is_nan() {
@@ -102,19 +102,6 @@ fn mean(cell: &Cell) -> (f64, f64) {
         .filter(|(z, _)| !z.is_nan())
         .fold((0.0, 0.0), |(sum, share), (z, w)| (sum + w * z, share + w));
     (sum / share, share)
-}
-
-fn check_flags(rows: usize, cols: usize, flags: &[u8]) -> Result<()> {
-    if flags.len() == rows * cols {
-        return Ok(());
-    }
-    Err(Error::Shape {
-        what: "occlusions",
-        rows,
-        cols,
-        expected: rows * cols,
-        found: flags.len(),
-    })
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::schedule::Plan;
 use super::state::State;
 use crate::domain::Domain;
 use crate::error::{Error, Result};
+use crate::heightfield::Heightfield;
 use crate::input::Input;
 
 /// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
@@ -267,17 +268,12 @@ fn coarser(input: &Input) -> Result<Vec<(Input, Arc<Domain>)>> {
 fn give_back(input: &mut Input, problem: &Problem, frame: &Frame) -> Result<()> {
     let domain = &problem.domain;
     let lattice = *input.field.lattice();
-    let placeholder = Input::new(crate::Heightfield::new(
-        crate::Lattice::new(1, 1, 1.0)?,
-        vec![0.0],
-    )?);
-    let old = std::mem::replace(&mut input.field, placeholder.field);
-    let mut heights = old.into_heights();
+    let mut heights = input.field.heights().to_vec();
     for cell in &problem.free {
         let cell = *cell as usize;
         heights[domain.lattice_index(cell)] =
             frame.outward(position(domain, cell), problem.target[cell]);
     }
-    input.field = crate::Heightfield::new(lattice, heights)?;
+    input.field = Heightfield::new(lattice, heights)?;
     Ok(())
 }

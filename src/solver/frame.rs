@@ -24,10 +24,7 @@ impl Frame {
         let field = input.field();
         let scale = normalization.factor(field);
         // Heights that mean nothing do not count.
-        let given = |v: &(usize, usize)| {
-            let vertex = field.lattice().index(v.0, v.1);
-            input.weight(vertex) > 0.0 || input.is_constrained(vertex)
-        };
+        let given = |v: &(usize, usize)| input.is_given(field.lattice().index(v.0, v.1));
         let cells = || domain.active().cells();
         let vertices = || cells().map(|c| domain.lattice_vertex(c)).filter(given);
         let n = vertices().count() as f64;

@@ -250,12 +250,9 @@ impl Level {
         let rho = self
             .plan
             .next_rho(&self.problem, self.state.rho, &certificate, change);
-        let changed = reason.is_none() && rho != self.state.rho;
-        if changed {
+        if reason.is_none() && rho != self.state.rho {
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(rho);
-        }
-        if changed {
             self.state.update(&self.problem, 0.0, &mut self.cg);
             self.first_energy = self.cg.energy();
         }
@@ -266,9 +263,8 @@ impl Level {
     /// size in the best surface so far. A reason to stop at once comes with it.
     pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
         self.problem.reweight(&self.best.z)?;
-        let mut certificate = self.state.certify(&self.problem);
+        let certificate = self.state.certify(&self.problem);
         self.best = Best::new(&self.state.z, &certificate);
-        certificate.dual_bound = self.best.dual_bound;
         self.state.update(&self.problem, 0.0, &mut self.cg);
         self.first_energy = self.cg.energy();
         self.z_step = 0;

@@ -190,7 +190,7 @@ impl Solver {
                     (input, domain)
                 }
             };
-            let corner = self.corner(number);
+            let corner = self.parts.corner(number);
             let warm = |problem: &Problem| match &self.memory {
                 Some(memory) => memory.state(problem, corner, &self.frame),
                 None => Ok(None),
@@ -212,14 +212,6 @@ impl Solver {
     fn next_number(&self) -> Option<usize> {
         let next = self.answers.len();
         (next < self.parts.list.len()).then_some(next)
-    }
-
-    /// Vertex of the whole lattice that is `(0, 0)` of a part's.
-    fn corner(&self, number: usize) -> (usize, usize) {
-        match self.parts.list.len() {
-            1 => (0, 0),
-            _ => self.parts.list[number].corner,
-        }
     }
 
     /// The worst of the reasons why parts stopped.
@@ -248,10 +240,9 @@ impl Solver {
             let Some(running) = &mut self.running else {
                 break;
             };
-            let reason = running.advance(&mut left)?;
-            if let (Some(reason), Some(done)) = (reason, self.running.take_if(|_| reason.is_some()))
-            {
-                self.answers.push(done.into_answer(reason));
+            if let Some(reason) = running.advance(&mut left)? {
+                let done = self.running.take();
+                self.answers.extend(done.map(|c| c.into_answer(reason)));
                 self.next_part()?;
             }
         }
@@ -323,7 +314,7 @@ impl Solver {
         let mut levels: Vec<LevelReport> = Vec::new();
         let mut seconds = Seconds::default();
         for (number, answer) in answers().enumerate() {
-            let (top, left) = self.corner(number);
+            let (top, left) = self.parts.corner(number);
             answer
                 .problem
                 .write_heights(&self.frame, &answer.best.z, |(row, col), z| {
@@ -343,8 +334,7 @@ impl Solver {
             }
         }
         restore_omitted(&self.domain, &self.input, &mut heights);
-        let constrained = (0..lattice.len())
-            .filter(|v| self.input.is_constrained(*v) && !self.input.field.heights()[*v].is_nan());
+        let constrained = (0..lattice.len()).filter(|v| self.input.is_constrained(*v));
         for vertex in constrained.clone() {
             // To the last bit.
             heights[vertex] = self.input.field.heights()[vertex];
@@ -449,10 +439,7 @@ impl Memory {
         }
         let number = self.parts.of(cell);
         let answer = self.answers.get(number)?;
-        let (top, left) = match self.parts.list.len() {
-            1 => (0, 0),
-            _ => self.parts.list[number].corner,
-        };
+        let (top, left) = self.parts.corner(number);
         let own = ((row - top) as isize, (col - left) as isize);
         Some((answer, answer.problem.domain.cell(own)?))
     }

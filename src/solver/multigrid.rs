@@ -30,16 +30,16 @@ const WELL_CONDITIONED: f32 = 8.0;
 /// Most smoothing steps on the coarsest lattice.
 const BOTTOM_STEPS: f32 = 40.0;
 
-/// How stiff that spring is, relative to the finest lattice: fewest iterations on drawn
-/// curves; 1 and 0.001 took half as many again.
-const SPRING: f64 = 0.03;
+/// A lattice that needs more steps than that, and has no more unknowns than
+/// this, is solved directly.
+const DIRECT: usize = 300;
 
 /// Added to its diagonal, relative: keeps a matrix that is singular but for rounding positive.
 const SHIFT: f32 = 1e-5;
 
-/// A lattice that needs more steps than that, and has no more unknowns than
-/// this, is solved directly.
-const DIRECT: usize = 300;
+/// How stiff the springs of [`Shares`] are, relative to the finest lattice: fewest iterations on drawn
+/// curves; 1 and 0.001 took half as many again.
+const SPRING: f64 = 0.03;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Multigrid {

@@ -102,6 +102,14 @@ impl Parts {
         self.labels.get(cell).map_or(0, |label| *label as usize)
     }
 
+    /// Vertex of the whole lattice that is `(0, 0)` of a part's: one that is alone has the whole.
+    pub(crate) fn corner(&self, number: usize) -> (usize, usize) {
+        match self.list.len() {
+            1 => (0, 0),
+            _ => self.list[number].corner,
+        }
+    }
+
     /// What there is to be solved on one of several parts.
     pub(crate) fn crop(&self, input: &Input, domain: &Domain, number: usize) -> Result<Input> {
         let part = &self.list[number];
@@ -146,10 +154,7 @@ impl Parts {
 /// # Errors
 /// [`Error::Underdetermined`] for the first that is not held.
 pub(crate) fn check_held(input: &Input, domain: &Domain) -> Result<()> {
-    let given = |cell: usize| {
-        let vertex = domain.lattice_index(cell);
-        input.weight(vertex) > 0.0 || input.is_constrained(vertex)
-    };
+    let given = |cell: usize| input.is_given(domain.lattice_index(cell));
     if domain.active().cells().all(given) {
         return Ok(());
     }

@@ -12,13 +12,12 @@ pub(crate) struct Plan {
     schedule: Schedule,
     /// Over-relaxation of `Cz` in the H-step and the dual update.
     pub relaxation: f64,
-    /// Conjugate-gradient iterations in a z-step, at most; while the gap is above [`ROUGH`]; and
-    /// in the first one of a level.
+    /// Conjugate-gradient iterations in a z-step, at most; while the gap is above [`ROUGH`]; in
+    /// the first one of a level; and where vertices are free, for there one V-cycle does less.
     cg_iterations: usize,
     cg_rough: usize,
-    /// The same where vertices are free: there one V-cycle does less.
-    cg_free: usize,
     cg_first: usize,
+    cg_free: usize,
     /// Residual, relative to `2λ z̃`, at which a z-step is solved; 0 if it need not be.
     pub cg_tolerance: f64,
     /// Iterations from one certificate to the next.

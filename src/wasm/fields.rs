@@ -5,8 +5,8 @@ use serde::Deserialize;
 use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
-use super::{Failure, Result};
-use crate::error::{Error, checked_cells, try_filled};
+use super::Result;
+use crate::error::{Error, check_shape, try_filled};
 use crate::heightfield::{HeightImage, Heightfield};
 use crate::lattice::Lattice;
 
@@ -116,17 +116,8 @@ pub(super) fn values(
         Some(data) => data.clone(),
         None => Float64Array::new(data),
     };
-    let expected = checked_cells(what, rows, cols)?;
     let found = data.length() as usize;
-    if found != expected {
-        return Err(Failure::from(Error::Shape {
-            what,
-            rows,
-            cols,
-            expected,
-            found,
-        }));
-    }
+    check_shape(what, rows, cols, found)?;
     let mut values = try_filled(what, found, 0.0)?;
     data.copy_to(&mut values);
     if let Some(no_data) = no_data {

@@ -8,9 +8,9 @@ use wasm_bindgen::prelude::*;
 use super::fields::{ImageInput, LatticeInput, bytes, values};
 use super::settings::Settings;
 use super::{Failure, Result};
-use crate::error::{Error, try_filled};
+use crate::error::try_filled;
 use crate::heightfield::{HeightImage, Heightfield};
-use crate::input::Input;
+use crate::input::{Input, check_confidence};
 use crate::occlusions::Occlusions;
 
 /// What may be known besides the heights: the rest of `HeightImage` and
@@ -66,19 +66,13 @@ impl Source {
             }
             false => input.heights("height image", &input.data)?,
         };
-        let constraints = match known.constraints.is_undefined() {
-            true => None,
-            false => Some(input.heights("constraints", &known.constraints)?),
-        };
-        let confidence = match known.confidence.is_undefined() {
-            true => None,
-            false => {
-                let (rows, cols) = (input.height, input.width);
-                let mut given = values("confidence", rows, cols, &known.confidence, None)?;
-                check_confidence(cols, &mut given, heights.values())?;
-                Some(input.image("confidence", given)?)
-            }
-        };
+        let constraints = given(&known.constraints)
+            .map(|value| input.heights("constraints", value))
+            .transpose()?;
+        let shape = (input.height, input.width);
+        let confidence = given(&known.confidence)
+            .map(|value| input.image("confidence", confidence(value, shape, heights.values())?))
+            .transpose()?;
         Ok(Source::Image(Image {
             heights,
             design,
@@ -98,18 +92,12 @@ impl Source {
             false => input.heights("heightfield", &input.heights)?,
         };
         let lattice = *heights.lattice();
-        let constraints = match known.constraints.is_undefined() {
-            true => None,
-            false => Some(input.heights("constraints", &known.constraints)?),
-        };
-        let confidence = match known.confidence.is_undefined() {
-            true => None,
-            false => {
-                let mut given = values("confidence", rows, cols, &known.confidence, None)?;
-                check_confidence(cols, &mut given, heights.heights())?;
-                Some(given)
-            }
-        };
+        let constraints = given(&known.constraints)
+            .map(|value| input.heights("constraints", value))
+            .transpose()?;
+        let confidence = given(&known.confidence)
+            .map(|value| confidence(value, (rows, cols), heights.heights()))
+            .transpose()?;
         let vertices = bytes(&known.occlusions)
             .map(|flags| Occlusions::from_vertices(&lattice, &flags))
             .transpose()?;
@@ -215,29 +203,21 @@ impl Parts {
     }
 }
 
-/// Makes sure that where there is a height its confidence is a number from 0,
-/// and that where there is none there is no confidence either.
-fn check_confidence(cols: usize, confidence: &mut [f64], heights: &[f64]) -> Result<()> {
-    for (i, (weight, height)) in confidence.iter_mut().zip(heights).enumerate() {
+/// What is there at all.
+fn given(value: &JsValue) -> Option<&JsValue> {
+    Some(value).filter(|value| !value.is_undefined())
+}
+
+/// One for each height; NaN where there is none, so that it does not count in between.
+fn confidence(value: &JsValue, (rows, cols): (usize, usize), heights: &[f64]) -> Result<Vec<f64>> {
+    let mut confidence = values("confidence", rows, cols, value, None)?;
+    check_confidence(&confidence, heights, cols)?;
+    for (weight, height) in confidence.iter_mut().zip(heights) {
         if height.is_nan() {
             *weight = f64::NAN;
-        } else if weight.is_nan() {
-            return Err(Failure::from(Error::NotFinite {
-                what: "confidence",
-                value: *weight,
-                row: i / cols,
-                col: i % cols,
-                advice: "0 means that a height is not to be trusted at all",
-            }));
-        } else if *weight < 0.0 {
-            return Err(Failure::from(Error::option(
-                "confidence",
-                format!("{weight} at row {}, column {}", i / cols, i % cols),
-                "must not be below 0",
-            )));
         }
     }
-    Ok(())
+    Ok(confidence)
 }
 
 fn union(a: Option<Occlusions>, b: Option<Occlusions>) -> Result<Option<Occlusions>> {

@@ -207,7 +207,7 @@ mod tests {
             while cg.energy() > 1e-8 * first {
                 assert!(cg.step(&problem.domain));
                 steps += 1;
-                assert!(steps <= 30, "{cols}: {:e}", cg.energy() / first);
+                assert!(steps <= 12, "{cols}: {:e}", cg.energy() / first);
             }
         }
     }

@@ -29,6 +29,9 @@ pub(crate) struct Grid {
     /// The weights of `d_k` and of `d₁ + d₂ + d₃` in `ρ CᵀC`.
     own: f32,
     sum: f32,
+    /// How much each interior cell's stencil counts: 1 on the finest lattice, more at a
+    /// coarse one's border.
+    pub stencils: PerCell<f32>,
     /// Jacobi's preconditioner: one over the scaled diagonal.
     pub inverse_diagonal: Vec<f32>,
     rolling: Rolling<f32>,
@@ -59,6 +62,7 @@ impl Grid {
             constrained,
             own: 0.0,
             sum: 0.0,
+            stencils: PerCell::same(&domain, 1.0),
             inverse_diagonal: try_filled("diagonal", domain.cells(), 0.0)?,
             rolling: Rolling::new(&domain),
             domain,
@@ -92,9 +96,14 @@ impl Grid {
             for &Run { start, end } in self.domain.active().row(row) {
                 for cell in start..end {
                     let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
-                    let stencils = around.filter(|n| interior(*n)).count();
-                    let centre = if interior(cell) { as_centre } else { 0.0 };
-                    let entry = each(cell) + centre + stencils as f64 * own;
+                    let count = |cell: usize| f64::from(self.stencils.at(cell));
+                    let others: f64 = around.filter(|n| interior(*n)).map(count).sum();
+                    let centre = if interior(cell) {
+                        count(cell) * as_centre
+                    } else {
+                        0.0
+                    };
+                    let entry = each(cell) + centre + others * own;
                     self.inverse_diagonal[cell] = (self.diagonal / entry) as f32;
                 }
             }
@@ -158,6 +167,7 @@ impl Grid {
             own,
             sum,
             rolling,
+            stencils,
             ..
         } = self;
         let (domain, own, sum) = (&**domain, *own, *sum);
@@ -168,12 +178,13 @@ impl Grid {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(x, domain, row, *run);
                     let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let count = stencils.run(domain, row, *run);
                     for i in 0..w1.len() {
                         let [d1, d2, d3] = ring.differences(i);
                         let common = sum * (d1 + d2 + d3);
-                        w1[i] = own * d1 + common;
-                        w2[i] = own * d2 + common;
-                        w3[i] = own * d3 + common;
+                        w1[i] = count[i] * (own * d1 + common);
+                        w2[i] = count[i] * (own * d2 + common);
+                        w3[i] = count[i] * (own * d3 + common);
                     }
                 }
             },

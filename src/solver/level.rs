@@ -27,8 +27,9 @@ pub(crate) struct Level {
     /// Right-hand side energy at the start of the round.
     first_energy: f64,
     iteration: usize,
-    /// When the certificate was last balanced.
+    /// When the certificate was last balanced, and when ρ last changed.
     balanced: usize,
+    tuned: usize,
     cg_iterations: usize,
 }
 
@@ -117,6 +118,7 @@ impl Level {
             round: 0,
             iteration: 0,
             balanced: 0,
+            tuned: 0,
             cg_iterations: 0,
         };
         level.seconds.setup = start.elapsed().as_secs_f64();
@@ -250,7 +252,9 @@ impl Level {
         let rho = self
             .plan
             .next_rho(&self.problem, self.state.rho, &certificate, change);
-        if reason.is_none() && rho != self.state.rho {
+        let due = self.plan.may_tune(self.iteration, self.tuned);
+        if reason.is_none() && due && rho != self.state.rho {
+            self.tuned = self.iteration;
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(rho);
             self.state.update(&self.problem, 0.0, &mut self.cg);

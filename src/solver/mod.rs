@@ -2,6 +2,7 @@
 //! duality gap.
 
 mod balance;
+mod border;
 mod cg;
 mod component;
 mod frame;

@@ -2,7 +2,7 @@
 //!
 //! The same energy on the lattices of spacing 2h, 4h, … gives the coarse
 //! matrices (a coarse vertex stands for four fine ones, hence the factor ¼ in
-//! the restriction), Chebyshev's polynomial of Jacobi's preconditioner smooths,
+//! the restriction; at a border a coarse stencil may stand for more), Chebyshev's polynomial of Jacobi's preconditioner smooths,
 //! and the cycle ends where the fidelity term makes the system well conditioned,
 //! two to five lattices down. Symmetric and positive definite, so conjugate
 //! gradients may use it.
@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
+use super::border::coarser_counts;
 use super::grid::{Grid, LARGEST_EIGENVALUE, part, part_mut};
 use super::per_cell::PerCell;
 use super::problem::Problem;
@@ -102,6 +103,10 @@ impl Multigrid {
                 step: zeros()?,
                 residual: zeros()?,
             };
+            if let Some(finer) = floors.last() {
+                let counts = &finer.grid.stencils;
+                floor.grid.stencils = coarser_counts(counts, &finer.grid.domain, domain)?;
+            }
             floor.shares = match floors.last_mut() {
                 None => Shares::of(problem)?,
                 Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
@@ -231,6 +236,10 @@ impl Floor {
                 (&coarse.grid.domain, &mut means),
                 0.25,
             );
+            // A plane through vertices beside gives some of them negative weights.
+            means
+                .iter_mut()
+                .for_each(|mean: &mut f32| *mean = mean.max(0.0));
             Ok(means)
         };
         Ok(Some(Shares {

@@ -3,20 +3,18 @@
 //! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from
 //! the coarse vertices, then the average `A` of each vertex (weight 2) with its
 //! neighbours (weight 1). Plain interpolation will not do for a fourth-order
-//! operator, since its kinks cost more energy than the correction saves. At the
-//! border both factors leave out what is not there and keep constants; `A` stays
-//! symmetric. Restriction is `Pᵀ`.
+//! operator, since its kinks cost more energy than the correction saves. What
+//! both factors are where the lattice ends is in `border`. Restriction is `Pᵀ`.
 
-use crate::domain::{Domain, Role, Run};
+use super::border::{Averages, Extension};
+use crate::domain::{Domain, Run};
 use crate::lattice::{NEIGHBOURS, Towards};
 use crate::stencil::Ring;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Transfer {
-    /// Boundary vertices of the fine lattice, where averages need care.
-    boundary: Vec<u32>,
-    /// Fine vertices between a coarse vertex that is there and one that is not, and the former.
-    single: Vec<(u32, u32)>,
+    averages: Averages,
+    extension: Extension,
     /// Fine row (box) of coarse row 0, and fine column of coarse column 0 on even
     /// and odd coarse lattice rows.
     row: isize,
@@ -45,29 +43,13 @@ pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
 
 impl Transfer {
     pub(crate) fn new(fine: &Domain, coarse: &Domain) -> Self {
-        let active = |vertex| {
-            let cell = coarse.cell(vertex)?;
-            coarse.roles()[cell].is_active().then_some(cell as u32)
-        };
-        let mut boundary = Vec::new();
-        let mut single = Vec::new();
-        for cell in fine.active().cells() {
-            let (row, col) = fine.lattice_vertex(cell);
-            match parents(row, col).map(active) {
-                [Some(a), None] | [None, Some(a)] => single.push((cell as u32, a)),
-                _ => (),
-            }
-            if fine.roles()[cell] == Role::Boundary {
-                boundary.push(cell as u32);
-            }
-        }
         // Box row 1 and column 1 are the corner; coarse vertex (r, c) is fine (2r, 2c − (r odd)).
         let (frow, fcol) = fine.corner();
         let (crow, ccol) = coarse.corner();
         let first = |coarse: usize, fine: usize| 2 * (coarse as isize - 1) - fine as isize + 1;
         Transfer {
-            boundary,
-            single,
+            averages: Averages::new(fine),
+            extension: Extension::new(fine, coarse),
             row: first(crow, frow),
             col: [first(ccol, fcol), first(ccol, fcol) - 1],
         }
@@ -81,6 +63,7 @@ impl Transfer {
         scale: f32,
     ) {
         self.average(fine, from, work, |to, average| *to = average);
+        self.averages.complete_transposed(fine, from, work);
         for row in 1..=coarse.rows() {
             let Some((middle, first)) = self.fine_row(fine, coarse, row) else {
                 continue;
@@ -99,9 +82,7 @@ impl Transfer {
                 }
             }
         }
-        for (cell, parent) in &self.single {
-            to[*parent as usize] += 0.5 * scale * work[*cell as usize];
-        }
+        self.extension.extend_transposed(work, to, scale);
     }
 
     /// `to += P from`, where `from` is zero outside the coarse domain. `work` is overwritten.
@@ -143,10 +124,9 @@ impl Transfer {
                 }
             }
         }
-        for (cell, parent) in &self.single {
-            work[*cell as usize] = from[*parent as usize];
-        }
+        self.extension.extend(from, work);
         self.average(fine, work, to, |to, average| *to += average);
+        self.averages.complete(fine, work, to);
     }
 
     /// Fine row of a coarse row, and the fine column of its column 0.
@@ -157,7 +137,8 @@ impl Transfer {
         inside.then(|| (at as usize, self.col[usize::from(row.is_multiple_of(2))]))
     }
 
-    /// `A from` at each vertex of the fine domain, to be stored or added.
+    /// `A from`, without what `averages` completes, at each vertex of the fine
+    /// domain, to be stored or added.
     #[inline(always)]
     fn average(
         &self,
@@ -175,16 +156,8 @@ impl Transfer {
                 }
             }
         }
-        for cell in &self.boundary {
-            let cell = *cell as usize;
-            let around = domain
-                .neighbour_offsets(cell / domain.stride())
-                .map(|o| cell.wrapping_add_signed(o));
-            let steps = around
-                .into_iter()
-                .filter(|n| domain.roles()[*n].is_active())
-                .map(|n| from[n] - from[cell]);
-            store(&mut to[cell], from[cell] + 0.125 * steps.sum::<f32>());
+        for cell in self.averages.cells() {
+            store(&mut to[cell], from[cell]);
         }
     }
 }
@@ -231,28 +204,36 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_prolonged_to_the_same_plane_inside() {
-        let lattice = crate::Lattice::new(17, 18, 1.0).unwrap();
-        let plane = |x: f64, y: f64| 0.25 * x - 0.5 * y + 1.0;
-        let field = crate::Heightfield::from_fn(lattice, plane).unwrap();
-        let coarse_field = coarsen(&field.clone().into()).unwrap().field;
-        let fine = Domain::new(&field).unwrap();
-        let coarse = Domain::new(&coarse_field).unwrap();
-        let mut x = vec![0.0; coarse.cells()];
-        for cell in coarse.active().cells() {
-            x[cell] = coarse_field.heights()[coarse.lattice_index(cell)] as f32;
-        }
-        let (mut to, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
-        Transfer::new(&fine, &coarse).prolong((&coarse, &x), (&fine, &mut to, &mut work));
-        let mut checked = 0;
-        for cell in fine.interior().cells() {
-            let (row, col) = fine.lattice_vertex(cell);
-            if (4..13).contains(&row) && (4..13).contains(&col) {
+    fn a_plane_is_prolonged_to_the_same_plane() {
+        for (rows, cols) in [(17, 18), (18, 17), (20, 20)] {
+            let lattice = crate::Lattice::new(rows, cols, 1.0).unwrap();
+            let plane = |x: f64, y: f64| 0.25 * x - 0.5 * y + 1.0;
+            let holed = |x: f64, y: f64| {
+                if (x - 6.0).hypot(y + 7.0) < 2.5 {
+                    f64::NAN
+                } else {
+                    plane(x, y)
+                }
+            };
+            let field = crate::Heightfield::from_fn(lattice, holed).unwrap();
+            let coarse_field = coarsen(&field.clone().into()).unwrap().field;
+            let fine = Domain::new(&field).unwrap();
+            let coarse = Domain::new(&coarse_field).unwrap();
+            let mut x = vec![0.0; coarse.cells()];
+            for cell in coarse.active().cells() {
+                x[cell] = coarse_field.heights()[coarse.lattice_index(cell)] as f32;
+            }
+            let (mut to, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
+            Transfer::new(&fine, &coarse).prolong((&coarse, &x), (&fine, &mut to, &mut work));
+            for cell in fine.active().cells() {
+                let (row, col) = fine.lattice_vertex(cell);
                 let expected = field.height(row, col) as f32;
-                assert!((to[cell] - expected).abs() < 1e-5, "{row} {col}");
-                checked += 1;
+                assert!(
+                    (to[cell] - expected).abs() < 1e-4,
+                    "{row} {col} {}",
+                    to[cell]
+                );
             }
         }
-        assert_eq!(checked, 81);
     }
 }

@@ -52,7 +52,7 @@ fn together_as_alone() {
             bound += alone.report().dual_bound;
             let distance = max_difference(alone.heightfield(), together.heightfield());
             // What the two differ by is the rounding of single-precision z-steps.
-            assert!(distance < 1e-6, "{cols}: {distance:e}");
+            assert!(distance < 1e-5, "{cols}: {distance:e}");
         }
         let report = together.report();
         assert!((report.objective / objective - 1.0).abs() < 1e-6);

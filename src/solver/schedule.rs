@@ -54,8 +54,8 @@ const SMALL_SHARE: f64 = 0.1;
 /// Hessians: fewest iterations over four sets of constraints; 1 took four times as many.
 const FREE_BALANCE: f64 = 10.0;
 
-/// Above this gap a second conjugate-gradient iteration per z-step pays: from 190, 90 and 30
-/// ADMM iterations over three λ to 130, 40 and 20. Below, it only doubles the work.
+/// Above this gap a second conjugate-gradient iteration per z-step pays: from 150, 60 and 30
+/// ADMM iterations over three λ to 80, 40 and 20. Below, it only doubles the work.
 const ROUGH: f64 = 0.01;
 
 /// Longest screening length of the z-step, in sizes of the domain.

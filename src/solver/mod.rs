@@ -11,6 +11,7 @@ mod lanes;
 mod law;
 mod level;
 mod levels;
+mod memory;
 mod multigrid;
 mod options;
 mod parts;
@@ -21,6 +22,7 @@ mod problem;
 mod report;
 mod schedule;
 mod state;
+mod totals;
 mod transfer;
 
 use std::ops::ControlFlow;
@@ -31,7 +33,7 @@ use web_time::Instant;
 pub use options::{Energy, Lambda, Normalization, Options, Schedule};
 pub use report::{LevelReport, Progress, Report, Seconds, StopReason};
 
-use crate::domain::{Domain, Role};
+use crate::domain::Domain;
 use crate::error::{Error, Result, try_filled};
 use crate::heightfield::Heightfield;
 use crate::input::Input;
@@ -40,10 +42,11 @@ use crate::restore::restore_omitted;
 use crate::surface::Surface;
 use component::{Answer, Component, domain_of};
 use frame::Frame;
-use level::{Best, relative_gap};
+use level::relative_gap;
+use memory::{Memory, WORTH_KEEPING};
 use parts::{Parts, check_held};
-use problem::{Problem, position};
-use state::State;
+use problem::Problem;
+use totals::{Totals, add_levels};
 
 /// Whether a [`Solver`] has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -377,116 +380,6 @@ impl Solver {
             heightfield: Heightfield::new(lattice, heights)?,
             report,
         })
-    }
-}
-
-/// Factors from one λ to the next within which the last answer is a better start
-/// than a coarse lattice: measured on four surfaces, three λ and two levels of noise.
-const WORTH_KEEPING: std::ops::RangeInclusive<f64> = 0.4..=8.0;
-
-/// What an earlier solve has found, to start from.
-#[derive(Debug, Clone)]
-struct Memory {
-    frame: Frame,
-    domain: Arc<Domain>,
-    parts: Parts,
-    answers: Vec<Answer>,
-}
-
-impl Memory {
-    /// The state to start from, unless nothing of it is known. `corner` is the
-    /// vertex of the whole lattice that is `(0, 0)` of the problem's.
-    fn state(
-        &self,
-        problem: &Problem,
-        corner: (usize, usize),
-        frame: &Frame,
-    ) -> Result<Option<State>> {
-        let Some(rho) = self.answers.first().map(|answer| answer.state.rho) else {
-            return Ok(None);
-        };
-        let mut state = State::new(problem, rho)?;
-        // Hessians scale as one over lengths.
-        let factor = self.frame.scale / frame.scale;
-        let mut found = 0;
-        for cell in problem.domain.active().cells() {
-            let (row, col) = problem.domain.lattice_vertex(cell);
-            let vertex = (row + corner.0, col + corner.1);
-            let Some((answer, old)) = self.find(vertex) else {
-                continue;
-            };
-            found += 1;
-            let z = self
-                .frame
-                .outward(position(&answer.problem.domain, old), answer.state.z[old]);
-            state.z[cell] = frame.inward(position(&problem.domain, cell), z);
-            let interior = |domain: &Domain, cell: usize| domain.roles()[cell] == Role::Interior;
-            if interior(&problem.domain, cell) && interior(&answer.problem.domain, old) {
-                let (dual, hessian) = answer.state.matrices(&answer.problem, old);
-                state.set_matrices(cell, dual, hessian.scale(factor));
-            }
-        }
-        for cell in &problem.constrained {
-            state.z[*cell as usize] = problem.target[*cell as usize];
-        }
-        Ok((found > 0).then_some(state))
-    }
-
-    /// The answer that has a vertex of the whole lattice, and its cell there.
-    fn find(&self, (row, col): (usize, usize)) -> Option<(&Answer, usize)> {
-        let cell = self.domain.cell((row as isize, col as isize))?;
-        if !self.domain.roles()[cell].is_active() {
-            return None;
-        }
-        let number = self.parts.of(cell);
-        let answer = self.answers.get(number)?;
-        let (top, left) = self.parts.corner(number);
-        let own = ((row - top) as isize, (col - left) as isize);
-        Some((answer, answer.problem.domain.cell(own)?))
-    }
-}
-
-/// Sums over the parts.
-#[derive(Default)]
-struct Totals {
-    fidelity: f64,
-    nuclear_norm: f64,
-    dual_bound: f64,
-    iterations: usize,
-    cg_iterations: usize,
-}
-
-impl Totals {
-    fn add(&mut self, best: &Best, dual_bound: f64, share: f64) {
-        self.fidelity += share * best.fidelity;
-        self.nuclear_norm += share * best.nuclear_norm;
-        self.dual_bound += share * dual_bound;
-    }
-
-    fn add_work(&mut self, levels: &[LevelReport]) {
-        self.iterations += levels.iter().map(|level| level.iterations).sum::<usize>();
-        self.cg_iterations += levels
-            .iter()
-            .map(|level| level.cg_iterations)
-            .sum::<usize>();
-    }
-
-    fn objective(&self) -> f64 {
-        self.fidelity + self.nuclear_norm
-    }
-}
-
-/// Adds the work on one part's lattices to that on the others' of the same spacing.
-fn add_levels(levels: &mut Vec<LevelReport>, part: &[LevelReport]) {
-    let missing = part.len().saturating_sub(levels.len());
-    levels.splice(0..0, part[..missing].iter().copied());
-    let first = levels.len() - part.len();
-    for (i, (level, more)) in levels[first..].iter_mut().zip(part).enumerate() {
-        if i >= missing {
-            level.interior += more.interior;
-            level.iterations += more.iterations;
-            level.cg_iterations += more.cg_iterations;
-        }
     }
 }
 

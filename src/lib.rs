@@ -76,6 +76,8 @@ mod hessian;
 mod input;
 mod lattice;
 mod mesh;
+#[cfg(feature = "meshes")]
+pub mod meshes;
 mod occlusions;
 mod resample;
 mod restore;

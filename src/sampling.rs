@@ -105,14 +105,10 @@ fn nothing_seen() -> Error {
 /// The box around all triangles, in the image's plane.
 fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for triangle in mesh.triangles() {
-        for point in mesh.corners(*triangle) {
-            let point = frame.view(point);
-            for k in 0..2 {
-                min[k] = min[k].min(point[k]);
-                max[k] = max[k].max(point[k]);
-            }
-        }
+    for corner in mesh.triangles().iter().flat_map(|t| mesh.corners(*t)) {
+        let [x, y, _] = frame.view(corner);
+        min = [min[0].min(x), min[1].min(y)];
+        max = [max[0].max(x), max[1].max(y)];
     }
     (min, max)
 }
@@ -238,8 +234,8 @@ impl Buffer {
                 std::array::from_fn(|k| (1.0 - share) * start[k] + share * end[k]);
             let height = (0..3).map(|k| weights[k] * corners[k].height).sum();
             let index = self.lattice.index(row, col as usize);
-            // Also true where there is no height yet.
-            if !(self.heights[index] >= height) {
+            let nearest = self.heights[index];
+            if nearest.is_nan() || height > nearest {
                 self.heights[index] = height;
                 self.triangles[index] = triangle;
                 self.weights[index] = weights.map(|w| w as f32);

@@ -3,6 +3,7 @@ import { Connection } from './connection.js';
 import { asOptions, controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { asBytes, asField, asImage, asInput, asLattice, detached } from './input.js';
+import { asMesh } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { makeDisposable } from './platform.js';
 import { orAborted, solve } from './solve.js';
@@ -82,8 +83,7 @@ export class DevelopableWorker {
    * @param {import('./types.js').ReadOptions} [options]
    */
   async read(bytes, options) {
-    const isBlob = typeof Blob === 'function' && bytes instanceof Blob;
-    const file = isBlob ? new Uint8Array(await bytes.arrayBuffer()) : new Uint8Array(asBytes(bytes));
+    const file = await ownBytes(bytes);
     return this.#request((remote) => remote.read(transfer(file, [file.buffer]), options));
   }
 
@@ -103,6 +103,24 @@ export class DevelopableWorker {
   async writeObj(input) {
     const { field, buffers } = detached(asLattice(input));
     return this.#request((remote) => remote.writeObj(transfer(field, buffers)));
+  }
+
+  /**
+   * @param {Uint8Array | ArrayBuffer | Blob} bytes
+   * @param {import('./types.js').ReadMeshOptions} [options]
+   */
+  async readMesh(bytes, options) {
+    const file = await ownBytes(bytes);
+    return this.#request((remote) => remote.readMesh(transfer(file, [file.buffer]), options));
+  }
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').SampleMeshOptions} [options]
+   */
+  async sampleMesh(mesh, options) {
+    const given = asMesh(mesh);
+    return this.#request((remote) => remote.sampleMesh(given, options));
   }
 
   /**
@@ -139,8 +157,8 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm } = this.#options;
-      this.#wasm ??= Promise.all([portable(wasm), portable(filesWasm)]);
+      const { wasm, filesWasm, meshesWasm } = this.#options;
+      this.#wasm ??= Promise.all([wasm, filesWasm, meshesWasm].map(portable));
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }
@@ -148,6 +166,15 @@ export class DevelopableWorker {
   }
 }
 makeDisposable(DevelopableWorker);
+
+/**
+ * A file's bytes in memory that can be handed over.
+ * @param {Uint8Array | ArrayBuffer | Blob} bytes
+ */
+async function ownBytes(bytes) {
+  const isBlob = typeof Blob === 'function' && bytes instanceof Blob;
+  return isBlob ? new Uint8Array(await bytes.arrayBuffer()) : new Uint8Array(asBytes(bytes));
+}
 
 /**
  * What a worker can be told about where the wasm is, again and again.

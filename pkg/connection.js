@@ -25,7 +25,7 @@ export class Connection {
 
   /**
    * @param {string | URL | undefined} workerUrl
-   * @param {Promise<Source[]>} wasm the solver's and the files'
+   * @param {Promise<Source[]>} wasm the solver's, the files' and the meshes'
    */
   constructor(workerUrl, wasm) {
     /** @param {string} reason */

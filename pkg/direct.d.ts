@@ -1,7 +1,8 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  OcclusionOptions, Progress, ReadOptions, ReadResult, SolverOptions, Surface,
+  Mesh, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
+  SampleMeshOptions, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
 
@@ -14,6 +15,11 @@ export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Modu
 export function initFiles(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+/** Loads the third wasm file, which `readMesh` and `sampleMesh` need; otherwise like `init`. */
+export function initMeshes(input?: InitInput): Promise<void>;
+/** The same, synchronously. */
+export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
 export class Solver {
@@ -53,7 +59,11 @@ export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): Re
 export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
 /** 16-bit grey PNG whose text chunks record pixel size, height scale and offset; level 0 is no data. */
 export function writePng(input: HeightImage): Uint8Array<ArrayBuffer>;
-/** OBJ mesh: the lattice's triangles, in the units of the field. */
+/** OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`. */
 export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** Decodes an OBJ, PLY, STL, glTF or GLB file. */
+export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
+/** What is seen of a mesh, as heights on a lattice: an input for `fit`. */
+export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
 /** One of the procedural examples. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -1,8 +1,9 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
-import { asBytes, asField, asImage, asInput, asLattice } from './input.js';
-import { files, solver } from './instances.js';
+import { asBytes, asField, asImage, asInput, asLattice, frameOf } from './input.js';
+import { asMesh } from './mesh-input.js';
+import { files, meshes, solver } from './instances.js';
 import { makeDisposable } from './platform.js';
 
 export { DevelopableError } from './errors.js';
@@ -15,6 +16,10 @@ export const initSync = (input) => solver.initSync(input);
 export const initFiles = (input) => files.init(input);
 /** @type {typeof import('./direct.js').initFilesSync} */
 export const initFilesSync = (input) => files.initSync(input);
+/** @type {typeof import('./direct.js').initMeshes} */
+export const initMeshes = (input) => meshes.init(input);
+/** @type {typeof import('./direct.js').initMeshesSync} */
+export const initMeshesSync = (input) => meshes.initSync(input);
 
 /**
  * @typedef {import('./direct.js').Solver} SolverApi
@@ -36,6 +41,8 @@ export class Solver {
   #handle;
   /** Conjugate-gradient iterations to ask for in one call, from how long the last ones took. */
   #work = 1;
+  /** @type {import('./types.js').Frame | undefined} the input's, which the surface has too */
+  #frame;
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
@@ -43,6 +50,7 @@ export class Solver {
    */
   constructor(input, options) {
     const field = asInput(input);
+    this.#frame = frameOf(field);
     this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
@@ -65,6 +73,7 @@ export class Solver {
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
+    this.#frame = frameOf(field);
     this.#work = 1;
   }
 
@@ -96,7 +105,8 @@ export class Solver {
 
   surface() {
     const handle = this.#live();
-    return solver.call(() => handle.surface());
+    const surface = solver.call(() => handle.surface());
+    return this.#frame ? { ...surface, frame: this.#frame } : surface;
   }
 
   get disposed() {
@@ -164,6 +174,18 @@ export function writePng(input) {
 export function writeObj(input) {
   const lattice = asLattice(input);
   return bytesOf((wasm) => wasm.writeObj(lattice));
+}
+
+/** @type {typeof import('./direct.js').readMesh} */
+export function readMesh(bytes, options) {
+  const file = asBytes(bytes);
+  return meshes.call((wasm) => wasm.readMesh(file, options));
+}
+
+/** @type {typeof import('./direct.js').sampleMesh} */
+export function sampleMesh(mesh, options) {
+  const given = asMesh(mesh);
+  return meshes.call((wasm) => wasm.sampleMesh(given, options));
 }
 
 /** @type {typeof import('./direct.js').example} */

@@ -1,7 +1,8 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  OcclusionOptions, Progress, ReadOptions, ReadResult, SolverOptions, Surface,
+  Mesh, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
+  SampleMeshOptions, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
 
@@ -12,6 +13,8 @@ export interface WorkerOptions {
   wasm?: InitInput;
   /** Where the wasm is that reads and writes files, loaded when it is needed; default: beside the worker. */
   filesWasm?: InitInput;
+  /** Where the wasm is that reads and samples meshes, likewise. */
+  meshesWasm?: InitInput;
 }
 
 export interface OpenFitOptions extends SolverOptions {
@@ -74,6 +77,8 @@ export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptio
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
+export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
 /** Stops the shared worker, calls under way reject with code `DISPOSED`; a later call starts a new one. */
 export function dispose(): void;
@@ -94,6 +99,8 @@ export class DevelopableWorker {
   writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
+  sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
   /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
   readonly connected: boolean;

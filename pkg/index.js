@@ -33,6 +33,10 @@ export const writeNpy = (input) => worker().writeNpy(input);
 export const writePng = (input) => worker().writePng(input);
 /** @type {typeof import('./index.js').writeObj} */
 export const writeObj = (input) => worker().writeObj(input);
+/** @type {typeof import('./index.js').readMesh} */
+export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
+/** @type {typeof import('./index.js').sampleMesh} */
+export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
 /** @type {typeof import('./index.js').example} */
 export const example = (name, options) => worker().example(name, options);
 

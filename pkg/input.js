@@ -113,7 +113,7 @@ function pixels(input) {
  * @param {Heightfield} input
  */
 function vertices(input) {
-  const { rows, cols, spacing, origin, mask, noData } = Object(input);
+  const { rows, cols, spacing, origin, mask, noData, frame } = Object(input);
   if (origin !== undefined && !(origin?.length === 2 && isNumber(origin[0]) && isNumber(origin[1]))) {
     throw new DevelopableError('INPUT', `origin must be two numbers [x, y], but is ${show(origin)}`);
   }
@@ -125,7 +125,29 @@ function vertices(input) {
     origin: origin && /** @type {[number, number]} */ ([origin[0], origin[1]]),
     mask: flags('mask', mask),
     noData: optional('noData', noData),
+    frame: frame === undefined ? undefined : asFrame(frame),
   };
+}
+
+/**
+ * @param {unknown} frame
+ * @returns {import('./types.js').Frame}
+ */
+function asFrame(frame) {
+  const { right, up, towards } = Object(frame);
+  for (const axis of [right, up, towards]) {
+    if (!(Array.isArray(axis) && axis.length === 3 && axis.every(Number.isFinite))) {
+      throw new DevelopableError('INPUT', 'frame must have three axes of three numbers: right, up and towards');
+    }
+  }
+  /** @param {[number, number, number]} axis @returns {[number, number, number]} */
+  const own = ([x, y, z]) => [x, y, z];
+  return { right: own(right), up: own(up), towards: own(towards) };
+}
+
+/** The axes of heights on the lattice, if they are those of a view. @param {Image | Lattice} field */
+export function frameOf(field) {
+  return field.kind === 'lattice' ? field.frame : undefined;
 }
 
 /**
@@ -200,7 +222,7 @@ export function asBytes(bytes) {
  * @param {unknown} value
  * @returns {NumericArray}
  */
-function numbers(name, value) {
+export function numbers(name, value) {
   if (Array.isArray(value)) {
     const odd = value.findIndex((entry) => typeof entry !== 'number');
     if (odd >= 0) {

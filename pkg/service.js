@@ -16,13 +16,18 @@ const kept = new Map();
 /** @type {import('./types.js').InitInput | undefined} where the wasm of the files is */
 let filesWasm;
 
+/** @type {import('./types.js').InitInput | undefined} where that of the meshes is */
+let meshesWasm;
+
 export const service = {
   /**
    * @param {import('./types.js').InitInput} [wasm]
    * @param {import('./types.js').InitInput} [files] loaded when the first file is read or written
+   * @param {import('./types.js').InitInput} [meshes] loaded for the first mesh
    */
-  init(wasm, files) {
+  init(wasm, files, meshes) {
     filesWasm = files;
+    meshesWasm = meshes;
     return direct.init(wasm);
   },
 
@@ -126,6 +131,26 @@ export const service = {
   writePng: written(direct.writePng),
   writeObj: written(direct.writeObj),
 
+  /**
+   * @param {Parameters<typeof direct.readMesh>[0]} bytes
+   * @param {Parameters<typeof direct.readMesh>[1]} [options]
+   */
+  async readMesh(bytes, options) {
+    await direct.initMeshes(meshesWasm);
+    const mesh = direct.readMesh(bytes, options);
+    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.colors, mesh.uvs));
+  },
+
+  /**
+   * @param {Parameters<typeof direct.sampleMesh>[0]} mesh
+   * @param {Parameters<typeof direct.sampleMesh>[1]} [options]
+   */
+  async sampleMesh(mesh, options) {
+    await direct.initMeshes(meshesWasm);
+    const sampled = direct.sampleMesh(mesh, options);
+    return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
+  },
+
   /** @type {typeof direct.example} */
   example(name, options) {
     const result = direct.example(name, options);
@@ -153,7 +178,7 @@ function written(write) {
   };
 }
 
-/** @param {((Float64Array | Uint8Array) | undefined)[]} arrays */
+/** @param {(ArrayBufferView | undefined)[]} arrays */
 function buffersOf(...arrays) {
   return arrays.flatMap((array) => (array?.buffer instanceof ArrayBuffer ? [array.buffer] : []));
 }

@@ -73,6 +73,63 @@ export interface Heightfield extends Known {
    * is taken at either end.
    */
   brokenEdges?: Uint8Array;
+  /** The axes of these coordinates in space, which a written mesh is turned back to. Default: x, y and z. */
+  frame?: Frame;
+}
+
+/**
+ * Axes of a view in those of the mesh, orthonormal and right-handed: a point p of the mesh is at
+ * [p·right, p·up, p·towards].
+ */
+export interface Frame {
+  right: readonly [number, number, number];
+  up: readonly [number, number, number];
+  /** Towards the viewer: the axis of the heights. */
+  towards: readonly [number, number, number];
+}
+
+/** Triangles in space. */
+export interface Mesh {
+  /** x, y, z of each vertex. */
+  positions: Float64Array;
+  /** Three vertices of each triangle, counted from 0. */
+  triangles: Uint32Array;
+  /** Red, green, blue of each vertex, from 0 to 1. */
+  colors?: Float32Array;
+  /** Texture coordinates of each vertex. */
+  uvs?: Float32Array;
+}
+
+export interface ReadMeshOptions {
+  /** Taken from the bytes where it is not given. */
+  format?: 'obj' | 'ply' | 'stl' | 'gltf' | 'glb';
+}
+
+/** A direction to look in: `'-z'` looks down the z axis, so that what has the largest z is in front. */
+export type ViewName = '-x' | '+x' | '-y' | '+y' | '-z' | '+z' | 'best-fit';
+
+export interface SampleMeshOptions {
+  /**
+   * A direction to look in, by name or as a vector; or `'best-fit'`, straight at the plane that
+   * fits the triangles best, from the side that more of their area faces. Up is as close to +y as
+   * it can be; along `-y` it is -z, along `+y` +z. Default `'-z'`.
+   */
+  view?: ViewName | readonly [number, number, number];
+  /** Vertices along the longer side of what is seen, at least 2. Default 200. */
+  resolution?: number;
+  /** Distance of neighbours on the lattice, in the place of `resolution`. */
+  spacing?: number;
+}
+
+/** What is seen of a mesh: the first hit of a ray through each vertex of a lattice, NaN where there is none. */
+export interface SampledMesh extends Heightfield {
+  origin: [number, number];
+  heights: Float64Array;
+  frame: Frame;
+  /** The mesh's colours where it was hit, three for each vertex; NaN elsewhere. */
+  colors?: Float32Array;
+  /** Its texture coordinates likewise, two for each vertex. */
+  uvs?: Float32Array;
 }
 
 /**
@@ -247,6 +304,8 @@ export interface Surface {
    * from the vertices, which are what meets them exactly.
    */
   image?: { width: number; height: number; pixelSize: number; data: Float64Array };
+  /** The input's. */
+  frame?: Frame;
   report: Report;
 }
 

@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::heightfield::HeightImage;
 
 pub use npy::write_npy;
-pub use obj::write_obj;
+pub use obj::{write_obj, write_obj_in};
 pub use png::write_png;
 
 /// A file format that can be read.

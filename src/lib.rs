@@ -75,13 +75,18 @@ mod heightfield;
 mod hessian;
 mod input;
 mod lattice;
+mod mesh;
+#[cfg(feature = "meshes")]
+pub mod meshes;
 mod occlusions;
 mod resample;
 mod restore;
+mod sampling;
 mod solver;
 mod spectral;
 mod stencil;
 mod surface;
+mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
@@ -92,7 +97,9 @@ pub use heightfield::{HeightImage, Heightfield};
 pub use hessian::HessianOperator;
 pub use input::Input;
 pub use lattice::Lattice;
+pub use mesh::Mesh;
 pub use occlusions::{OCCLUSION_THRESHOLD, Occlusions};
+pub use sampling::{Hit, Resolution, Samples, sample};
 pub use solver::{
     Energy, Lambda, LevelReport, Normalization, Options, Progress, Report, Schedule, Seconds,
     Solver, Status, StopReason, fit, fit_with,
@@ -100,6 +107,7 @@ pub use solver::{
 pub use spectral::Sym2;
 pub use stencil::Quadratic;
 pub use surface::Surface;
+pub use view::{Frame, View};
 
 /// The README's example.
 #[cfg(doctest)]

@@ -3,9 +3,14 @@
 
 #[cfg(feature = "js-solver")]
 mod examples;
+#[cfg(any(feature = "formats", feature = "js-solver"))]
 mod fields;
 #[cfg(feature = "formats")]
 mod files;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod frame;
+#[cfg(feature = "meshes")]
+mod meshes;
 #[cfg(feature = "js-solver")]
 mod occlusions;
 mod options;

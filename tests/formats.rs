@@ -367,9 +367,8 @@ fn another_reader_sees_the_surface_in_our_obj() {
     assert_eq!(mesh.indices.len() / 3, 40 - 1);
     assert_eq!(mesh.positions.len() / 3, 30 - 1);
     assert_eq!(mesh.normals.len(), mesh.positions.len());
-    let vertex = |i: u32| -> [f64; 3] {
-        std::array::from_fn(|k| f64::from(mesh.positions[3 * i as usize + k]))
-    };
+    let vertex =
+        |i: u32| -> [f64; 3] { std::array::from_fn(|k| mesh.positions[3 * i as usize + k]) };
     let mut area = 0.0;
     for t in mesh.indices.chunks_exact(3) {
         let [a, b, c] = [vertex(t[0]), vertex(t[1]), vertex(t[2])];
@@ -385,7 +384,7 @@ fn another_reader_sees_the_surface_in_our_obj() {
     let length = (1.0 + 0.25 + 4.0f64).sqrt();
     for n in mesh.normals.chunks_exact(3) {
         for (found, exact) in n.iter().zip([-0.5, -2.0, 1.0]) {
-            assert!((f64::from(*found) - exact / length).abs() < 1e-5);
+            assert!((*found - exact / length).abs() < 1e-5);
         }
     }
 }

@@ -14,7 +14,9 @@ import { commandOf, split, usage } from './flags.js';
  * @property {string} output
  * @property {Extension} extension the output's
  * @property {string} [mask]
- * @property {'square' | 'hex'} lattice
+ * @property {'square' | 'hex' | 'mesh'} lattice where the values are: pixels, the lattice, or a mesh to be sampled
+ * @property {import('../types.js').SampleMeshOptions['view']} [view]
+ * @property {number} [resolution]
  * @property {number} [spacing]
  * @property {number} [heightScale]
  * @property {number} [noData]
@@ -56,6 +58,7 @@ export function parse(args) {
   const { output, report, mask, confidence, constraints } = values;
   if (output === undefined) throw usage('the output is missing: -o FILE');
   const read = { mask, confidence, constraints, 'occlusion mask': values['occlusion-mask'] };
+  checkKind(isMesh(input), command, values);
   if (report !== undefined) apart({ report }, { output, input, ...read });
   apart({ output }, read);
 
@@ -65,7 +68,9 @@ export function parse(args) {
     output,
     extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : ['.npy', '.png', '.obj']),
     mask,
-    lattice: choice('lattice', values.lattice ?? 'square', lattices),
+    lattice: isMesh(input) ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
+    view: values.view === undefined ? undefined : view(values.view),
+    resolution: number('resolution', values),
     spacing: number('spacing', values),
     heightScale: number('height-scale', values),
     noData: number('no-data', values),
@@ -111,6 +116,45 @@ function apart(written, others) {
       throw usage(`the ${other} and the ${name} are the same file`);
     }
   }
+}
+
+/** @param {string} input */
+function isMesh(input) {
+  return ['.obj', '.ply', '.stl', '.glb', '.gltf'].includes(extname(input).toLowerCase());
+}
+
+/** Flags that are about the pixels of an image. */
+const OF_IMAGES = /** @type {const} */ ([
+  'lattice', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask',
+]);
+
+/**
+ * @param {boolean} mesh whether the input is one
+ * @param {string} command
+ * @param {Values} values
+ */
+function checkKind(mesh, command, values) {
+  if (mesh && command === 'design') throw usage('"design" takes constraints, not a mesh');
+  const stray = (mesh ? OF_IMAGES : /** @type {const} */ (['view', 'resolution']))
+    .find((flag) => values[flag] !== undefined);
+  if (stray) throw usage(`--${stray} is for ${mesh ? 'images' : 'meshes'}, and the input is none`);
+  if (mesh && values.spacing !== undefined && values.resolution !== undefined) {
+    throw usage('--resolution and --spacing say the same: give one of them');
+  }
+}
+
+/**
+ * A name, or three numbers with commas between them. Names are checked where they are used.
+ * @param {string} text
+ * @returns {import('../types.js').SampleMeshOptions['view']}
+ */
+function view(text) {
+  if (!text.includes(',')) return /** @type {import('../types.js').ViewName} */ (text);
+  const vector = text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
+  if (vector.length !== 3 || vector.some(Number.isNaN)) {
+    throw usage(`--view must be a name or three numbers as in 0,-1,-1, but is "${text}"`);
+  }
+  return /** @type {[number, number, number]} */ (/** @type {unknown} */ (vector));
 }
 
 /** A file's place, by whatever links it is reached. @param {string} file */

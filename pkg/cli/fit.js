@@ -17,7 +17,7 @@ export async function fit(task, signal) {
   await checkPlace(task.output);
   if (task.report !== undefined) await checkPlace(task.report);
   const input = await readInput(task);
-  const options = task.lattice === 'hex' ? task.options : { ...task.options, spacing: task.spacing };
+  const options = task.lattice !== 'square' ? task.options : { ...task.options, spacing: task.spacing };
   const line = progressLine();
   /** @type {Surface} */
   let surface;

@@ -18,6 +18,8 @@ const flags = {
   lattice: text,
   spacing: text,
   'height-scale': text,
+  view: text,
+  resolution: text,
   mask: text,
   'no-data': text,
   'no-normalize': plain,
@@ -71,7 +73,7 @@ export function commandOf(name, values) {
 }
 
 /**
- * Joins negative numbers to the flags before them, which `parseArgs` would take for flags.
+ * Joins negative numbers and axes to the flags before them, which `parseArgs` would take for flags.
  * @param {string[]} args
  */
 function joined(args) {
@@ -79,7 +81,7 @@ function joined(args) {
   const out = [];
   for (const arg of args) {
     const last = out.at(-1);
-    if (last?.startsWith('--') && /^-(\.?\d|inf|nan)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
+    if (last?.startsWith('--') && /^-(\.?\d|inf|nan|[xyz]$)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
     else out.push(arg);
   }
   return out;

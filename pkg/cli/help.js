@@ -10,10 +10,14 @@ Usage: developable fit INPUT -o OUTPUT [options]
 "occlusions" looks for places where a surface is torn, and prints how many
 vertices it has found.
 
-  INPUT                  heights: a grey PNG (8 or 16 bit) or a 2D NumPy array
+  INPUT                  heights: a grey PNG (8 or 16 bit) or a 2D NumPy array;
+                         or a mesh, of which what is seen from one side is
+                         taken: .obj, .ply, .stl, .glb or .gltf
   CONSTRAINTS            the same; transparent pixels and NaN are free
   -o, --output FILE      .npy or .png (heights at the input's pixels) or .obj
-                         (a mesh); the file appears whole or not at all
+                         (a mesh); the file appears whole or not at all. Of a
+                         mesh, .obj is in its own coordinates, and the others
+                         are heights on the lattice
   MASK                   .png or .npy, white (or 1) where the surface is torn
 
 What to minimise
@@ -46,6 +50,14 @@ How to read the heights
                          quarter of the longer side above black; 1 for NPY)
   --mask FILE            PNG or NPY of the same shape; 0 takes a value out
   --no-data V            value that means no data, besides NaN
+
+How to look at a mesh
+  --view V               the direction to look in: -x, +x, -y, +y, -z (the
+                         default: what has the largest z is in front), +z, a
+                         vector as 0,-1,-1, or best-fit: straight at the plane
+                         that fits best. Up is near +y (along -y it is -z)
+  --resolution N         vertices along the longer side (default 200)
+  --spacing S            their distance instead, in the mesh's unit
 
 What else is known (files of the same shape)
   --confidence FILE      how far each height is to be trusted: whole numbers as

@@ -15,6 +15,7 @@ import { Problem, status } from './problem.js';
  * @returns {Promise<Input>}
  */
 export async function readInput(task) {
+  if (task.lattice === 'mesh') return readSampled(task);
   const file = await readImage(task.input);
   const { mask, confidence, constraints, occlusionMask } = task;
   const known = {
@@ -49,14 +50,29 @@ export async function readInput(task) {
   });
 }
 
+/** What is seen of a mesh. @param {InputTask} task */
+async function readSampled({ input, view, resolution, spacing }) {
+  const mesh = await decoded(input, developable.readMesh);
+  return developable.sampleMesh(mesh, { view, resolution, spacing });
+}
+
 /**
  * @param {string} path
  * @returns {Promise<ReadResult>}
  */
-async function readImage(path) {
+function readImage(path) {
+  return decoded(path, developable.read);
+}
+
+/**
+ * @template T
+ * @param {string} path
+ * @param {(bytes: Uint8Array) => Promise<T>} read
+ */
+async function decoded(path, read) {
   const bytes = await readBytes(path);
   try {
-    return await developable.read(bytes);
+    return await read(bytes);
   } catch (error) {
     if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
       throw new Problem(status.input, `${path}: ${error.message}`);

@@ -13,7 +13,7 @@ export async function occlusions(task, signal) {
   await checkPlace(task.output);
   const input = await readInput(task);
   const { threshold, normalize, spacing } = task;
-  const options = task.lattice === 'hex' ? { threshold, normalize } : { threshold, normalize, spacing };
+  const options = task.lattice !== 'square' ? { threshold, normalize } : { threshold, normalize, spacing };
   const { rows, cols, vertices, image, count } = await developable.occlusions(input, options);
   const flags = image ?? vertices;
   const width = 'width' in input && image ? input.width : cols;

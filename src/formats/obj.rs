@@ -6,6 +6,7 @@ use super::Buffer;
 use crate::error::{Error, Result, try_filled};
 use crate::heightfield::Heightfield;
 use crate::lattice::Towards;
+use crate::view::Frame;
 
 /// Marks a vertex that no triangle uses.
 const UNUSED: u32 = 0;
@@ -24,6 +25,20 @@ const UNUSED: u32 = 0;
 /// # Errors
 /// [`Error::Unsupported`] if there is no whole triangle, [`Error::OutOfMemory`].
 pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
+    let own = Frame {
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        towards: [0.0, 0.0, 1.0],
+    };
+    write_obj_in(surface, &own)
+}
+
+/// An OBJ file of a surface over what was seen of a mesh, turned back to the mesh's own axes: as
+/// [`write_obj`], with `x`, `y` and `z` along the axes of the frame.
+///
+/// # Errors
+/// As [`write_obj`].
+pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
     let vertices = surface.heights().len();
     let mut normals = try_filled("OBJ file", vertices, [0.0; 3])?;
     let mut numbers = try_filled("OBJ file", vertices, UNUSED)?;
@@ -52,25 +67,31 @@ pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
         });
     }
     let mut file = Buffer::default();
-    let written = write(&mut file, surface, &numbers, &normals);
+    let written = write(&mut file, surface, frame, &numbers, &normals);
     file.finish("OBJ file", written)
 }
 
 fn write(
     file: &mut Buffer,
     surface: &Heightfield,
+    frame: &Frame,
     numbers: &[u32],
     normals: &[[f64; 3]],
 ) -> io::Result<()> {
     let lattice = surface.lattice();
     let used = || (0..numbers.len()).filter(|i| numbers[*i] != UNUSED);
-    writeln!(file, "# height surface: x to the right, y up, z the height")?;
+    let Frame { right, up, towards } = frame;
+    writeln!(
+        file,
+        "# height surface: {right:?} to the right, {up:?} up, {towards:?} the height"
+    )?;
     for i in used() {
         let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-        writeln!(file, "v {x} {y} {}", surface.heights()[i])?;
+        let [x, y, z] = frame.unview([x, y, surface.heights()[i]]);
+        writeln!(file, "v {x} {y} {z}")?;
     }
     for i in used() {
-        let [x, y, z] = normals[i];
+        let [x, y, z] = frame.unview(normals[i]);
         let length = x.hypot(y).hypot(z);
         writeln!(
             file,

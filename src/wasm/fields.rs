@@ -64,6 +64,8 @@ pub(super) struct LatticeInput {
     #[serde(default, with = "preserve")]
     mask: JsValue,
     no_data: Option<f64>,
+    #[cfg(feature = "formats")]
+    pub(super) frame: Option<super::frame::FrameFields>,
 }
 
 impl LatticeInput {

@@ -9,7 +9,7 @@ use super::Result;
 use super::fields::{ImageInput, LatticeInput};
 use super::options::{entries, option, unknown};
 use crate::error::try_filled;
-use crate::formats::{Format, decode, write_npy, write_obj, write_png};
+use crate::formats::{Format, decode, write_npy, write_obj, write_obj_in, write_png};
 
 /// `ReadResult` of `types.d.ts`.
 #[derive(Serialize)]
@@ -76,9 +76,15 @@ pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
     Ok(write_png(&image)?.as_slice().into())
 }
 
-/// OBJ mesh of lattice heights.
+/// OBJ mesh of lattice heights, in the axes of their frame.
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue) -> Result<Uint8Array> {
-    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
-    Ok(write_obj(&field)?.as_slice().into())
+    let input = from_value::<LatticeInput>(field)?;
+    let frame = input.frame;
+    let field = input.into_heightfield()?;
+    let file = match frame {
+        Some(frame) => write_obj_in(&field, &frame.into())?,
+        None => write_obj(&field)?,
+    };
+    Ok(file.as_slice().into())
 }

@@ -49,7 +49,7 @@ test('help and version', async () => {
   const flags = [
     '--output', '--lambda', '--gap', '--schedule', '--max-iterations', '--lattice', '--spacing', '--height-scale',
     '--mask', '--no-data', '--no-normalize', '--report', '--help', '--version', '--energy', '--reweight', '--tie-break',
-    '--confidence', '--constraints', '--free', '--occlusions', '--threshold', '--occlusion-mask',
+    '--view', '--resolution', '--confidence', '--constraints', '--free', '--occlusions', '--threshold', '--occlusion-mask',
   ];
   for (const flag of flags) assert.ok(help.stdout.includes(flag), flag);
   assert.ok(help.stdout.split('\n').every((line) => line.length <= 80));

@@ -1,0 +1,129 @@
+//! A triangle mesh: positions, triangles, and what else there is at each vertex.
+
+use crate::error::{Error, Result};
+
+/// Triangles in space, in the user's units and the user's own axes.
+///
+/// Nothing is asked of the triangles: they may be open, intersect, overlap, be
+/// degenerate and face either way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    colors: Option<Vec<[f32; 3]>>,
+    uvs: Option<Vec<[f32; 2]>>,
+}
+
+impl Mesh {
+    /// A mesh of triangles that name their vertices by index.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if there is no triangle, [`Error::Format`] if one
+    /// names a vertex that is not there, [`Error::NotFinite`] if a coordinate is
+    /// not finite (its row is the vertex, its column the coordinate).
+    pub fn new(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        if triangles.is_empty() {
+            return Err(Error::Unsupported {
+                format: "mesh",
+                reason: "it has no faces, and only triangles can be seen; make a mesh of a point \
+                         cloud or of lines first"
+                    .into(),
+            });
+        }
+        let not_finite = |p: &[f64; 3]| p.iter().position(|v| !v.is_finite());
+        if let Some((row, col)) = positions
+            .iter()
+            .enumerate()
+            .find_map(|(i, p)| not_finite(p).map(|k| (i, k)))
+        {
+            return Err(Error::NotFinite {
+                what: "vertex position of the mesh",
+                value: positions[row][col],
+                row,
+                col,
+                advice: "rows are vertices and columns coordinates; repair or remove the vertex",
+            });
+        }
+        let outside = |t: &[u32; 3]| t.iter().copied().find(|i| *i as usize >= positions.len());
+        if let Some((triangle, vertex)) = triangles
+            .iter()
+            .enumerate()
+            .find_map(|(i, t)| outside(t).map(|v| (i, v)))
+        {
+            return Err(Error::Format {
+                format: "mesh",
+                reason: format!(
+                    "triangle {triangle} names vertex {vertex}, but there are only {} (counted \
+                     from 0)",
+                    positions.len()
+                ),
+            });
+        }
+        Ok(Mesh {
+            positions,
+            triangles,
+            colors: None,
+            uvs: None,
+        })
+    }
+
+    /// The same mesh with a colour for each vertex: red, green, blue, usually
+    /// from 0 to 1, in whatever colour space the user has.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one for each vertex.
+    pub fn with_colors(mut self, colors: Vec<[f32; 3]>) -> Result<Self> {
+        self.check("colours of the mesh", 3, colors.len())?;
+        self.colors = Some(colors);
+        Ok(self)
+    }
+
+    /// The same mesh with texture coordinates for each vertex.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one pair for each vertex.
+    pub fn with_uvs(mut self, uvs: Vec<[f32; 2]>) -> Result<Self> {
+        self.check("texture coordinates of the mesh", 2, uvs.len())?;
+        self.uvs = Some(uvs);
+        Ok(self)
+    }
+
+    fn check(&self, what: &'static str, cols: usize, found: usize) -> Result<()> {
+        let rows = self.positions.len();
+        if found == rows {
+            return Ok(());
+        }
+        Err(Error::Shape {
+            what,
+            rows,
+            cols,
+            expected: rows * cols,
+            found: found * cols,
+        })
+    }
+
+    /// Positions of the vertices.
+    pub fn positions(&self) -> &[[f64; 3]] {
+        &self.positions
+    }
+
+    /// Three vertices for each triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// A colour for each vertex.
+    pub fn colors(&self) -> Option<&[[f32; 3]]> {
+        self.colors.as_deref()
+    }
+
+    /// Texture coordinates for each vertex.
+    pub fn uvs(&self) -> Option<&[[f32; 2]]> {
+        self.uvs.as_deref()
+    }
+
+    /// The corners of one triangle.
+    pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
+        triangle.map(|i| self.positions[i as usize])
+    }
+}

@@ -1,0 +1,254 @@
+//! glTF 2.0 and GLB: the scene by way of `gltf`, its buffers by hand, for their ranges need not be
+//! those that the file says.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use gltf::accessor::{DataType, Dimensions};
+use gltf::buffer::Source;
+use gltf::json::Root;
+use gltf::mesh::Mode;
+use gltf::{Accessor, Document, Glb, Primitive, Semantic};
+use nalgebra::{Matrix4, Vector4};
+
+use super::{Parts, damaged, unsupported};
+use crate::error::Result;
+
+const NAME: &str = "glTF";
+
+pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
+    let binary = bytes.starts_with(b"glTF");
+    let (json, bin) = if binary {
+        let glb = Glb::from_slice(bytes).map_err(|error| damaged(NAME, error))?;
+        (glb.json, glb.bin)
+    } else {
+        (bytes.into(), None)
+    };
+    let root: Root =
+        gltf::json::deserialize::from_slice(&json).map_err(|error| damaged(NAME, error))?;
+    if let Some(name) = root.extensions_required.first() {
+        return Err(unsupported(
+            NAME,
+            format!(
+                "the file cannot be read without the extension {}; save it without, or without \
+                 compression",
+                name.chars().take(60).collect::<String>()
+            ),
+        ));
+    }
+    // Its validation looks them up unchecked.
+    let attributes = |mesh: &gltf::json::Mesh| {
+        let primitives = mesh.primitives.iter();
+        primitives
+            .map(|p| p.attributes.values().map(|i| i.value()).max())
+            .max()
+            .flatten()
+    };
+    if root
+        .meshes
+        .iter()
+        .filter_map(attributes)
+        .any(|i| i >= root.accessors.len())
+    {
+        return Err(damaged(
+            NAME,
+            "an attribute names an accessor that is not there",
+        ));
+    }
+    let document = Document::from_json(root).map_err(|error| damaged(NAME, error))?;
+    let buffers = document
+        .buffers()
+        .map(|buffer| match buffer.source() {
+            Source::Bin => bin
+                .as_ref()
+                .map(|bin| bin.to_vec())
+                .ok_or_else(|| damaged(NAME, "there is no binary chunk")),
+            Source::Uri(uri) => embedded(uri),
+        })
+        .collect::<Result<Vec<_>>>()?;
+    visit(&document, &buffers, parts)
+}
+
+/// The bytes of a `data:` address.
+fn embedded(uri: &str) -> Result<Vec<u8>> {
+    let data = uri
+        .strip_prefix("data:")
+        .and_then(|rest| rest.split_once(";base64,"));
+    let Some((_, data)) = data else {
+        return Err(unsupported(
+            NAME,
+            "its buffers are in other files; save it as GLB, or with embedded buffers",
+        ));
+    };
+    STANDARD.decode(data).map_err(|error| damaged(NAME, error))
+}
+
+/// Every node of the scene, with the transforms of those above it.
+fn visit(document: &Document, buffers: &[Vec<u8>], parts: &mut Parts) -> Result<()> {
+    let Some(scene) = document
+        .default_scene()
+        .or_else(|| document.scenes().next())
+    else {
+        return Err(unsupported(NAME, "there is no scene in it"));
+    };
+    let mut seen = vec![false; document.nodes().len()];
+    let mut open: Vec<_> = scene
+        .nodes()
+        .map(|node| (node, Matrix4::identity()))
+        .collect();
+    while let Some((node, above)) = open.pop() {
+        if std::mem::replace(&mut seen[node.index()], true) {
+            return Err(damaged(
+                NAME,
+                "a node has two parents, or is its own ancestor",
+            ));
+        }
+        let own = Matrix4::from(node.transform().matrix()).cast::<f64>();
+        let transform = above * own;
+        for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
+            add(&primitive, &transform, buffers, parts)?;
+        }
+        open.extend(node.children().map(|child| (child, transform)));
+    }
+    Ok(())
+}
+
+fn add(
+    primitive: &Primitive,
+    transform: &Matrix4<f64>,
+    buffers: &[Vec<u8>],
+    parts: &mut Parts,
+) -> Result<()> {
+    let mode = primitive.mode();
+    if !matches!(
+        mode,
+        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
+    ) {
+        return Ok(()); // points and lines
+    }
+    let Some(positions) = primitive.get(&Semantic::Positions) else {
+        return Ok(());
+    };
+    let start = parts.positions.len();
+    for p in floats::<3>(&positions, buffers)? {
+        let point = transform * Vector4::new(p[0], p[1], p[2], 1.0);
+        parts.position([point.x, point.y, point.z])?;
+    }
+    let vertices = parts.positions.len() - start;
+    if let Some(colors) = primitive.get(&Semantic::Colors(0)) {
+        let colors = floats::<3>(&colors, buffers)?;
+        parts
+            .colors
+            .extend(colors.iter().take(vertices).map(|c| c.map(|v| v as f32)));
+    }
+    if let Some(uvs) = primitive.get(&Semantic::TexCoords(0)) {
+        let uvs = floats::<2>(&uvs, buffers)?;
+        parts
+            .uvs
+            .extend(uvs.iter().take(vertices).map(|c| c.map(|v| v as f32)));
+    }
+    let indices = match primitive.indices() {
+        Some(accessor) => whole(&accessor, buffers)?,
+        None => (0..vertices as u32).collect(),
+    };
+    if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
+        return Err(damaged(
+            NAME,
+            format!("a triangle names vertex {outside} of {vertices}"),
+        ));
+    }
+    let indices: Vec<u32> = indices.iter().map(|i| i + start as u32).collect();
+    match mode {
+        Mode::TriangleFan => parts.fan(&indices),
+        Mode::TriangleStrip => indices.windows(3).enumerate().try_for_each(|(i, t)| {
+            let [a, b] = if i % 2 == 0 {
+                [t[0], t[1]]
+            } else {
+                [t[1], t[0]]
+            };
+            parts.triangle([a, b, t[2]])
+        }),
+        _ => indices
+            .chunks_exact(3)
+            .try_for_each(|t| parts.triangle([t[0], t[1], t[2]])),
+    }
+}
+
+/// The first `N` components of each element; whole numbers as shares of their largest.
+fn floats<const N: usize>(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<[f64; N]>> {
+    let kind = accessor.data_type();
+    let (width, components) = (kind.size(), count(accessor.dimensions()));
+    if components < N {
+        return Err(damaged(NAME, "an attribute has too few components"));
+    }
+    let component = |bytes: &[u8]| match (kind, bytes) {
+        (DataType::F32, [a, b, c, d]) => Some(f64::from(f32::from_le_bytes([*a, *b, *c, *d]))),
+        (DataType::U8, [a]) => Some(f64::from(*a) / f64::from(u8::MAX)),
+        (DataType::U16, [a, b]) => {
+            Some(f64::from(u16::from_le_bytes([*a, *b])) / f64::from(u16::MAX))
+        }
+        _ => None,
+    };
+    elements(accessor, buffers)?
+        .map(|element| {
+            let mut out = [0.0; N];
+            for (out, bytes) in out.iter_mut().zip(element.chunks_exact(width)) {
+                *out = component(bytes)
+                    .ok_or_else(|| unsupported(NAME, "an attribute has an unusual type"))?;
+            }
+            Ok(out)
+        })
+        .collect()
+}
+
+fn whole(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<u32>> {
+    elements(accessor, buffers)?
+        .map(|element| match (accessor.data_type(), element) {
+            (DataType::U8, [a]) => Ok(u32::from(*a)),
+            (DataType::U16, [a, b]) => Ok(u32::from(u16::from_le_bytes([*a, *b]))),
+            (DataType::U32, [a, b, c, d]) => Ok(u32::from_le_bytes([*a, *b, *c, *d])),
+            _ => Err(damaged(NAME, "indices are not single whole numbers")),
+        })
+        .collect()
+}
+
+fn count(dimensions: Dimensions) -> usize {
+    match dimensions {
+        Dimensions::Scalar => 1,
+        Dimensions::Vec2 => 2,
+        Dimensions::Vec3 => 3,
+        Dimensions::Vec4 | Dimensions::Mat2 => 4,
+        Dimensions::Mat3 => 9,
+        Dimensions::Mat4 => 16,
+    }
+}
+
+/// The bytes of each element.
+fn elements<'a>(
+    accessor: &Accessor,
+    buffers: &'a [Vec<u8>],
+) -> Result<impl Iterator<Item = &'a [u8]>> {
+    if accessor.sparse().is_some() {
+        return Err(unsupported(NAME, "sparse accessors are not read"));
+    }
+    let Some(view) = accessor.view() else {
+        return Err(unsupported(NAME, "an accessor has no buffer view"));
+    };
+    let size = accessor.data_type().size() * count(accessor.dimensions());
+    let stride = view.stride().unwrap_or(size);
+    let whole = || {
+        let buffer = buffers.get(view.buffer().index())?;
+        let view = buffer.get(view.offset()..view.offset().checked_add(view.length())?)?;
+        let bytes = view.get(accessor.offset()..)?;
+        let last = accessor.count().checked_sub(1)?;
+        let needed = last.checked_mul(stride)?.checked_add(size)?;
+        (stride >= size).then_some(bytes.get(..needed)?)
+    };
+    let bytes = whole().ok_or_else(|| {
+        damaged(
+            NAME,
+            "an accessor reaches beyond its buffer, which may have been cut short",
+        )
+    })?;
+    // The last one may be shorter than the stride.
+    Ok(bytes.chunks(stride).map(move |element| &element[..size]))
+}

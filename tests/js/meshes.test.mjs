@@ -1,0 +1,194 @@
+/** Meshes: read, sampled, fitted and turned back; directly, in a worker and by the command. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+
+after(() => developable.dispose());
+
+/** @param {string} name */
+const file = (name) => readFile(new URL(`../data/meshes/${name}`, import.meta.url));
+
+/** @param {string} code @param {RegExp} [message] */
+const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
+  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
+  assert.equal(thrown.code, code);
+  assert.match(thrown.message, message);
+  return true;
+};
+
+/** A square of the plane x + 2y + 4z = 1 that stands in the mesh's own axes, finely cut. */
+function tilted(cells = 12) {
+  const n = cells + 1;
+  const positions = new Float64Array(3 * n * n);
+  const triangles = [];
+  for (let i = 0; i < n * n; i++) {
+    const [x, y] = [(i % n) / cells, Math.floor(i / n) / cells];
+    positions.set([x, y, (1 - x - 2 * y) / 4], 3 * i);
+    if (x < 1 && y < 1) triangles.push(i, i + 1, i + n + 1, i, i + n + 1, i + n);
+  }
+  return { positions, triangles: Uint32Array.from(triangles) };
+}
+
+/** @param {string} text @returns {number[][]} */
+const verticesOf = (text) => text.split('\n').filter((line) => line.startsWith('v '))
+  .map((line) => line.slice(2).split(' ').map(Number));
+
+/** @param {number[]} point */
+const offPlane = ([x, y, z]) => Math.abs(x + 2 * y + 4 * z - 1);
+
+test('meshes have a wasm of their own', async () => {
+  assert.throws(() => direct.readMesh(new Uint8Array(8)), error('NOT_INITIALIZED', /initMeshes\(\)/));
+  await Promise.all([direct.init(), direct.initFiles(), direct.initMeshes()]);
+});
+
+test('files of all formats', async () => {
+  for (const name of ['colours.obj', 'polygons-be.ply', 'trimesh-ascii.ply', 'ascii.stl', 'numpy-binary.stl', 'embedded.gltf', 'turned.glb']) {
+    const bytes = await file(name);
+    const mesh = direct.readMesh(bytes);
+    assert.equal(mesh.triangles.length, 9, name);
+    assert.ok(mesh.positions instanceof Float64Array && mesh.positions.length >= 15, name);
+    assert.deepEqual(await developable.readMesh(bytes), mesh, name);
+  }
+  const { colors } = direct.readMesh(await file('colours.obj'), { format: 'obj' });
+  assert.equal(colors?.length, 15);
+  const { uvs } = direct.readMesh(await file('fan.glb'), { format: 'glb' });
+  assert.equal(uvs?.length, 10);
+});
+
+test('a plane comes back in its own axes from every side', async () => {
+  const mesh = tilted();
+  for (const view of /** @type {const} */ (['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'])) {
+    const sampled = direct.sampleMesh(mesh, { view, resolution: 30 });
+    const surface = direct.fit(sampled, { lambda: 'big' });
+    assert.deepEqual(surface.frame, sampled.frame);
+    const points = verticesOf(new TextDecoder().decode(direct.writeObj(surface)));
+    assert.ok(points.length > 100, view);
+    for (const point of points) {
+      assert.ok(offPlane(point) < 1e-6, `${view}: ${point}`);
+      assert.ok(point[0] > -1e-9 && point[0] < 1 + 1e-9 && point[1] > -1e-9 && point[1] < 1 + 1e-9);
+    }
+  }
+});
+
+test('the promise API does the same', async () => {
+  const mesh = { ...tilted(), colors: new Float32Array(3 * 169).fill(0.5) };
+  const options = { view: /** @type {const} */ ([-1, -2, -4]), spacing: 0.05 };
+  const sampled = await developable.sampleMesh(mesh, options);
+  assert.equal(mesh.positions.length, 3 * 169, 'the mesh is not taken away');
+  assert.deepEqual(sampled, direct.sampleMesh(mesh, options));
+  assert.equal(sampled.colors?.length, 3 * sampled.rows * sampled.cols);
+  const surface = await developable.fit(sampled, { lambda: 'big' });
+  assert.deepEqual(surface.frame, sampled.frame);
+  const bytes = await developable.writeObj(surface);
+  assert.ok(verticesOf(new TextDecoder().decode(bytes)).every((point) => offPlane(point) < 1e-6));
+});
+
+test('plain arrays are a mesh too', () => {
+  const mesh = /** @type {any} */ ({ positions: [0, 0, 1, 2, 0, 1, 0, 2, 1], triangles: [0, 1, 2] });
+  const { heights, colors, uvs } = direct.sampleMesh(mesh, { resolution: 9 });
+  assert.ok(heights.every((z) => Math.abs(z - 1) < 1e-12 || Number.isNaN(z)) && !heights.every(Number.isNaN));
+  assert.equal(colors, undefined);
+  assert.equal(uvs, undefined);
+});
+
+test('what is wrong with a mesh or an option is said', async () => {
+  const mesh = tilted(2);
+  /** @param {any} options */
+  const sample = (options) => () => direct.sampleMesh(mesh, options);
+  assert.throws(sample({ view: 'top' }), error('OPTION', /view/));
+  assert.throws(sample({ view: [0, 0, 0] }), error('OPTION', /view/));
+  assert.throws(sample({ view: [0, 1] }), error('OPTION', /view/));
+  assert.throws(sample({ resolution: 1 }), error('OPTION', /resolution/));
+  assert.throws(sample({ resolution: 2.5 }), error('OPTION', /resolution/));
+  assert.throws(sample({ resolution: 9, spacing: 1 }), error('OPTION', /spacing/));
+  assert.throws(sample({ spacing: 0 }), error('OPTION', /spacing/));
+  assert.throws(sample({ size: 7 }), error('OPTION', /size/));
+  assert.throws(sample({ spacing: 1e-7 }), error('TOO_LARGE'));
+  /** @param {any} changed */
+  const changed = (changed) => () => direct.sampleMesh({ ...mesh, ...changed });
+  assert.throws(changed({ positions: undefined }), error('INPUT', /positions/));
+  assert.throws(changed({ triangles: [0, 1, -1] }), error('INPUT', /triangles\[2\]/));
+  assert.throws(changed({ triangles: new Uint32Array(4) }), error('SHAPE'));
+  assert.throws(changed({ triangles: new Uint32Array([0, 1, 99]) }), error('FORMAT', /99/));
+  assert.throws(changed({ triangles: new Uint32Array(0) }), error('UNSUPPORTED'));
+  assert.throws(changed({ colors: new Float32Array(3) }), error('SHAPE'));
+  assert.throws(changed({ positions: new Float64Array(27).fill(NaN) }), error('NOT_FINITE'));
+  assert.throws(() => direct.sampleMesh(/** @type {any} */ (undefined)), error('INPUT'));
+  assert.throws(() => direct.readMesh(new Uint8Array(9)), error('UNSUPPORTED'));
+  assert.throws(() => direct.readMesh(new Uint8Array(9), { format: 'stl' }), error('FORMAT'));
+  assert.throws(() => direct.readMesh(new Uint8Array(9), /** @type {any} */ ({ format: 'fbx' })), error('OPTION'));
+  const draco = await file('draco.glb');
+  assert.throws(() => direct.readMesh(draco), error('UNSUPPORTED', /draco/));
+  await assert.rejects(developable.readMesh(draco), error('UNSUPPORTED', /draco/));
+  const heights = { rows: 3, cols: 3, spacing: 1, heights: new Float64Array(9) };
+  assert.throws(() => direct.writeObj({ ...heights, frame: /** @type {any} */ ({ up: [1, 2] }) }), error('INPUT', /frame/));
+});
+
+test('damaged files leave the wasm alive', async () => {
+  for (const name of ['colours.obj', 'polygons-le.ply', 'trimesh-ascii.ply', 'binary.stl', 'ascii.stl', 'strip.glb', 'embedded.gltf']) {
+    const whole = await file(name);
+    for (let i = 0; i < 600; i++) {
+      const bytes = Uint8Array.from(whole);
+      for (let k = 0; k <= i % 3; k++) bytes[(i * 7919 + k * 104729) % bytes.length] = (i * 31 + k * 17) % 256;
+      try {
+        direct.readMesh(i % 2 ? bytes : bytes.subarray(0, (i * 13) % bytes.length), { format: /** @type {any} */ (name.split('.')[1]) });
+      } catch (thrown) {
+        const { code } = /** @type {import('../../pkg/direct.js').DevelopableError} */ (thrown);
+        assert.ok(['FORMAT', 'UNSUPPORTED', 'NOT_FINITE'].includes(code), `${name}, ${i}: ${thrown}`);
+      }
+    }
+  }
+});
+
+test('a million triangles in good time', () => {
+  const cells = 710;
+  const mesh = tilted(cells);
+  assert.ok(mesh.triangles.length > 3_000_000);
+  const start = performance.now();
+  const { heights } = direct.sampleMesh(mesh, { resolution: 430 });
+  const seconds = (performance.now() - start) / 1000;
+  assert.ok(heights.length > 200_000);
+  assert.ok(seconds < 2, `${seconds} s`);
+});
+
+test('the command fits a mesh in its own axes', async () => {
+  const folder = await temporaryFolder();
+  const { positions, triangles } = tilted();
+  const lines = [];
+  for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions.slice(i, i + 3).join(' ')}`);
+  for (let i = 0; i < triangles.length; i += 3) lines.push(`f ${[...triangles.slice(i, i + 3)].map((v) => v + 1).join(' ')}`);
+  await writeFile(join(folder, 'plane.obj'), lines.join('\n'));
+  await writeFile(join(folder, 'bad.ply'), 'ply\n');
+  await writeFile(join(folder, 'image.npy'), 'none');
+  /** @param {string} args */
+  const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
+  const silent = { status: 0, stdout: '', stderr: '' };
+  for (const view of ['-z', '+y', '-1,-2,-4', 'best-fit']) {
+    assert.deepEqual(await fit(`plane.obj --view ${view} --resolution 25 --lambda big -o out.obj`), silent);
+    const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
+    assert.ok(points.length > 100 && points.every((point) => offPlane(point) < 1e-6), view);
+  }
+  assert.deepEqual(await fit('plane.obj --spacing 0.1 -o out.npy'), silent);
+  /** @type {[string, number, RegExp][]} */
+  const wrong = [
+    ['plane.obj --view top -o out.obj', 2, /--view/],
+    ['plane.obj --view 1,2 -o out.obj', 2, /--view/],
+    ['plane.obj --resolution 1 -o out.obj', 2, /--resolution/],
+    ['plane.obj --resolution 9 --spacing 1 -o out.obj', 2, /--spacing/],
+    ['plane.obj --mask image.npy -o out.obj', 2, /--mask/],
+    ['image.npy --view -z -o out.obj', 2, /--view/],
+    ['bad.ply -o out.obj', 3, /bad\.ply.*PLY/],
+    ['nothing.stl -o out.obj', 3, /nothing\.stl/],
+  ];
+  for (const [args, status, message] of wrong) {
+    const result = await fit(args);
+    assert.equal(result.status, status, `${args}: ${result.stderr}`);
+    assert.match(result.stderr, message);
+  }
+  assert.equal((await run(folder, ['design', 'plane.obj', '-o', 'out.obj'])).status, 2);
+  assert.equal((await run(folder, ['occlusions', 'plane.obj', '-o', 'out.npy', '--resolution', '20'])).status, 0);
+});

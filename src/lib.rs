@@ -66,6 +66,7 @@
 
 #![warn(missing_docs)]
 
+pub mod analysis;
 mod domain;
 mod error;
 mod examples;
@@ -86,6 +87,7 @@ mod solver;
 mod spectral;
 mod stencil;
 mod surface;
+mod triangulation;
 mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
@@ -107,6 +109,7 @@ pub use solver::{
 pub use spectral::Sym2;
 pub use stencil::Quadratic;
 pub use surface::Surface;
+pub use triangulation::Triangulation;
 pub use view::{Frame, View};
 
 /// The README's example.

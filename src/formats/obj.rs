@@ -3,13 +3,10 @@
 use std::io::{self, Write};
 
 use super::Buffer;
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Result, try_filled};
 use crate::heightfield::Heightfield;
-use crate::lattice::Towards;
+use crate::triangulation::Triangulation;
 use crate::view::Frame;
-
-/// Marks a vertex that no triangle uses.
-const UNUSED: u32 = 0;
 
 /// An OBJ file of the surface: every lattice triangle whose three vertices have
 /// heights, counter-clockwise seen from above (from +z), and only the vertices
@@ -23,7 +20,8 @@ const UNUSED: u32 = 0;
 /// Costs `O(vertices)`.
 ///
 /// # Errors
-/// [`Error::Unsupported`] if there is no whole triangle, [`Error::OutOfMemory`].
+/// [`Error::Unsupported`](crate::Error::Unsupported) if there is no whole triangle,
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
     let own = Frame {
         right: [1.0, 0.0, 0.0],
@@ -39,59 +37,36 @@ pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`write_obj`].
 pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
-    let vertices = surface.heights().len();
-    let mut normals = try_filled("OBJ file", vertices, [0.0; 3])?;
-    let mut numbers = try_filled("OBJ file", vertices, UNUSED)?;
-    for triangle in triangles(surface) {
-        let normal = normal(surface, triangle);
+    let mesh = Triangulation::new(surface)?;
+    let mut normals = try_filled("OBJ file", mesh.vertices().len(), [0.0; 3])?;
+    for triangle in mesh.triangles() {
+        let normal = mesh.normal(*triangle);
         for vertex in triangle {
-            let i = index(surface, vertex);
-            numbers[i] = 1;
-            normals[i]
-                .iter_mut()
-                .zip(normal)
-                .for_each(|(sum, n)| *sum += n);
+            (normals[*vertex as usize].iter_mut().zip(normal)).for_each(|(sum, n)| *sum += n);
         }
     }
-    let mut used = 0;
-    for number in numbers.iter_mut().filter(|n| **n != UNUSED) {
-        used += 1;
-        *number = used;
-    }
-    if used == 0 {
-        return Err(Error::Unsupported {
-            format: "OBJ",
-            reason: "no triangle of the lattice has a height at all three vertices, so there is \
-                     no surface to write"
-                .into(),
-        });
-    }
     let mut file = Buffer::default();
-    let written = write(&mut file, surface, frame, &numbers, &normals);
+    let written = write(&mut file, &mesh, frame, &normals);
     file.finish("OBJ file", written)
 }
 
 fn write(
     file: &mut Buffer,
-    surface: &Heightfield,
+    mesh: &Triangulation,
     frame: &Frame,
-    numbers: &[u32],
     normals: &[[f64; 3]],
 ) -> io::Result<()> {
-    let lattice = surface.lattice();
-    let used = || (0..numbers.len()).filter(|i| numbers[*i] != UNUSED);
     let Frame { right, up, towards } = frame;
     writeln!(
         file,
         "# height surface: {right:?} to the right, {up:?} up, {towards:?} the height"
     )?;
-    for i in used() {
-        let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-        let [x, y, z] = frame.unview([x, y, surface.heights()[i]]);
+    for position in mesh.positions() {
+        let [x, y, z] = frame.unview(*position);
         writeln!(file, "v {x} {y} {z}")?;
     }
-    for i in used() {
-        let [x, y, z] = frame.unview(normals[i]);
+    for normal in normals {
+        let [x, y, z] = frame.unview(*normal);
         let length = x.hypot(y).hypot(z);
         writeln!(
             file,
@@ -101,47 +76,10 @@ fn write(
             z / length
         )?;
     }
-    for triangle in triangles(surface) {
-        let [a, b, c] = triangle.map(|v| numbers[index(surface, v)]);
+    for triangle in mesh.triangles() {
+        // The file counts from 1.
+        let [a, b, c] = triangle.map(|v| v + 1);
         writeln!(file, "f {a}//{a} {b}//{b} {c}//{c}")?;
     }
     Ok(())
-}
-
-type Vertex = (usize, usize);
-
-fn index(surface: &Heightfield, (row, col): Vertex) -> usize {
-    surface.lattice().index(row, col)
-}
-
-/// The lattice's triangles with three heights, each counter-clockwise with `y` up.
-fn triangles(surface: &Heightfield) -> impl Iterator<Item = [Vertex; 3]> {
-    let lattice = surface.lattice();
-    let vertices = (0..lattice.rows()).flat_map(|r| (0..lattice.cols()).map(move |c| (r, c)));
-    vertices
-        .flat_map(|(row, col)| {
-            let a = (row as isize, col as isize);
-            let [e, sw, se] = [Towards::East, Towards::SouthWest, Towards::SouthEast]
-                .map(|towards| towards.step(a.0, a.1));
-            [[a, sw, se], [a, se, e]]
-        })
-        .filter(|triangle| {
-            triangle.iter().all(|(r, c)| {
-                surface.lattice().contains(*r, *c)
-                    && surface.height(*r as usize, *c as usize).is_finite()
-            })
-        })
-        .map(|triangle| triangle.map(|(r, c)| (r as usize, c as usize)))
-}
-
-/// Normal of a triangle, in units of the spacing so that it neither over- nor underflows.
-fn normal(surface: &Heightfield, triangle: [Vertex; 3]) -> [f64; 3] {
-    let lattice = surface.lattice();
-    let [a, b, c] = triangle.map(|(row, col)| {
-        let ([x, y], z) = (lattice.position(row, col), surface.height(row, col));
-        [x, y, z].map(|v| v / lattice.spacing())
-    });
-    let edge = |to: [f64; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];
-    let ([ux, uy, uz], [vx, vy, vz]) = (edge(b), edge(c));
-    [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
 }

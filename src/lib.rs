@@ -34,7 +34,8 @@
 //!
 //! [`HeightImage`] (square pixels) → [`HeightImage::to_lattice`] → [`Heightfield`] (on a
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
-//! [`Heightfield::to_image`], or [`formats`] for files.
+//! [`Heightfield::to_image`], or [`formats`] for files; [`analysis`] for figures, and
+//! [`unroll`](mod@unroll) for the surface laid flat.
 //!
 //! An [`Input`] may say more than heights: how far each is to be trusted, which must be met
 //! exactly, where the surface is torn ([`Occlusions`]). A [`Solver`] that has stopped can be
@@ -88,6 +89,7 @@ mod spectral;
 mod stencil;
 mod surface;
 mod triangulation;
+pub mod unroll;
 mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;

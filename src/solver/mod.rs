@@ -7,7 +7,7 @@ mod cg;
 mod component;
 mod frame;
 mod grid;
-mod lanes;
+pub(crate) mod lanes;
 mod law;
 mod level;
 mod levels;

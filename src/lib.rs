@@ -68,6 +68,7 @@
 #![warn(missing_docs)]
 
 pub mod analysis;
+pub mod dewarp;
 mod domain;
 mod error;
 mod examples;

@@ -1,0 +1,152 @@
+//! A photo, and what colour it has between its pixels.
+
+use crate::error::{Error, Result, check_shape};
+
+/// RGBA bytes of an image, row by row, top row first.
+#[derive(Debug, Clone, Copy)]
+pub struct Photo<'a> {
+    width: usize,
+    height: usize,
+    rgba: &'a [u8],
+}
+
+/// Most samples along each side of a pixel.
+const FINEST: f32 = 8.0;
+
+impl<'a> Photo<'a> {
+    /// A photo from its bytes, four for each pixel.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without pixels, [`Error::Shape`] if there are not `4 · width · height`
+    /// bytes, [`Error::TooLarge`].
+    pub fn new(width: usize, height: usize, rgba: &'a [u8]) -> Result<Self> {
+        if width == 0 || height == 0 {
+            return Err(Error::Empty { what: "photo" });
+        }
+        if !rgba.len().is_multiple_of(4) || rgba.len() / 4 != width.saturating_mul(height) {
+            return Err(Error::Shape {
+                what: "photo",
+                rows: height,
+                cols: width,
+                expected: width.saturating_mul(height).saturating_mul(4),
+                found: rgba.len(),
+            });
+        }
+        check_shape("photo", height, width, rgba.len() / 4)?;
+        Ok(Photo {
+            width,
+            height,
+            rgba,
+        })
+    }
+
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The mean colour of the parallelogram around a place that two steps span, in pixels; `[0, 0]`
+    /// is the centre of the upper left one. Transparent outside of the photo.
+    pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {
+        let samples = |step: [f32; 2]| step[0].hypot(step[1]).round().clamp(1.0, FINEST);
+        let [m, n] = [samples(across), samples(down)];
+        let mut sum = [0.0f32; 4];
+        for j in 0..n as usize {
+            let v = (j as f32 + 0.5) / n - 0.5;
+            for i in 0..m as usize {
+                let u = (i as f32 + 0.5) / m - 0.5;
+                let place = [0, 1].map(|k| [x, y][k] + u * across[k] + v * down[k]);
+                let colour = self.bilinear(place);
+                for (sum, value) in sum.iter_mut().zip(colour) {
+                    *sum += value;
+                }
+            }
+        }
+        let [r, g, b, a] = sum;
+        if a <= 0.0 {
+            return [0; 4];
+        }
+        let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
+        [byte(r / a), byte(g / a), byte(b / a), byte(a / (m * n))]
+    }
+
+    /// Colour between four pixels, times its alpha, which goes up to 255. Up to half a pixel
+    /// beyond the outermost centres the photo goes on as it ends there.
+    fn bilinear(&self, [x, y]: [f32; 2]) -> [f32; 4] {
+        let [right, bottom] = [self.width, self.height].map(|n| n as f32 - 0.5);
+        if !((-0.5..=right).contains(&x) && (-0.5..=bottom).contains(&y)) {
+            return [0.0; 4];
+        }
+        let (left, top) = (x.floor(), y.floor());
+        let (fx, fy) = (x - left, y - top);
+        let mut sum = [0.0; 4];
+        let weights = [
+            (0.0, 0.0, (1.0 - fx) * (1.0 - fy)),
+            (1.0, 0.0, fx * (1.0 - fy)),
+            (0.0, 1.0, (1.0 - fx) * fy),
+            (1.0, 1.0, fx * fy),
+        ];
+        for (dx, dy, weight) in weights {
+            let col = (left + dx).clamp(0.0, (self.width - 1) as f32) as usize;
+            let row = (top + dy).clamp(0.0, (self.height - 1) as f32) as usize;
+            let pixel = &self.rgba[4 * (row * self.width + col)..][..4];
+            let alpha = weight * f32::from(pixel[3]);
+            for k in 0..3 {
+                sum[k] += alpha * f32::from(pixel[k]);
+            }
+            sum[3] += alpha;
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ONE: [[f32; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
+
+    #[test]
+    fn a_ramp_stays_one_between_pixels_and_ends_at_the_border() {
+        let rgba: Vec<u8> = (0..40).flat_map(|i| [20 * (i % 10), 10, 5, 255]).collect();
+        let photo = Photo::new(10, 4, &rgba).unwrap();
+        assert_eq!(photo.sample([3.5, 1.2], ONE), [70, 10, 5, 255]);
+        assert_eq!(photo.sample([-0.4, 0.0], ONE), [0, 10, 5, 255]);
+        assert_eq!(photo.sample([-0.6, 0.0], ONE), [0; 4]);
+        assert_eq!(photo.sample([9.4, 3.4], ONE), [180, 10, 5, 255]);
+        assert_eq!(photo.sample([9.6, 3.0], ONE), [0; 4]);
+    }
+
+    #[test]
+    fn many_pixels_in_one_are_averaged_and_transparent_ones_have_no_colour() {
+        let rgba: Vec<u8> = (0..64)
+            .flat_map(|i| {
+                if (i % 8 + i / 8) % 2 == 0 {
+                    [200, 0, 0, 255]
+                } else {
+                    [0, 9, 9, 0]
+                }
+            })
+            .collect();
+        let photo = Photo::new(8, 8, &rgba).unwrap();
+        let four = [[4.0, 0.0], [0.0, 4.0]];
+        let [r, g, b, a] = photo.sample([3.5, 3.5], four);
+        assert_eq!([r, g, b], [200, 0, 0]);
+        assert!(a.abs_diff(128) <= 1, "{a}");
+    }
+
+    #[test]
+    fn wrong_sizes_are_refused() {
+        assert_eq!(Photo::new(2, 2, &[0; 15]).unwrap_err().code(), "SHAPE");
+        assert_eq!(Photo::new(2, 0, &[]).unwrap_err().code(), "EMPTY");
+        assert_eq!(
+            Photo::new(usize::MAX, 2, &[0; 8]).unwrap_err().code(),
+            "SHAPE"
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! Height images and surfaces from and to files held in memory.
 //!
-//! Reads PNG and NPY ([`decode`]); writes NPY, 16-bit PNG and OBJ. Nothing here
+//! Reads PNG and NPY ([`decode`]) and photos ([`decode_photo`]); writes NPY, 16-bit PNG, photos and
+//! OBJ. Nothing here
 //! touches a file system, so that all of it works in a browser too.
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
@@ -8,6 +9,7 @@
 
 mod npy;
 mod obj;
+mod photo;
 mod png;
 
 use std::io::{self, Write};
@@ -18,6 +20,7 @@ use crate::heightfield::HeightImage;
 
 pub use npy::write_npy;
 pub use obj::{write_obj, write_obj_in};
+pub use photo::{PhotoFile, decode_photo, write_photo};
 pub use png::write_png;
 
 /// A file format that can be read.

@@ -3,7 +3,7 @@
 
 #[cfg(feature = "js-solver")]
 mod examples;
-#[cfg(any(feature = "formats", feature = "js-solver"))]
+#[cfg(any(feature = "formats", feature = "js-solver", feature = "js-unroll"))]
 mod fields;
 #[cfg(feature = "formats")]
 mod files;
@@ -18,6 +18,8 @@ mod options;
 mod results;
 #[cfg(feature = "js-solver")]
 mod settings;
+#[cfg(feature = "js-unroll")]
+mod sheets;
 #[cfg(feature = "js-solver")]
 mod solver;
 #[cfg(feature = "js-solver")]

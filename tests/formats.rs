@@ -3,7 +3,10 @@
 
 use std::path::PathBuf;
 
-use developable::formats::{Decoded, Format, decode, write_npy, write_obj, write_png};
+use developable::dewarp::Photo;
+use developable::formats::{
+    Decoded, Format, decode, decode_photo, write_npy, write_obj, write_photo, write_png,
+};
 use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
 use proptest::prelude::*;
 
@@ -421,4 +424,30 @@ fn writers_refuse_what_they_cannot_write() {
     let lattice = Lattice::new(4, 1, 1.0).unwrap();
     let column = Heightfield::new(lattice, vec![0.0; 4]).unwrap();
     assert_eq!(code(write_obj(&column)), "UNSUPPORTED");
+}
+
+#[test]
+fn photos_come_back_as_they_were_and_other_kinds_become_colours() {
+    let rgba: Vec<u8> = (0..4 * 35).map(|i| (i * 37 % 256) as u8).collect();
+    let written = write_photo(&Photo::new(7, 5, &rgba).unwrap()).unwrap();
+    let photo = decode_photo(&written).unwrap();
+    assert_eq!((photo.width, photo.height), (7, 5));
+    assert_eq!(photo.rgba, rgba);
+    for name in [
+        "grey1.png",
+        "grey16.png",
+        "grey8-alpha.png",
+        "rgb-colour.png",
+        "palette-grey.png",
+    ] {
+        let photo = decode_photo(&file(name)).unwrap();
+        assert_eq!(photo.rgba.len(), 4 * photo.width * photo.height, "{name}");
+    }
+    let colour = decode_photo(&file("rgb-colour.png")).unwrap();
+    assert!(
+        colour.rgba.chunks(4).any(|p| p[0] != p[1]) && colour.rgba.chunks(4).all(|p| p[3] == 255)
+    );
+    assert_eq!(decode_photo(b"no png").unwrap_err().code(), "FORMAT");
+    let cut = &written[..written.len() - 20];
+    assert_eq!(decode_photo(cut).unwrap_err().code(), "FORMAT");
 }

@@ -50,6 +50,11 @@ impl<'a> Photo<'a> {
         self.height
     }
 
+    /// The bytes, row by row.
+    pub fn rgba(&self) -> &'a [u8] {
+        self.rgba
+    }
+
     /// The mean colour of the parallelogram around a place that two steps span, in pixels; `[0, 0]`
     /// is the centre of the upper left one. Transparent outside of the photo.
     pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {

@@ -3,8 +3,8 @@
 use std::io::Cursor;
 
 use ::png::{
-    BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Transformations,
-    text_metadata::TEXtChunk,
+    BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Reader,
+    Transformations, text_metadata::TEXtChunk,
 };
 
 use super::{Buffer, Decoded, Format};
@@ -31,43 +31,67 @@ const NO_DATA: &str = "developable:noData";
 const LOWEST: f64 = 1.0;
 const HIGHEST: f64 = 65535.0;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let limits = Limits {
-        bytes: DECODER_BYTES,
-    };
-    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
-    decoder.set_transformations(Transformations::EXPAND);
-    decoder.set_ignore_iccp_chunk(true);
+/// The pixels of a PNG file, and the reader that holds its metadata.
+pub(super) struct Pixels<'a> {
+    pub reader: Reader<Cursor<&'a [u8]>>,
+    pub samples: Vec<u8>,
+    pub width: usize,
+    pub height: usize,
+}
 
-    let info = decoder.read_header_info().map_err(damaged)?;
-    let (width, height) = (info.width as usize, info.height as usize);
-    let len = checked_cells("PNG image", height, width)?;
-    if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
-        return Err(Error::Format {
-            format: "PNG",
-            reason: format!(
-                "{} bytes cannot hold {width} × {height} pixels",
-                bytes.len()
-            ),
-        });
+impl<'a> Pixels<'a> {
+    pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
+        let limits = Limits {
+            bytes: DECODER_BYTES,
+        };
+        let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+        decoder.set_transformations(transformations);
+        decoder.set_ignore_iccp_chunk(true);
+
+        let info = decoder.read_header_info().map_err(damaged)?;
+        let (width, height) = (info.width as usize, info.height as usize);
+        checked_cells("PNG image", height, width)?;
+        if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
+            return Err(Error::Format {
+                format: "PNG",
+                reason: format!(
+                    "{} bytes cannot hold {width} × {height} pixels",
+                    bytes.len()
+                ),
+            });
+        }
+
+        let mut reader = decoder.read_info().map_err(damaged)?;
+        let size = reader
+            .output_buffer_size()
+            .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
+        let mut samples = try_filled("PNG image", size, 0u8)?;
+        reader.next_frame(&mut samples).map_err(damaged)?;
+        // Text may follow the pixels; and a file without its end has been cut short.
+        reader.finish().map_err(damaged)?;
+        Ok(Pixels {
+            reader,
+            samples,
+            width,
+            height,
+        })
     }
+}
 
-    let mut reader = decoder.read_info().map_err(damaged)?;
-    let size = reader
-        .output_buffer_size()
-        .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
-    let mut samples = try_filled("PNG image", size, 0u8)?;
-    reader.next_frame(&mut samples).map_err(damaged)?;
-    // Text may follow the pixels; and a file without its end has been cut short.
-    reader.finish().map_err(damaged)?;
-
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let Pixels {
+        reader,
+        samples,
+        width,
+        height,
+    } = Pixels::decode(bytes, Transformations::EXPAND)?;
     let (color, depth) = reader.output_color_type();
     let (data_type, full, sample_bytes) = match depth {
         BitDepth::Sixteen => ("u16", 65535.0, 2),
         _ => ("u8", 255.0, 1),
     };
     let stride = color.samples() * sample_bytes;
-    let mut values = try_filled("PNG image", len, f64::NAN)?;
+    let mut values = try_filled("PNG image", width * height, f64::NAN)?;
     for (i, (z, pixel)) in values
         .iter_mut()
         .zip(samples.chunks_exact(stride))

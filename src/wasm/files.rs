@@ -1,6 +1,6 @@
 //! Files from and to bytes.
 
-use js_sys::{Float64Array, Uint8Array};
+use js_sys::{Float64Array, Uint8Array, Uint8ClampedArray};
 use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
@@ -8,8 +8,11 @@ use wasm_bindgen::prelude::*;
 use super::Result;
 use super::fields::{ImageInput, LatticeInput};
 use super::options::{entries, option, unknown};
+use crate::dewarp::Photo;
 use crate::error::try_filled;
-use crate::formats::{Format, decode, write_npy, write_obj, write_obj_in, write_png};
+use crate::formats::{
+    Format, decode, decode_photo, write_npy, write_obj, write_obj_in, write_photo, write_png,
+};
 
 /// `ReadResult` of `types.d.ts`.
 #[derive(Serialize)]
@@ -86,5 +89,36 @@ pub fn write_obj_file(field: JsValue) -> Result<Uint8Array> {
         Some(frame) => write_obj_in(&field, &frame.into())?,
         None => write_obj(&field)?,
     };
+    Ok(file.as_slice().into())
+}
+
+/// `Photo` of `types.d.ts` on its way out.
+#[derive(Serialize)]
+struct PhotoOutput {
+    width: usize,
+    height: usize,
+    #[serde(with = "preserve")]
+    data: Uint8ClampedArray,
+}
+
+/// Decodes a PNG file with colours.
+#[wasm_bindgen(js_name = readPhoto)]
+pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
+    let mut file = try_filled("file", bytes.length() as usize, 0)?;
+    bytes.copy_to(&mut file);
+    let photo = decode_photo(&file)?;
+    Ok(to_value(&PhotoOutput {
+        width: photo.width,
+        height: photo.height,
+        data: photo.rgba.as_slice().into(),
+    })?)
+}
+
+/// 8-bit RGBA PNG file.
+#[wasm_bindgen(js_name = writePhoto)]
+pub fn write_photo_file(width: usize, height: usize, rgba: &Uint8Array) -> Result<Uint8Array> {
+    let mut bytes = try_filled("photo", rgba.length() as usize, 0)?;
+    rgba.copy_to(&mut bytes);
+    let file = write_photo(&Photo::new(width, height, &bytes)?)?;
     Ok(file.as_slice().into())
 }

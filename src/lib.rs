@@ -82,6 +82,7 @@ mod mesh;
 #[cfg(feature = "meshes")]
 pub mod meshes;
 mod occlusions;
+pub mod patches;
 mod resample;
 mod restore;
 mod sampling;

@@ -85,6 +85,7 @@ mod occlusions;
 pub mod patches;
 mod resample;
 mod restore;
+pub mod rulings;
 mod sampling;
 mod solver;
 mod spectral;

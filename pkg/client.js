@@ -6,6 +6,7 @@ import { asBytes, asField, asImage, asInput, asLattice, detached } from './input
 import { asMesh } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { makeDisposable } from './platform.js';
+import { asPhoto, dewarpOptions } from './sheet-input.js';
 import { orAborted, solve } from './solve.js';
 import { compile, locate } from './wasm-source.js';
 import { transfer } from './wire.js';
@@ -124,6 +125,71 @@ export class DevelopableWorker {
   }
 
   /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').AnalyzeOptions} [given]
+   */
+  async analyze(input, given) {
+    const { reference, ...options } = asOptions(given);
+    const { field, buffers } = detached(asField(input));
+    const other = reference === undefined ? undefined : asField(reference);
+    return this.#request((remote) => remote.analyze(transfer(field, buffers), { ...options, reference: other }));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').PatchOptions} [options]
+   */
+  async patches(input, options) {
+    const { field, buffers } = detached(asField(input));
+    return this.#request((remote) => remote.patches(transfer(field, buffers), options));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').RulingOptions} [options]
+   */
+  async rulings(input, options) {
+    const { field, buffers } = detached(asField(input));
+    return this.#request((remote) => remote.rulings(transfer(field, buffers), options));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').UnrollOptions} [options]
+   */
+  async unroll(input, options) {
+    const { field, buffers } = detached(asField(input));
+    return this.#request((remote) => remote.unroll(transfer(field, buffers), options));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').Photo} photo
+   * @param {import('./types.js').DewarpOptions} [given]
+   */
+  async dewarp(input, photo, given) {
+    const options = dewarpOptions(input, given);
+    const { field, buffers } = detached(asField(input));
+    const { width, height, data } = asPhoto(photo);
+    const own = new Uint8Array(data);
+    const sent = transfer({ width, height, data: own }, [own.buffer]);
+    return this.#request((remote) => remote.dewarp(transfer(field, buffers), sent, options));
+  }
+
+  /** @param {Uint8Array | ArrayBuffer | Blob} bytes */
+  async readPhoto(bytes) {
+    const file = await ownBytes(bytes);
+    return this.#request((remote) => remote.readPhoto(transfer(file, [file.buffer])));
+  }
+
+  /** @param {import('./types.js').Photo} photo */
+  async writePhoto(photo) {
+    const { width, height, data } = asPhoto(photo);
+    const own = new Uint8Array(data);
+    return this.#request((remote) => remote.writePhoto(transfer({ width, height, data: own }, [own.buffer])));
+  }
+
+  /**
    * @param {import('./types.js').ExampleName} name
    * @param {import('./types.js').ExampleOptions} [options]
    */
@@ -157,8 +223,8 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm, meshesWasm } = this.#options;
-      this.#wasm ??= Promise.all([wasm, filesWasm, meshesWasm].map(portable));
+      const { wasm, filesWasm, meshesWasm, unrollWasm } = this.#options;
+      this.#wasm ??= Promise.all([wasm, filesWasm, meshesWasm, unrollWasm].map(portable));
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }

@@ -25,7 +25,7 @@ export class Connection {
 
   /**
    * @param {string | URL | undefined} workerUrl
-   * @param {Promise<Source[]>} wasm the solver's, the files' and the meshes'
+   * @param {Promise<Source[]>} wasm the solver's, the files', the meshes' and the unrolling's
    */
   constructor(workerUrl, wasm) {
     /** @param {string} reason */

@@ -1,8 +1,9 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
-  DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  Mesh, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
-  SampleMeshOptions, SolverOptions, Surface,
+  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Example,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Mesh, OcclusionOptions, PatchMap,
+  PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult, RulingField,
+  RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling, UnrollOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -20,6 +21,11 @@ export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly
 export function initMeshes(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+/** Loads the fourth wasm file, which `analyze`, `patches`, `rulings`, `unroll` and `dewarp` need; otherwise like `init`. */
+export function initUnroll(input?: InitInput): Promise<void>;
+/** The same, synchronously. */
+export function initUnrollSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
 export class Solver {
@@ -65,5 +71,19 @@ export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /** What is seen of a mesh, as heights on a lattice: an input for `fit`. */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
+/** How developable a surface is: curvatures at its vertices, and what they come to. */
+export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
+/** The smooth patches of a surface, and the creases between them. */
+export function patches(input: HeightImage | Heightfield, options?: PatchOptions): PatchMap;
+/** The rulings of a surface: where it does not bend, and straight lines along that. */
+export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
+/** Lays a surface flat, as rigidly as it goes. */
+export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Unrolling;
+/** Makes a photo of a surface flat. */
+export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
+/** Decodes a PNG file of any kind, as RGBA bytes. */
+export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
+/** 8-bit RGBA PNG. */
+export function writePhoto(photo: Photo): Uint8Array<ArrayBuffer>;
 /** One of the procedural examples. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -3,8 +3,9 @@ import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
 import { asBytes, asField, asImage, asInput, asLattice, frameOf } from './input.js';
 import { asMesh } from './mesh-input.js';
-import { files, meshes, solver } from './instances.js';
+import { files, meshes, sheets, solver } from './instances.js';
 import { makeDisposable } from './platform.js';
+import { asPhoto, dewarpOptions } from './sheet-input.js';
 
 export { DevelopableError } from './errors.js';
 
@@ -20,6 +21,11 @@ export const initFilesSync = (input) => files.initSync(input);
 export const initMeshes = (input) => meshes.init(input);
 /** @type {typeof import('./direct.js').initMeshesSync} */
 export const initMeshesSync = (input) => meshes.initSync(input);
+
+/** @type {typeof import('./direct.js').initUnroll} */
+export const initUnroll = (input) => sheets.init(input);
+/** @type {typeof import('./direct.js').initUnrollSync} */
+export const initUnrollSync = (input) => sheets.initSync(input);
 
 /**
  * @typedef {import('./direct.js').Solver} SolverApi
@@ -186,6 +192,51 @@ export function readMesh(bytes, options) {
 export function sampleMesh(mesh, options) {
   const given = asMesh(mesh);
   return meshes.call((wasm) => wasm.sampleMesh(given, options));
+}
+
+/** @type {typeof import('./direct.js').analyze} */
+export function analyze(input, given) {
+  const field = asField(input);
+  const { reference, ...options } = asOptions(given);
+  const other = reference === undefined ? undefined : asField(reference);
+  return sheets.call((wasm) => wasm.analyze(field, other, options));
+}
+
+/** @type {typeof import('./direct.js').patches} */
+export function patches(input, options) {
+  const field = asField(input);
+  return sheets.call((wasm) => wasm.patches(field, options));
+}
+
+/** @type {typeof import('./direct.js').rulings} */
+export function rulings(input, options) {
+  const field = asField(input);
+  return sheets.call((wasm) => wasm.rulings(field, options));
+}
+
+/** @type {typeof import('./direct.js').unroll} */
+export function unroll(input, options) {
+  const field = asField(input);
+  return sheets.call((wasm) => wasm.unroll(field, options));
+}
+
+/** @type {typeof import('./direct.js').dewarp} */
+export function dewarp(input, photo, given) {
+  const options = dewarpOptions(input, given);
+  const [field, pixels] = [asField(input), asPhoto(photo)];
+  return sheets.call((wasm) => wasm.dewarp(field, pixels, options));
+}
+
+/** @type {typeof import('./direct.js').readPhoto} */
+export function readPhoto(bytes) {
+  const file = asBytes(bytes);
+  return files.call((wasm) => wasm.readPhoto(file));
+}
+
+/** @type {typeof import('./direct.js').writePhoto} */
+export function writePhoto(photo) {
+  const { width, height, data } = asPhoto(photo);
+  return bytesOf((wasm) => wasm.writePhoto(width, height, data));
 }
 
 /** @type {typeof import('./direct.js').example} */

@@ -1,8 +1,9 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
-  DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  Mesh, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
-  SampleMeshOptions, SolverOptions, Surface,
+  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Example,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Mesh, OcclusionOptions, PatchMap,
+  PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult, RulingField,
+  RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling, UnrollOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -15,6 +16,8 @@ export interface WorkerOptions {
   filesWasm?: InitInput;
   /** Where the wasm is that reads and samples meshes, likewise. */
   meshesWasm?: InitInput;
+  /** Where the wasm is that analyses, unrolls and dewarps, likewise. */
+  unrollWasm?: InitInput;
 }
 
 export interface OpenFitOptions extends SolverOptions {
@@ -79,6 +82,18 @@ export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+/** How developable a surface is: curvatures at its vertices, and what they come to. */
+export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
+/** The smooth patches of a surface, and the creases between them. */
+export function patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
+/** The rulings of a surface: where it does not bend, and straight lines along that. */
+export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
+/** Lays a surface flat, as rigidly as it goes. */
+export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
+/** Makes a photo of a surface flat. */
+export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
+export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
+export function writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
 /** Stops the shared worker, calls under way reject with code `DISPOSED`; a later call starts a new one. */
 export function dispose(): void;
@@ -101,6 +116,13 @@ export class DevelopableWorker {
   writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+  analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
+  patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
+  rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
+  unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
+  dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
+  readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
+  writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
   /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
   readonly connected: boolean;

@@ -37,6 +37,20 @@ export const writeObj = (input) => worker().writeObj(input);
 export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 /** @type {typeof import('./index.js').sampleMesh} */
 export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
+/** @type {typeof import('./index.js').analyze} */
+export const analyze = (input, options) => worker().analyze(input, options);
+/** @type {typeof import('./index.js').patches} */
+export const patches = (input, options) => worker().patches(input, options);
+/** @type {typeof import('./index.js').rulings} */
+export const rulings = (input, options) => worker().rulings(input, options);
+/** @type {typeof import('./index.js').unroll} */
+export const unroll = (input, options) => worker().unroll(input, options);
+/** @type {typeof import('./index.js').dewarp} */
+export const dewarp = (input, photo, options) => worker().dewarp(input, photo, options);
+/** @type {typeof import('./index.js').readPhoto} */
+export const readPhoto = (bytes) => worker().readPhoto(bytes);
+/** @type {typeof import('./index.js').writePhoto} */
+export const writePhoto = (photo) => worker().writePhoto(photo);
 /** @type {typeof import('./index.js').example} */
 export const example = (name, options) => worker().example(name, options);
 

@@ -1,8 +1,9 @@
-/** The wasm files: the solver, and what reads and writes images and meshes, which not everybody needs. */
+/** The wasm files: the solver, and what else there is, which not everybody needs. */
 import { Instance } from './instance.js';
 import * as filesGlue from './wasm/files.js';
 import * as meshesGlue from './wasm/meshes.js';
 import * as solverGlue from './wasm/solver.js';
+import * as unrollGlue from './wasm/unroll.js';
 
 export const solver = new Instance(
   solverGlue,
@@ -20,4 +21,10 @@ export const meshes = new Instance(
   meshesGlue,
   new URL('./wasm/meshes_bg.wasm', import.meta.url),
   'initMeshes()',
+);
+
+export const sheets = new Instance(
+  unrollGlue,
+  new URL('./wasm/unroll_bg.wasm', import.meta.url),
+  'initUnroll()',
 );

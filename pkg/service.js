@@ -19,15 +19,20 @@ let filesWasm;
 /** @type {import('./types.js').InitInput | undefined} where that of the meshes is */
 let meshesWasm;
 
+/** @type {import('./types.js').InitInput | undefined} where that of the unrolling is */
+let unrollWasm;
+
 export const service = {
   /**
    * @param {import('./types.js').InitInput} [wasm]
    * @param {import('./types.js').InitInput} [files] loaded when the first file is read or written
    * @param {import('./types.js').InitInput} [meshes] loaded for the first mesh
+   * @param {import('./types.js').InitInput} [unroll] loaded for the first analysis or unrolling
    */
-  init(wasm, files, meshes) {
+  init(wasm, files, meshes, unroll) {
     filesWasm = files;
     meshesWasm = meshes;
+    unrollWasm = unroll;
     return direct.init(wasm);
   },
 
@@ -130,6 +135,50 @@ export const service = {
   writeNpy: written(direct.writeNpy),
   writePng: written(direct.writePng),
   writeObj: written(direct.writeObj),
+  writePhoto: written(direct.writePhoto),
+
+  /** @param {Parameters<typeof direct.readPhoto>[0]} bytes */
+  async readPhoto(bytes) {
+    await direct.initFiles(filesWasm);
+    const photo = direct.readPhoto(bytes);
+    return transfer(photo, buffersOf(photo.data));
+  },
+
+  /** @type {(input: Input, options?: import('./types.js').AnalyzeOptions) => Promise<import('./types.js').Analysis>} */
+  async analyze(input, options) {
+    await direct.initUnroll(unrollWasm);
+    const result = direct.analyze(heights(input), options);
+    return transfer(result, buffersOf(result.gaussian, result.kappa1, result.kappa2, result.nuclearNorm));
+  },
+
+  /** @type {(input: Input, options?: import('./types.js').PatchOptions) => Promise<import('./types.js').PatchMap>} */
+  async patches(input, options) {
+    await direct.initUnroll(unrollWasm);
+    const result = direct.patches(heights(input), options);
+    return transfer(result, buffersOf(result.labels));
+  },
+
+  /** @type {(input: Input, options?: import('./types.js').RulingOptions) => Promise<import('./types.js').RulingField>} */
+  async rulings(input, options) {
+    await direct.initUnroll(unrollWasm);
+    const result = direct.rulings(heights(input), options);
+    return transfer(result, buffersOf(result.directions, result.confidence));
+  },
+
+  /** @type {(input: Input, options?: import('./types.js').UnrollOptions) => Promise<import('./types.js').Unrolling>} */
+  async unroll(input, options) {
+    await direct.initUnroll(unrollWasm);
+    const result = direct.unroll(heights(input), options);
+    const { vertices, positions, triangles, places, parts, stretches, overlaps } = result;
+    return transfer(result, buffersOf(vertices, positions, triangles, places, parts, stretches, overlaps));
+  },
+
+  /** @type {(input: Input, photo: import('./types.js').Photo, options?: import('./types.js').DewarpOptions) => Promise<import('./types.js').Dewarped>} */
+  async dewarp(input, photo, options) {
+    await direct.initUnroll(unrollWasm);
+    const result = direct.dewarp(heights(input), photo, options);
+    return transfer(result, buffersOf(result.data, result.map));
+  },
 
   /**
    * @param {Parameters<typeof direct.readMesh>[0]} bytes
@@ -157,6 +206,11 @@ export const service = {
     return transfer(result, buffersOf(result.input.data, result.truth));
   },
 };
+
+/** A field as any caller's. @param {Input} input */
+function heights(input) {
+  return /** @type {import('./types.js').HeightImage} */ (input);
+}
 
 /** @param {number} solver */
 function keptSolver(solver) {

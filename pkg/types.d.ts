@@ -327,6 +327,246 @@ export interface Example {
   truth: Float64Array;
 }
 
+export interface PatchOptions {
+  /**
+   * Angle, in radians, by which the surface bends from one vertex to the next on a crease. Default:
+   * six times its median, and at least 0.035.
+   */
+  bend?: number;
+  /** Angle between the two sides of a crease: patches that fold by less are one. Default 0.15. */
+  fold?: number;
+  /** Share of all vertices that a patch has at least. Default 0.005. */
+  smallest?: number;
+  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
+  spacing?: number;
+}
+
+/** The line between two patches. */
+export interface Crease {
+  /** The patches on either side. */
+  patches: [number, number];
+  /** Its course; closed if the last point is the first. */
+  points: [number, number, number][];
+  length: number;
+  /** The angle between the normals beside it, in radians, on average. */
+  fold: number;
+}
+
+/** The smooth patches of a surface, that with the largest area first, and the creases between them. */
+export interface PatchMap {
+  rows: number;
+  cols: number;
+  spacing: number;
+  origin: [number, number];
+  /** The patch of each vertex, row by row; -1 where there is none. */
+  labels: Int32Array;
+  patches: { vertices: number; area: number }[];
+  creases: Crease[];
+  /** The angle that counted as a crease from one vertex to the next. */
+  bend: number;
+}
+
+export interface RulingOptions {
+  /** Distance between lines, as seen from above. Default: ten lattice spacings. */
+  separation?: number;
+  /** A line ends where its direction is trusted by less, from 0 to 1. Default 0.3. */
+  confidence?: number;
+  /** A line ends where the surface bends by more from one vertex to the next, in radians. Default 0.2. */
+  crease?: number;
+  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
+  spacing?: number;
+}
+
+/** A ruling that was traced. */
+export interface Ruling {
+  points: [number, number, number][];
+  /** The distance between its ends. */
+  length: number;
+  /** How far it is from straight, as a share of its length. */
+  deviation: number;
+}
+
+/** The directions in which a surface does not bend, and lines along them. */
+export interface RulingField {
+  rows: number;
+  cols: number;
+  spacing: number;
+  origin: [number, number];
+  /** Unit vectors x, y as seen from above, for each vertex; NaN where there are none. */
+  directions: Float64Array;
+  /** How far each is to be trusted, from 0 to 1. */
+  confidence: Float64Array;
+  lines: Ruling[];
+}
+
+/** RGBA bytes of an image, row by row, top row first: an `ImageData` is one. */
+export interface Photo {
+  width: number;
+  height: number;
+  /** `4 * width * height` bytes. */
+  data: Uint8ClampedArray | Uint8Array;
+}
+
+export interface DecodedPhoto extends Photo {
+  data: Uint8ClampedArray<ArrayBuffer>;
+}
+
+export interface AnalyzeOptions {
+  /**
+   * Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts.
+   * Default 1, that of a sphere whose radius is the longer side.
+   */
+  threshold?: number;
+  /** Another surface on the same lattice, such as the input, to tell the deviation from. */
+  reference?: HeightImage | Heightfield;
+  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
+  spacing?: number;
+}
+
+/** How often magnitudes occur, in bins of half a decade. */
+export interface Histogram {
+  /** Where bins end, ascending. */
+  edges: number[];
+  /** Number of vertices in each bin: one bin more than edges, the first below all, the last above. */
+  counts: number[];
+}
+
+/** A row of the paper's Table 1, in coordinates scaled to the unit square. */
+export interface AnalysisSummary {
+  /** Vertices that have curvatures. */
+  vertices: number;
+  /** The longer side of the surface seen from above, in its own units. */
+  size: number;
+  threshold: number;
+  /** Share of the vertices with |K| above the threshold, from 0 to 1. */
+  gaussianAbove: number;
+  /** Median of |K|. */
+  medianGaussian: number;
+  /** Median of |kappa2|. */
+  medianKappa2: number;
+  /** Sum of the nuclear norms: the energy without its fidelity term. */
+  nuclearNorm: number;
+  gaussian: Histogram;
+  kappa2: Histogram;
+}
+
+/** Curvatures at the vertices of the lattice, row by row, in units of the surface; NaN where there are none. */
+export interface Analysis {
+  rows: number;
+  cols: number;
+  spacing: number;
+  origin: [number, number];
+  /** Discrete Gaussian curvature: angle deficit over lumped area. */
+  gaussian: Float64Array;
+  /** Eigenvalue of larger magnitude of the Hessian. */
+  kappa1: Float64Array;
+  /** That of smaller magnitude. */
+  kappa2: Float64Array;
+  /** `|kappa1| + |kappa2|`: the energy's density. */
+  nuclearNorm: Float64Array;
+  summary: AnalysisSummary;
+  /** Of the surface from the reference, in its units. */
+  deviation?: { vertices: number; rms: number; maximum: number };
+}
+
+export interface UnrollOptions {
+  /** Stop when an iteration changes the mean of the squared strains by less than this. Default 1e-10. */
+  tolerance?: number;
+  /** Most iterations. Default 500. */
+  maxIterations?: number;
+  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
+  spacing?: number;
+}
+
+/** Lengths on a flat layout against those on the surface: strains, as shares. */
+export interface Distortion {
+  /** Root of the mean square. */
+  rms: number;
+  /** Of any triangle. */
+  maximum: number;
+  /** Share of the area where it exceeds 0.01. */
+  above: number;
+  /** Area of the layout over that of the surface. */
+  area: number;
+  /** Number of triangles that lie upside down. */
+  flipped: number;
+}
+
+export interface UnrollReport {
+  /** Connected parts of the surface. */
+  parts: number;
+  iterations: number;
+  /** Mean of the squared strains, and how much the last iteration changed it. */
+  energy: number;
+  change: number;
+  /** Area of the surface, in its units. */
+  area: number;
+  distortion: Distortion;
+  /** That of the view from above: how far from flat the surface was to begin with. */
+  plan: Distortion;
+  /** Pairs of edges on the border of the layout that cross: 0 where it does not overlap. */
+  crossings: number;
+}
+
+/**
+ * Whether a flat layout is to be trusted: the surface was flat to begin with, and faced the viewer
+ * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without
+ * stretching or overlapping (`'stretched'`).
+ */
+export type Verdict = 'flat' | 'unrolled' | 'stretched';
+
+/** A surface laid flat: its triangles, and where their corners lie on the plane. */
+export interface Unrolling {
+  rows: number;
+  cols: number;
+  spacing: number;
+  origin: [number, number];
+  /** Row-major index in the lattice of each vertex, ascending. */
+  vertices: Uint32Array;
+  /** x, y, z of each vertex. */
+  positions: Float64Array;
+  /** Three vertices of each triangle, counter-clockwise from above, counted from 0. */
+  triangles: Uint32Array;
+  /** x, y of each vertex on the plane: each part upright, where it is seen from above. */
+  places: Float64Array;
+  /** The connected part of each vertex; 0 is the largest. */
+  parts: Uint32Array;
+  /** Singular values of each triangle's map to the plane, the larger one first; below 0 where it is flipped. */
+  stretches: Float64Array;
+  /** Four vertices for each pair of border edges that cross. */
+  overlaps: Uint32Array;
+  verdict: Verdict;
+  report: UnrollReport;
+}
+
+export interface DewarpOptions extends UnrollOptions {
+  /** Pixels of the flat image per unit of length. Default: as many as the photo has. */
+  dots?: number;
+  /** Cut off the margins: keep the largest upright rectangle that is all sheet. Default false. */
+  trim?: boolean;
+  /**
+   * The part of the plane that the photo shows: left, bottom, right, top. Default: that of the
+   * height image, also of the one that a surface was made from; of other lattices, what their
+   * vertices cover.
+   */
+  extent?: readonly [number, number, number, number];
+}
+
+/** A flat image, transparent where there is no sheet; `new ImageData(data, width)` shows it. */
+export interface Dewarped extends DecodedPhoto {
+  /** Pixels per unit of length. */
+  resolution: number;
+  /** Where the upper left corner lies on the sheet. */
+  corner: [number, number];
+  /**
+   * The warp map: for each pixel its place x, y in the photo, in its pixels, (0, 0) being the
+   * centre of the upper left one; NaN where there is no sheet.
+   */
+  map: Float32Array;
+  verdict: Verdict;
+  report: UnrollReport;
+}
+
 export interface ReadOptions {
   /** Taken from the bytes where it is not given. */
   format?: 'png' | 'npy';

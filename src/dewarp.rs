@@ -43,16 +43,16 @@ pub use photo::Photo;
 #[non_exhaustive]
 pub struct DewarpOptions {
     /// Pixels of the flat image per unit of length. `None`: as many as the photo has.
-    pub resolution: Option<f64>,
+    pub dots: Option<f64>,
     /// Cut off the margins: keep the largest upright rectangle that is all sheet. Default false.
     pub trim: bool,
 }
 
 impl DewarpOptions {
     /// These options with another resolution, in pixels per unit of length.
-    pub fn resolution(self, resolution: f64) -> Self {
+    pub fn dots(self, dots: f64) -> Self {
         DewarpOptions {
-            resolution: Some(resolution),
+            dots: Some(dots),
             ..self
         }
     }

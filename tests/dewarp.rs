@@ -75,7 +75,7 @@ fn a_curled_page_is_flat_again_to_a_fifth_of_a_percent() {
 
 #[test]
 fn every_pixel_within_the_outline_has_a_place_and_trimming_leaves_only_these() {
-    let map = map_of(&curled(), &DewarpOptions::default().resolution(400.0));
+    let map = map_of(&curled(), &DewarpOptions::default().dots(400.0));
     let there =
         |map: &WarpMap, row: usize, col: usize| !map.places()[row * map.width() + col][0].is_nan();
     for row in 4..map.height() - 4 {
@@ -84,10 +84,7 @@ fn every_pixel_within_the_outline_has_a_place_and_trimming_leaves_only_these() {
             "row {row}"
         );
     }
-    let trimmed = map_of(
-        &curled(),
-        &DewarpOptions::default().resolution(400.0).trim(true),
-    );
+    let trimmed = map_of(&curled(), &DewarpOptions::default().dots(400.0).trim(true));
     assert!((0..trimmed.height()).all(|r| (0..trimmed.width()).all(|c| there(&trimmed, r, c))));
     assert!(trimmed.width() > map.width() - 8 && trimmed.height() > map.height() - 8);
     // The same places at the same points of the sheet.
@@ -163,6 +160,6 @@ fn nonsense_is_refused() {
     };
     assert_eq!(code(empty, [10, 10], options), "EMPTY");
     assert_eq!(code(UNIT, [10, 0], options), "EMPTY");
-    assert_eq!(code(UNIT, [10, 10], options.resolution(-1.0)), "OPTION");
-    assert_eq!(code(UNIT, [10, 10], options.resolution(1e9)), "TOO_LARGE");
+    assert_eq!(code(UNIT, [10, 10], options.dots(-1.0)), "OPTION");
+    assert_eq!(code(UNIT, [10, 10], options.dots(1e9)), "TOO_LARGE");
 }

@@ -7,7 +7,7 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {import('./flags.js').Flag} Flag
  * @typedef {import('./flags.js').Values} Values
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {'.npy' | '.png' | '.obj'} Extension
+ * @typedef {'.npy' | '.png' | '.obj' | '.json'} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
@@ -33,18 +33,34 @@ import { commandOf, split, usage } from './flags.js';
  *   command: 'fit' | 'design', report?: string, options: SolverOptions,
  * }} FitTask
  * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
+ * @typedef {Omit<FitTask, 'command'> & { asIs: boolean }} SheetTask `asIs`: without a fit
+ * @typedef {SheetTask & { command: 'analyze', threshold?: number }} AnalyzeTask
+ * @typedef {SheetTask & { command: 'unroll' }} UnrollTask
+ * @typedef {SheetTask & {
+ *   command: 'dewarp', texture: string, dots?: number, trim: boolean, map?: string,
+ * }} DewarpTask
  */
 
 const lattices = /** @type {const} */ (['square', 'hex']);
 const schedules = /** @type {const} */ (['default', 'paper']);
 const energies = /** @type {const} */ (['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm']);
 
+/** What each command can write. @type {Record<import('./flags.js').Command, readonly Extension[]>} */
+const extensions = {
+  fit: ['.npy', '.png', '.obj'],
+  design: ['.npy', '.png', '.obj'],
+  occlusions: ['.png', '.npy'],
+  analyze: ['.json'],
+  unroll: ['.obj', '.json'],
+  dewarp: ['.png'],
+};
+
 /** The threshold of the paper's authors, which `auto` stands for. */
 const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
- * @returns {FitTask | OcclusionsTask | { command: 'help' } | { command: 'version' }}
+ * @returns {FitTask | OcclusionsTask | AnalyzeTask | UnrollTask | DewarpTask | { command: 'help' } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
@@ -55,18 +71,19 @@ export function parse(args) {
   const command = commandOf(name, values);
   if (input === undefined) throw usage('the input is missing');
   if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`);
-  const { output, report, mask, confidence, constraints } = values;
+  const { output, report, mask, confidence, constraints, texture, map } = values;
   if (output === undefined) throw usage('the output is missing: -o FILE');
-  const read = { mask, confidence, constraints, 'occlusion mask': values['occlusion-mask'] };
+  const read = { mask, confidence, constraints, texture, 'occlusion mask': values['occlusion-mask'] };
   checkKind(isMesh(input), command, values);
-  if (report !== undefined) apart({ report }, { output, input, ...read });
+  if (report !== undefined) apart({ report }, { output, input, map, ...read });
+  if (map !== undefined) apart({ map }, { output, input, ...read });
   apart({ output }, read);
 
   /** @type {InputTask} */
   const about = {
     input,
     output,
-    extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : ['.npy', '.png', '.obj']),
+    extension: extension('output', output, extensions[command]),
     mask,
     lattice: isMesh(input) ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
     view: values.view === undefined ? undefined : view(values.view),
@@ -78,11 +95,10 @@ export function parse(args) {
   };
   if (command === 'occlusions') return { command, ...about, threshold: number('threshold', values) };
   const free = number('free', values);
-  if (free !== undefined && command === 'fit' && constraints === undefined) {
+  if (free !== undefined && command !== 'design' && constraints === undefined) {
     throw usage('--free says which value of --constraints means free, and there are none');
   }
-  return {
-    command,
+  const fitting = {
     ...about,
     design: command === 'design',
     confidence,
@@ -102,6 +118,19 @@ export function parse(args) {
       occlusionThreshold: values.occlusions === 'auto' ? THRESHOLD : number('occlusions', values, 'auto or '),
     },
   };
+  const asIs = values['as-is'] === true;
+  switch (command) {
+    case 'analyze':
+      return { command, ...fitting, asIs, threshold: number('threshold', values) };
+    case 'unroll':
+      return { command, ...fitting, asIs };
+    case 'dewarp':
+      if (texture === undefined) throw usage('the photo is missing: --texture PHOTO');
+      if (map !== undefined) extension('map', map, ['.npy', '.json']);
+      return { command, ...fitting, asIs, texture, dots: number('dots', values), trim: values.trim === true, map };
+    default:
+      return { command, ...fitting };
+  }
 }
 
 /**
@@ -167,15 +196,17 @@ function whereabouts(file) {
 }
 
 /**
+ * @param {string} what
  * @param {string} output
  * @param {readonly Extension[]} known
  * @returns {Extension}
  */
-function extension(output, known) {
+function extension(what, output, known) {
   const found = extname(output).toLowerCase();
   const extension = known.find((one) => one === found);
   if (extension) return extension;
-  throw usage(`the output must end in ${known.slice(0, -1).join(', ')} or ${known.at(-1)}, but is "${output}"`);
+  const choices = known.length > 1 ? `${known.slice(0, -1).join(', ')} or ${known.at(-1)}` : known[0];
+  throw usage(`the ${what} must end in ${choices}, but is "${output}"`);
 }
 
 /**
@@ -201,7 +232,7 @@ function choice(name, value, choices) {
 }
 
 /**
- * @param {Exclude<Flag, 'help' | 'version' | 'no-normalize'>} name
+ * @param {Exclude<Flag, 'help' | 'version' | 'no-normalize' | 'as-is' | 'trim'>} name
  * @param {Values} values
  * @param {string} [names] what may stand there besides a number
  */

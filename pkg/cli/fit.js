@@ -16,17 +16,7 @@ import { announce, percent, progressLine } from './terminal.js';
 export async function fit(task, signal) {
   await checkPlace(task.output);
   if (task.report !== undefined) await checkPlace(task.report);
-  const input = await readInput(task);
-  const options = task.lattice !== 'square' ? task.options : { ...task.options, spacing: task.spacing };
-  const line = progressLine();
-  /** @type {Surface} */
-  let surface;
-  try {
-    const onProgress = line.shown ? line.show : undefined;
-    surface = await developable.fit(input, { ...options, signal, onProgress, transfer: true });
-  } finally {
-    line.clear();
-  }
+  const surface = await solve(task, await readInput(task), { signal, transfer: true });
   const files = [{ path: task.output, bytes: await encode(task, surface) }];
   const { report } = surface;
   if (task.report !== undefined) {
@@ -40,6 +30,23 @@ export async function fit(task, signal) {
       `developable: warning: stopped after ${report.iterations} iterations with a gap of ` +
         `${percent(report.gap)}; --max-iterations allows more\n`,
     );
+  }
+}
+
+/**
+ * Solves, with news on a terminal.
+ * @param {Pick<FitTask, 'lattice' | 'options' | 'spacing'>} task
+ * @param {import('./inputs.js').Input} input
+ * @param {{ signal: AbortSignal, transfer?: boolean }} control
+ * @returns {Promise<Surface>}
+ */
+export async function solve(task, input, control) {
+  const options = task.lattice !== 'square' ? task.options : { ...task.options, spacing: task.spacing };
+  const line = progressLine();
+  try {
+    return await developable.fit(input, { ...options, ...control, onProgress: line.shown ? line.show : undefined });
+  } finally {
+    line.clear();
   }
 }
 

@@ -30,21 +30,35 @@ const flags = {
   threshold: text,
   'occlusion-mask': text,
   report: text,
+  'as-is': plain,
+  texture: text,
+  dots: text,
+  trim: plain,
+  map: text,
   help: /** @type {const} */ ({ type: 'boolean', short: 'h' }),
   version: plain,
 };
 
 /** @typedef {keyof typeof flags} Flag */
-/** @typedef {'fit' | 'design' | 'occlusions'} Command */
+/** @typedef {'fit' | 'design' | 'occlusions' | 'analyze' | 'unroll' | 'dewarp'} Command */
+
+/** What only a flat image can be told. @type {readonly Flag[]} */
+const ofImages = ['texture', 'dots', 'trim', 'map'];
+
+/** What is about flat sheets. @type {readonly Flag[]} */
+const ofSheets = ['as-is', ...ofImages];
 
 /** What a command does not take. @type {Record<Command, readonly Flag[]>} */
 const foreign = {
-  fit: ['threshold'],
-  design: ['no-data', 'confidence', 'constraints', 'occlusions', 'threshold'],
+  fit: ['threshold', ...ofSheets],
+  design: ['no-data', 'confidence', 'constraints', 'occlusions', 'threshold', ...ofSheets],
   occlusions: [
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
-    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report',
+    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', ...ofSheets,
   ],
+  analyze: [...ofImages, 'report'],
+  unroll: ['threshold', ...ofImages],
+  dewarp: ['threshold'],
 };
 
 /** @param {string[]} args */

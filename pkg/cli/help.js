@@ -5,10 +5,15 @@ how far from the optimum it can be.
 Usage: developable fit INPUT -o OUTPUT [options]
        developable design CONSTRAINTS -o OUTPUT [options]
        developable occlusions INPUT -o MASK [options]
+       developable analyze INPUT -o FIGURES [options]
+       developable unroll INPUT -o SHEET [options]
+       developable dewarp INPUT --texture PHOTO -o IMAGE [options]
 
 "fit" follows heights, "design" passes through heights and is free elsewhere,
 "occlusions" looks for places where a surface is torn, and prints how many
-vertices it has found.
+vertices it has found. The last three fit a surface first: "analyze" tells how
+developable it is, beside the input, "unroll" lays it flat, and "dewarp" makes a
+photo of it flat.
 
   INPUT                  heights: a grey PNG (8 or 16 bit) or a 2D NumPy array;
                          or a mesh, of which what is seen from one side is
@@ -19,6 +24,9 @@ vertices it has found.
                          mesh, .obj is in its own coordinates, and the others
                          are heights on the lattice
   MASK                   .png or .npy, white (or 1) where the surface is torn
+  FIGURES                .json
+  SHEET                  .obj (a flat mesh) or .json (with stretch and overlaps)
+  IMAGE                  .png, transparent where there is no sheet
 
 What to minimise
   --lambda L             how closely to follow the input: small (1e5), medium
@@ -71,7 +79,19 @@ What else is known (files of the same shape)
                          T; auto is the authors' value, 4e4
   --threshold T          the same for "occlusions" (default 4e4)
 
-  --report FILE          JSON file for the figures of the solve
+Flat sheets and images
+  --as-is                take the heights as they are, without a fit
+  --texture PHOTO        a PNG of what the heights show, with as many pixels as
+                         it likes
+  --dots D               pixels of the flat image per unit of length (default:
+                         as many as the photo has)
+  --trim                 cut off the margins where there is no sheet
+  --map FILE             .npy (height, width, 2) or .json: for each pixel of the
+                         flat image its place x, y in the photo
+  --threshold K          Gaussian curvature that counts for "analyze"
+                         (default 1)
+
+  --report FILE          JSON file for the figures of the solve, or of the sheet
   -h, --help             this text
   --version              the version
 

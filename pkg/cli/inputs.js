@@ -69,7 +69,7 @@ function readImage(path) {
  * @param {string} path
  * @param {(bytes: Uint8Array) => Promise<T>} read
  */
-async function decoded(path, read) {
+export async function decoded(path, read) {
   const bytes = await readBytes(path);
   try {
     return await read(bytes);

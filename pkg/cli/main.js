@@ -7,6 +7,7 @@ import { parse } from './arguments.js';
 import { fit } from './fit.js';
 import { help } from './help.js';
 import { occlusions } from './occlusions.js';
+import { analyze, dewarp, unroll } from './sheets.js';
 
 /**
  * @param {string[]} args
@@ -20,10 +21,7 @@ export async function main(args) {
   }
   try {
     const task = parse(args);
-    if (task.command === 'help') process.stdout.write(help);
-    else if (task.command === 'version') process.stdout.write(`${await version()}\n`);
-    else if (task.command === 'occlusions') await occlusions(task, interruption.signal);
-    else await fit(task, interruption.signal);
+    await perform(task, interruption.signal);
     return status.success;
   } catch (error) {
     const problem = interruption.signal.aborted ? interruption.signal.reason : explain(error);
@@ -31,6 +29,31 @@ export async function main(args) {
     return problem.status;
   } finally {
     dispose();
+  }
+}
+
+/**
+ * @param {ReturnType<typeof parse>} task
+ * @param {AbortSignal} signal
+ */
+async function perform(task, signal) {
+  switch (task.command) {
+    case 'help':
+      process.stdout.write(help);
+      return;
+    case 'version':
+      process.stdout.write(`${await version()}\n`);
+      return;
+    case 'occlusions':
+      return occlusions(task, signal);
+    case 'analyze':
+      return analyze(task, signal);
+    case 'unroll':
+      return unroll(task, signal);
+    case 'dewarp':
+      return dewarp(task, signal);
+    default:
+      return fit(task, signal);
   }
 }
 

@@ -46,8 +46,8 @@ impl WarpMap {
             return Err(Error::Empty { what: "photo" });
         }
         let per_unit = [0, 1].map(|k| photo[k] as f64 / sides[k]);
-        let resolution = match options.resolution {
-            Some(resolution) => positive("resolution", resolution)?,
+        let resolution = match options.dots {
+            Some(dots) => positive("dots", dots)?,
             None => (per_unit[0] * per_unit[1]).sqrt(),
         };
         let (min, max) = bounds(sheet.places());

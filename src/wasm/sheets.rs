@@ -1,6 +1,6 @@
 //! Surfaces measured, laid flat, and photos of them made flat.
 
-use js_sys::{Float32Array, Float64Array, Uint8Array, Uint8ClampedArray, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Int32Array, Uint8Array, Uint8ClampedArray, Uint32Array};
 use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
@@ -12,6 +12,8 @@ use crate::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
 use crate::dewarp::{DewarpOptions, Extent, Photo, Verdict, WarpMap};
 use crate::error::{Error, try_filled};
 use crate::heightfield::Heightfield;
+use crate::patches::{Crease, Patch, PatchOptions, Patches};
+use crate::rulings::{Ruling, Rulings, TraceOptions};
 use crate::unroll::{UnrollOptions, UnrollReport, Unrolling, unroll};
 
 /// Heights to be looked at, and what a photo of them shows.
@@ -26,10 +28,25 @@ struct Kind {
     kind: String,
 }
 
+/// Whether a field has pixels, which a spacing can be about.
+fn is_image(field: &JsValue) -> Result<bool> {
+    Ok(!field.is_undefined() && from_value::<Kind>(field.clone())?.kind == "image")
+}
+
+/// A spacing is for images: a lattice has its own.
+fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
+    match spacing {
+        Some(spacing) if !images => {
+            let requirement = "must be left out: a lattice has the spacing of its input";
+            Err(Error::option("spacing", spacing, requirement).into())
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Scene {
     fn new(field: JsValue, spacing: Option<f64>) -> Result<Self> {
-        let Kind { kind } = from_value(field.clone())?;
-        if kind == "image" {
+        if is_image(&field)? {
             let input: ImageInput = from_value(field)?;
             let image = input.heights("height image", &input.data)?;
             return Ok(Scene {
@@ -39,10 +56,6 @@ impl Scene {
         }
         let input: LatticeInput = from_value(field)?;
         let surface = input.heights("heightfield", &input.heights)?;
-        if let Some(spacing) = spacing {
-            let requirement = "is for images: a lattice has the spacing of its input";
-            return Err(Error::option("spacing", spacing, requirement).into());
-        }
         Ok(Scene {
             extent: Extent::of_lattice(&surface),
             surface,
@@ -82,6 +95,7 @@ pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<J
             _ => return Err(unknown(&name, "threshold, reference and spacing")),
         }
     }
+    check_spacing(spacing, is_image(&field)? || is_image(&reference)?)?;
     let Scene { surface, .. } = Scene::new(field, spacing)?;
     let deviation = if reference.is_undefined() {
         None
@@ -140,6 +154,7 @@ pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
             return Err(unknown(&name, "tolerance, maxIterations and spacing"));
         }
     }
+    check_spacing(settings.spacing, is_image(&field)?)?;
     let Scene { surface, .. } = Scene::new(field, settings.spacing)?;
     let sheet = unroll(&surface, &settings.unrolling)?;
     let (mesh, lattice) = (sheet.mesh(), surface.lattice());
@@ -192,10 +207,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     let mut extent = None;
     for (name, value) in entries(&options)? {
         match name.as_str() {
-            "resolution" => {
-                let resolution = option("resolution", value, "must be a number")?;
-                wanted = wanted.resolution(resolution);
-            }
+            "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
             "trim" => wanted = wanted.trim(option("trim", value, "must be true or false")?),
             "extent" => {
                 let [left, bottom, right, top] = option(
@@ -210,11 +222,12 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
             }
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "resolution, trim, extent, tolerance, maxIterations and spacing";
+                let known = "dots, trim, extent, tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
     }
+    check_spacing(settings.spacing, is_image(&field)?)?;
     let scene = Scene::new(field, settings.spacing)?;
     let PhotoInput {
         width,
@@ -237,6 +250,101 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         map: map.places().as_flattened().into(),
         verdict: Verdict::of(sheet.report()),
         report: *sheet.report(),
+    })?)
+}
+
+/// `PatchMap` of `types.d.ts`.
+#[derive(Serialize)]
+struct PatchesOutput<'a> {
+    rows: usize,
+    cols: usize,
+    spacing: f64,
+    origin: [f64; 2],
+    #[serde(with = "preserve")]
+    labels: Int32Array,
+    patches: &'a [Patch],
+    creases: &'a [Crease],
+    bend: f64,
+}
+
+/// The patches of a surface, and the creases between them.
+#[wasm_bindgen]
+pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
+    let (mut wanted, mut spacing) = (PatchOptions::default(), None);
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "bend" => wanted = wanted.bend(option("bend", value, "must be a number")?),
+            "fold" => wanted = wanted.fold(option("fold", value, "must be a number")?),
+            "smallest" => wanted = wanted.smallest(option("smallest", value, "must be a number")?),
+            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
+            _ => return Err(unknown(&name, "bend, fold, smallest and spacing")),
+        }
+    }
+    check_spacing(spacing, is_image(&field)?)?;
+    let Scene { surface, .. } = Scene::new(field, spacing)?;
+    let found = Patches::new(&surface, &wanted)?;
+    // No patch is −1 there.
+    let mut labels = try_filled("patches", found.labels().len(), -1)?;
+    for (out, label) in labels.iter_mut().zip(found.labels()) {
+        *out = *label as i32;
+    }
+    let lattice = surface.lattice();
+    Ok(to_value(&PatchesOutput {
+        rows: lattice.rows(),
+        cols: lattice.cols(),
+        spacing: lattice.spacing(),
+        origin: lattice.origin(),
+        labels: labels.as_slice().into(),
+        patches: found.patches(),
+        creases: found.creases(),
+        bend: found.bend(),
+    })?)
+}
+
+/// `RulingField` of `types.d.ts`.
+#[derive(Serialize)]
+struct RulingsOutput<'a> {
+    rows: usize,
+    cols: usize,
+    spacing: f64,
+    origin: [f64; 2],
+    #[serde(with = "preserve")]
+    directions: Float64Array,
+    #[serde(with = "preserve")]
+    confidence: Float64Array,
+    lines: &'a [Ruling],
+}
+
+/// The rulings of a surface, as directions and as lines.
+#[wasm_bindgen]
+pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
+    let (mut wanted, mut spacing) = (TraceOptions::default(), None);
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "separation" => {
+                wanted = wanted.separation(option("separation", value, "must be a number")?);
+            }
+            "confidence" => {
+                wanted = wanted.confidence(option("confidence", value, "must be a number")?);
+            }
+            "crease" => wanted = wanted.crease(option("crease", value, "must be a number")?),
+            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
+            _ => return Err(unknown(&name, "separation, confidence, crease and spacing")),
+        }
+    }
+    check_spacing(spacing, is_image(&field)?)?;
+    let Scene { surface, .. } = Scene::new(field, spacing)?;
+    let found = Rulings::new(&surface)?;
+    let lines = found.trace(&wanted)?;
+    let lattice = surface.lattice();
+    Ok(to_value(&RulingsOutput {
+        rows: lattice.rows(),
+        cols: lattice.cols(),
+        spacing: lattice.spacing(),
+        origin: lattice.origin(),
+        directions: found.directions().as_flattened().into(),
+        confidence: found.confidence().into(),
+        lines: &lines,
     })?)
 }
 

@@ -1,0 +1,136 @@
+/** `developable analyze`, `developable unroll` and `developable dewarp`. */
+import * as developable from '../index.js';
+import { checkPlace, writeWhole } from './files.js';
+import { solve } from './fit.js';
+import { decoded, readInput } from './inputs.js';
+
+/**
+ * @typedef {import('./arguments.js').SheetTask} SheetTask
+ * @typedef {import('./inputs.js').Input} Input
+ * @typedef {import('../types.js').Unrolling} Unrolling
+ */
+
+/**
+ * The figures of the input, and of the surface fitted to it.
+ * @param {import('./arguments.js').AnalyzeTask} task
+ * @param {AbortSignal} signal
+ */
+export async function analyze(task, signal) {
+  await checkPlace(task.output);
+  const input = await readInput(task);
+  const { threshold } = task;
+  const before = await developable.analyze(input, { threshold, ...spacing(task) });
+  /** @type {Record<string, unknown>} */
+  const figures = { input: before.summary };
+  if (!task.asIs) {
+    const surface = await solve(task, input, { signal });
+    const after = await developable.analyze(surface, { threshold, reference: input, ...spacing(task) });
+    Object.assign(figures, { output: after.summary, deviation: after.deviation });
+  }
+  await writeWhole([{ path: task.output, bytes: json(figures) }], signal);
+}
+
+/**
+ * @param {import('./arguments.js').UnrollTask} task
+ * @param {AbortSignal} signal
+ */
+export async function unroll(task, signal) {
+  await checkPlaces(task.output, task.report);
+  const { surface, options } = await flattened(task, signal);
+  const sheet = await developable.unroll(surface, options);
+  const bytes = task.extension === '.obj' ? flatObj(sheet) : json(plainArrays(sheet));
+  await writeWhole([{ path: task.output, bytes }, ...reported(task, sheet)], signal);
+}
+
+/**
+ * @param {import('./arguments.js').DewarpTask} task
+ * @param {AbortSignal} signal
+ */
+export async function dewarp(task, signal) {
+  await checkPlaces(task.output, task.report, task.map);
+  const photo = await decoded(task.texture, developable.readPhoto);
+  const { surface, options } = await flattened(task, signal);
+  const { dots, trim } = task;
+  const flat = await developable.dewarp(surface, photo, { ...options, dots, trim });
+  const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }, ...reported(task, flat)];
+  if (task.map !== undefined) {
+    files.push({ path: task.map, bytes: task.map.toLowerCase().endsWith('.npy') ? mapNpy(flat) : mapJson(flat) });
+  }
+  await writeWhole(files, signal);
+  if (flat.verdict === 'flat') {
+    process.stderr.write('developable: the page was flat to begin with: the photo can be used as it is\n');
+  } else if (flat.verdict === 'stretched') {
+    const strain = `${Number((100 * flat.report.distortion.rms).toPrecision(2))} %`;
+    process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
+  }
+}
+
+/**
+ * What is to be laid flat, and how it is resampled if it is no lattice yet.
+ * @param {SheetTask} task
+ * @param {AbortSignal} signal
+ */
+async function flattened(task, signal) {
+  const input = await readInput(task);
+  if (task.asIs) return { surface: input, options: spacing(task) };
+  return { surface: await solve(task, input, { signal }), options: {} };
+}
+
+/** @param {SheetTask} task */
+function spacing(task) {
+  return task.lattice === 'square' ? { spacing: task.spacing } : {};
+}
+
+/** @param {(string | undefined)[]} paths */
+async function checkPlaces(...paths) {
+  for (const path of paths) if (path !== undefined) await checkPlace(path);
+}
+
+/**
+ * @param {SheetTask} task
+ * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict }} result
+ */
+function reported({ report: path }, { report, verdict }) {
+  return path === undefined ? [] : [{ path, bytes: json({ verdict, ...report }) }];
+}
+
+/** @param {unknown} value */
+function json(value) {
+  return new TextEncoder().encode(`${JSON.stringify(value, undefined, 2)}\n`);
+}
+
+/** Typed arrays as plain ones, for JSON. @param {object} object */
+function plainArrays(object) {
+  const entries = Object.entries(object);
+  return Object.fromEntries(entries.map(([name, value]) => [name, ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value]));
+}
+
+/** The sheet as a flat mesh. @param {Unrolling} sheet */
+function flatObj({ places, triangles }) {
+  const lines = ['# a surface laid flat'];
+  for (let i = 0; i < places.length; i += 2) lines.push(`v ${places[i]} ${places[i + 1]} 0`);
+  // The file counts from 1.
+  for (let i = 0; i < triangles.length; i += 3) {
+    lines.push(`f ${triangles[i] + 1} ${triangles[i + 1] + 1} ${triangles[i + 2] + 1}`);
+  }
+  return new TextEncoder().encode(`${lines.join('\n')}\n`);
+}
+
+/** The warp map as a NumPy array of shape (height, width, 2). @param {import('../types.js').Dewarped} flat */
+function mapNpy({ width, height, map }) {
+  const text = `{'descr': '<f4', 'fortran_order': False, 'shape': (${height}, ${width}, 2), }`;
+  // The data begin at a multiple of 64 bytes, after a line break.
+  const length = Math.ceil((10 + text.length + 1) / 64) * 64 - 10;
+  const head = Buffer.from(`\x93NUMPY\x01\x00\0\0${text.padEnd(length - 1)}\n`, 'latin1');
+  head.writeUInt16LE(length, 8);
+  const data = Buffer.alloc(4 * map.length);
+  map.forEach((value, i) => data.writeFloatLE(value, 4 * i));
+  return Buffer.concat([head, data]);
+}
+
+/** The same as JSON, null where there is no sheet. @param {import('../types.js').Dewarped} flat */
+function mapJson({ width, height, resolution, corner, map }) {
+  const places = Array.from({ length: width * height }, (_, i) =>
+    (Number.isNaN(map[2 * i]) ? null : [map[2 * i], map[2 * i + 1]]));
+  return new TextEncoder().encode(`${JSON.stringify({ width, height, resolution, corner, places })}\n`);
+}

@@ -83,6 +83,7 @@ mod mesh;
 pub mod meshes;
 mod occlusions;
 pub mod patches;
+pub mod pattern;
 mod resample;
 mod restore;
 pub mod rulings;

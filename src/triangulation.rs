@@ -25,10 +25,20 @@ impl Triangulation {
     /// # Errors
     /// [`Error::Unsupported`] if there is no whole triangle, [`Error::OutOfMemory`].
     pub fn new(surface: &Heightfield) -> Result<Self> {
+        Triangulation::of_some(surface, |_| true)
+    }
+
+    /// Those of the triangles of a surface, by the lattice indices of their corners, that are
+    /// wanted.
+    pub(crate) fn of_some(
+        surface: &Heightfield,
+        wanted: impl Fn([usize; 3]) -> bool,
+    ) -> Result<Self> {
         let lattice = *surface.lattice();
+        let triangles = || whole_triangles(surface).filter(|triangle| wanted(*triangle));
         let mut numbers = try_filled("triangles", lattice.len(), UNUSED)?;
         let mut count = 0;
-        for triangle in whole_triangles(surface) {
+        for triangle in triangles() {
             count += 1;
             for i in triangle {
                 numbers[i] = 0;
@@ -40,7 +50,7 @@ impl Triangulation {
                 reason: "no triangle of the lattice has a height at all three vertices".into(),
             });
         }
-        let mut triangles = try_filled("triangles", count, [0; 3])?;
+        let mut numbered = try_filled("triangles", count, [0; 3])?;
         let mut used = 0;
         for number in numbers.iter_mut().filter(|number| **number != UNUSED) {
             *number = used;
@@ -53,14 +63,14 @@ impl Triangulation {
             vertices[*number as usize] = i as u32;
             positions[*number as usize] = [x, y, surface.heights()[i]];
         }
-        for (out, triangle) in triangles.iter_mut().zip(whole_triangles(surface)) {
+        for (out, triangle) in numbered.iter_mut().zip(triangles()) {
             *out = triangle.map(|i| numbers[i]);
         }
         Ok(Triangulation {
             lattice,
             vertices,
             positions,
-            triangles,
+            triangles: numbered,
         })
     }
 

@@ -165,11 +165,15 @@ impl Unrolling {
 /// any whole triangle, [`Error::Overflow`] for heights out of all proportion to the spacing,
 /// [`Error::OutOfMemory`].
 pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrolling> {
+    unroll_mesh(Triangulation::new(surface)?, options)
+}
+
+/// The same for some of a surface's triangles.
+pub(crate) fn unroll_mesh(mesh: Triangulation, options: &UnrollOptions) -> Result<Unrolling> {
     let limits = Limits {
         tolerance: positive("tolerance", options.tolerance)?,
         iterations: options.max_iterations,
     };
-    let mesh = Triangulation::new(surface)?;
     let lattice = *mesh.lattice();
     let spacing = lattice.spacing();
     let grid = Grid::new(lattice.rows(), lattice.cols());
@@ -181,10 +185,20 @@ pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrollin
     for (v, [_, _, z]) in mesh.vertices().iter().zip(mesh.positions()) {
         heights[cell(*v)] = z / spacing;
     }
-    let pieces = Pieces::new(grid, &heights).map_err(|error| match error {
-        Error::Overflow { .. } => Error::Overflow { spacing },
-        other => other,
-    })?;
+    // A triangle by its upper left corner, and whether it lies below that or beside it.
+    let mut wanted = try_filled("unrolling", grid.cells(), [false; 2])?;
+    for [a, b, _] in mesh.triangles() {
+        let [first, second] = [a, b].map(|v| cell(mesh.vertices()[*v as usize]));
+        let offsets = grid.offsets(grid.vertex(first).0);
+        let below = first.wrapping_add_signed(offsets.south_west) == second;
+        wanted[first][usize::from(!below)] = true;
+    }
+    let pieces = Pieces::new(grid, &heights, |(cell, side)| wanted[cell][side]).map_err(
+        |error| match error {
+            Error::Overflow { .. } => Error::Overflow { spacing },
+            other => other,
+        },
+    )?;
     let mut places = plan(grid)?;
     let from_above = distortion(&pieces, pieces.names(), &places);
     let mut course = arap::relax(&pieces, &mut places, limits)?;

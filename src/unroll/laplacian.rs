@@ -217,7 +217,7 @@ mod tests {
                 }
             }
         }
-        Pieces::new(grid, &heights).unwrap()
+        Pieces::new(grid, &heights, |_| true).unwrap()
     }
 
     #[test]

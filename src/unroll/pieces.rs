@@ -61,8 +61,9 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// From heights in units of the spacing, NaN where there is none and in all padding.
-    pub(super) fn new(grid: Grid, heights: &[f64]) -> Result<Self> {
+    /// From heights in units of the spacing, NaN where there is none and in all padding, for those
+    /// triangles that are `wanted`.
+    pub(super) fn new(grid: Grid, heights: &[f64], wanted: impl Fn(Name) -> bool) -> Result<Self> {
         let mut of = try_filled("unrolling", grid.cells(), [Piece::default(); 2])?;
         let mut area = 0.0;
         for row in 0..grid.rows() {
@@ -71,8 +72,9 @@ impl Pieces {
                 let rise =
                     |offset: isize| heights[cell.wrapping_add_signed(offset)] - heights[cell];
                 let [sw, se, e] = [rise(offsets.south_west), rise(offsets.south_east), rise(1)];
-                for (piece, [a, b]) in of[cell].iter_mut().zip([[sw, se], [se, e]]) {
-                    if !(a.is_nan() || b.is_nan()) {
+                let rises = [[sw, se], [se, e]].into_iter().enumerate();
+                for (piece, (side, [a, b])) in of[cell].iter_mut().zip(rises) {
+                    if !(a.is_nan() || b.is_nan()) && wanted((cell, side)) {
                         *piece = Piece::new(a, b);
                         area += piece.area();
                     }

@@ -71,7 +71,7 @@ mod tests {
         let grid = Grid::new(9, 9);
         let mut heights = vec![f64::NAN; grid.cells()];
         (0..9).for_each(|row| heights[grid.row(row)].fill(0.0));
-        let pieces = Pieces::new(grid, &heights).unwrap();
+        let pieces = Pieces::new(grid, &heights, |_| true).unwrap();
         let mut places = super::super::plan(grid).unwrap();
         assert!(!unflip(&pieces, &mut places).unwrap());
         let right = places.clone();

@@ -24,7 +24,7 @@ pub(crate) struct State {
     pub rho: f64,
     pub(super) rolling: Rolling<f64>,
     /// A row of what the certificate sums, over matrices and over heights.
-    terms: [Terms; 2],
+    pub(super) terms: [Terms; 2],
 }
 
 type Terms = [Vec<f64>; SUMS];

@@ -82,9 +82,14 @@ export class DevelopableWorker {
    * @param {import('./types.js').ReadOptions} [options]
    */
   async read(bytes, options) {
-    const isBlob = typeof Blob === 'function' && bytes instanceof Blob;
-    const file = isBlob ? new Uint8Array(await bytes.arrayBuffer()) : new Uint8Array(asBytes(bytes));
+    const file = await ownBytes(bytes);
     return this.#request((remote) => remote.read(transfer(file, [file.buffer]), options));
+  }
+
+  /** @param {Uint8Array | ArrayBuffer | Blob} bytes */
+  async npzArrays(bytes) {
+    const file = await ownBytes(bytes);
+    return this.#request((remote) => remote.npzArrays(transfer(file, [file.buffer])));
   }
 
   /** @param {HeightImage | Heightfield} input */
@@ -97,6 +102,18 @@ export class DevelopableWorker {
   async writePng(input) {
     const { field, buffers } = detached(asImage(input));
     return this.#request((remote) => remote.writePng(transfer(field, buffers)));
+  }
+
+  /** @param {HeightImage} input */
+  async writeTiff(input) {
+    const { field, buffers } = detached(asImage(input));
+    return this.#request((remote) => remote.writeTiff(transfer(field, buffers)));
+  }
+
+  /** @param {HeightImage} input */
+  async writeExr(input) {
+    const { field, buffers } = detached(asImage(input));
+    return this.#request((remote) => remote.writeExr(transfer(field, buffers)));
   }
 
   /** @param {Heightfield} input */
@@ -139,8 +156,8 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm } = this.#options;
-      this.#wasm ??= Promise.all([portable(wasm), portable(filesWasm)]);
+      const { wasm, filesWasm, imagesWasm } = this.#options;
+      this.#wasm ??= Promise.all([wasm, filesWasm, imagesWasm].map(portable));
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }
@@ -148,6 +165,15 @@ export class DevelopableWorker {
   }
 }
 makeDisposable(DevelopableWorker);
+
+/**
+ * A copy of a file's bytes, to be handed over.
+ * @param {Uint8Array | ArrayBuffer | Blob} bytes
+ */
+async function ownBytes(bytes) {
+  const isBlob = typeof Blob === 'function' && bytes instanceof Blob;
+  return isBlob ? new Uint8Array(await bytes.arrayBuffer()) : new Uint8Array(asBytes(bytes));
+}
 
 /**
  * What a worker can be told about where the wasm is, again and again.

@@ -1,6 +1,7 @@
-/** The two wasm files: the solver, and what reads and writes files, which not everybody needs. */
+/** The wasm files: the solver, and two that read and write files, which not everybody needs. */
 import { Instance } from './instance.js';
 import * as filesGlue from './wasm/files.js';
+import * as imagesGlue from './wasm/images.js';
 import * as solverGlue from './wasm/solver.js';
 
 export const solver = new Instance(
@@ -13,4 +14,10 @@ export const files = new Instance(
   filesGlue,
   new URL('./wasm/files_bg.wasm', import.meta.url),
   'initFiles()',
+);
+
+export const images = new Instance(
+  imagesGlue,
+  new URL('./wasm/images_bg.wasm', import.meta.url),
+  'initImages()',
 );

@@ -4,8 +4,12 @@
 #[cfg(feature = "js-solver")]
 mod examples;
 mod fields;
-#[cfg(feature = "formats")]
+#[cfg(any(feature = "js-files", feature = "js-images"))]
+mod file;
+#[cfg(feature = "js-files")]
 mod files;
+#[cfg(feature = "js-images")]
+mod images;
 #[cfg(feature = "js-solver")]
 mod occlusions;
 mod options;

@@ -15,7 +15,7 @@ import { Problem, status } from './problem.js';
  * @returns {Promise<Input>}
  */
 export async function readInput(task) {
-  const file = await readImage(task.input);
+  const file = await readImage(task.input, task.array);
   const { mask, confidence, constraints, occlusionMask } = task;
   const known = {
     mask: mask && flags(await readBeside('mask', mask, file)),
@@ -51,15 +51,26 @@ export async function readInput(task) {
 
 /**
  * @param {string} path
+ * @param {string} [array] of an NPZ file
  * @returns {Promise<ReadResult>}
  */
-async function readImage(path) {
+async function readImage(path, array) {
   const bytes = await readBytes(path);
+  return about(path, () => developable.read(bytes, { array }));
+}
+
+/**
+ * Names the file in what is wrong with it.
+ * @template T
+ * @param {string} path
+ * @param {() => Promise<T>} read
+ */
+export async function about(path, read) {
   try {
-    return await developable.read(bytes);
+    return await read();
   } catch (error) {
     if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${error.message}`);
+      throw new Problem(status.input, `${path}: ${error.message.replace('the option `array`', '--array')}`);
     }
     throw error;
   }

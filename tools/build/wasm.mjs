@@ -11,12 +11,13 @@ import { run } from '../util/process.mjs';
 /** @typedef {import('../util/process.mjs').Env} Env */
 
 /**
- * The package's two wasm files: the crate's JavaScript bindings of one cargo feature each. `limit`
+ * The package's three wasm files: the crate's JavaScript bindings of one cargo feature each. `limit`
  * is the most bytes that a server may have to send, gzipped.
  */
 const files = [
   { name: 'solver', feature: 'js-solver', limit: 150_000 },
-  { name: 'files', feature: 'formats', limit: 250_000 },
+  { name: 'files', feature: 'js-files', limit: 250_000 },
+  { name: 'images', feature: 'js-images', limit: 560_000 },
 ];
 
 const stamp = join(pkgWasm, 'made-from');

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  Mesh, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
+  Mesh, NpzArray, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
   SampleMeshOptions, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
@@ -11,12 +11,16 @@ export function init(input?: InitInput): Promise<void>;
 /** The same, synchronously, from bytes or a compiled module. */
 export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the second wasm file, which `read` and the `write…` functions need; otherwise like `init`. */
+/** Loads the wasm file that `read` and the `write…` functions need for PNG, NPY and OBJ; otherwise like `init`. */
 export function initFiles(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the third wasm file, which `readMesh` and `sampleMesh` need; otherwise like `init`. */
+/** Loads the wasm file that they need for all other formats; otherwise like `init`. */
+export function initImages(input?: InitInput): Promise<void>;
+/** The same, synchronously. */
+export function initImagesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+/** Loads the wasm file that `readMesh` and `sampleMesh` need; otherwise like `init`. */
 export function initMeshes(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
@@ -53,12 +57,18 @@ export function fit(
 ): Surface;
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
-/** Decodes a PNG or NPY file. */
+/** Decodes a PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG or WebP file. */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
+/** What arrays an NPZ file holds, one of which `read` takes by its name. */
+export function npzArrays(bytes: Uint8Array | ArrayBuffer): NpzArray[];
 /** NPY file (float64) of an image or of lattice heights. */
 export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
 /** 16-bit grey PNG whose text chunks record pixel size, height scale and offset; level 0 is no data. */
 export function writePng(input: HeightImage): Uint8Array<ArrayBuffer>;
+/** TIFF (float32, NaN is no data) that records the pixel size; heights are rounded to 32 bits. */
+export function writeTiff(input: HeightImage): Uint8Array<ArrayBuffer>;
+/** EXR (float32, channel Z, NaN is no data); heights are rounded to 32 bits. */
+export function writeExr(input: HeightImage): Uint8Array<ArrayBuffer>;
 /** OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`. */
 export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
 /** Decodes an OBJ, PLY, STL, glTF or GLB file. */

@@ -1,9 +1,10 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
+import { isImage } from './formats.js';
 import { asBytes, asField, asImage, asInput, asLattice, frameOf } from './input.js';
+import { files, images, meshes, solver } from './instances.js';
 import { asMesh } from './mesh-input.js';
-import { files, meshes, solver } from './instances.js';
 import { makeDisposable } from './platform.js';
 
 export { DevelopableError } from './errors.js';
@@ -16,6 +17,10 @@ export const initSync = (input) => solver.initSync(input);
 export const initFiles = (input) => files.init(input);
 /** @type {typeof import('./direct.js').initFilesSync} */
 export const initFilesSync = (input) => files.initSync(input);
+/** @type {typeof import('./direct.js').initImages} */
+export const initImages = (input) => images.init(input);
+/** @type {typeof import('./direct.js').initImagesSync} */
+export const initImagesSync = (input) => images.initSync(input);
 /** @type {typeof import('./direct.js').initMeshes} */
 export const initMeshes = (input) => meshes.init(input);
 /** @type {typeof import('./direct.js').initMeshesSync} */
@@ -155,7 +160,15 @@ export function occlusions(input, options) {
 /** @type {typeof import('./direct.js').read} */
 export function read(bytes, options) {
   const file = asBytes(bytes);
-  return files.call((wasm) => wasm.read(file, options));
+  return isImage(file, options)
+    ? images.call((wasm) => wasm.readImage(file, options))
+    : files.call((wasm) => wasm.read(file, options));
+}
+
+/** @type {typeof import('./direct.js').npzArrays} */
+export function npzArrays(bytes) {
+  const file = asBytes(bytes);
+  return images.call((wasm) => wasm.npzArrays(file));
 }
 
 /** @type {typeof import('./direct.js').writeNpy} */
@@ -168,6 +181,18 @@ export function writeNpy(input) {
 export function writePng(input) {
   const image = asImage(input);
   return bytesOf((wasm) => wasm.writePng(image));
+}
+
+/** @type {typeof import('./direct.js').writeTiff} */
+export function writeTiff(input) {
+  const image = asImage(input);
+  return unshared(images.call((wasm) => wasm.writeTiff(image)));
+}
+
+/** @type {typeof import('./direct.js').writeExr} */
+export function writeExr(input) {
+  const image = asImage(input);
+  return unshared(images.call((wasm) => wasm.writeExr(image)));
 }
 
 /** @type {typeof import('./direct.js').writeObj} */
@@ -193,10 +218,15 @@ export function example(name, options) {
   return solver.call((wasm) => wasm.example(name, options));
 }
 
+/** @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write */
+function bytesOf(write) {
+  return unshared(files.call(write));
+}
+
 /**
  * A file, in memory that is not shared: only the type needs to be told.
- * @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write
+ * @param {Uint8Array} file
  */
-function bytesOf(write) {
-  return /** @type {Uint8Array<ArrayBuffer>} */ (files.call(write));
+function unshared(file) {
+  return /** @type {Uint8Array<ArrayBuffer>} */ (file);
 }

@@ -1,7 +1,7 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  Mesh, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
+  Mesh, NpzArray, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
   SampleMeshOptions, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
@@ -11,8 +11,10 @@ export interface WorkerOptions {
   workerUrl?: string | URL;
   /** Where the solver's wasm is; default: beside the worker. */
   wasm?: InitInput;
-  /** Where the wasm is that reads and writes files, loaded when it is needed; default: beside the worker. */
+  /** Where the wasm is that reads and writes PNG, NPY and OBJ, loaded when it is needed; default: beside the worker. */
   filesWasm?: InitInput;
+  /** Where the wasm is for all other file formats, likewise. */
+  imagesWasm?: InitInput;
   /** Where the wasm is that reads and samples meshes, likewise. */
   meshesWasm?: InitInput;
 }
@@ -74,8 +76,11 @@ export function open(input: HeightImage | Heightfield, options?: HandOver): Prom
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
+export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+export function writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+export function writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
@@ -96,8 +101,11 @@ export class DevelopableWorker {
   open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
   occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
   read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
+  npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
   writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+  writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+  writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;

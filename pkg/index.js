@@ -31,6 +31,12 @@ export const read = (bytes, options) => worker().read(bytes, options);
 export const writeNpy = (input) => worker().writeNpy(input);
 /** @type {typeof import('./index.js').writePng} */
 export const writePng = (input) => worker().writePng(input);
+/** @type {typeof import('./index.js').npzArrays} */
+export const npzArrays = (bytes) => worker().npzArrays(bytes);
+/** @type {typeof import('./index.js').writeTiff} */
+export const writeTiff = (input) => worker().writeTiff(input);
+/** @type {typeof import('./index.js').writeExr} */
+export const writeExr = (input) => worker().writeExr(input);
 /** @type {typeof import('./index.js').writeObj} */
 export const writeObj = (input) => worker().writeObj(input);
 /** @type {typeof import('./index.js').readMesh} */

@@ -329,20 +329,37 @@ export interface Example {
 
 export interface ReadOptions {
   /** Taken from the bytes where it is not given. */
-  format?: 'png' | 'npy';
+  format?: Format;
+  /** Of an NPZ file, the name of the array; may be left out where there is only one. */
+  array?: string;
 }
 
-/** A decoded file. For a PNG without a recorded scale `heightScale` is a suggestion (see README). */
+/** What can be read. */
+export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp';
+
+/** An array of an NPZ file. */
+export interface NpzArray {
+  name: string;
+  shape: number[];
+  /** `'f32'` and the like, or NumPy's own name for what is no number. */
+  dataType: string;
+}
+
+/** A decoded file. For integers without a recorded scale `heightScale` is a suggestion (see README). */
 export interface ReadResult {
-  format: 'png' | 'npy';
+  format: Format;
   width: number;
   height: number;
   /**
    * Values as stored (grey levels, numbers), plus `offset / heightScale` where the file records an
-   * offset, row by row; NaN where an alpha channel is 0 or the value is NaN.
+   * offset, row by row, the top row first; NaN where an alpha channel is 0, the value is NaN, or
+   * the file says that it means no data.
    */
   data: Float64Array;
+  /** Side length of a pixel; 1 where the file does not say. */
   pixelSize: number;
+  /** The unit of `pixelSize`, where the file says it: a TIFF's resolution, or a GeoTIFF. */
+  unit: 'mm' | 'm' | null;
   heightScale: number;
   /** The type the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'`, ... */
   dataType: string;

@@ -5,10 +5,14 @@
 mod examples;
 #[cfg(any(feature = "formats", feature = "js-solver"))]
 mod fields;
-#[cfg(feature = "formats")]
+#[cfg(any(feature = "js-files", feature = "js-images"))]
+mod file;
+#[cfg(feature = "js-files")]
 mod files;
-#[cfg(any(feature = "formats", feature = "meshes"))]
+#[cfg(any(feature = "js-files", feature = "meshes"))]
 mod frame;
+#[cfg(feature = "js-images")]
+mod images;
 #[cfg(feature = "meshes")]
 mod meshes;
 #[cfg(feature = "js-solver")]

@@ -7,12 +7,13 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {import('./flags.js').Flag} Flag
  * @typedef {import('./flags.js').Values} Values
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {'.npy' | '.png' | '.obj'} Extension
+ * @typedef {'.npy' | '.png' | '.tif' | '.tiff' | '.exr' | '.obj'} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
  * @property {string} output
  * @property {Extension} extension the output's
+ * @property {string} [array] of an NPZ file
  * @property {string} [mask]
  * @property {'square' | 'hex' | 'mesh'} lattice where the values are: pixels, the lattice, or a mesh to be sampled
  * @property {import('../types.js').SampleMeshOptions['view']} [view]
@@ -33,6 +34,7 @@ import { commandOf, split, usage } from './flags.js';
  *   command: 'fit' | 'design', report?: string, options: SolverOptions,
  * }} FitTask
  * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
+ * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
 
 const lattices = /** @type {const} */ (['square', 'hex']);
@@ -44,7 +46,7 @@ const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
- * @returns {FitTask | OcclusionsTask | { command: 'help' } | { command: 'version' }}
+ * @returns {FitTask | OcclusionsTask | InfoTask | { command: 'help' } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
@@ -55,7 +57,8 @@ export function parse(args) {
   const command = commandOf(name, values);
   if (input === undefined) throw usage('the input is missing');
   if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`);
-  const { output, report, mask, confidence, constraints } = values;
+  const { output, report, mask, confidence, constraints, array } = values;
+  if (command === 'info') return { command, input, array };
   if (output === undefined) throw usage('the output is missing: -o FILE');
   const read = { mask, confidence, constraints, 'occlusion mask': values['occlusion-mask'] };
   checkKind(isMesh(input), command, values);
@@ -66,7 +69,8 @@ export function parse(args) {
   const about = {
     input,
     output,
-    extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : ['.npy', '.png', '.obj']),
+    extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : ['.npy', '.png', '.tif', '.tiff', '.exr', '.obj']),
+    array,
     mask,
     lattice: isMesh(input) ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
     view: values.view === undefined ? undefined : view(values.view),

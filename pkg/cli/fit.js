@@ -52,5 +52,11 @@ function encode({ extension }, surface) {
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.
   const image = surface.image ?? { width: cols, height: rows, data, pixelSize: spacing };
-  return extension === '.png' ? developable.writePng(image) : developable.writeNpy(image);
+  switch (extension) {
+    case '.png': return developable.writePng(image);
+    case '.exr': return developable.writeExr(image);
+    case '.tif':
+    case '.tiff': return developable.writeTiff(image);
+    default: return developable.writeNpy(image);
+  }
 }

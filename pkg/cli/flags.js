@@ -28,6 +28,7 @@ const flags = {
   free: text,
   occlusions: text,
   threshold: text,
+  array: text,
   'occlusion-mask': text,
   report: text,
   help: /** @type {const} */ ({ type: 'boolean', short: 'h' }),
@@ -35,7 +36,10 @@ const flags = {
 };
 
 /** @typedef {keyof typeof flags} Flag */
-/** @typedef {'fit' | 'design' | 'occlusions'} Command */
+/** @typedef {'fit' | 'design' | 'occlusions' | 'info'} Command */
+
+/** @type {readonly Flag[]} */
+const general = ['array', 'help', 'version'];
 
 /** What a command does not take. @type {Record<Command, readonly Flag[]>} */
 const foreign = {
@@ -45,6 +49,7 @@ const foreign = {
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
     'constraints', 'free', 'occlusions', 'occlusion-mask', 'report',
   ],
+  info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
 };
 
 /** @param {string[]} args */

@@ -5,19 +5,20 @@ how far from the optimum it can be.
 Usage: developable fit INPUT -o OUTPUT [options]
        developable design CONSTRAINTS -o OUTPUT [options]
        developable occlusions INPUT -o MASK [options]
+       developable info FILE [--array NAME]
 
 "fit" follows heights, "design" passes through heights and is free elsewhere,
 "occlusions" looks for places where a surface is torn, and prints how many
-vertices it has found.
+vertices it has found. "info" tells what is in a file.
 
-  INPUT                  heights: a grey PNG (8 or 16 bit) or a 2D NumPy array;
-                         or a mesh, of which what is seen from one side is
-                         taken: .obj, .ply, .stl, .glb or .gltf
-  CONSTRAINTS            the same; transparent pixels and NaN are free
-  -o, --output FILE      .npy or .png (heights at the input's pixels) or .obj
-                         (a mesh); the file appears whole or not at all. Of a
-                         mesh, .obj is in its own coordinates, and the others
-                         are heights on the lattice
+  INPUT                  heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture
+                         (PNG, JPEG, WebP); or a mesh, of which what is seen
+                         from one side is taken: .obj, .ply, .stl, .glb, .gltf
+  CONSTRAINTS            heights likewise; transparent pixels and NaN are free
+  -o, --output FILE      .npy, .png, .tif or .exr (heights at the input's
+                         pixels) or .obj (a mesh); the file appears whole or
+                         not at all. Of a mesh, .obj is in its own coordinates,
+                         and the others are heights on the lattice
   MASK                   .png or .npy, white (or 1) where the surface is torn
 
 What to minimise
@@ -46,9 +47,11 @@ How to read the heights
   --spacing S            distance of neighbours on the lattice (default: the
                          size of a pixel: 1 unless the file says otherwise)
   --height-scale S       factor from the file's values to heights (default: what
-                         the file says; for a PNG that says nothing, white is a
-                         quarter of the longer side above black; 1 for NPY)
-  --mask FILE            PNG or NPY of the same shape; 0 takes a value out
+                         the file says, 1 for floats, NPY and NPZ; for other
+                         whole numbers white is a quarter of the longer side
+                         above black)
+  --array NAME           the array of an NPZ file, where it holds several
+  --mask FILE            image of the same shape; 0 takes a value out
   --no-data V            value that means no data, besides NaN
 
 How to look at a mesh

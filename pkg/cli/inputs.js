@@ -16,7 +16,7 @@ import { Problem, status } from './problem.js';
  */
 export async function readInput(task) {
   if (task.lattice === 'mesh') return readSampled(task);
-  const file = await readImage(task.input);
+  const file = await readImage(task.input, task.array);
   const { mask, confidence, constraints, occlusionMask } = task;
   const known = {
     mask: mask && flags(await readBeside('mask', mask, file)),
@@ -52,30 +52,33 @@ export async function readInput(task) {
 
 /** What is seen of a mesh. @param {InputTask} task */
 async function readSampled({ input, view, resolution, spacing }) {
-  const mesh = await decoded(input, developable.readMesh);
+  const bytes = await readBytes(input);
+  const mesh = await about(input, () => developable.readMesh(bytes));
   return developable.sampleMesh(mesh, { view, resolution, spacing });
 }
 
 /**
  * @param {string} path
+ * @param {string} [array] of an NPZ file
  * @returns {Promise<ReadResult>}
  */
-function readImage(path) {
-  return decoded(path, developable.read);
+async function readImage(path, array) {
+  const bytes = await readBytes(path);
+  return about(path, () => developable.read(bytes, { array }));
 }
 
 /**
+ * Names the file in what is wrong with it.
  * @template T
  * @param {string} path
- * @param {(bytes: Uint8Array) => Promise<T>} read
+ * @param {() => Promise<T>} read
  */
-async function decoded(path, read) {
-  const bytes = await readBytes(path);
+export async function about(path, read) {
   try {
-    return await read(bytes);
+    return await read();
   } catch (error) {
     if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${error.message}`);
+      throw new Problem(status.input, `${path}: ${error.message.replace('the option `array`', '--array')}`);
     }
     throw error;
   }

@@ -7,7 +7,10 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use crate::error::{Error, check_shape, try_filled};
-use crate::heightfield::{HeightImage, Heightfield};
+use crate::heightfield::HeightImage;
+#[cfg(any(feature = "js-files", feature = "js-solver"))]
+use crate::heightfield::Heightfield;
+#[cfg(any(feature = "js-files", feature = "js-solver"))]
 use crate::lattice::Lattice;
 
 /// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
@@ -26,7 +29,7 @@ pub(super) struct ImageInput {
 }
 
 impl ImageInput {
-    #[cfg(feature = "formats")]
+    #[cfg(any(feature = "js-files", feature = "js-images"))]
     pub(super) fn into_image(self) -> Result<HeightImage> {
         self.heights("height image", &self.data)
     }
@@ -52,6 +55,7 @@ impl ImageInput {
 }
 
 /// `Heightfield` of `types.d.ts`, without what only a solve wants to know.
+#[cfg(any(feature = "js-files", feature = "js-solver"))]
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct LatticeInput {
@@ -68,8 +72,9 @@ pub(super) struct LatticeInput {
     pub(super) frame: Option<super::frame::FrameFields>,
 }
 
+#[cfg(any(feature = "js-files", feature = "js-solver"))]
 impl LatticeInput {
-    #[cfg(feature = "formats")]
+    #[cfg(feature = "js-files")]
     pub(super) fn into_heightfield(self) -> Result<Heightfield> {
         self.heights("heightfield", &self.heights)
     }

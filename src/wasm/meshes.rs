@@ -182,7 +182,7 @@ fn attribute<const N: usize>(values: &Float32Array) -> Result<Vec<[f32; N]>> {
 /// Room for `length` numbers in groups, of which all have to be whole.
 fn filled<T: Copy, const N: usize>(length: u32, value: T) -> Result<Vec<[T; N]>> {
     let length = length as usize;
-    if length % N != 0 {
+    if !length.is_multiple_of(N) {
         return Err(Error::Shape {
             what: "array of the mesh",
             rows: length / N,

@@ -32,7 +32,9 @@ test('the package holds what it needs and nothing else', async () => {
   const paths = packed.files.map(({ path }) => path);
   const needed = [
     'index.js', 'index.d.ts', 'direct.js', 'direct.d.ts', 'types.d.ts', 'worker.js', 'bin/developable.js',
-    'wasm/solver.js', 'wasm/solver_bg.wasm', 'wasm/files.js', 'wasm/files_bg.wasm', 'wasm/meshes.js', 'wasm/meshes_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
+    'wasm/solver.js', 'wasm/solver_bg.wasm', 'wasm/files.js', 'wasm/files_bg.wasm',
+    'wasm/images.js', 'wasm/images_bg.wasm', 'wasm/meshes.js', 'wasm/meshes_bg.wasm',
+    'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
     'LICENSE-MIT', 'LICENSE-APACHE', 'README.md',
   ];
   for (const path of needed) assert.ok(paths.includes(path), path);

@@ -1,0 +1,47 @@
+/** `developable info`: what is in a file. */
+import * as developable from '../index.js';
+import { readBytes } from './files.js';
+import { about } from './inputs.js';
+
+/** @typedef {import('../types.js').ReadResult} ReadResult */
+
+/** @param {import('./arguments.js').InfoTask} task */
+export async function info({ input, array }) {
+  const bytes = await readBytes(input);
+  const lines = isArchive(bytes) && array === undefined
+    ? await about(input, async () => arraysInWords(await developable.npzArrays(bytes)))
+    : await about(input, async () => imageInWords(await developable.read(bytes, { array })));
+  process.stdout.write(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
+}
+
+/** @param {Uint8Array} bytes */
+function isArchive(bytes) {
+  return bytes[0] === 0x50 && bytes[1] === 0x4b;
+}
+
+/** @param {import('../types.js').NpzArray[]} arrays */
+function arraysInWords(arrays) {
+  return [
+    ['format', 'npz'],
+    ...arrays.map(({ name, shape, dataType }) => ['array', `${name}, ${shape.join(' × ') || 'one value'}, ${dataType}`]),
+  ];
+}
+
+/** @param {ReadResult} file */
+function imageInWords({ format, width, height, data, dataType, pixelSize, unit, heightScale }) {
+  let [low, high, missing] = [Infinity, -Infinity, 0];
+  for (const value of data) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+    if (Number.isNaN(value)) missing += 1;
+  }
+  return [
+    ['format', format],
+    ['size', `${width} × ${height} pixels`],
+    ['data type', dataType],
+    ['values', low <= high ? `${low} to ${high}` : 'none'],
+    ['no data', `${missing} pixels`],
+    ['pixel size', unit === null ? `${pixelSize}` : `${pixelSize} ${unit}`],
+    ['height scale', `${heightScale}`],
+  ];
+}

@@ -202,7 +202,18 @@ pub(crate) fn check_shape(
     cols: usize,
     found: usize,
 ) -> Result<()> {
-    let expected = checked_cells(what, rows, cols)?;
+    checked_cells(what, rows, cols)?;
+    check_count(what, rows, cols, found)
+}
+
+/// Whether `found` values fill a shape of any size.
+pub(crate) fn check_count(
+    what: &'static str,
+    rows: usize,
+    cols: usize,
+    found: usize,
+) -> Result<()> {
+    let expected = rows * cols;
     if found == expected {
         return Ok(());
     }

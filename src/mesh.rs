@@ -1,6 +1,6 @@
 //! A triangle mesh: positions, triangles, and what else there is at each vertex.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_count};
 
 /// Triangles in space, in the user's units and the user's own axes.
 ///
@@ -73,7 +73,12 @@ impl Mesh {
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.
     pub fn with_colors(mut self, colors: Vec<[f32; 3]>) -> Result<Self> {
-        self.check("colours of the mesh", 3, colors.len())?;
+        check_count(
+            "colours of the mesh",
+            self.positions.len(),
+            3,
+            3 * colors.len(),
+        )?;
         self.colors = Some(colors);
         Ok(self)
     }
@@ -83,23 +88,14 @@ impl Mesh {
     /// # Errors
     /// [`Error::Shape`] if there is not one pair for each vertex.
     pub fn with_uvs(mut self, uvs: Vec<[f32; 2]>) -> Result<Self> {
-        self.check("texture coordinates of the mesh", 2, uvs.len())?;
+        check_count(
+            "texture coordinates of the mesh",
+            self.positions.len(),
+            2,
+            2 * uvs.len(),
+        )?;
         self.uvs = Some(uvs);
         Ok(self)
-    }
-
-    fn check(&self, what: &'static str, cols: usize, found: usize) -> Result<()> {
-        let rows = self.positions.len();
-        if found == rows {
-            return Ok(());
-        }
-        Err(Error::Shape {
-            what,
-            rows,
-            cols,
-            expected: rows * cols,
-            found: found * cols,
-        })
     }
 
     /// Positions of the vertices.

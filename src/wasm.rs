@@ -1,6 +1,8 @@
 //! The library as JavaScript sees it, behind `pkg/direct.js`: plain objects and
 //! typed arrays in and out, errors with a `code`. Nothing is computed here.
 
+#[cfg(any(feature = "js-files", feature = "js-images", feature = "meshes"))]
+mod bytes;
 #[cfg(feature = "js-solver")]
 mod examples;
 #[cfg(any(feature = "formats", feature = "js-solver"))]

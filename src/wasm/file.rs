@@ -1,13 +1,12 @@
-//! A file's bytes and options in, what it holds out.
+//! The options of reading a height image in, what the file holds out.
 
-use js_sys::{Float64Array, Uint8Array};
+use js_sys::Float64Array;
 use serde::Serialize;
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::options::{entries, option, unknown};
 use super::{Failure, Result};
-use crate::error::try_filled;
 use crate::formats::{Decoded, FORMAT_NAMES, Format};
 
 /// `ReadOptions` of `types.d.ts`.
@@ -42,13 +41,6 @@ impl ReadOptions {
             None => Ok(()),
         }
     }
-}
-
-/// The bytes in the wasm's own memory.
-pub(super) fn copied(bytes: &Uint8Array) -> Result<Vec<u8>> {
-    let mut file = try_filled("file", bytes.length() as usize, 0)?;
-    bytes.copy_to(&mut file);
-    Ok(file)
 }
 
 /// `ReadResult` of `types.d.ts`.

@@ -5,8 +5,9 @@ use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::bytes::copied;
 use super::fields::{ImageInput, LatticeInput};
-use super::file::{ReadOptions, copied, output};
+use super::file::{ReadOptions, output};
 use crate::formats::{decode, write_npy, write_obj, write_obj_in, write_png};
 
 /// Decodes a PNG or NPY file.

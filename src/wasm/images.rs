@@ -6,8 +6,9 @@ use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::bytes::copied;
 use super::fields::ImageInput;
-use super::file::{ReadOptions, copied, output};
+use super::file::{ReadOptions, output};
 use crate::formats::{
     Format, announced, decode_image, decode_npz, npz_arrays, write_exr, write_tiff,
 };

@@ -6,6 +6,7 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::bytes::copied;
 use super::frame::FrameFields;
 use super::options::{entries, option, unknown};
 use crate::error::{Error, try_filled};
@@ -70,9 +71,7 @@ pub fn read_mesh_file(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
             _ => return Err(unknown(&name, "format")),
         }
     }
-    let mut file = try_filled("file", bytes.length() as usize, 0)?;
-    bytes.copy_to(&mut file);
-    let mesh = read_mesh(&file, format)?;
+    let mesh = read_mesh(&copied(bytes)?, format)?;
     Ok(to_value(&MeshOutput {
         positions: mesh.positions().as_flattened().into(),
         triangles: mesh.triangles().as_flattened().into(),

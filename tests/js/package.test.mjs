@@ -164,7 +164,7 @@ test('an app bundled with Vite runs under the strict policy', { skip }, async ()
   const assets = await readdir(join(app, 'dist/assets'));
   // Each of the package's wasm files, once.
   const modules = assets.filter((name) => name.endsWith('.wasm')).map((name) => name.split('-')[0]);
-  assert.deepEqual(modules.sort(), ['files_bg', 'meshes_bg', 'solver_bg']);
+  assert.deepEqual(modules.sort(), ['files_bg', 'images_bg', 'meshes_bg', 'solver_bg']);
   const server = await serve({ '/': join(app, 'dist') });
   after(() => server.close());
   await checkApp(server.url);

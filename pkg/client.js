@@ -123,6 +123,29 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.writeObj(transfer(field, buffers)));
   }
 
+  /** @param {Heightfield} input */
+  async writePly(input) {
+    const { field, buffers } = detached(asLattice(input));
+    return this.#request((remote) => remote.writePly(transfer(field, buffers)));
+  }
+
+  /** @param {Heightfield} input */
+  async writeStl(input) {
+    const { field, buffers } = detached(asLattice(input));
+    return this.#request((remote) => remote.writeStl(transfer(field, buffers)));
+  }
+
+  /**
+   * @param {Heightfield} input
+   * @param {import('./index.js').WriteGlbOptions} [given]
+   */
+  async writeGlb(input, given) {
+    const { field, buffers } = detached(asLattice(input));
+    const { texture, ...rest } = asOptions(given);
+    const options = { ...rest, texture: texture === undefined ? undefined : await ownBytes(texture) };
+    return this.#request((remote) => remote.writeGlb(transfer(field, buffers), options));
+  }
+
   /**
    * @param {Uint8Array | ArrayBuffer | Blob} bytes
    * @param {import('./types.js').ReadMeshOptions} [options]

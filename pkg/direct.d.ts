@@ -20,10 +20,15 @@ export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly
 export function initImages(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initImagesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
-/** Loads the wasm file that `readMesh` and `sampleMesh` need; otherwise like `init`. */
+/** Loads the wasm file that `readMesh`, `sampleMesh`, `writePly`, `writeStl` and `writeGlb` need; otherwise like `init`. */
 export function initMeshes(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+export interface WriteGlbOptions {
+  /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
+  texture?: Uint8Array | ArrayBuffer;
+}
 
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
 export class Solver {
@@ -69,8 +74,17 @@ export function writePng(input: HeightImage): Uint8Array<ArrayBuffer>;
 export function writeTiff(input: HeightImage): Uint8Array<ArrayBuffer>;
 /** EXR (float32, channel Z, NaN is no data); heights are rounded to 32 bits. */
 export function writeExr(input: HeightImage): Uint8Array<ArrayBuffer>;
-/** OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`. */
+/**
+ * OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`, with
+ * normals, and with the field's `colors` and `uvs`.
+ */
 export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** The same mesh as PLY (binary, little-endian): positions in 64 bits, colours as bytes. */
+export function writePly(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** The same mesh as STL (binary): positions in 32 bits, and nothing else but each triangle's normal. */
+export function writeStl(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** The same mesh as GLB (binary glTF): positions in 32 bits, colours as bytes, and a texture if one is given. */
+export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Uint8Array<ArrayBuffer>;
 /** Decodes an OBJ, PLY, STL, glTF or GLB file. */
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /** What is seen of a mesh, as heights on a lattice: an input for `fit`. */

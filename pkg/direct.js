@@ -2,7 +2,7 @@
 import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
-import { asBytes, asField, asImage, asInput, asLattice, frameOf } from './input.js';
+import { asBytes, asField, asImage, asInput, asLattice, carriedOf } from './input.js';
 import { files, images, meshes, solver } from './instances.js';
 import { asMesh } from './mesh-input.js';
 import { makeDisposable } from './platform.js';
@@ -46,8 +46,8 @@ export class Solver {
   #handle;
   /** Conjugate-gradient iterations to ask for in one call, from how long the last ones took. */
   #work = 1;
-  /** @type {import('./types.js').Frame | undefined} the input's, which the surface has too */
-  #frame;
+  /** What the surface has from the input. */
+  #carried;
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
@@ -55,7 +55,7 @@ export class Solver {
    */
   constructor(input, options) {
     const field = asInput(input);
-    this.#frame = frameOf(field);
+    this.#carried = carriedOf(field);
     this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
@@ -78,7 +78,7 @@ export class Solver {
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
-    this.#frame = frameOf(field);
+    this.#carried = carriedOf(field);
     this.#work = 1;
   }
 
@@ -110,8 +110,7 @@ export class Solver {
 
   surface() {
     const handle = this.#live();
-    const surface = solver.call(() => handle.surface());
-    return this.#frame ? { ...surface, frame: this.#frame } : surface;
+    return { ...solver.call(() => handle.surface()), ...this.#carried };
   }
 
   get disposed() {
@@ -199,6 +198,26 @@ export function writeExr(input) {
 export function writeObj(input) {
   const lattice = asLattice(input);
   return bytesOf((wasm) => wasm.writeObj(lattice));
+}
+
+/** @type {typeof import('./direct.js').writePly} */
+export function writePly(input) {
+  const lattice = asLattice(input);
+  return unshared(meshes.call((wasm) => wasm.writePly(lattice)));
+}
+
+/** @type {typeof import('./direct.js').writeStl} */
+export function writeStl(input) {
+  const lattice = asLattice(input);
+  return unshared(meshes.call((wasm) => wasm.writeStl(lattice)));
+}
+
+/** @type {typeof import('./direct.js').writeGlb} */
+export function writeGlb(input, given) {
+  const lattice = asLattice(input);
+  const { texture, ...rest } = asOptions(given);
+  const options = { ...rest, texture: texture === undefined ? undefined : asBytes(texture) };
+  return unshared(meshes.call((wasm) => wasm.writeGlb(lattice, options)));
 }
 
 /** @type {typeof import('./direct.js').readMesh} */

@@ -15,8 +15,13 @@ export interface WorkerOptions {
   filesWasm?: InitInput;
   /** Where the wasm is for all other file formats, likewise. */
   imagesWasm?: InitInput;
-  /** Where the wasm is that reads and samples meshes, likewise. */
+  /** Where the wasm is that reads, samples and writes meshes (but for OBJ out), likewise. */
   meshesWasm?: InitInput;
+}
+
+export interface WriteGlbOptions {
+  /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
+  texture?: Uint8Array | ArrayBuffer | Blob;
 }
 
 export interface OpenFitOptions extends SolverOptions {
@@ -82,6 +87,9 @@ export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
@@ -107,6 +115,9 @@ export class DevelopableWorker {
   writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;

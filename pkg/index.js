@@ -39,6 +39,12 @@ export const writeTiff = (input) => worker().writeTiff(input);
 export const writeExr = (input) => worker().writeExr(input);
 /** @type {typeof import('./index.js').writeObj} */
 export const writeObj = (input) => worker().writeObj(input);
+/** @type {typeof import('./index.js').writePly} */
+export const writePly = (input) => worker().writePly(input);
+/** @type {typeof import('./index.js').writeStl} */
+export const writeStl = (input) => worker().writeStl(input);
+/** @type {typeof import('./index.js').writeGlb} */
+export const writeGlb = (input, options) => worker().writeGlb(input, options);
 /** @type {typeof import('./index.js').readMesh} */
 export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 /** @type {typeof import('./index.js').sampleMesh} */

@@ -134,13 +134,25 @@ export const service = {
   writeTiff: written(withImages, direct.writeTiff),
   writeExr: written(withImages, direct.writeExr),
   writeObj: written(withFiles, direct.writeObj),
+  writePly: written(withMeshes, direct.writePly),
+  writeStl: written(withMeshes, direct.writeStl),
+
+  /**
+   * @param {Parameters<typeof direct.writeGlb>[0]} input
+   * @param {Parameters<typeof direct.writeGlb>[1]} [options]
+   */
+  async writeGlb(input, options) {
+    await withMeshes();
+    const bytes = direct.writeGlb(input, options);
+    return transfer(bytes, buffersOf(bytes));
+  },
 
   /**
    * @param {Parameters<typeof direct.readMesh>[0]} bytes
    * @param {Parameters<typeof direct.readMesh>[1]} [options]
    */
   async readMesh(bytes, options) {
-    await direct.initMeshes(meshesWasm);
+    await withMeshes();
     const mesh = direct.readMesh(bytes, options);
     return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.colors, mesh.uvs));
   },
@@ -150,7 +162,7 @@ export const service = {
    * @param {Parameters<typeof direct.sampleMesh>[1]} [options]
    */
   async sampleMesh(mesh, options) {
-    await direct.initMeshes(meshesWasm);
+    await withMeshes();
     const sampled = direct.sampleMesh(mesh, options);
     return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
   },
@@ -175,6 +187,10 @@ function withFiles() {
 
 function withImages() {
   return direct.initImages(imagesWasm);
+}
+
+function withMeshes() {
+  return direct.initMeshes(meshesWasm);
 }
 
 /**

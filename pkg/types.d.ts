@@ -75,6 +75,10 @@ export interface Heightfield extends Known {
   brokenEdges?: Uint8Array;
   /** The axes of these coordinates in space, which a written mesh is turned back to. Default: x, y and z. */
   frame?: Frame;
+  /** Red, green, blue of each vertex, from 0 to 1, for written meshes. */
+  colors?: Float32Array;
+  /** Texture coordinates of each vertex, from the left and from the bottom of the picture, likewise. */
+  uvs?: Float32Array;
 }
 
 /**
@@ -96,7 +100,7 @@ export interface Mesh {
   triangles: Uint32Array;
   /** Red, green, blue of each vertex, from 0 to 1. */
   colors?: Float32Array;
-  /** Texture coordinates of each vertex. */
+  /** Texture coordinates of each vertex, from the left and from the bottom of the picture. */
   uvs?: Float32Array;
 }
 
@@ -306,6 +310,10 @@ export interface Surface {
   image?: { width: number; height: number; pixelSize: number; data: Float64Array };
   /** The input's. */
   frame?: Frame;
+  /** The input's. */
+  colors?: Float32Array;
+  /** The input's. */
+  uvs?: Float32Array;
   report: Report;
 }
 

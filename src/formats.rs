@@ -15,9 +15,9 @@ mod npy;
 mod obj;
 mod png;
 
-use std::io::{self, Write};
 use std::str::FromStr;
 
+use crate::buffer::Buffer;
 use crate::error::{Error, Result};
 use crate::heightfield::HeightImage;
 
@@ -26,7 +26,7 @@ pub(crate) use images::decode as decode_image;
 #[cfg(feature = "images")]
 pub use images::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use npy::write_npy;
-pub use obj::{write_obj, write_obj_in};
+pub use obj::{write_obj, write_obj_in, write_obj_mesh};
 pub use png::write_png;
 
 /// A file format that can be read. All but the first two need the cargo feature
@@ -299,37 +299,6 @@ fn guess(bytes: &[u8]) -> &'static str {
             .iter()
             .find(|(magic, _)| bytes.starts_with(magic))
             .map_or("a file of unknown format", |(_, name)| name),
-    }
-}
-
-/// A growing file in memory, whose lack of memory is an error instead of an abort.
-#[derive(Default)]
-struct Buffer(Vec<u8>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0
-            .try_reserve(bytes.len())
-            .map_err(|_| io::ErrorKind::OutOfMemory)?;
-        self.0.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Buffer {
-    /// The finished file. Writing into memory can fail for lack of memory only.
-    fn finish(self, what: &'static str, written: io::Result<()>) -> Result<Vec<u8>> {
-        match written {
-            Ok(()) => Ok(self.0),
-            Err(_) => Err(Error::OutOfMemory {
-                what,
-                bytes: self.0.len(),
-            }),
-        }
     }
 }
 

@@ -66,6 +66,8 @@
 
 #![warn(missing_docs)]
 
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod buffer;
 mod domain;
 mod error;
 mod examples;
@@ -86,6 +88,7 @@ mod solver;
 mod spectral;
 mod stencil;
 mod surface;
+mod triangulation;
 mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
@@ -107,6 +110,7 @@ pub use solver::{
 pub use spectral::Sym2;
 pub use stencil::Quadratic;
 pub use surface::Surface;
+pub use triangulation::Triangulation;
 pub use view::{Frame, View};
 
 /// The README's example.

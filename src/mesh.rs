@@ -10,6 +10,7 @@ use crate::error::{Error, Result, check_count};
 pub struct Mesh {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
+    normals: Option<Vec<[f32; 3]>>,
     colors: Option<Vec<[f32; 3]>>,
     uvs: Option<Vec<[f32; 2]>>,
 }
@@ -62,9 +63,25 @@ impl Mesh {
         Ok(Mesh {
             positions,
             triangles,
+            normals: None,
             colors: None,
             uvs: None,
         })
+    }
+
+    /// The same mesh with a normal for each vertex, of length 1. Files that are read give none.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one for each vertex.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self> {
+        check_count(
+            "normals of the mesh",
+            self.positions.len(),
+            3,
+            3 * normals.len(),
+        )?;
+        self.normals = Some(normals);
+        Ok(self)
     }
 
     /// The same mesh with a colour for each vertex: red, green, blue, usually
@@ -83,7 +100,9 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The same mesh with texture coordinates for each vertex.
+    /// The same mesh with texture coordinates for each vertex: from the left of
+    /// the picture and from its bottom, as in OBJ and PLY. (glTF counts from the
+    /// top; that is turned when it is read and written.)
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one pair for each vertex.
@@ -106,6 +125,11 @@ impl Mesh {
     /// Three vertices for each triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// A normal for each vertex.
+    pub fn normals(&self) -> Option<&[[f32; 3]]> {
+        self.normals.as_deref()
     }
 
     /// A colour for each vertex.

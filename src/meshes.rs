@@ -1,10 +1,13 @@
-//! Meshes from files held in memory: OBJ, PLY, STL, glTF and GLB.
+//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF and GLB, writes PLY, STL
+//! and GLB. (OBJ is written by [`formats`](crate::formats).)
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
 //! in proportion to the bytes that are there; scenes in which a few bytes stand
 //! for many triangles end at [`MAX_CELLS`] triangles.
 
+mod glb;
 mod gltf;
+mod narrow;
 mod obj;
 mod ply;
 mod stl;
@@ -14,6 +17,10 @@ use std::str::FromStr;
 
 use crate::error::{Error, MAX_CELLS, Result};
 use crate::mesh::Mesh;
+
+pub use glb::write_glb;
+pub use ply::write_ply;
+pub use stl::write_stl;
 
 /// A mesh file format that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

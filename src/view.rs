@@ -45,6 +45,17 @@ pub struct Frame {
     pub towards: [f64; 3],
 }
 
+impl Default for Frame {
+    /// The axes themselves, as seen along `-z`.
+    fn default() -> Self {
+        Frame {
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            towards: [0.0, 0.0, 1.0],
+        }
+    }
+}
+
 impl FromStr for View {
     type Err = Error;
 

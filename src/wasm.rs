@@ -1,11 +1,18 @@
 //! The library as JavaScript sees it, behind `pkg/direct.js`: plain objects and
 //! typed arrays in and out, errors with a `code`. Nothing is computed here.
 
+#[cfg(any(feature = "js-files", feature = "meshes"))]
+mod arrays;
 #[cfg(any(feature = "js-files", feature = "js-images", feature = "meshes"))]
 mod bytes;
 #[cfg(feature = "js-solver")]
 mod examples;
-#[cfg(any(feature = "formats", feature = "js-solver"))]
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-images",
+    feature = "js-solver",
+    feature = "meshes"
+))]
 mod fields;
 #[cfg(any(feature = "js-files", feature = "js-images"))]
 mod file;
@@ -28,6 +35,10 @@ mod settings;
 mod solver;
 #[cfg(feature = "js-solver")]
 mod source;
+#[cfg(feature = "meshes")]
+mod surfaces;
+#[cfg(any(feature = "js-files", feature = "meshes"))]
+mod triangulation;
 
 use js_sys::Reflect;
 use wasm_bindgen::prelude::*;

@@ -7,7 +7,7 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {import('./flags.js').Flag} Flag
  * @typedef {import('./flags.js').Values} Values
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {'.npy' | '.png' | '.tif' | '.tiff' | '.exr' | '.obj'} Extension
+ * @typedef {typeof extensions[number]} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
@@ -37,6 +37,7 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
 
+const extensions = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const schedules = /** @type {const} */ (['default', 'paper']);
 const energies = /** @type {const} */ (['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm']);
@@ -69,7 +70,7 @@ export function parse(args) {
   const about = {
     input,
     output,
-    extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : ['.npy', '.png', '.tif', '.tiff', '.exr', '.obj']),
+    extension: extension(output, command === 'occlusions' ? ['.png', '.npy'] : extensions),
     array,
     mask,
     lattice: isMesh(input) ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),

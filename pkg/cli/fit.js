@@ -48,7 +48,12 @@ export async function fit(task, signal) {
  * @param {Surface} surface
  */
 function encode({ extension }, surface) {
-  if (extension === '.obj') return developable.writeObj(surface);
+  switch (extension) {
+    case '.obj': return developable.writeObj(surface);
+    case '.ply': return developable.writePly(surface);
+    case '.stl': return developable.writeStl(surface);
+    case '.glb': return developable.writeGlb(surface);
+  }
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.
   const image = surface.image ?? { width: cols, height: rows, data, pixelSize: spacing };

@@ -16,9 +16,10 @@ vertices it has found. "info" tells what is in a file.
                          from one side is taken: .obj, .ply, .stl, .glb, .gltf
   CONSTRAINTS            heights likewise; transparent pixels and NaN are free
   -o, --output FILE      .npy, .png, .tif or .exr (heights at the input's
-                         pixels) or .obj (a mesh); the file appears whole or
-                         not at all. Of a mesh, .obj is in its own coordinates,
-                         and the others are heights on the lattice
+                         pixels) or .obj, .ply, .stl or .glb (a mesh); the file
+                         appears whole or not at all. Of a mesh, the latter are
+                         in its own coordinates, with its colours and texture
+                         coordinates, the former heights on the lattice
   MASK                   .png or .npy, white (or 1) where the surface is torn
 
 What to minimise

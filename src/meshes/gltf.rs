@@ -142,9 +142,11 @@ fn add(
     }
     if let Some(uvs) = primitive.get(&Semantic::TexCoords(0)) {
         let uvs = floats::<2>(&uvs, buffers)?;
-        parts
-            .uvs
-            .extend(uvs.iter().take(vertices).map(|c| c.map(|v| v as f32)));
+        parts.uvs.extend(
+            uvs.iter()
+                .take(vertices)
+                .map(|[u, v]| [*u as f32, (1.0 - v) as f32]),
+        );
     }
     let indices = match primitive.indices() {
         Some(accessor) => whole(&accessor, buffers)?,

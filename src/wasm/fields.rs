@@ -7,13 +7,15 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use crate::error::{Error, check_shape, try_filled};
+#[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
 use crate::heightfield::HeightImage;
-#[cfg(any(feature = "js-files", feature = "js-solver"))]
+#[cfg(any(feature = "js-files", feature = "js-solver", feature = "meshes"))]
 use crate::heightfield::Heightfield;
-#[cfg(any(feature = "js-files", feature = "js-solver"))]
+#[cfg(any(feature = "js-files", feature = "js-solver", feature = "meshes"))]
 use crate::lattice::Lattice;
 
 /// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
+#[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct ImageInput {
@@ -28,6 +30,7 @@ pub(super) struct ImageInput {
     height_scale: Option<f64>,
 }
 
+#[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
 impl ImageInput {
     #[cfg(any(feature = "js-files", feature = "js-images"))]
     pub(super) fn into_image(self) -> Result<HeightImage> {
@@ -55,7 +58,7 @@ impl ImageInput {
 }
 
 /// `Heightfield` of `types.d.ts`, without what only a solve wants to know.
-#[cfg(any(feature = "js-files", feature = "js-solver"))]
+#[cfg(any(feature = "js-files", feature = "js-solver", feature = "meshes"))]
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct LatticeInput {
@@ -68,13 +71,11 @@ pub(super) struct LatticeInput {
     #[serde(default, with = "preserve")]
     mask: JsValue,
     no_data: Option<f64>,
-    #[cfg(feature = "formats")]
-    pub(super) frame: Option<super::frame::FrameFields>,
 }
 
-#[cfg(any(feature = "js-files", feature = "js-solver"))]
+#[cfg(any(feature = "js-files", feature = "js-solver", feature = "meshes"))]
 impl LatticeInput {
-    #[cfg(feature = "js-files")]
+    #[cfg(any(feature = "js-files", feature = "meshes"))]
     pub(super) fn into_heightfield(self) -> Result<Heightfield> {
         self.heights("heightfield", &self.heights)
     }

@@ -8,7 +8,8 @@ use super::Result;
 use super::bytes::copied;
 use super::fields::{ImageInput, LatticeInput};
 use super::file::{ReadOptions, output};
-use crate::formats::{decode, write_npy, write_obj, write_obj_in, write_png};
+use super::triangulation::mesh_of;
+use crate::formats::{decode, write_npy, write_obj_mesh, write_png};
 
 /// Decodes a PNG or NPY file.
 #[wasm_bindgen]
@@ -45,12 +46,5 @@ pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
 /// OBJ mesh of lattice heights, in the axes of their frame.
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue) -> Result<Uint8Array> {
-    let input = from_value::<LatticeInput>(field)?;
-    let frame = input.frame;
-    let field = input.into_heightfield()?;
-    let file = match frame {
-        Some(frame) => write_obj_in(&field, &frame.into())?,
-        None => write_obj(&field)?,
-    };
-    Ok(file.as_slice().into())
+    Ok(write_obj_mesh(&mesh_of(field)?)?.as_slice().into())
 }

@@ -6,10 +6,11 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::arrays::{filled, groups};
 use super::bytes::copied;
 use super::frame::FrameFields;
 use super::options::{entries, option, unknown};
-use crate::error::{Error, try_filled};
+use crate::error::Error;
 use crate::mesh::Mesh;
 use crate::meshes::{MeshFormat, read_mesh};
 use crate::sampling::{Resolution, sample};
@@ -162,34 +163,12 @@ impl MeshInput {
         let mut triangles = filled(self.triangles.length(), 0)?;
         self.triangles.copy_to(triangles.as_flattened_mut());
         let mut mesh = Mesh::new(positions, triangles)?;
-        if let Some(colors) = self.colors.dyn_ref::<Float32Array>() {
-            mesh = mesh.with_colors(attribute(colors)?)?;
+        if let Some(colors) = groups(&self.colors)? {
+            mesh = mesh.with_colors(colors)?;
         }
-        if let Some(uvs) = self.uvs.dyn_ref::<Float32Array>() {
-            mesh = mesh.with_uvs(attribute(uvs)?)?;
+        if let Some(uvs) = groups(&self.uvs)? {
+            mesh = mesh.with_uvs(uvs)?;
         }
         Ok(mesh)
     }
-}
-
-fn attribute<const N: usize>(values: &Float32Array) -> Result<Vec<[f32; N]>> {
-    let mut list = filled(values.length(), 0.0)?;
-    values.copy_to(list.as_flattened_mut());
-    Ok(list)
-}
-
-/// Room for `length` numbers in groups, of which all have to be whole.
-fn filled<T: Copy, const N: usize>(length: u32, value: T) -> Result<Vec<[T; N]>> {
-    let length = length as usize;
-    if !length.is_multiple_of(N) {
-        return Err(Error::Shape {
-            what: "array of the mesh",
-            rows: length / N,
-            cols: N,
-            expected: length - length % N,
-            found: length,
-        }
-        .into());
-    }
-    Ok(try_filled("mesh", length / N, [value; N])?)
 }

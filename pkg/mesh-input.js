@@ -8,12 +8,15 @@ import { numbers, optionalFloats, typed } from './input.js';
  */
 export function asMesh(mesh) {
   const { positions, triangles, colors, uvs } = Object(mesh);
-  if (positions === undefined || triangles === undefined) {
-    throw new DevelopableError('INPUT', 'the mesh must be { positions, triangles }, with colors and uvs if there are any');
+  if (positions === undefined) {
+    throw new DevelopableError(
+      'INPUT',
+      'the mesh must be { positions, triangles }, with colors and uvs if there are any; without triangles it is a point cloud',
+    );
   }
   return {
     positions: typed(Float64Array, 'positions', positions),
-    triangles: indices(triangles),
+    triangles: indices(triangles ?? []),
     colors: optionalFloats('colors', colors),
     uvs: optionalFloats('uvs', uvs),
   };

@@ -92,11 +92,11 @@ export interface Frame {
   towards: readonly [number, number, number];
 }
 
-/** Triangles in space. */
+/** Triangles in space, or points alone. */
 export interface Mesh {
   /** x, y, z of each vertex. */
   positions: Float64Array;
-  /** Three vertices of each triangle, counted from 0. */
+  /** Three vertices of each triangle, counted from 0; none for a point cloud. */
   triangles: Uint32Array;
   /** Red, green, blue of each vertex, from 0 to 1. */
   colors?: Float32Array;
@@ -115,17 +115,27 @@ export type ViewName = '-x' | '+x' | '-y' | '+y' | '-z' | '+z' | 'best-fit';
 export interface SampleMeshOptions {
   /**
    * A direction to look in, by name or as a vector; or `'best-fit'`, straight at the plane that
-   * fits the triangles best, from the side that more of their area faces. Up is as close to +y as
+   * fits the triangles best, from the side that more of their area faces (of a point cloud: that
+   * fits the points, its largest component towards the viewer). Up is as close to +y as
    * it can be; along `-y` it is -z, along `+y` +z. Default `'-z'`.
    */
   view?: ViewName | readonly [number, number, number];
-  /** Vertices along the longer side of what is seen, at least 2. Default 200. */
+  /**
+   * Vertices along the longer side of what is seen, at least 2. Default 200; of a point cloud fewer,
+   * where that leaves less than four points for each vertex.
+   */
   resolution?: number;
   /** Distance of neighbours on the lattice, in the place of `resolution`. */
   spacing?: number;
 }
 
-/** What is seen of a mesh: the first hit of a ray through each vertex of a lattice, NaN where there is none. */
+/**
+ * What is seen of a mesh: the first hit of a ray through each vertex of a lattice, NaN where there is none.
+ *
+ * Of a point cloud a vertex sees the points within one spacing of it, but for those more than three
+ * spacings behind the foremost. Its height is that of the plane that fits them best, near ones more
+ * than others; its colour the nearest one's. Where they all lie to one side there is a hole.
+ */
 export interface SampledMesh extends Heightfield {
   origin: [number, number];
   heights: Float64Array;

@@ -86,6 +86,7 @@ mod restore;
 mod sampling;
 mod solver;
 mod spectral;
+mod splats;
 mod stencil;
 mod surface;
 mod triangulation;

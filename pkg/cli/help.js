@@ -12,8 +12,9 @@ Usage: developable fit INPUT -o OUTPUT [options]
 vertices it has found. "info" tells what is in a file.
 
   INPUT                  heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture
-                         (PNG, JPEG, WebP); or a mesh, of which what is seen
-                         from one side is taken: .obj, .ply, .stl, .glb, .gltf
+                         (PNG, JPEG, WebP); or a mesh or point cloud, of which
+                         what is seen from one side is taken: .obj, .ply, .stl,
+                         .glb, .gltf
   CONSTRAINTS            heights likewise; transparent pixels and NaN are free
   -o, --output FILE      .npy, .png, .tif or .exr (heights at the input's
                          pixels) or .obj, .ply, .stl or .glb (a mesh); the file
@@ -60,7 +61,8 @@ How to look at a mesh
                          default: what has the largest z is in front), +z, a
                          vector as 0,-1,-1, or best-fit: straight at the plane
                          that fits best. Up is near +y (along -y it is -z)
-  --resolution N         vertices along the longer side (default 200)
+  --resolution N         vertices along the longer side (default 200; of a point
+                         cloud fewer, to leave each some points)
   --spacing S            their distance instead, in the mesh's unit
 
 What else is known (files of the same shape)

@@ -121,9 +121,9 @@ fn add(
     let mode = primitive.mode();
     if !matches!(
         mode,
-        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
+        Mode::Points | Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
     ) {
-        return Ok(()); // points and lines
+        return Ok(()); // lines
     }
     let Some(positions) = primitive.get(&Semantic::Positions) else {
         return Ok(());
@@ -147,6 +147,9 @@ fn add(
                 .take(vertices)
                 .map(|[u, v]| [*u as f32, (1.0 - v) as f32]),
         );
+    }
+    if mode == Mode::Points {
+        return Ok(());
     }
     let indices = match primitive.indices() {
         Some(accessor) => whole(&accessor, buffers)?,

@@ -112,7 +112,8 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
             return Err(Error::option("spacing", spacing, requirement).into());
         }
         (None, Some(spacing)) => Resolution::Spacing(spacing),
-        (across, None) => Resolution::Across(across.unwrap_or(DEFAULT_RESOLUTION)),
+        (Some(across), None) => Resolution::Across(across),
+        (None, None) => Resolution::Auto,
     };
     let view = view.unwrap_or(View::Along([0.0, 0.0, -1.0]));
     let samples = sample(&mesh, view, resolution)?;
@@ -137,9 +138,6 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// Vertices across the longer side, where nothing is said.
-const DEFAULT_RESOLUTION: usize = 200;
-
 fn view_from(value: JsValue) -> Result<View> {
     match value.as_string() {
         Some(name) => Ok(name.parse()?),
@@ -162,7 +160,11 @@ impl MeshInput {
         self.positions.copy_to(positions.as_flattened_mut());
         let mut triangles = filled(self.triangles.length(), 0)?;
         self.triangles.copy_to(triangles.as_flattened_mut());
-        let mut mesh = Mesh::new(positions, triangles)?;
+        let mut mesh = if triangles.is_empty() {
+            Mesh::cloud(positions)?
+        } else {
+            Mesh::new(positions, triangles)?
+        };
         if let Some(colors) = groups(&self.colors)? {
             mesh = mesh.with_colors(colors)?;
         }

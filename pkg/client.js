@@ -165,6 +165,15 @@ export class DevelopableWorker {
   }
 
   /**
+   * @param {HeightImage} input
+   * @param {import('./types.js').Intrinsics} camera
+   */
+  async backProject(input, camera) {
+    const { field, buffers } = detached(asImage(input));
+    return this.#request((remote) => remote.backProject(transfer(field, buffers), camera));
+  }
+
+  /**
    * @param {import('./types.js').ExampleName} name
    * @param {import('./types.js').ExampleOptions} [options]
    */

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  Mesh, NpzArray, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
+  Intrinsics, Mesh, NpzArray, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
   SampleMeshOptions, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
@@ -20,7 +20,7 @@ export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly
 export function initImages(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initImagesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
-/** Loads the wasm file that `readMesh`, `sampleMesh`, `writePly`, `writeStl` and `writeGlb` need; otherwise like `init`. */
+/** Loads the wasm file that `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb` need; otherwise like `init`. */
 export function initMeshes(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
@@ -89,5 +89,16 @@ export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Uint8Ar
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /** What is seen of a mesh, as heights on a lattice: an input for `fit`. */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
+/**
+ * What a depth camera has seen, as a mesh: vertex i is pixel i (so that a picture of the same size
+ * gives its `colors`), and neighbours are joined but for jumps. `data` are depths in steps of
+ * `depthScale` (`heightScale` and `pixelSize` do not count); NaN, `noData`, 0 and below are none.
+ * The axes are x to the right, y up, z towards the viewer, the origin is the camera, so that the
+ * view `'-z'` is along its axis. The texture coordinates are about a picture with the same outline.
+ *
+ * A jump is where one point lies behind the other by more than ten times their distance across the
+ * line of sight.
+ */
+export function backProject(image: HeightImage, camera: Intrinsics): Mesh;
 /** One of the procedural examples. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -232,6 +232,12 @@ export function sampleMesh(mesh, options) {
   return meshes.call((wasm) => wasm.sampleMesh(given, options));
 }
 
+/** @type {typeof import('./direct.js').backProject} */
+export function backProject(input, camera) {
+  const image = asImage(input);
+  return meshes.call((wasm) => wasm.backProject(image, camera));
+}
+
 /** @type {typeof import('./direct.js').example} */
 export function example(name, options) {
   return solver.call((wasm) => wasm.example(name, options));

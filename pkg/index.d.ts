@@ -1,7 +1,7 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   DetectedOcclusions, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput,
-  Mesh, NpzArray, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
+  Intrinsics, Mesh, NpzArray, OcclusionOptions, Progress, ReadMeshOptions, ReadOptions, ReadResult, SampledMesh,
   SampleMeshOptions, SolverOptions, Surface,
 } from './types.js';
 export * from './types.js';
@@ -92,6 +92,7 @@ export function writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+export function backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
 /** Stops the shared worker, calls under way reject with code `DISPOSED`; a later call starts a new one. */
 export function dispose(): void;
@@ -120,6 +121,7 @@ export class DevelopableWorker {
   writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+  backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
   /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
   readonly connected: boolean;

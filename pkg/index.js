@@ -49,6 +49,8 @@ export const writeGlb = (input, options) => worker().writeGlb(input, options);
 export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 /** @type {typeof import('./index.js').sampleMesh} */
 export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
+/** @type {typeof import('./index.js').backProject} */
+export const backProject = (input, camera) => worker().backProject(input, camera);
 /** @type {typeof import('./index.js').example} */
 export const example = (name, options) => worker().example(name, options);
 

@@ -167,6 +167,16 @@ export const service = {
     return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
   },
 
+  /**
+   * @param {Parameters<typeof direct.backProject>[0]} input
+   * @param {Parameters<typeof direct.backProject>[1]} camera
+   */
+  async backProject(input, camera) {
+    await withMeshes();
+    const mesh = direct.backProject(input, camera);
+    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.uvs));
+  },
+
   /** @type {typeof direct.example} */
   example(name, options) {
     const result = direct.example(name, options);

@@ -104,6 +104,22 @@ export interface Mesh {
   uvs?: Float32Array;
 }
 
+/** A pinhole camera without distortion, in pixels: the centre of the top left one is (0, 0), rows count down. */
+export interface Intrinsics {
+  /** Focal length in columns. */
+  fx: number;
+  /** Focal length in rows. */
+  fy: number;
+  /** Column of the axis. */
+  cx: number;
+  /** Row of the axis. */
+  cy: number;
+  /** Length of one step of the depths; 0.001 makes metres of millimetres. Default 1. */
+  depthScale?: number;
+  /** `'planar'`: distance along the axis, as most cameras give it; `'ray'`: from the camera itself. Default `'planar'`. */
+  depth?: 'planar' | 'ray';
+}
+
 export interface ReadMeshOptions {
   /** Taken from the bytes where it is not given. */
   format?: 'obj' | 'ply' | 'stl' | 'gltf' | 'glb';

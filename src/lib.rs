@@ -36,6 +36,10 @@
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
 //! [`Heightfield::to_image`], or [`formats`] for files.
 //!
+//! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
+//! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a
+//! heightfield; [`Triangulation`] is the way back to a mesh.
+//!
 //! An [`Input`] may say more than heights: how far each is to be trusted, which must be met
 //! exactly, where the surface is torn ([`Occlusions`]). A [`Solver`] that has stopped can be
 //! restarted with other options or another input, from the answer it has.
@@ -68,6 +72,7 @@
 
 #[cfg(any(feature = "formats", feature = "meshes"))]
 mod buffer;
+mod camera;
 mod domain;
 mod error;
 mod examples;
@@ -94,6 +99,7 @@ mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
+pub use camera::{Depth, Intrinsics};
 pub use domain::{Domain, Role};
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};

@@ -58,12 +58,13 @@ impl Mesh {
     /// A point cloud: points without triangles.
     ///
     /// # Errors
-    /// [`Error::Empty`] if there is no point, [`Error::NotFinite`] if a
+    /// [`Error::Unsupported`] if there is no point, [`Error::NotFinite`] if a
     /// coordinate is not finite (its row is the point, its column the coordinate).
     pub fn cloud(positions: Vec<[f64; 3]>) -> Result<Self> {
         if positions.is_empty() {
-            return Err(Error::Empty {
-                what: "point cloud",
+            return Err(Error::Unsupported {
+                format: "point cloud",
+                reason: "there is no point in it".into(),
             });
         }
         check_finite(&positions)?;

@@ -118,8 +118,10 @@ impl Sums {
     /// The height at the vertex itself.
     fn height(&self) -> Option<f64> {
         let [x, y] = self.first.map(|v| v / self.weight);
-        if !(x.hypot(y) <= OFFSET) {
-            return None; // no points, too
+        // Without any points both are NaN.
+        let around = x.hypot(y) <= OFFSET;
+        if !around {
+            return None;
         }
         let [xx, xy, yy] = self.second;
         let [sx, sy] = self.first;

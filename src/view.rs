@@ -213,7 +213,7 @@ fn normal_of_points(mesh: &Mesh) -> Result<Vector3<f64>> {
         .map(|p| (p - mean) * (p - mean).transpose())
         .sum::<Matrix3<f64>>();
     let eigen = SymmetricEigen::new(spread / count);
-    if !(eigen.eigenvalues.max() > 0.0) {
+    if eigen.eigenvalues.max() <= 0.0 {
         return Err(Error::Unsupported {
             format: "point cloud",
             reason: "there is no best-fit plane, for all points are the same; give a direction to \

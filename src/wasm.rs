@@ -5,6 +5,8 @@
 mod arrays;
 #[cfg(any(feature = "js-files", feature = "js-images", feature = "meshes"))]
 mod bytes;
+#[cfg(feature = "meshes")]
+mod camera;
 #[cfg(feature = "js-solver")]
 mod examples;
 #[cfg(any(

@@ -153,7 +153,7 @@ fn degenerate_clouds() {
             .and_then(|mesh| sample(&mesh, view, Resolution::Across(9)))
             .map_or_else(|e| e.code(), |_| "OK")
     };
-    assert_eq!(code(vec![], DOWN), "EMPTY");
+    assert_eq!(code(vec![], DOWN), "UNSUPPORTED");
     assert_eq!(code(vec![[0.0, f64::NAN, 0.0]], DOWN), "NOT_FINITE");
     assert_eq!(code(vec![[1.0; 3]; 5], DOWN), "UNSUPPORTED");
     assert_eq!(code(vec![[1.0; 3]; 5], View::BestFit), "UNSUPPORTED");

@@ -18,6 +18,9 @@ const flags = {
   lattice: text,
   spacing: text,
   'height-scale': text,
+  intrinsics: text,
+  ray: plain,
+  texture: text,
   view: text,
   resolution: text,
   mask: text,
@@ -44,10 +47,10 @@ const general = ['array', 'help', 'version'];
 /** What a command does not take. @type {Record<Command, readonly Flag[]>} */
 const foreign = {
   fit: ['threshold'],
-  design: ['no-data', 'confidence', 'constraints', 'occlusions', 'threshold'],
+  design: ['intrinsics', 'ray', 'texture', 'no-data', 'confidence', 'constraints', 'occlusions', 'threshold'],
   occlusions: [
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
-    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report',
+    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture',
   ],
   info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
 };

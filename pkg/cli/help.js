@@ -9,7 +9,7 @@ Usage: developable fit INPUT -o OUTPUT [options]
 
 "fit" follows heights, "design" passes through heights and is free elsewhere,
 "occlusions" looks for places where a surface is torn, and prints how many
-vertices it has found. "info" tells what is in a file.
+vertices it has found. "info" tells what is in a file, of either kind.
 
   INPUT                  heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture
                          (PNG, JPEG, WebP); or a mesh or point cloud, of which
@@ -57,10 +57,19 @@ How to read the heights
   --no-data V            value that means no data, besides NaN
 
 How to look at a mesh
+  --intrinsics fx,fy,cx,cy[,scale]
+                         INPUT holds the depths that a camera with these numbers
+                         (in pixels; the centre of the top left one is 0,0) has
+                         seen; 0 and below are none. It is taken for a mesh, in
+                         which jumps are not bridged; scale makes lengths of
+                         depths. x is to the right, y up, the axis along -z
+  --ray                  depths are from the camera, not along its axis
   --view V               the direction to look in: -x, +x, -y, +y, -z (the
                          default: what has the largest z is in front), +z, a
                          vector as 0,-1,-1, or best-fit: straight at the plane
                          that fits best. Up is near +y (along -y it is -z)
+  --texture FILE         PNG or JPEG picture with the outline of INPUT, or that
+                         its texture coordinates are about; for .glb
   --resolution N         vertices along the longer side (default 200; of a point
                          cloud fewer, to leave each some points)
   --spacing S            their distance instead, in the mesh's unit

@@ -1,6 +1,7 @@
 /** `developable info`: what is in a file. */
 import * as developable from '../index.js';
 import { readBytes } from './files.js';
+import { isMesh } from './arguments.js';
 import { about } from './inputs.js';
 
 /** @typedef {import('../types.js').ReadResult} ReadResult */
@@ -8,9 +9,11 @@ import { about } from './inputs.js';
 /** @param {import('./arguments.js').InfoTask} task */
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
-  const lines = isArchive(bytes) && array === undefined
-    ? await about(input, async () => arraysInWords(await developable.npzArrays(bytes)))
-    : await about(input, async () => imageInWords(await developable.read(bytes, { array })));
+  const lines = await about(input, async () => {
+    if (isMesh(input)) return meshInWords(await developable.readMesh(bytes));
+    if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
+    return imageInWords(await developable.read(bytes, { array }));
+  });
   process.stdout.write(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
 }
 
@@ -24,6 +27,25 @@ function arraysInWords(arrays) {
   return [
     ['format', 'npz'],
     ...arrays.map(({ name, shape, dataType }) => ['array', `${name}, ${shape.join(' × ') || 'one value'}, ${dataType}`]),
+  ];
+}
+
+/** @param {import('../types.js').Mesh} mesh */
+function meshInWords({ positions, triangles, colors, uvs }) {
+  const ranges = ['x', 'y', 'z'].map((axis, k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return [axis, `${low} to ${high}`];
+  });
+  return [
+    ['vertices', `${positions.length / 3}`],
+    ['triangles', triangles.length === 0 ? 'none: a point cloud' : `${triangles.length / 3}`],
+    ...ranges,
+    ['colours', colors ? 'yes' : 'no'],
+    ['texture', uvs ? 'has coordinates' : 'no coordinates'],
   ];
 }
 

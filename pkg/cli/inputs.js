@@ -51,10 +51,29 @@ export async function readInput(task) {
 }
 
 /** What is seen of a mesh. @param {InputTask} task */
-async function readSampled({ input, view, resolution, spacing }) {
-  const bytes = await readBytes(input);
-  const mesh = await about(input, () => developable.readMesh(bytes));
-  return developable.sampleMesh(mesh, { view, resolution, spacing });
+async function readSampled(task) {
+  const { view, resolution, spacing } = task;
+  return developable.sampleMesh(await readMesh(task), { view, resolution, spacing });
+}
+
+/**
+ * The mesh itself, or what a depth camera has seen.
+ * @param {InputTask} task
+ */
+async function readMesh({ input, array, camera, mask, noData }) {
+  if (!camera) {
+    const bytes = await readBytes(input);
+    return about(input, () => developable.readMesh(bytes));
+  }
+  const file = await readImage(input, array);
+  const { width, height, data } = file;
+  return developable.backProject({
+    width,
+    height,
+    data,
+    mask: mask === undefined ? undefined : flags(await readBeside('mask', mask, file)),
+    noData: asStored(noData, file),
+  }, camera);
 }
 
 /**

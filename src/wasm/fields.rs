@@ -7,7 +7,6 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use crate::error::{Error, check_shape, try_filled};
-#[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
 use crate::heightfield::HeightImage;
 #[cfg(any(feature = "js-files", feature = "js-solver", feature = "meshes"))]
 use crate::heightfield::Heightfield;
@@ -15,7 +14,6 @@ use crate::heightfield::Heightfield;
 use crate::lattice::Lattice;
 
 /// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
-#[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct ImageInput {
@@ -25,12 +23,12 @@ pub(super) struct ImageInput {
     pub(super) data: JsValue,
     #[serde(default, with = "preserve")]
     mask: JsValue,
-    no_data: Option<f64>,
+    pub(super) no_data: Option<f64>,
     pixel_size: Option<f64>,
+    #[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
     height_scale: Option<f64>,
 }
 
-#[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
 impl ImageInput {
     #[cfg(any(feature = "js-files", feature = "js-images"))]
     pub(super) fn into_image(self) -> Result<HeightImage> {
@@ -38,6 +36,7 @@ impl ImageInput {
     }
 
     /// Heights at the pixels, in units of length, within the mask.
+    #[cfg(any(feature = "js-files", feature = "js-images", feature = "js-solver"))]
     pub(super) fn heights(&self, what: &'static str, data: &JsValue) -> Result<HeightImage> {
         let values = values(what, self.height, self.width, data, self.no_data)?;
         Ok(self

@@ -72,7 +72,10 @@ pub fn read_mesh_file(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
             _ => return Err(unknown(&name, "format")),
         }
     }
-    let mesh = read_mesh(&copied(bytes)?, format)?;
+    mesh_output(&read_mesh(&copied(bytes)?, format)?)
+}
+
+pub(super) fn mesh_output(mesh: &Mesh) -> Result<JsValue> {
     Ok(to_value(&MeshOutput {
         positions: mesh.positions().as_flattened().into(),
         triangles: mesh.triangles().as_flattened().into(),

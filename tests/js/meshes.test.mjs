@@ -112,7 +112,7 @@ test('a point cloud is seen as a mesh is', async () => {
   }
   const points = direct.readMesh(await file('points.ply'));
   assert.deepEqual([points.positions.length, points.triangles.length], [15, 0]);
-  assert.throws(() => direct.sampleMesh(/** @type {any} */ ({ positions: [] })), error('EMPTY', /point cloud/));
+  assert.throws(() => direct.sampleMesh(/** @type {any} */ ({ positions: [] })), error('UNSUPPORTED', /no point/));
 });
 
 test('what is wrong with a mesh or an option is said', async () => {
@@ -216,6 +216,13 @@ test('the command fits a mesh in its own axes', async () => {
     assert.equal(result.status, status, `${args}: ${result.stderr}`);
     assert.match(result.stderr, message);
   }
+  const info = await run(folder, ['info', 'cloud.obj']);
+  assert.deepEqual([info.status, info.stderr], [0, '']);
+  for (const line of [/^vertices: +169$/m, /^triangles: +none: a point cloud$/m, /^x: +0 to 1$/m, /^z: +-0\.5 to 0\.25$/m, /^colours: +no$/m]) {
+    assert.match(info.stdout, line);
+  }
+  assert.match((await run(folder, ['info', 'plane.obj'])).stdout, /^triangles: +288$/m);
+  assert.equal((await run(folder, ['info', 'bad.ply'])).status, 3);
   assert.equal((await run(folder, ['design', 'plane.obj', '-o', 'out.obj'])).status, 2);
   assert.equal((await run(folder, ['occlusions', 'plane.obj', '-o', 'out.npy', '--resolution', '20'])).status, 0);
 });

@@ -208,6 +208,7 @@ impl Decoded {
 /// - **PFM**: grey, either byte order.
 /// - **NPZ**: the only array; [`decode_npz`] chooses one by name.
 /// - **JPEG**, **WebP**: grey pictures, and RGB as long as every pixel is grey.
+///   The orientation that a JPEG's Exif data state is honoured.
 ///
 /// Costs `O(pixels)`.
 ///

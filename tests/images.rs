@@ -229,8 +229,27 @@ fn pictures_are_read_where_they_are_grey() {
     refused("colour.jpg", "UNSUPPORTED", "row 0, column 0");
 }
 
+#[test]
+fn jpegs_are_seen_the_way_their_exif_says() {
+    for orientation in 2..=8 {
+        let name = format!("exif{orientation}.jpg");
+        let found = read(&name);
+        assert_eq!((found.width, found.height), (24, 16), "{name}");
+        for (i, level) in found.values.iter().enumerate() {
+            let expected = 4.0 * ramp()[i / 24 / 8 * 4 + i % 24 / 8];
+            assert!((level - expected).abs() <= 1.0, "{name}, {i}: {level}");
+        }
+    }
+    // Damage to what Exif says is none to the picture.
+    let mut bytes = file("exif6.jpg");
+    let at = bytes.windows(4).position(|w| w == b"Exif").unwrap();
+    bytes[at + 6..at + 8].copy_from_slice(b"??");
+    let found = decode(&bytes, None).unwrap();
+    assert_eq!((found.width, found.height), (16, 24));
+}
+
 /// A file of each kind, as small as it gets.
-const ALL: [&str; 20] = [
+const ALL: [&str; 21] = [
     "f4-be.tif",
     "big.tif",
     "tiles.tif",
@@ -248,6 +267,7 @@ const ALL: [&str; 20] = [
     "deflated.npz",
     "grey.jpg",
     "progressive.jpg",
+    "exif6.jpg",
     "grey.webp",
     "alpha.webp",
     "lossy.webp",

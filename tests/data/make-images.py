@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 import tifffile
-from PIL import Image
+from PIL import Image, ImageOps
+from PIL.Image import Transpose
 
 here = Path(__file__).parent
 
@@ -125,6 +126,17 @@ Image.fromarray(steps).save(here / "grey.jpg", quality=100)
 Image.fromarray(steps).save(here / "progressive.jpg", quality=100, progressive=True)
 Image.merge("RGB", [Image.fromarray(steps)] * 3).save(here / "rgb-grey.jpg", quality=100, subsampling=0)
 Image.merge("RGB", [Image.fromarray(255 - steps)] + [Image.fromarray(steps)] * 2).save(here / "colour.jpg")
+
+# Each is seen the same way, as Pillow does, too.
+blocks = Image.fromarray(np.kron(ramp[:2, :3] * 4, np.ones((8, 8), int)).astype(np.uint8))
+turns = [Transpose.FLIP_LEFT_RIGHT, Transpose.ROTATE_180, Transpose.FLIP_TOP_BOTTOM, Transpose.TRANSPOSE,
+         Transpose.ROTATE_90, Transpose.TRANSVERSE, Transpose.ROTATE_270]
+for orientation, turn in enumerate(turns, 2):
+    exif = Image.Exif()
+    exif[0x112] = orientation
+    blocks.transpose(turn).save(here / f"exif{orientation}.jpg", quality=100, exif=exif)
+    seen = ImageOps.exif_transpose(Image.open(here / f"exif{orientation}.jpg"))
+    assert np.abs(np.asarray(seen, int) - np.asarray(blocks, int)).max() <= 1
 
 rgb = Image.merge("RGB", [Image.fromarray(grey8)] * 3)
 rgb.save(here / "grey.webp", lossless=True)

@@ -1,10 +1,12 @@
-//! Grey JPEG pictures, by the `zune-jpeg` crate.
+//! Grey JPEG pictures, by the `zune-jpeg` crate; which way up, by `kamadak-exif`.
 
+use exif::{In, Tag};
 use zune_core::bytestream::ZCursor;
 use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
+use super::tiff_tags::oriented;
 use super::{Decoded, Format, check_length, damaged, picture, unsupported};
 use crate::error::{Error, Result, checked_cells, try_filled};
 
@@ -50,7 +52,29 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     decoder.set_options(options.jpeg_set_out_colorspace(colours));
     let mut samples = try_filled("JPEG image", stride * len, 0u8)?;
     decoder.decode_into(&mut samples).map_err(failed)?;
-    picture(Format::Jpeg, size, &samples, stride)
+    let stored = picture(Format::Jpeg, size, &samples, stride)?;
+    let orientation = decoder.exif().map_or(1, |exif| orientation(exif));
+    let (values, (width, height)) = oriented(stored.values, size, orientation)?;
+    Ok(Decoded {
+        width,
+        height,
+        values,
+        ..stored
+    })
+}
+
+/// Which way up the camera was, as TIFF numbers it. What is no sound number is as good as none: it
+/// is no part of the picture.
+fn orientation(exif: &[u8]) -> u16 {
+    let fields = exif::Reader::new().read_raw(exif.to_vec()).ok();
+    let number = fields.and_then(|exif| {
+        let field = exif.get_field(Tag::Orientation, In::PRIMARY)?;
+        field.value.get_uint(0)
+    });
+    match number {
+        Some(number @ 1..=8) => number as u16,
+        _ => 1,
+    }
 }
 
 /// Whether the end is marked, not counting pictures within the metadata.

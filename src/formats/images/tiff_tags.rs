@@ -184,7 +184,7 @@ pub(super) fn oriented(
     } else {
         (width, height)
     };
-    let mut seen = try_filled("TIFF image", values.len(), 0.0)?;
+    let mut seen = try_filled("turned image", values.len(), 0.0)?;
     for (i, z) in seen.iter_mut().enumerate() {
         let (row, col) = (i / cols, i % cols);
         let (x, y) = (col, row);

@@ -383,6 +383,17 @@ fn what_cannot_be_written_is_said() {
     let row = Heightfield::new(Lattice::new(1, 4, 1.0).unwrap(), vec![0.0; 4]).unwrap();
     let error = Triangulation::new(&row, &frame()).unwrap_err();
     assert_eq!(error.code(), "UNSUPPORTED");
+    // Points are written where the format knows any.
+    let cloud = Mesh::cloud(positions()).unwrap();
+    assert_eq!(code(write_stl(&cloud)), "UNSUPPORTED");
+    for file in [
+        write_glb(&cloud, None),
+        write_ply(&cloud),
+        write_obj_mesh(&cloud),
+    ] {
+        let back = read_mesh(&file.unwrap(), None).unwrap();
+        assert!(back.is_cloud() && back.positions().len() == 19);
+    }
     // Colours that are no numbers are black, as files cannot say it.
     let nan = bare_colors(f32::NAN);
     assert!(nan.colors().unwrap().iter().all(|c| *c == [0.0; 3]));

@@ -9,7 +9,7 @@ use gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf::json::buffer::{Target, View};
 use gltf::json::image::MimeType;
 use gltf::json::material::{PbrMetallicRoughness, StrengthFactor};
-use gltf::json::mesh::{Primitive, Semantic};
+use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::texture::{Info, Texture};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Buffer, Image, Index, Material, Mesh as GltfMesh};
@@ -139,19 +139,28 @@ impl File {
                 }),
             );
         }
-        let corners = mesh.triangles().as_flattened();
-        let bytes = corners.iter().map(|i| i.to_le_bytes());
-        let view = self.view(4 * corners.len(), bytes, Some(Target::ElementArrayBuffer))?;
-        let indices = accessor_of(view, corners.len(), ComponentType::U32, Type::Scalar);
+        let (mode, indices) = if mesh.is_cloud() {
+            (Mode::Points, None)
+        } else {
+            (Mode::Triangles, Some(self.indices(mesh)?))
+        };
         Ok(Primitive {
             attributes,
             extensions: None,
             extras: Default::default(),
-            indices: Some(self.root.push(indices)),
+            indices,
             material: Some(material),
-            mode: Default::default(),
+            mode: Checked::Valid(mode),
             targets: None,
         })
+    }
+
+    fn indices(&mut self, mesh: &Mesh) -> Result<Index<Accessor>> {
+        let corners = mesh.triangles().as_flattened();
+        let bytes = corners.iter().map(|i| i.to_le_bytes());
+        let view = self.view(4 * corners.len(), bytes, Some(Target::ElementArrayBuffer))?;
+        let indices = accessor_of(view, corners.len(), ComponentType::U32, Type::Scalar);
+        Ok(self.root.push(indices))
     }
 
     fn floats<const N: usize>(

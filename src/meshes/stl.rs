@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
 use super::narrow::narrowed;
-use super::{Parts, damaged};
+use super::{Parts, damaged, unsupported};
 use crate::buffer::Buffer;
 use crate::error::Result;
 use crate::mesh::Mesh;
@@ -94,9 +94,16 @@ fn collect(bytes: &[u8], parts: &mut Parts) -> Result<()> {
 /// Costs `O(triangles)`.
 ///
 /// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) for a point cloud,
 /// [`Error::NotFinite`](crate::Error::NotFinite) for a position beyond what 32 bits hold,
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_stl(mesh: &Mesh) -> Result<Vec<u8>> {
+    if mesh.is_cloud() {
+        return Err(unsupported(
+            "STL",
+            "it holds triangles, and a point cloud has none",
+        ));
+    }
     let positions = narrowed("STL file", mesh)?;
     let triangles = mesh.triangles().iter().map(|triangle| Triangle {
         normal: Normal::new(normal(mesh.corners(*triangle))),

@@ -1,6 +1,7 @@
-/** The wasm files: the solver, and what reads and writes images and meshes, which not everybody needs. */
+/** The wasm files: the solver, and three for files and meshes, which not everybody needs. */
 import { Instance } from './instance.js';
 import * as filesGlue from './wasm/files.js';
+import * as imagesGlue from './wasm/images.js';
 import * as meshesGlue from './wasm/meshes.js';
 import * as solverGlue from './wasm/solver.js';
 
@@ -14,6 +15,12 @@ export const files = new Instance(
   filesGlue,
   new URL('./wasm/files_bg.wasm', import.meta.url),
   'initFiles()',
+);
+
+export const images = new Instance(
+  imagesGlue,
+  new URL('./wasm/images_bg.wasm', import.meta.url),
+  'initImages()',
 );
 
 export const meshes = new Instance(

@@ -36,6 +36,10 @@
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
 //! [`Heightfield::to_image`], or [`formats`] for files.
 //!
+//! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
+//! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a
+//! heightfield; [`Triangulation`] is the way back to a mesh.
+//!
 //! An [`Input`] may say more than heights: how far each is to be trusted, which must be met
 //! exactly, where the surface is torn ([`Occlusions`]). A [`Solver`] that has stopped can be
 //! restarted with other options or another input, from the answer it has.
@@ -66,6 +70,9 @@
 
 #![warn(missing_docs)]
 
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod buffer;
+mod camera;
 mod domain;
 mod error;
 mod examples;
@@ -84,12 +91,15 @@ mod restore;
 mod sampling;
 mod solver;
 mod spectral;
+mod splats;
 mod stencil;
 mod surface;
+mod triangulation;
 mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
+pub use camera::{Depth, Intrinsics};
 pub use domain::{Domain, Role};
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
@@ -107,6 +117,7 @@ pub use solver::{
 pub use spectral::Sym2;
 pub use stencil::Quadratic;
 pub use surface::Surface;
+pub use triangulation::Triangulation;
 pub use view::{Frame, View};
 
 /// The README's example.

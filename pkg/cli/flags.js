@@ -18,6 +18,9 @@ const flags = {
   lattice: text,
   spacing: text,
   'height-scale': text,
+  intrinsics: text,
+  ray: plain,
+  texture: text,
   view: text,
   resolution: text,
   mask: text,
@@ -28,6 +31,7 @@ const flags = {
   free: text,
   occlusions: text,
   threshold: text,
+  array: text,
   'occlusion-mask': text,
   report: text,
   help: /** @type {const} */ ({ type: 'boolean', short: 'h' }),
@@ -35,16 +39,20 @@ const flags = {
 };
 
 /** @typedef {keyof typeof flags} Flag */
-/** @typedef {'fit' | 'design' | 'occlusions'} Command */
+/** @typedef {'fit' | 'design' | 'occlusions' | 'info'} Command */
+
+/** @type {readonly Flag[]} */
+const general = ['array', 'help', 'version'];
 
 /** What a command does not take. @type {Record<Command, readonly Flag[]>} */
 const foreign = {
   fit: ['threshold'],
-  design: ['no-data', 'confidence', 'constraints', 'occlusions', 'threshold'],
+  design: ['intrinsics', 'ray', 'texture', 'no-data', 'confidence', 'constraints', 'occlusions', 'threshold'],
   occlusions: [
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
-    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report',
+    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture',
   ],
+  info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
 };
 
 /** @param {string[]} args */

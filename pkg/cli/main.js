@@ -6,6 +6,7 @@ import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
 import { fit } from './fit.js';
 import { help } from './help.js';
+import { info } from './info.js';
 import { occlusions } from './occlusions.js';
 
 /**
@@ -22,6 +23,7 @@ export async function main(args) {
     const task = parse(args);
     if (task.command === 'help') process.stdout.write(help);
     else if (task.command === 'version') process.stdout.write(`${await version()}\n`);
+    else if (task.command === 'info') await info(task);
     else if (task.command === 'occlusions') await occlusions(task, interruption.signal);
     else await fit(task, interruption.signal);
     return status.success;

@@ -1,36 +1,22 @@
-//! Wavefront OBJ: the lattice as a triangle mesh.
+//! Wavefront OBJ: a mesh as text.
 
 use std::io::{self, Write};
 
 use super::Buffer;
-use crate::error::{Error, Result, try_filled};
+use crate::error::Result;
 use crate::heightfield::Heightfield;
-use crate::lattice::Towards;
+use crate::mesh::Mesh;
+use crate::triangulation::Triangulation;
 use crate::view::Frame;
 
-/// Marks a vertex that no triangle uses.
-const UNUSED: u32 = 0;
-
-/// An OBJ file of the surface: every lattice triangle whose three vertices have
-/// heights, counter-clockwise seen from above (from +z), and only the vertices
-/// these use, with a normal each.
-///
-/// Positions are `x y z` as in the lattice: `x` to the right, `y` up the image,
-/// `z` the height, all in the same unit, with as many digits as it takes to
-/// read back the same 64-bit floats. Normals are the means of those of the
-/// triangles around, weighted by area.
-///
-/// Costs `O(vertices)`.
+/// An OBJ file of the surface, as [`write_obj_mesh`] writes its
+/// [`Triangulation`]: positions are `x y z` as in the lattice, `x` to the right,
+/// `y` up the image, `z` the height, all in the same unit.
 ///
 /// # Errors
-/// [`Error::Unsupported`] if there is no whole triangle, [`Error::OutOfMemory`].
+/// As [`Triangulation::new`].
 pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
-    let own = Frame {
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
-        towards: [0.0, 0.0, 1.0],
-    };
-    write_obj_in(surface, &own)
+    write_obj_in(surface, &Frame::default())
 }
 
 /// An OBJ file of a surface over what was seen of a mesh, turned back to the mesh's own axes: as
@@ -39,109 +25,50 @@ pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`write_obj`].
 pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
-    let vertices = surface.heights().len();
-    let mut normals = try_filled("OBJ file", vertices, [0.0; 3])?;
-    let mut numbers = try_filled("OBJ file", vertices, UNUSED)?;
-    for triangle in triangles(surface) {
-        let normal = normal(surface, triangle);
-        for vertex in triangle {
-            let i = index(surface, vertex);
-            numbers[i] = 1;
-            normals[i]
-                .iter_mut()
-                .zip(normal)
-                .for_each(|(sum, n)| *sum += n);
-        }
-    }
-    let mut used = 0;
-    for number in numbers.iter_mut().filter(|n| **n != UNUSED) {
-        used += 1;
-        *number = used;
-    }
-    if used == 0 {
-        return Err(Error::Unsupported {
-            format: "OBJ",
-            reason: "no triangle of the lattice has a height at all three vertices, so there is \
-                     no surface to write"
-                .into(),
-        });
-    }
+    write_obj_mesh(Triangulation::new(surface, frame)?.mesh())
+}
+
+/// An OBJ file of a mesh: positions with as many digits as it takes to read back the same 64-bit
+/// floats, then what the mesh has of colours (three more numbers for each vertex, which not all
+/// readers know), texture coordinates and normals.
+///
+/// Costs `O(vertices + triangles)`.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_obj_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
     let mut file = Buffer::default();
-    let written = write(&mut file, surface, frame, &numbers, &normals);
+    let written = write(&mut file, mesh);
     file.finish("OBJ file", written)
 }
 
-fn write(
-    file: &mut Buffer,
-    surface: &Heightfield,
-    frame: &Frame,
-    numbers: &[u32],
-    normals: &[[f64; 3]],
-) -> io::Result<()> {
-    let lattice = surface.lattice();
-    let used = || (0..numbers.len()).filter(|i| numbers[*i] != UNUSED);
-    let Frame { right, up, towards } = frame;
-    writeln!(
-        file,
-        "# height surface: {right:?} to the right, {up:?} up, {towards:?} the height"
-    )?;
-    for i in used() {
-        let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-        let [x, y, z] = frame.unview([x, y, surface.heights()[i]]);
-        writeln!(file, "v {x} {y} {z}")?;
+fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
+    for (i, [x, y, z]) in mesh.positions().iter().enumerate() {
+        write!(file, "v {x} {y} {z}")?;
+        match mesh.colors() {
+            Some(colors) => {
+                let [r, g, b] = colors[i];
+                writeln!(file, " {r} {g} {b}")?;
+            }
+            None => writeln!(file)?,
+        }
     }
-    for i in used() {
-        let [x, y, z] = frame.unview(normals[i]);
-        let length = x.hypot(y).hypot(z);
-        writeln!(
-            file,
-            "vn {:.6} {:.6} {:.6}",
-            x / length,
-            y / length,
-            z / length
-        )?;
+    for [u, v] in mesh.uvs().unwrap_or_default() {
+        writeln!(file, "vt {u} {v}")?;
     }
-    for triangle in triangles(surface) {
-        let [a, b, c] = triangle.map(|v| numbers[index(surface, v)]);
-        writeln!(file, "f {a}//{a} {b}//{b} {c}//{c}")?;
+    for [x, y, z] in mesh.normals().unwrap_or_default() {
+        writeln!(file, "vn {x:.6} {y:.6} {z:.6}")?;
+    }
+    let corner: fn(u32) -> String = match (mesh.uvs(), mesh.normals()) {
+        (Some(_), Some(_)) => |i| format!("{i}/{i}/{i}"),
+        (Some(_), None) => |i| format!("{i}/{i}"),
+        (None, Some(_)) => |i| format!("{i}//{i}"),
+        (None, None) => |i| format!("{i}"),
+    };
+    for triangle in mesh.triangles() {
+        // Counted from 1.
+        let [a, b, c] = triangle.map(|i| corner(i + 1));
+        writeln!(file, "f {a} {b} {c}")?;
     }
     Ok(())
-}
-
-type Vertex = (usize, usize);
-
-fn index(surface: &Heightfield, (row, col): Vertex) -> usize {
-    surface.lattice().index(row, col)
-}
-
-/// The lattice's triangles with three heights, each counter-clockwise with `y` up.
-fn triangles(surface: &Heightfield) -> impl Iterator<Item = [Vertex; 3]> {
-    let lattice = surface.lattice();
-    let vertices = (0..lattice.rows()).flat_map(|r| (0..lattice.cols()).map(move |c| (r, c)));
-    vertices
-        .flat_map(|(row, col)| {
-            let a = (row as isize, col as isize);
-            let [e, sw, se] = [Towards::East, Towards::SouthWest, Towards::SouthEast]
-                .map(|towards| towards.step(a.0, a.1));
-            [[a, sw, se], [a, se, e]]
-        })
-        .filter(|triangle| {
-            triangle.iter().all(|(r, c)| {
-                surface.lattice().contains(*r, *c)
-                    && surface.height(*r as usize, *c as usize).is_finite()
-            })
-        })
-        .map(|triangle| triangle.map(|(r, c)| (r as usize, c as usize)))
-}
-
-/// Normal of a triangle, in units of the spacing so that it neither over- nor underflows.
-fn normal(surface: &Heightfield, triangle: [Vertex; 3]) -> [f64; 3] {
-    let lattice = surface.lattice();
-    let [a, b, c] = triangle.map(|(row, col)| {
-        let ([x, y], z) = (lattice.position(row, col), surface.height(row, col));
-        [x, y, z].map(|v| v / lattice.spacing())
-    });
-    let edge = |to: [f64; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];
-    let ([ux, uy, uz], [vx, vy, vz]) = (edge(b), edge(c));
-    [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
 }

@@ -1,55 +1,22 @@
-//! Files from and to bytes.
+//! PNG, NPY and OBJ from and to bytes.
 
-use js_sys::{Float64Array, Uint8Array};
-use serde::Serialize;
-use serde_wasm_bindgen::{from_value, preserve, to_value};
+use js_sys::Uint8Array;
+use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::bytes::copied;
 use super::fields::{ImageInput, LatticeInput};
-use super::options::{entries, option, unknown};
-use crate::error::try_filled;
-use crate::formats::{Format, decode, write_npy, write_obj, write_obj_in, write_png};
-
-/// `ReadResult` of `types.d.ts`.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct ReadOutput {
-    format: &'static str,
-    width: usize,
-    height: usize,
-    #[serde(with = "preserve")]
-    data: Float64Array,
-    pixel_size: f64,
-    height_scale: f64,
-    data_type: &'static str,
-}
+use super::file::{ReadOptions, output};
+use super::triangulation::mesh_of;
+use crate::formats::{decode, write_npy, write_obj_mesh, write_png};
 
 /// Decodes a PNG or NPY file.
 #[wasm_bindgen]
 pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
-    let mut format = None;
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "format" => {
-                let name: String = option("format", value, "must be `png` or `npy`")?;
-                format = Some(name.parse::<Format>()?);
-            }
-            _ => return Err(unknown(&name, "format")),
-        }
-    }
-    let mut file = try_filled("file", bytes.length() as usize, 0)?;
-    bytes.copy_to(&mut file);
-    let file = decode(&file, format)?;
-    Ok(to_value(&ReadOutput {
-        format: file.format.name(),
-        width: file.width,
-        height: file.height,
-        data: file.values.as_slice().into(),
-        pixel_size: file.pixel_size,
-        height_scale: file.height_scale,
-        data_type: file.data_type,
-    })?)
+    let options = ReadOptions::new(&options)?;
+    options.without_array()?;
+    output(decode(&copied(bytes)?, options.format)?)
 }
 
 /// NPY file of an image's heights.
@@ -79,12 +46,5 @@ pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
 /// OBJ mesh of lattice heights, in the axes of their frame.
 #[wasm_bindgen(js_name = writeObj)]
 pub fn write_obj_file(field: JsValue) -> Result<Uint8Array> {
-    let input = from_value::<LatticeInput>(field)?;
-    let frame = input.frame;
-    let field = input.into_heightfield()?;
-    let file = match frame {
-        Some(frame) => write_obj_in(&field, &frame.into())?,
-        None => write_obj(&field)?,
-    };
-    Ok(file.as_slice().into())
+    Ok(write_obj_mesh(&mesh_of(field)?)?.as_slice().into())
 }

@@ -3,15 +3,17 @@
 
 pub use libfuzzer_sys::fuzz_target;
 
-use developable::formats::{Format, decode, decode_npz, npz_arrays};
-use developable::meshes::{MeshFormat, read_mesh};
+pub use developable::formats::Format;
+use developable::formats::{decode, decode_npz, npz_arrays};
+pub use developable::meshes::MeshFormat;
+use developable::meshes::read_mesh;
 use developable::{Resolution, View, sample};
 
 /// The fuzz target of a format of height images.
 #[macro_export]
 macro_rules! image {
     ($format:ident) => {
-        $crate::fuzz_target!(|bytes: &[u8]| $crate::read_image(bytes, $crate::Image::$format));
+        $crate::fuzz_target!(|bytes: &[u8]| $crate::read_image(bytes, $crate::Format::$format));
     };
 }
 
@@ -19,12 +21,9 @@ macro_rules! image {
 #[macro_export]
 macro_rules! mesh {
     ($format:ident) => {
-        $crate::fuzz_target!(|bytes: &[u8]| $crate::look_at(bytes, $crate::Mesh::$format));
+        $crate::fuzz_target!(|bytes: &[u8]| $crate::look_at(bytes, $crate::MeshFormat::$format));
     };
 }
-
-pub use Format as Image;
-pub use MeshFormat as Mesh;
 
 /// Decodes, and makes heights of what comes out.
 pub fn read_image(bytes: &[u8], format: Format) {

@@ -88,6 +88,12 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.read(transfer(file, [file.buffer]), options));
   }
 
+  /** @param {Uint8Array | ArrayBuffer | Blob} bytes */
+  async npzArrays(bytes) {
+    const file = await ownBytes(bytes);
+    return this.#request((remote) => remote.npzArrays(transfer(file, [file.buffer])));
+  }
+
   /** @param {HeightImage | Heightfield} input */
   async writeNpy(input) {
     const { field, buffers } = detached(asField(input));
@@ -100,10 +106,45 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.writePng(transfer(field, buffers)));
   }
 
+  /** @param {HeightImage} input */
+  async writeTiff(input) {
+    const { field, buffers } = detached(asImage(input));
+    return this.#request((remote) => remote.writeTiff(transfer(field, buffers)));
+  }
+
+  /** @param {HeightImage} input */
+  async writeExr(input) {
+    const { field, buffers } = detached(asImage(input));
+    return this.#request((remote) => remote.writeExr(transfer(field, buffers)));
+  }
+
   /** @param {Heightfield} input */
   async writeObj(input) {
     const { field, buffers } = detached(asLattice(input));
     return this.#request((remote) => remote.writeObj(transfer(field, buffers)));
+  }
+
+  /** @param {Heightfield} input */
+  async writePly(input) {
+    const { field, buffers } = detached(asLattice(input));
+    return this.#request((remote) => remote.writePly(transfer(field, buffers)));
+  }
+
+  /** @param {Heightfield} input */
+  async writeStl(input) {
+    const { field, buffers } = detached(asLattice(input));
+    return this.#request((remote) => remote.writeStl(transfer(field, buffers)));
+  }
+
+  /**
+   * @param {Heightfield} input
+   * @param {import('./index.js').WriteGlbOptions} [given]
+   */
+  async writeGlb(input, given) {
+    const { field, buffers } = detached(asLattice(input));
+    const { texture, ...rest } = asOptions(given);
+    const options = { ...rest, texture: texture === undefined ? undefined : await ownBytes(texture) };
+    return this.#request((remote) => remote.writeGlb(transfer(field, buffers), options));
   }
 
   /**
@@ -122,6 +163,15 @@ export class DevelopableWorker {
   async sampleMesh(mesh, options) {
     const given = asMesh(mesh);
     return this.#request((remote) => remote.sampleMesh(given, options));
+  }
+
+  /**
+   * @param {HeightImage} input
+   * @param {import('./types.js').Intrinsics} camera
+   */
+  async backProject(input, camera) {
+    const { field, buffers } = detached(asImage(input));
+    return this.#request((remote) => remote.backProject(transfer(field, buffers), camera));
   }
 
   /**
@@ -223,8 +273,8 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm, meshesWasm, unrollWasm } = this.#options;
-      this.#wasm ??= Promise.all([wasm, filesWasm, meshesWasm, unrollWasm].map(portable));
+      const { wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm } = this.#options;
+      this.#wasm ??= Promise.all([wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm].map(portable));
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }
@@ -234,7 +284,7 @@ export class DevelopableWorker {
 makeDisposable(DevelopableWorker);
 
 /**
- * A file's bytes in memory that can be handed over.
+ * A copy of a file's bytes, to be handed over.
  * @param {Uint8Array | ArrayBuffer | Blob} bytes
  */
 async function ownBytes(bytes) {

@@ -25,14 +25,14 @@ export class Connection {
 
   /**
    * @param {string | URL | undefined} workerUrl
-   * @param {Promise<Source[]>} wasm the solver's, the files', the meshes' and the unrolling's
+   * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes' and the unrolling's
    */
   constructor(workerUrl, wasm) {
     /** @param {string} reason */
     const died = (reason) => this.close(new DevelopableError('WORKER', reason));
     this.#thread = spawn(workerUrl, died);
     this.#remote = /** @type {Remote} */ (wrap(this.#thread.endpoint));
-    this.#ready = this.#settled(wasm.then((sources) => this.#remote.init(...sources)));
+    this.#ready = this.#settled(wasm.then((sources) => this.#remote.init(sources)));
     this.#ready.catch((error) => this.close(error));
   }
 

@@ -1,9 +1,10 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Mesh, OcclusionOptions, PatchMap,
-  PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult, RulingField,
-  RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling, UnrollOptions,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
+  OcclusionOptions, PatchMap, PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult,
+  RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
+  UnrollOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -12,20 +13,30 @@ export function init(input?: InitInput): Promise<void>;
 /** The same, synchronously, from bytes or a compiled module. */
 export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the second wasm file, which `read` and the `write…` functions need; otherwise like `init`. */
+/** Loads the wasm file that `read` and the `write…` functions need for PNG, NPY and OBJ; otherwise like `init`. */
 export function initFiles(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the third wasm file, which `readMesh` and `sampleMesh` need; otherwise like `init`. */
+/** Loads the wasm file that they need for all other formats; otherwise like `init`. */
+export function initImages(input?: InitInput): Promise<void>;
+/** The same, synchronously. */
+export function initImagesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+/** Loads the wasm file that `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb` need; otherwise like `init`. */
 export function initMeshes(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the fourth wasm file, which `analyze`, `patches`, `rulings`, `unroll` and `dewarp` need; otherwise like `init`. */
+/** Loads the wasm file that `analyze`, `patches`, `rulings`, `unroll` and `dewarp` need; otherwise like `init`. */
 export function initUnroll(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initUnrollSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+export interface WriteGlbOptions {
+  /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
+  texture?: Uint8Array | ArrayBuffer;
+}
 
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
 export class Solver {
@@ -59,18 +70,44 @@ export function fit(
 ): Surface;
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
-/** Decodes a PNG or NPY file. */
+/** Decodes a PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG or WebP file. */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
+/** What arrays an NPZ file holds, one of which `read` takes by its name. */
+export function npzArrays(bytes: Uint8Array | ArrayBuffer): NpzArray[];
 /** NPY file (float64) of an image or of lattice heights. */
 export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
 /** 16-bit grey PNG whose text chunks record pixel size, height scale and offset; level 0 is no data. */
 export function writePng(input: HeightImage): Uint8Array<ArrayBuffer>;
-/** OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`. */
+/** TIFF (float32, NaN is no data) that records the pixel size; heights are rounded to 32 bits. */
+export function writeTiff(input: HeightImage): Uint8Array<ArrayBuffer>;
+/** EXR (float32, channel Z, NaN is no data); heights are rounded to 32 bits. */
+export function writeExr(input: HeightImage): Uint8Array<ArrayBuffer>;
+/**
+ * OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`, with
+ * normals, and with the field's `colors` and `uvs`.
+ */
 export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** The same mesh as PLY (binary, little-endian): positions in 64 bits, colours as bytes. */
+export function writePly(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** The same mesh as STL (binary): positions in 32 bits, and nothing else but each triangle's normal. */
+export function writeStl(input: Heightfield): Uint8Array<ArrayBuffer>;
+/** The same mesh as GLB (binary glTF): positions in 32 bits, colours as bytes, and a texture if one is given. */
+export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Uint8Array<ArrayBuffer>;
 /** Decodes an OBJ, PLY, STL, glTF or GLB file. */
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /** What is seen of a mesh, as heights on a lattice: an input for `fit`. */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
+/**
+ * What a depth camera has seen, as a mesh: vertex i is pixel i (so that a picture of the same size
+ * gives its `colors`), and neighbours are joined but for jumps. `data` are depths in steps of
+ * `depthScale` (`heightScale` and `pixelSize` do not count); NaN, `noData`, 0 and below are none.
+ * The axes are x to the right, y up, z towards the viewer, the origin is the camera, so that the
+ * view `'-z'` is along its axis. The texture coordinates are about a picture with the same outline.
+ *
+ * A jump is where one point lies behind the other by more than ten times their distance across the
+ * line of sight.
+ */
+export function backProject(image: HeightImage, camera: Intrinsics): Mesh;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
 /** The smooth patches of a surface, and the creases between them. */

@@ -1,9 +1,10 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
-import { asBytes, asField, asImage, asInput, asLattice, frameOf } from './input.js';
+import { isImage } from './formats.js';
+import { asBytes, asField, asImage, asInput, asLattice, carriedOf } from './input.js';
+import { files, images, meshes, sheets, solver } from './instances.js';
 import { asMesh } from './mesh-input.js';
-import { files, meshes, sheets, solver } from './instances.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, dewarpOptions } from './sheet-input.js';
 
@@ -17,6 +18,10 @@ export const initSync = (input) => solver.initSync(input);
 export const initFiles = (input) => files.init(input);
 /** @type {typeof import('./direct.js').initFilesSync} */
 export const initFilesSync = (input) => files.initSync(input);
+/** @type {typeof import('./direct.js').initImages} */
+export const initImages = (input) => images.init(input);
+/** @type {typeof import('./direct.js').initImagesSync} */
+export const initImagesSync = (input) => images.initSync(input);
 /** @type {typeof import('./direct.js').initMeshes} */
 export const initMeshes = (input) => meshes.init(input);
 /** @type {typeof import('./direct.js').initMeshesSync} */
@@ -47,8 +52,8 @@ export class Solver {
   #handle;
   /** Conjugate-gradient iterations to ask for in one call, from how long the last ones took. */
   #work = 1;
-  /** @type {import('./types.js').Frame | undefined} the input's, which the surface has too */
-  #frame;
+  /** What the surface has from the input. */
+  #carried;
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
@@ -56,7 +61,7 @@ export class Solver {
    */
   constructor(input, options) {
     const field = asInput(input);
-    this.#frame = frameOf(field);
+    this.#carried = carriedOf(field);
     this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
@@ -79,7 +84,7 @@ export class Solver {
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
-    this.#frame = frameOf(field);
+    this.#carried = carriedOf(field);
     this.#work = 1;
   }
 
@@ -111,8 +116,7 @@ export class Solver {
 
   surface() {
     const handle = this.#live();
-    const surface = solver.call(() => handle.surface());
-    return this.#frame ? { ...surface, frame: this.#frame } : surface;
+    return { ...solver.call(() => handle.surface()), ...this.#carried };
   }
 
   get disposed() {
@@ -161,7 +165,15 @@ export function occlusions(input, options) {
 /** @type {typeof import('./direct.js').read} */
 export function read(bytes, options) {
   const file = asBytes(bytes);
-  return files.call((wasm) => wasm.read(file, options));
+  return isImage(file, options)
+    ? images.call((wasm) => wasm.readImage(file, options))
+    : files.call((wasm) => wasm.read(file, options));
+}
+
+/** @type {typeof import('./direct.js').npzArrays} */
+export function npzArrays(bytes) {
+  const file = asBytes(bytes);
+  return images.call((wasm) => wasm.npzArrays(file));
 }
 
 /** @type {typeof import('./direct.js').writeNpy} */
@@ -176,10 +188,42 @@ export function writePng(input) {
   return bytesOf((wasm) => wasm.writePng(image));
 }
 
+/** @type {typeof import('./direct.js').writeTiff} */
+export function writeTiff(input) {
+  const image = asImage(input);
+  return unshared(images.call((wasm) => wasm.writeTiff(image)));
+}
+
+/** @type {typeof import('./direct.js').writeExr} */
+export function writeExr(input) {
+  const image = asImage(input);
+  return unshared(images.call((wasm) => wasm.writeExr(image)));
+}
+
 /** @type {typeof import('./direct.js').writeObj} */
 export function writeObj(input) {
   const lattice = asLattice(input);
   return bytesOf((wasm) => wasm.writeObj(lattice));
+}
+
+/** @type {typeof import('./direct.js').writePly} */
+export function writePly(input) {
+  const lattice = asLattice(input);
+  return unshared(meshes.call((wasm) => wasm.writePly(lattice)));
+}
+
+/** @type {typeof import('./direct.js').writeStl} */
+export function writeStl(input) {
+  const lattice = asLattice(input);
+  return unshared(meshes.call((wasm) => wasm.writeStl(lattice)));
+}
+
+/** @type {typeof import('./direct.js').writeGlb} */
+export function writeGlb(input, given) {
+  const lattice = asLattice(input);
+  const { texture, ...rest } = asOptions(given);
+  const options = { ...rest, texture: texture === undefined ? undefined : asBytes(texture) };
+  return unshared(meshes.call((wasm) => wasm.writeGlb(lattice, options)));
 }
 
 /** @type {typeof import('./direct.js').readMesh} */
@@ -192,6 +236,12 @@ export function readMesh(bytes, options) {
 export function sampleMesh(mesh, options) {
   const given = asMesh(mesh);
   return meshes.call((wasm) => wasm.sampleMesh(given, options));
+}
+
+/** @type {typeof import('./direct.js').backProject} */
+export function backProject(input, camera) {
+  const image = asImage(input);
+  return meshes.call((wasm) => wasm.backProject(image, camera));
 }
 
 /** @type {typeof import('./direct.js').analyze} */
@@ -244,10 +294,15 @@ export function example(name, options) {
   return solver.call((wasm) => wasm.example(name, options));
 }
 
+/** @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write */
+function bytesOf(write) {
+  return unshared(files.call(write));
+}
+
 /**
  * A file, in memory that is not shared: only the type needs to be told.
- * @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write
+ * @param {Uint8Array} file
  */
-function bytesOf(write) {
-  return /** @type {Uint8Array<ArrayBuffer>} */ (files.call(write));
+function unshared(file) {
+  return /** @type {Uint8Array<ArrayBuffer>} */ (file);
 }

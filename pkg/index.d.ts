@@ -1,9 +1,10 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Mesh, OcclusionOptions, PatchMap,
-  PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult, RulingField,
-  RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling, UnrollOptions,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
+  OcclusionOptions, PatchMap, PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult,
+  RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
+  UnrollOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -12,12 +13,19 @@ export interface WorkerOptions {
   workerUrl?: string | URL;
   /** Where the solver's wasm is; default: beside the worker. */
   wasm?: InitInput;
-  /** Where the wasm is that reads and writes files, loaded when it is needed; default: beside the worker. */
+  /** Where the wasm is that reads and writes PNG, NPY and OBJ, loaded when it is needed; default: beside the worker. */
   filesWasm?: InitInput;
-  /** Where the wasm is that reads and samples meshes, likewise. */
+  /** Where the wasm is for all other file formats, likewise. */
+  imagesWasm?: InitInput;
+  /** Where the wasm is that reads, samples and writes meshes (but for OBJ out), likewise. */
   meshesWasm?: InitInput;
   /** Where the wasm is that analyses, unrolls and dewarps, likewise. */
   unrollWasm?: InitInput;
+}
+
+export interface WriteGlbOptions {
+  /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
+  texture?: Uint8Array | ArrayBuffer | Blob;
 }
 
 export interface OpenFitOptions extends SolverOptions {
@@ -77,11 +85,18 @@ export function open(input: HeightImage | Heightfield, options?: HandOver): Prom
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
+export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+export function writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+export function writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+export function backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
 /** The smooth patches of a surface, and the creases between them. */
@@ -111,11 +126,18 @@ export class DevelopableWorker {
   open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
   occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
   read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
+  npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
   writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+  writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+  writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
+  backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
   analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
   patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
   rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;

@@ -31,12 +31,26 @@ export const read = (bytes, options) => worker().read(bytes, options);
 export const writeNpy = (input) => worker().writeNpy(input);
 /** @type {typeof import('./index.js').writePng} */
 export const writePng = (input) => worker().writePng(input);
+/** @type {typeof import('./index.js').npzArrays} */
+export const npzArrays = (bytes) => worker().npzArrays(bytes);
+/** @type {typeof import('./index.js').writeTiff} */
+export const writeTiff = (input) => worker().writeTiff(input);
+/** @type {typeof import('./index.js').writeExr} */
+export const writeExr = (input) => worker().writeExr(input);
 /** @type {typeof import('./index.js').writeObj} */
 export const writeObj = (input) => worker().writeObj(input);
+/** @type {typeof import('./index.js').writePly} */
+export const writePly = (input) => worker().writePly(input);
+/** @type {typeof import('./index.js').writeStl} */
+export const writeStl = (input) => worker().writeStl(input);
+/** @type {typeof import('./index.js').writeGlb} */
+export const writeGlb = (input, options) => worker().writeGlb(input, options);
 /** @type {typeof import('./index.js').readMesh} */
 export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 /** @type {typeof import('./index.js').sampleMesh} */
 export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
+/** @type {typeof import('./index.js').backProject} */
+export const backProject = (input, camera) => worker().backProject(input, camera);
 /** @type {typeof import('./index.js').analyze} */
 export const analyze = (input, options) => worker().analyze(input, options);
 /** @type {typeof import('./index.js').patches} */

@@ -15,7 +15,7 @@ import { DevelopableError } from './errors.js';
  */
 
 /** The arrays that an input may have. */
-const ARRAYS = ['data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges'];
+const ARRAYS = ['data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges', 'colors', 'uvs'];
 
 const SHAPES =
   'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +
@@ -113,7 +113,7 @@ function pixels(input) {
  * @param {Heightfield} input
  */
 function vertices(input) {
-  const { rows, cols, spacing, origin, mask, noData, frame } = Object(input);
+  const { rows, cols, spacing, origin, mask, noData, frame, colors, uvs } = Object(input);
   if (origin !== undefined && !(origin?.length === 2 && isNumber(origin[0]) && isNumber(origin[1]))) {
     throw new DevelopableError('INPUT', `origin must be two numbers [x, y], but is ${show(origin)}`);
   }
@@ -126,6 +126,8 @@ function vertices(input) {
     mask: flags('mask', mask),
     noData: optional('noData', noData),
     frame: frame === undefined ? undefined : asFrame(frame),
+    colors: optionalFloats('colors', colors),
+    uvs: optionalFloats('uvs', uvs),
   };
 }
 
@@ -145,9 +147,15 @@ function asFrame(frame) {
   return { right: own(right), up: own(up), towards: own(towards) };
 }
 
-/** The axes of heights on the lattice, if they are those of a view. @param {Image | Lattice} field */
-export function frameOf(field) {
-  return field.kind === 'lattice' ? field.frame : undefined;
+/**
+ * What a surface has from its input: the axes of a view, colours and texture coordinates.
+ * @param {Image | Lattice} field
+ * @returns {Partial<Pick<Heightfield, 'frame' | 'colors' | 'uvs'>>}
+ */
+export function carriedOf(field) {
+  if (field.kind === 'image') return {};
+  const { frame, colors, uvs } = field;
+  return { ...(frame && { frame }), ...(colors && { colors }), ...(uvs && { uvs }) };
 }
 
 /**
@@ -237,6 +245,26 @@ export function numbers(name, value) {
     'INPUT',
     `${name} must be a flat array of numbers or a typed array of them, but is ${show(value)}`,
   );
+}
+
+/**
+ * Numbers in an array of the type that Rust reads.
+ * @template {Float32Array | Float64Array} A
+ * @param {{ new (length: number): A, from(values: Iterable<number>): A }} type
+ * @param {string} name
+ * @param {unknown} value
+ * @returns {A}
+ */
+export function typed(type, name, value) {
+  return value instanceof type ? value : type.from(numbers(name, value));
+}
+
+/**
+ * @param {string} name
+ * @param {unknown} value
+ */
+export function optionalFloats(name, value) {
+  return value === undefined ? undefined : typed(Float32Array, name, value);
 }
 
 /**

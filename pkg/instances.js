@@ -1,6 +1,7 @@
 /** The wasm files: the solver, and what else there is, which not everybody needs. */
 import { Instance } from './instance.js';
 import * as filesGlue from './wasm/files.js';
+import * as imagesGlue from './wasm/images.js';
 import * as meshesGlue from './wasm/meshes.js';
 import * as solverGlue from './wasm/solver.js';
 import * as unrollGlue from './wasm/unroll.js';
@@ -15,6 +16,12 @@ export const files = new Instance(
   filesGlue,
   new URL('./wasm/files_bg.wasm', import.meta.url),
   'initFiles()',
+);
+
+export const images = new Instance(
+  imagesGlue,
+  new URL('./wasm/images_bg.wasm', import.meta.url),
+  'initImages()',
 );
 
 export const meshes = new Instance(

@@ -1,6 +1,6 @@
 /** Meshes as inputs: checked as far as JS has to, in arrays of the types that Rust reads. */
 import { DevelopableError } from './errors.js';
-import { numbers } from './input.js';
+import { numbers, optionalFloats, typed } from './input.js';
 
 /**
  * @param {import('./types.js').Mesh} mesh
@@ -8,14 +8,17 @@ import { numbers } from './input.js';
  */
 export function asMesh(mesh) {
   const { positions, triangles, colors, uvs } = Object(mesh);
-  if (positions === undefined || triangles === undefined) {
-    throw new DevelopableError('INPUT', 'the mesh must be { positions, triangles }, with colors and uvs if there are any');
+  if (positions === undefined) {
+    throw new DevelopableError(
+      'INPUT',
+      'the mesh must be { positions, triangles }, with colors and uvs if there are any; without triangles it is a point cloud',
+    );
   }
   return {
     positions: typed(Float64Array, 'positions', positions),
-    triangles: indices(triangles),
-    colors: colors === undefined ? undefined : typed(Float32Array, 'colors', colors),
-    uvs: uvs === undefined ? undefined : typed(Float32Array, 'uvs', uvs),
+    triangles: indices(triangles ?? []),
+    colors: optionalFloats('colors', colors),
+    uvs: optionalFloats('uvs', uvs),
   };
 }
 
@@ -26,15 +29,4 @@ function indices(triangles) {
   const odd = values.findIndex((value) => !(Number.isInteger(value) && value >= 0 && value < 2 ** 32));
   if (odd < 0) return Uint32Array.from(values);
   throw new DevelopableError('INPUT', `triangles[${odd}] must be the number of a vertex, but is ${values[odd]}`);
-}
-
-/**
- * @template {Float32Array | Float64Array} A
- * @param {{ new (length: number): A, from(values: Iterable<number>): A }} type
- * @param {string} name
- * @param {unknown} value
- * @returns {A}
- */
-function typed(type, name, value) {
-  return value instanceof type ? value : type.from(numbers(name, value));
 }

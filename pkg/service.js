@@ -1,6 +1,8 @@
 /** What the worker offers its client: the direct API, with solves as jobs. Arrays are handed over. */
 import * as direct from './direct.js';
 import { DevelopableError } from './errors.js';
+import { isImage } from './formats.js';
+import { asBytes } from './input.js';
 import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
 import { transfer } from './wire.js';
@@ -13,26 +15,15 @@ const kept = new Map();
 
 /** @typedef {import('./input.js').Image | import('./input.js').Lattice} Input */
 
-/** @type {import('./types.js').InitInput | undefined} where the wasm of the files is */
-let filesWasm;
+/** @typedef {import('./types.js').InitInput | undefined} Place */
 
-/** @type {import('./types.js').InitInput | undefined} where that of the meshes is */
-let meshesWasm;
-
-/** @type {import('./types.js').InitInput | undefined} where that of the unrolling is */
-let unrollWasm;
+/** Where the other wasm files are, each loaded when it is needed. @type {Place[]} */
+let [filesWasm, imagesWasm, meshesWasm, unrollWasm] = /** @type {Place[]} */ ([]);
 
 export const service = {
-  /**
-   * @param {import('./types.js').InitInput} [wasm]
-   * @param {import('./types.js').InitInput} [files] loaded when the first file is read or written
-   * @param {import('./types.js').InitInput} [meshes] loaded for the first mesh
-   * @param {import('./types.js').InitInput} [unroll] loaded for the first analysis or unrolling
-   */
-  init(wasm, files, meshes, unroll) {
-    filesWasm = files;
-    meshesWasm = meshes;
-    unrollWasm = unroll;
+  /** @param {Place[]} places of the solver's wasm, the files', the images', the meshes' and the unrolling's */
+  init([wasm, ...others]) {
+    [filesWasm, imagesWasm, meshesWasm, unrollWasm] = others;
     return direct.init(wasm);
   },
 
@@ -127,47 +118,67 @@ export const service = {
    * @param {Parameters<typeof direct.read>[1]} [options]
    */
   async read(bytes, options) {
-    await direct.initFiles(filesWasm);
+    await (isImage(asBytes(bytes), options) ? withImages() : withFiles());
     const result = direct.read(bytes, options);
     return transfer(result, buffersOf(result.data));
   },
 
-  writeNpy: written(direct.writeNpy),
-  writePng: written(direct.writePng),
-  writeObj: written(direct.writeObj),
-  writePhoto: written(direct.writePhoto),
+  /** @param {Parameters<typeof direct.npzArrays>[0]} bytes */
+  async npzArrays(bytes) {
+    await withImages();
+    return direct.npzArrays(bytes);
+  },
+
+  writeNpy: written(withFiles, direct.writeNpy),
+  writePng: written(withFiles, direct.writePng),
+  writeTiff: written(withImages, direct.writeTiff),
+  writeExr: written(withImages, direct.writeExr),
+  writeObj: written(withFiles, direct.writeObj),
+  writePly: written(withMeshes, direct.writePly),
+  writeStl: written(withMeshes, direct.writeStl),
+  writePhoto: written(withFiles, direct.writePhoto),
+
+  /**
+   * @param {Parameters<typeof direct.writeGlb>[0]} input
+   * @param {Parameters<typeof direct.writeGlb>[1]} [options]
+   */
+  async writeGlb(input, options) {
+    await withMeshes();
+    const bytes = direct.writeGlb(input, options);
+    return transfer(bytes, buffersOf(bytes));
+  },
 
   /** @param {Parameters<typeof direct.readPhoto>[0]} bytes */
   async readPhoto(bytes) {
-    await direct.initFiles(filesWasm);
+    await withFiles();
     const photo = direct.readPhoto(bytes);
     return transfer(photo, buffersOf(photo.data));
   },
 
   /** @type {(input: Input, options?: import('./types.js').AnalyzeOptions) => Promise<import('./types.js').Analysis>} */
   async analyze(input, options) {
-    await direct.initUnroll(unrollWasm);
+    await withUnroll();
     const result = direct.analyze(heights(input), options);
     return transfer(result, buffersOf(result.gaussian, result.kappa1, result.kappa2, result.nuclearNorm));
   },
 
   /** @type {(input: Input, options?: import('./types.js').PatchOptions) => Promise<import('./types.js').PatchMap>} */
   async patches(input, options) {
-    await direct.initUnroll(unrollWasm);
+    await withUnroll();
     const result = direct.patches(heights(input), options);
     return transfer(result, buffersOf(result.labels));
   },
 
   /** @type {(input: Input, options?: import('./types.js').RulingOptions) => Promise<import('./types.js').RulingField>} */
   async rulings(input, options) {
-    await direct.initUnroll(unrollWasm);
+    await withUnroll();
     const result = direct.rulings(heights(input), options);
     return transfer(result, buffersOf(result.directions, result.confidence));
   },
 
   /** @type {(input: Input, options?: import('./types.js').UnrollOptions) => Promise<import('./types.js').Unrolling>} */
   async unroll(input, options) {
-    await direct.initUnroll(unrollWasm);
+    await withUnroll();
     const result = direct.unroll(heights(input), options);
     const { vertices, positions, triangles, places, parts, stretches, overlaps } = result;
     return transfer(result, buffersOf(vertices, positions, triangles, places, parts, stretches, overlaps));
@@ -175,7 +186,7 @@ export const service = {
 
   /** @type {(input: Input, photo: import('./types.js').Photo, options?: import('./types.js').DewarpOptions) => Promise<import('./types.js').Dewarped>} */
   async dewarp(input, photo, options) {
-    await direct.initUnroll(unrollWasm);
+    await withUnroll();
     const result = direct.dewarp(heights(input), photo, options);
     return transfer(result, buffersOf(result.data, result.map));
   },
@@ -185,7 +196,7 @@ export const service = {
    * @param {Parameters<typeof direct.readMesh>[1]} [options]
    */
   async readMesh(bytes, options) {
-    await direct.initMeshes(meshesWasm);
+    await withMeshes();
     const mesh = direct.readMesh(bytes, options);
     return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.colors, mesh.uvs));
   },
@@ -195,9 +206,19 @@ export const service = {
    * @param {Parameters<typeof direct.sampleMesh>[1]} [options]
    */
   async sampleMesh(mesh, options) {
-    await direct.initMeshes(meshesWasm);
+    await withMeshes();
     const sampled = direct.sampleMesh(mesh, options);
     return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
+  },
+
+  /**
+   * @param {Parameters<typeof direct.backProject>[0]} input
+   * @param {Parameters<typeof direct.backProject>[1]} camera
+   */
+  async backProject(input, camera) {
+    await withMeshes();
+    const mesh = direct.backProject(input, camera);
+    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.uvs));
   },
 
   /** @type {typeof direct.example} */
@@ -219,14 +240,31 @@ function keptSolver(solver) {
   return found;
 }
 
+function withFiles() {
+  return direct.initFiles(filesWasm);
+}
+
+function withImages() {
+  return direct.initImages(imagesWasm);
+}
+
+function withMeshes() {
+  return direct.initMeshes(meshesWasm);
+}
+
+function withUnroll() {
+  return direct.initUnroll(unrollWasm);
+}
+
 /**
  * @template T
+ * @param {() => Promise<void>} loaded
  * @param {(input: T) => Uint8Array<ArrayBuffer>} write
  */
-function written(write) {
+function written(loaded, write) {
   /** @param {T} input */
   return async (input) => {
-    await direct.initFiles(filesWasm);
+    await loaded();
     const bytes = write(input);
     return transfer(bytes, buffersOf(bytes));
   };

@@ -75,6 +75,10 @@ export interface Heightfield extends Known {
   brokenEdges?: Uint8Array;
   /** The axes of these coordinates in space, which a written mesh is turned back to. Default: x, y and z. */
   frame?: Frame;
+  /** Red, green, blue of each vertex, from 0 to 1, for written meshes. */
+  colors?: Float32Array;
+  /** Texture coordinates of each vertex, from the left and from the bottom of the picture, likewise. */
+  uvs?: Float32Array;
 }
 
 /**
@@ -88,16 +92,32 @@ export interface Frame {
   towards: readonly [number, number, number];
 }
 
-/** Triangles in space. */
+/** Triangles in space, or points alone. */
 export interface Mesh {
   /** x, y, z of each vertex. */
   positions: Float64Array;
-  /** Three vertices of each triangle, counted from 0. */
+  /** Three vertices of each triangle, counted from 0; none for a point cloud. */
   triangles: Uint32Array;
   /** Red, green, blue of each vertex, from 0 to 1. */
   colors?: Float32Array;
-  /** Texture coordinates of each vertex. */
+  /** Texture coordinates of each vertex, from the left and from the bottom of the picture. */
   uvs?: Float32Array;
+}
+
+/** A pinhole camera without distortion, in pixels: the centre of the top left one is (0, 0), rows count down. */
+export interface Intrinsics {
+  /** Focal length in columns. */
+  fx: number;
+  /** Focal length in rows. */
+  fy: number;
+  /** Column of the axis. */
+  cx: number;
+  /** Row of the axis. */
+  cy: number;
+  /** Length of one step of the depths; 0.001 makes metres of millimetres. Default 1. */
+  depthScale?: number;
+  /** `'planar'`: distance along the axis, as most cameras give it; `'ray'`: from the camera itself. Default `'planar'`. */
+  depth?: 'planar' | 'ray';
 }
 
 export interface ReadMeshOptions {
@@ -111,17 +131,27 @@ export type ViewName = '-x' | '+x' | '-y' | '+y' | '-z' | '+z' | 'best-fit';
 export interface SampleMeshOptions {
   /**
    * A direction to look in, by name or as a vector; or `'best-fit'`, straight at the plane that
-   * fits the triangles best, from the side that more of their area faces. Up is as close to +y as
+   * fits the triangles best, from the side that more of their area faces (of a point cloud: that
+   * fits the points, its largest component towards the viewer). Up is as close to +y as
    * it can be; along `-y` it is -z, along `+y` +z. Default `'-z'`.
    */
   view?: ViewName | readonly [number, number, number];
-  /** Vertices along the longer side of what is seen, at least 2. Default 200. */
+  /**
+   * Vertices along the longer side of what is seen, at least 2. Default 200; of a point cloud fewer,
+   * where that leaves less than four points for each vertex.
+   */
   resolution?: number;
   /** Distance of neighbours on the lattice, in the place of `resolution`. */
   spacing?: number;
 }
 
-/** What is seen of a mesh: the first hit of a ray through each vertex of a lattice, NaN where there is none. */
+/**
+ * What is seen of a mesh: the first hit of a ray through each vertex of a lattice, NaN where there is none.
+ *
+ * Of a point cloud a vertex sees the points within one spacing of it, but for those more than three
+ * spacings behind the foremost. Its height is that of the plane that fits them best, near ones more
+ * than others; its colour the nearest one's. Where they all lie to one side there is a hole.
+ */
 export interface SampledMesh extends Heightfield {
   origin: [number, number];
   heights: Float64Array;
@@ -306,6 +336,10 @@ export interface Surface {
   image?: { width: number; height: number; pixelSize: number; data: Float64Array };
   /** The input's. */
   frame?: Frame;
+  /** The input's. */
+  colors?: Float32Array;
+  /** The input's. */
+  uvs?: Float32Array;
   report: Report;
 }
 
@@ -569,20 +603,37 @@ export interface Dewarped extends DecodedPhoto {
 
 export interface ReadOptions {
   /** Taken from the bytes where it is not given. */
-  format?: 'png' | 'npy';
+  format?: Format;
+  /** Of an NPZ file, the name of the array; may be left out where there is only one. */
+  array?: string;
 }
 
-/** A decoded file. For a PNG without a recorded scale `heightScale` is a suggestion (see README). */
+/** What can be read. */
+export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | 'webp';
+
+/** An array of an NPZ file. */
+export interface NpzArray {
+  name: string;
+  shape: number[];
+  /** `'f32'` and the like, or NumPy's own name for what is no number. */
+  dataType: string;
+}
+
+/** A decoded file. For integers without a recorded scale `heightScale` is a suggestion (see README). */
 export interface ReadResult {
-  format: 'png' | 'npy';
+  format: Format;
   width: number;
   height: number;
   /**
    * Values as stored (grey levels, numbers), plus `offset / heightScale` where the file records an
-   * offset, row by row; NaN where an alpha channel is 0 or the value is NaN.
+   * offset, row by row, the top row first; NaN where an alpha channel is 0, the value is NaN, or
+   * the file says that it means no data.
    */
   data: Float64Array;
+  /** Side length of a pixel; 1 where the file does not say. */
   pixelSize: number;
+  /** The unit of `pixelSize`, where the file says it: a TIFF's resolution, or a GeoTIFF. */
+  unit: 'mm' | 'm' | null;
   heightScale: number;
   /** The type the file stores: `'u8'`, `'u16'`, `'f32'`, `'f64'`, ... */
   dataType: string;

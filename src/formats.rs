@@ -1,29 +1,38 @@
 //! Height images and surfaces from and to files held in memory.
 //!
-//! Reads PNG and NPY ([`decode`]) and photos ([`decode_photo`]); writes NPY, 16-bit PNG, photos and
-//! OBJ. Nothing here
-//! touches a file system, so that all of it works in a browser too.
+//! Reads PNG and NPY ([`decode`]) and photos ([`decode_photo`]); writes NPY,
+//! 16-bit PNG, photos and OBJ. With the cargo feature `images` also reads TIFF,
+//! EXR, PFM, NPZ, JPEG and WebP, and writes TIFF and EXR. Nothing here touches a
+//! file system, so that all of it works in a browser too.
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
-//! the bytes that are there can fill.
+//! the bytes that are there can fill. (WebP is the exception: a few bytes may
+//! stand for a large even area, up to [`MAX_CELLS`](crate::MAX_CELLS) pixels.)
 
+#[cfg(feature = "images")]
+mod images;
 mod npy;
 mod obj;
 mod photo;
 mod png;
 
-use std::io::{self, Write};
 use std::str::FromStr;
 
+use crate::buffer::Buffer;
 use crate::error::{Error, Result};
 use crate::heightfield::HeightImage;
 
+#[cfg(all(feature = "js-images", target_arch = "wasm32"))]
+pub(crate) use images::decode as decode_image;
+#[cfg(feature = "images")]
+pub use images::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use npy::write_npy;
-pub use obj::{write_obj, write_obj_in};
+pub use obj::{write_obj, write_obj_in, write_obj_mesh};
 pub use photo::{PhotoFile, decode_photo, write_photo};
 pub use png::write_png;
 
-/// A file format that can be read.
+/// A file format that can be read. All but the first two need the cargo feature
+/// `images`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
@@ -31,32 +40,72 @@ pub enum Format {
     Png,
     /// NumPy's array file.
     Npy,
+    /// Tagged Image File Format, also BigTIFF and GeoTIFF.
+    Tiff,
+    /// OpenEXR.
+    Exr,
+    /// Portable float map.
+    Pfm,
+    /// NumPy's archive of arrays.
+    Npz,
+    /// JPEG, grey.
+    Jpeg,
+    /// WebP, grey.
+    WebP,
 }
 
+/// Every format: its name in options, and its title in messages.
+const FORMATS: [(Format, &str, &str); 8] = [
+    (Format::Png, "png", "PNG"),
+    (Format::Npy, "npy", "NPY"),
+    (Format::Tiff, "tiff", "TIFF"),
+    (Format::Exr, "exr", "EXR"),
+    (Format::Pfm, "pfm", "PFM"),
+    (Format::Npz, "npz", "NPZ"),
+    (Format::Jpeg, "jpeg", "JPEG"),
+    (Format::WebP, "webp", "WebP"),
+];
+
+/// The first bytes of every format; a `?` stands for any byte.
+const MAGIC: [(&[u8], Format); 13] = [
+    (b"\x89PNG\r\n\x1a\n", Format::Png),
+    (b"\x93NUMPY", Format::Npy),
+    (b"II*\0", Format::Tiff),
+    (b"MM\0*", Format::Tiff),
+    (b"II+\0", Format::Tiff),
+    (b"MM\0+", Format::Tiff),
+    (b"\x76\x2f\x31\x01", Format::Exr),
+    (b"Pf\n", Format::Pfm),
+    (b"PF\n", Format::Pfm),
+    (b"PK\x03\x04", Format::Npz),
+    (b"PK\x05\x06", Format::Npz),
+    (b"\xff\xd8\xff", Format::Jpeg),
+    (b"RIFF????WEBP", Format::WebP),
+];
+
 impl Format {
-    /// `"png"` or `"npy"`.
+    /// The name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`,
+    /// `"npz"`, `"jpeg"` or `"webp"`.
     pub fn name(self) -> &'static str {
-        match self {
-            Format::Png => "png",
-            Format::Npy => "npy",
-        }
+        self.entry().1
     }
 
     /// The format that a file's first bytes announce.
     pub fn detect(bytes: &[u8]) -> Option<Format> {
-        [
-            (&b"\x89PNG\r\n\x1a\n"[..], Format::Png),
-            (b"\x93NUMPY", Format::Npy),
-        ]
-        .into_iter()
-        .find_map(|(magic, format)| bytes.starts_with(magic).then_some(format))
+        let announces = |magic: &[u8]| {
+            bytes.len() >= magic.len() && magic.iter().zip(bytes).all(|(m, b)| *m == b'?' || m == b)
+        };
+        MAGIC
+            .into_iter()
+            .find_map(|(magic, format)| announces(magic).then_some(format))
     }
 
     fn title(self) -> &'static str {
-        match self {
-            Format::Png => "PNG",
-            Format::Npy => "NPY",
-        }
+        self.entry().2
+    }
+
+    fn entry(self) -> (Format, &'static str, &'static str) {
+        FORMATS[self as usize]
     }
 }
 
@@ -65,10 +114,33 @@ impl FromStr for Format {
 
     /// From [`Format::name`].
     fn from_str(name: &str) -> Result<Self> {
-        match name {
-            "png" => Ok(Format::Png),
-            "npy" => Ok(Format::Npy),
-            _ => Err(Error::option("format", name, "must be `png` or `npy`")),
+        FORMATS
+            .into_iter()
+            .find_map(|(format, known, _)| (name == known).then_some(format))
+            .ok_or_else(|| Error::option("format", name, FORMAT_NAMES))
+    }
+}
+
+/// What the option `format` must be.
+pub(crate) const FORMAT_NAMES: &str =
+    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
+
+/// A unit of length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Unit {
+    /// 10⁻³ m.
+    Millimetre,
+    /// 1 m.
+    Metre,
+}
+
+impl Unit {
+    /// `"mm"` or `"m"`.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Unit::Millimetre => "mm",
+            Unit::Metre => "m",
         }
     }
 }
@@ -89,11 +161,16 @@ pub struct Decoded {
     /// NaN where there is no data. A PNG's recorded offset is contained, as
     /// `offset / height_scale`. Integers beyond 2⁵³ are rounded.
     pub values: Vec<f64>,
-    /// Side length of a pixel: recorded by [`write_png`], else 1.
+    /// Side length of a pixel: as recorded by [`write_png`] and the like, or
+    /// by a TIFF's resolution or GeoTIFF scale; else 1.
     pub pixel_size: f64,
-    /// Height of one step of the values. 1 for NPY; for PNG as recorded by
-    /// [`write_png`], else a suggestion: the one that makes the full range from
-    /// black to white a quarter of the image's longer side.
+    /// The unit of `pixel_size`, where the file says it: millimetres if a TIFF
+    /// has a resolution, metres if a GeoTIFF says so.
+    pub unit: Option<Unit>,
+    /// Height of one step of the values. 1 for NPY, NPZ and floats, but for the
+    /// scale that a PFM states; for PNG as recorded by [`write_png`]. For the
+    /// integers of a picture else a suggestion: the one that makes their full
+    /// range (from black to white) a quarter of the image's longer side.
     pub height_scale: f64,
     /// The type the file stores: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
@@ -122,6 +199,19 @@ impl Decoded {
 ///   booleans, integers and floats of 16 to 64 bits, either byte order, C or
 ///   Fortran order. Row 0 is the top row.
 ///
+/// With the cargo feature `images`:
+///
+/// - **TIFF**: one grey channel (or grey RGB) of integers of 8 to 64 bits or
+///   floats of 16 to 64, in strips or tiles, plain or compressed by Deflate,
+///   LZW or PackBits; the first image of a file of several. The orientation is
+///   honoured. No data is an alpha of 0 and what the tag `GDAL_NODATA` names.
+/// - **EXR**: of the first layer that has it, the channel `Z` or `depth`, else
+///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is.
+/// - **PFM**: grey, either byte order.
+/// - **NPZ**: the only array; [`decode_npz`] chooses one by name.
+/// - **JPEG**, **WebP**: grey pictures, and RGB as long as every pixel is grey.
+///   The orientation that a JPEG's Exif data state is honoured.
+///
 /// Costs `O(pixels)`.
 ///
 /// # Errors
@@ -130,18 +220,36 @@ impl Decoded {
 /// pixels (before anything of that size is allocated), [`Error::Empty`] for an
 /// array without elements.
 pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
+    match announced(bytes, format)? {
+        Format::Png => png::decode(bytes),
+        Format::Npy => npy::decode(bytes),
+        #[cfg(feature = "images")]
+        other => images::decode(bytes, other),
+        #[cfg(not(feature = "images"))]
+        other => Err(Error::Unsupported {
+            format: other.title(),
+            reason: "this build reads PNG and NPY only; the cargo feature `images` adds it".into(),
+        }),
+    }
+}
+
+/// The format that the bytes announce, if it is the stated one.
+pub(crate) fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
     if bytes.is_empty() {
         return Err(Error::Format {
-            format: format.map_or("an image", Format::title),
+            format: stated.map_or("an image", Format::title),
             reason: "the file is empty".into(),
         });
     }
-    match (format, Format::detect(bytes)) {
-        (None | Some(Format::Png), Some(Format::Png)) => png::decode(bytes),
-        (None | Some(Format::Npy), Some(Format::Npy)) => npy::decode(bytes),
+    match (stated, Format::detect(bytes)) {
+        (None, Some(found)) => Ok(found),
+        (Some(stated), Some(found)) if stated == found => Ok(found),
         (None, None) => Err(Error::Unsupported {
             format: "this file",
-            reason: format!("{} cannot be read, only PNG and NPY can", guess(bytes)),
+            reason: format!(
+                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG and WebP can",
+                guess(bytes)
+            ),
         }),
         (Some(stated), _) => Err(Error::Format {
             format: stated.title(),
@@ -150,56 +258,50 @@ pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
     }
 }
 
+/// Share of the longer side that black to white spans where no scale is recorded.
+const SUGGESTED_RELIEF: f64 = 0.25;
+
+/// A height scale for values of the given range.
+fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
+    SUGGESTED_RELIEF * width.max(height) as f64 / range
+}
+
+/// A picture of real colours, found at the given pixel.
+fn coloured(format: &'static str, pixel: usize, width: usize) -> Error {
+    Error::Unsupported {
+        format,
+        reason: format!(
+            "the pixel at row {}, column {} has a colour, from which no height follows; \
+             grey images are read (grey, or RGB and palettes with grey pixels only)",
+            pixel / width,
+            pixel % width
+        ),
+    }
+}
+
 /// What a file seems to be, for messages only.
 fn guess(bytes: &[u8]) -> &'static str {
-    let known: [(&[u8], &str); 12] = [
-        (b"\x89PNG\r\n\x1a\n", "a PNG file"),
-        (b"\x93NUMPY", "an NPY file"),
+    let known: [(&[u8], &str); 6] = [
         (b"\x89PNG", "a PNG file damaged in transfer"),
-        (b"\xff\xd8\xff", "a JPEG file"),
-        (b"II*\0", "a TIFF file"),
-        (b"MM\0*", "a TIFF file"),
-        (b"\x76\x2f\x31\x01", "an OpenEXR file"),
-        (b"PK\x03\x04", "a zip archive (perhaps NPZ)"),
+        (b"Pf", "a PFM file whose header is damaged"),
         (b"GIF8", "a GIF file"),
-        (b"RIFF", "a RIFF file (perhaps WebP)"),
+        (b"RIFF", "a RIFF file that is no WebP"),
         (b"%PDF", "a PDF file"),
         (b"BM", "a BMP file"),
     ];
-    known
-        .iter()
-        .find(|(magic, _)| bytes.starts_with(magic))
-        .map_or("a file of unknown format", |(_, name)| name)
-}
-
-/// A growing file in memory, whose lack of memory is an error instead of an abort.
-#[derive(Default)]
-struct Buffer(Vec<u8>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0
-            .try_reserve(bytes.len())
-            .map_err(|_| io::ErrorKind::OutOfMemory)?;
-        self.0.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Buffer {
-    /// The finished file. Writing into memory can fail for lack of memory only.
-    fn finish(self, what: &'static str, written: io::Result<()>) -> Result<Vec<u8>> {
-        match written {
-            Ok(()) => Ok(self.0),
-            Err(_) => Err(Error::OutOfMemory {
-                what,
-                bytes: self.0.len(),
-            }),
-        }
+    match Format::detect(bytes) {
+        Some(Format::Png) => "a PNG file",
+        Some(Format::Npy) => "an NPY file",
+        Some(Format::Tiff) => "a TIFF file",
+        Some(Format::Exr) => "an OpenEXR file",
+        Some(Format::Pfm) => "a PFM file",
+        Some(Format::Npz) => "a zip archive (perhaps NPZ)",
+        Some(Format::Jpeg) => "a JPEG file",
+        Some(Format::WebP) => "a WebP file",
+        None => known
+            .iter()
+            .find(|(magic, _)| bytes.starts_with(magic))
+            .map_or("a file of unknown format", |(_, name)| name),
     }
 }
 
@@ -209,8 +311,10 @@ mod tests {
 
     #[test]
     fn names_and_first_bytes_name_the_format() {
-        for format in [Format::Png, Format::Npy] {
+        for (i, (format, name, _)) in FORMATS.into_iter().enumerate() {
+            assert_eq!((format as usize, format.name()), (i, name));
             assert_eq!(format.name().parse(), Ok(format));
+            assert!(FORMAT_NAMES.contains(&format!("`{name}`")));
         }
         assert_eq!("PNG".parse::<Format>().unwrap_err().code(), "OPTION");
         assert_eq!(Format::detect(b"\x93NUMPY\x01\0"), Some(Format::Npy));
@@ -220,8 +324,8 @@ mod tests {
     #[test]
     fn other_files_are_named_in_the_error() {
         let message = |bytes: &[u8], format| decode(bytes, format).unwrap_err().to_string();
-        assert!(message(b"\xff\xd8\xff\xe0....", None).contains("JPEG"));
-        assert!(message(b"PK\x03\x04....", None).contains("NPZ"));
+        assert!(message(b"GIF89a....", None).contains("GIF"));
+        assert!(message(b"PK\x03\x04....", Some(Format::Png)).contains("NPZ"));
         assert!(message(b"\x93NUMPY....", Some(Format::Png)).contains("begins like an NPY"));
         assert!(message(b"", None).contains("empty"));
         assert_eq!(decode(b"hello", None).unwrap_err().code(), "UNSUPPORTED");

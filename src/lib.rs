@@ -37,6 +37,10 @@
 //! [`Heightfield::to_image`], or [`formats`] for files; [`analysis`] for figures, and
 //! [`unroll`](mod@unroll) for the surface laid flat.
 //!
+//! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
+//! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a
+//! heightfield; [`Triangulation`] is the way back to a mesh.
+//!
 //! An [`Input`] may say more than heights: how far each is to be trusted, which must be met
 //! exactly, where the surface is torn ([`Occlusions`]). A [`Solver`] that has stopped can be
 //! restarted with other options or another input, from the answer it has.
@@ -68,6 +72,9 @@
 #![warn(missing_docs)]
 
 pub mod analysis;
+#[cfg(any(feature = "formats", feature = "meshes"))]
+mod buffer;
+mod camera;
 pub mod dewarp;
 mod domain;
 mod error;
@@ -90,6 +97,7 @@ pub mod rulings;
 mod sampling;
 mod solver;
 mod spectral;
+mod splats;
 mod stencil;
 mod surface;
 mod triangulation;
@@ -98,6 +106,7 @@ mod view;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
+pub use camera::{Depth, Intrinsics};
 pub use domain::{Domain, Role};
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};

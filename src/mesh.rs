@@ -1,8 +1,9 @@
-//! A triangle mesh: positions, triangles, and what else there is at each vertex.
+//! A triangle mesh or a point cloud: positions, triangles, and what else there is at each vertex.
 
 use crate::error::{Error, Result, check_count};
 
-/// Triangles in space, in the user's units and the user's own axes.
+/// Triangles in space, in the user's units and the user's own axes; or points
+/// alone.
 ///
 /// Nothing is asked of the triangles: they may be open, intersect, overlap, be
 /// degenerate and face either way.
@@ -10,6 +11,7 @@ use crate::error::{Error, Result, check_count};
 pub struct Mesh {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
+    normals: Option<Vec<[f32; 3]>>,
     colors: Option<Vec<[f32; 3]>>,
     uvs: Option<Vec<[f32; 2]>>,
 }
@@ -25,25 +27,10 @@ impl Mesh {
         if triangles.is_empty() {
             return Err(Error::Unsupported {
                 format: "mesh",
-                reason: "it has no faces, and only triangles can be seen; make a mesh of a point \
-                         cloud or of lines first"
-                    .into(),
+                reason: "it has no faces; points without any are a point cloud".into(),
             });
         }
-        let not_finite = |p: &[f64; 3]| p.iter().position(|v| !v.is_finite());
-        if let Some((row, col)) = positions
-            .iter()
-            .enumerate()
-            .find_map(|(i, p)| not_finite(p).map(|k| (i, k)))
-        {
-            return Err(Error::NotFinite {
-                what: "vertex position of the mesh",
-                value: positions[row][col],
-                row,
-                col,
-                advice: "rows are vertices and columns coordinates; repair or remove the vertex",
-            });
-        }
+        check_finite(&positions)?;
         let outside = |t: &[u32; 3]| t.iter().copied().find(|i| *i as usize >= positions.len());
         if let Some((triangle, vertex)) = triangles
             .iter()
@@ -62,9 +49,52 @@ impl Mesh {
         Ok(Mesh {
             positions,
             triangles,
+            normals: None,
             colors: None,
             uvs: None,
         })
+    }
+
+    /// A point cloud: points without triangles.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if there is no point, [`Error::NotFinite`] if a
+    /// coordinate is not finite (its row is the point, its column the coordinate).
+    pub fn cloud(positions: Vec<[f64; 3]>) -> Result<Self> {
+        if positions.is_empty() {
+            return Err(Error::Unsupported {
+                format: "point cloud",
+                reason: "there is no point in it".into(),
+            });
+        }
+        check_finite(&positions)?;
+        Ok(Mesh {
+            positions,
+            triangles: Vec::new(),
+            normals: None,
+            colors: None,
+            uvs: None,
+        })
+    }
+
+    /// Whether there are points alone.
+    pub fn is_cloud(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// The same mesh with a normal for each vertex, of length 1. Files that are read give none.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one for each vertex.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self> {
+        check_count(
+            "normals of the mesh",
+            self.positions.len(),
+            3,
+            3 * normals.len(),
+        )?;
+        self.normals = Some(normals);
+        Ok(self)
     }
 
     /// The same mesh with a colour for each vertex: red, green, blue, usually
@@ -83,7 +113,9 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The same mesh with texture coordinates for each vertex.
+    /// The same mesh with texture coordinates for each vertex: from the left of
+    /// the picture and from its bottom, as in OBJ and PLY. (glTF counts from the
+    /// top; that is turned when it is read and written.)
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one pair for each vertex.
@@ -108,6 +140,11 @@ impl Mesh {
         &self.triangles
     }
 
+    /// A normal for each vertex.
+    pub fn normals(&self) -> Option<&[[f32; 3]]> {
+        self.normals.as_deref()
+    }
+
     /// A colour for each vertex.
     pub fn colors(&self) -> Option<&[[f32; 3]]> {
         self.colors.as_deref()
@@ -122,4 +159,22 @@ impl Mesh {
     pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|i| self.positions[i as usize])
     }
+}
+
+fn check_finite(positions: &[[f64; 3]]) -> Result<()> {
+    let not_finite = |p: &[f64; 3]| p.iter().position(|v| !v.is_finite());
+    if let Some((row, col)) = positions
+        .iter()
+        .enumerate()
+        .find_map(|(i, p)| not_finite(p).map(|k| (i, k)))
+    {
+        return Err(Error::NotFinite {
+            what: "vertex position of the mesh",
+            value: positions[row][col],
+            row,
+            col,
+            advice: "rows are vertices and columns coordinates; repair or remove the vertex",
+        });
+    }
+    Ok(())
 }

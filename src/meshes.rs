@@ -1,10 +1,13 @@
-//! Meshes from files held in memory: OBJ, PLY, STL, glTF and GLB.
+//! Meshes from and to files held in memory: reads OBJ, PLY, STL, glTF and GLB, writes PLY, STL
+//! and GLB. (OBJ is written by [`formats`](crate::formats).)
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than
 //! in proportion to the bytes that are there; scenes in which a few bytes stand
 //! for many triangles end at [`MAX_CELLS`] triangles.
 
+mod glb;
 mod gltf;
+mod narrow;
 mod obj;
 mod ply;
 mod stl;
@@ -14,6 +17,10 @@ use std::str::FromStr;
 
 use crate::error::{Error, MAX_CELLS, Result};
 use crate::mesh::Mesh;
+
+pub use glb::write_glb;
+pub use ply::write_ply;
+pub use stl::write_stl;
 
 /// A mesh file format that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -54,10 +61,8 @@ impl MeshFormat {
         if stl::is_binary(bytes) || bytes.starts_with(b"solid") {
             return Some(MeshFormat::Stl);
         }
-        let vertex = |line: &[u8]| line.starts_with(b"v ") || line.starts_with(b"v\t");
-        bytes
-            .split(|b| *b == b'\n')
-            .any(|line| vertex(line.trim_ascii_start()))
+        obj::lines(bytes)
+            .any(|line| obj::is_vertex(&line))
             .then_some(MeshFormat::Obj)
     }
 
@@ -92,12 +97,13 @@ impl FromStr for MeshFormat {
 
 /// The mesh in a file; of a format that is not given, the one it seems to have.
 ///
-/// Polygons are cut into fans. Colours and texture coordinates are kept where
+/// Where there are points but no faces, they are a point cloud
+/// ([`Mesh::is_cloud`]). Polygons are cut into fans. Colours and texture coordinates are kept where
 /// every vertex has them. Costs `O(bytes)`.
 ///
 /// # Errors
 /// [`Error::Format`] for damage, [`Error::Unsupported`] for an unknown format,
-/// a file without faces (a point cloud), compression or buffers in other
+/// a file with nothing in it, compression or buffers in other
 /// files, [`Error::NotFinite`] for a coordinate that is not, [`Error::TooLarge`]
 /// above [`MAX_CELLS`] triangles, [`Error::OutOfMemory`].
 pub fn read_mesh(bytes: &[u8], format: Option<MeshFormat>) -> Result<Mesh> {
@@ -156,7 +162,13 @@ impl Parts {
             Error::Unsupported { reason, .. } => unsupported(format.title(), reason),
             other => other,
         };
-        let mut mesh = Mesh::new(self.positions, self.triangles).map_err(named)?;
+        let cloud = self.triangles.is_empty() && vertices > 0 && format != MeshFormat::Stl;
+        let mut mesh = if cloud {
+            Mesh::cloud(self.positions)
+        } else {
+            Mesh::new(self.positions, self.triangles)
+        }
+        .map_err(named)?;
         if self.colors.len() == vertices {
             mesh = mesh.with_colors(self.colors)?;
         }

@@ -34,6 +34,7 @@ use serde::Serialize;
 use crate::error::{Result, positive, try_filled};
 use crate::heightfield::Heightfield;
 use crate::triangulation::Triangulation;
+use crate::view::Frame;
 use bend::Bend;
 pub use crease::Crease;
 
@@ -130,7 +131,7 @@ impl Patches {
         let valid = labels.iter().filter(|label| **label != NO_PATCH).count();
         let least = options.smallest * valid as f64;
         merge::merge(surface.lattice(), &bend, fold, least, &mut labels);
-        let mesh = Triangulation::new(surface)?;
+        let mesh = Triangulation::new(surface, &Frame::default())?;
         let patches = sorted(&mesh, &mut labels)?;
         let creases = crease::creases(surface, &mesh, &bend, &labels)?;
         Ok(Patches {

@@ -25,6 +25,7 @@ use crate::heightfield::Heightfield;
 use crate::patches::{NO_PATCH, Patches};
 use crate::triangulation::Triangulation;
 use crate::unroll::{UnrollOptions, Unrolling, unroll_mesh};
+use crate::view::Frame;
 
 /// What may stay together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,7 +168,7 @@ fn flat(
         let (a, b) = (labels[a], labels[b]);
         a == b || folds.contains(&[a.min(b), a.max(b)])
     };
-    let mesh = Triangulation::of_some(surface, |corners| {
+    let mesh = Triangulation::of_some(surface, &Frame::default(), |corners| {
         let inside = |i: usize| labels[i] != NO_PATCH && patches.contains(&labels[i]);
         let [a, b, c] = corners;
         corners.into_iter().all(inside) && joined(a, b) && joined(b, c) && joined(c, a)

@@ -8,8 +8,9 @@
 
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heightfield::Heightfield;
-use crate::lattice::Lattice;
+use crate::lattice::{Lattice, ROW};
 use crate::mesh::Mesh;
+use crate::splats::splat;
 use crate::view::{Frame, View};
 
 /// How fine the lattice over a mesh is to be.
@@ -21,14 +22,21 @@ pub enum Resolution {
     Across(usize),
     /// Distance between neighbours on the lattice, in the mesh's units.
     Spacing(f64),
+    /// 200 vertices across; of a point cloud fewer, where that leaves less than
+    /// four points for each vertex of the box around them.
+    Auto,
 }
+
+/// What `Resolution::Auto` stands for.
+const AUTO: usize = 200;
+const POINTS_FOR_EACH: f64 = 4.0;
 
 /// Where a ray hit the mesh first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Index of the triangle.
-    pub triangle: usize,
-    /// Barycentric coordinates in it: none negative, their sum 1.
+    /// Index of the triangle; of a point cloud, of the nearest point in sight.
+    pub index: usize,
+    /// Barycentric coordinates in the triangle: none negative, their sum 1.
     pub weights: [f32; 3],
 }
 
@@ -40,7 +48,7 @@ const MISS: u32 = u32::MAX;
 pub struct Samples {
     field: Heightfield,
     frame: Frame,
-    triangles: Vec<u32>,
+    indices: Vec<u32>,
     weights: Vec<[f32; 3]>,
 }
 
@@ -49,6 +57,12 @@ pub struct Samples {
 /// Triangles are hit from either side. Those seen edge-on and degenerate ones
 /// are not seen. Of several at the same height the first one counts. A vertex
 /// whose ray hits nothing has no height (NaN).
+///
+/// Of a **point cloud** a vertex sees the points within one spacing of it, but
+/// for those more than three spacings behind the foremost. Its height is that of
+/// the plane that fits them best, near ones more than others. Where they all lie
+/// to one side it has none. So the spacing should be no less than the distance
+/// between points, and better some times that.
 ///
 /// Costs `O(vertices + triangles + hits)`: some tens of milliseconds for a million triangles.
 ///
@@ -59,11 +73,18 @@ pub struct Samples {
 pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples> {
     let frame = view.frame(mesh)?;
     let (min, max) = seen(mesh, &frame);
+    let [width, height] = [max[0] - min[0], max[1] - min[1]];
+    let across = |vertices: usize| width.max(height) / (vertices - 1) as f64;
     let spacing = match resolution {
         Resolution::Spacing(spacing) => positive("spacing", spacing)?,
-        Resolution::Across(vertices) if vertices >= 2 => {
-            (max[0] - min[0]).max(max[1] - min[1]) / (vertices - 1) as f64
+        Resolution::Across(vertices) if vertices >= 2 => across(vertices),
+        Resolution::Auto if mesh.is_cloud() => {
+            let points = mesh.positions().len() as f64;
+            // Each vertex has an area of ROW times the spacing squared.
+            let each = (POINTS_FOR_EACH / (points * ROW)).sqrt();
+            across(AUTO).max(each * width.sqrt() * height.sqrt())
         }
+        Resolution::Auto => across(AUTO),
         Resolution::Across(vertices) => {
             return Err(Error::option("resolution", vertices, "must be at least 2"));
         }
@@ -72,6 +93,9 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
         return Err(nothing_seen());
     }
     let lattice = Lattice::covering(min, max, spacing)?;
+    if mesh.is_cloud() {
+        return sample_cloud(mesh, frame, lattice);
+    }
     let mut buffer = Buffer {
         lattice,
         heights: try_filled("depth buffer", lattice.len(), f64::NAN)?,
@@ -88,8 +112,22 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
     Ok(Samples {
         field: Heightfield::new(lattice, buffer.heights)?,
         frame,
-        triangles: buffer.triangles,
+        indices: buffer.triangles,
         weights: buffer.weights,
+    })
+}
+
+fn sample_cloud(mesh: &Mesh, frame: Frame, lattice: Lattice) -> Result<Samples> {
+    let points = mesh.positions().iter().map(|p| frame.view(*p));
+    let (heights, indices) = splat(&lattice, points, MISS)?;
+    if indices.iter().all(|i| *i == MISS) {
+        return Err(nothing_seen());
+    }
+    Ok(Samples {
+        field: Heightfield::new(lattice, heights)?,
+        frame,
+        weights: try_filled("point cloud", indices.len(), [1.0, 0.0, 0.0])?,
+        indices,
     })
 }
 
@@ -102,13 +140,20 @@ fn nothing_seen() -> Error {
     }
 }
 
-/// The box around all triangles, in the image's plane.
+/// The box around all triangles or points, in the image's plane.
 fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for corner in mesh.triangles().iter().flat_map(|t| mesh.corners(*t)) {
-        let [x, y, _] = frame.view(corner);
+    let mut include = |point| {
+        let [x, y, _] = frame.view(point);
         min = [min[0].min(x), min[1].min(y)];
         max = [max[0].max(x), max[1].max(y)];
+    };
+    if mesh.is_cloud() {
+        mesh.positions().iter().for_each(|p| include(*p));
+    } else {
+        // Vertices that no triangle uses do not count.
+        let corners = mesh.triangles().iter().flat_map(|t| mesh.corners(*t));
+        corners.for_each(include);
     }
     (min, max)
 }
@@ -131,15 +176,15 @@ impl Samples {
 
     /// What the ray through a lattice vertex (by row-major index) hit first.
     pub fn hit(&self, index: usize) -> Option<Hit> {
-        let triangle = self.triangles[index];
-        (triangle != MISS).then(|| Hit {
-            triangle: triangle as usize,
+        let found = self.indices[index];
+        (found != MISS).then(|| Hit {
+            index: found as usize,
             weights: self.weights[index],
         })
     }
 
     /// Values at the mesh's vertices carried to the lattice's: linear in each
-    /// triangle, NaN where nothing was hit. For colours, texture coordinates or
+    /// triangle, the nearest point's of a cloud, NaN where nothing was hit. For colours, texture coordinates or
     /// anything else of the mesh that was sampled.
     ///
     /// # Errors
@@ -148,10 +193,15 @@ impl Samples {
     /// # Panics
     /// If there are not as many values as the mesh has vertices.
     pub fn carry<const N: usize>(&self, mesh: &Mesh, values: &[[f32; N]]) -> Result<Vec<[f32; N]>> {
-        let mut carried = try_filled("sampled values", self.triangles.len(), [f32::NAN; N])?;
+        let mut carried = try_filled("sampled values", self.indices.len(), [f32::NAN; N])?;
         for (i, out) in carried.iter_mut().enumerate() {
-            if let Some(Hit { triangle, weights }) = self.hit(i) {
-                let corners = mesh.triangles()[triangle].map(|v| &values[v as usize]);
+            let Some(Hit { index, weights }) = self.hit(i) else {
+                continue;
+            };
+            if mesh.is_cloud() {
+                *out = values[index];
+            } else {
+                let corners = mesh.triangles()[index].map(|v| &values[v as usize]);
                 *out = std::array::from_fn(|k| (0..3).map(|j| weights[j] * corners[j][k]).sum());
             }
         }

@@ -1,48 +1,54 @@
-//! The surface as triangles: those of the lattice whose three vertices have heights.
+//! The surface as triangles in space: to be laid flat, for files and for drawing.
 
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Error, Result, check_count, try_filled};
 use crate::heightfield::Heightfield;
 use crate::lattice::{Lattice, Towards};
+use crate::mesh::Mesh;
+use crate::view::Frame;
 
 /// Marks a lattice vertex that no triangle uses.
 const UNUSED: u32 = u32::MAX;
 
-/// The lattice triangles with three heights, and the vertices that these use.
+/// The lattice's triangles as a mesh, and which lattice vertex each of its vertices is.
 ///
-/// Vertices are in the lattice's row-major order. Triangles are counter-clockwise seen from above
-/// (from `+z`), in the order of their upper left vertex.
+/// Every triangle of the lattice whose three vertices have heights is in it,
+/// counter-clockwise seen from above (from where the heights point) and in the
+/// order of their upper left vertex, and only the vertices that these use, in
+/// the lattice's row-major order. Each has a normal: the mean of those of the
+/// triangles around it, weighted by area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triangulation {
     lattice: Lattice,
     vertices: Vec<u32>,
-    positions: Vec<[f64; 3]>,
-    triangles: Vec<[u32; 3]>,
+    mesh: Mesh,
 }
 
 impl Triangulation {
-    /// The triangles of a surface; costs `O(vertices)`.
+    /// The triangles of a heightfield over the plane of a frame:
+    /// [`Frame::default`] gives positions `x y z` as in the lattice, the frame
+    /// of [`Samples`](crate::Samples) those of the mesh that was seen.
+    ///
+    /// Costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if there is no whole triangle, [`Error::OutOfMemory`].
-    pub fn new(surface: &Heightfield) -> Result<Self> {
-        Triangulation::of_some(surface, |_| true)
+    pub fn new(surface: &Heightfield, frame: &Frame) -> Result<Self> {
+        Triangulation::of_some(surface, frame, |_| true)
     }
 
-    /// Those of the triangles of a surface, by the lattice indices of their corners, that are
-    /// wanted.
+    /// Those of the triangles, by the lattice indices of their corners, that are wanted.
     pub(crate) fn of_some(
         surface: &Heightfield,
+        frame: &Frame,
         wanted: impl Fn([usize; 3]) -> bool,
     ) -> Result<Self> {
         let lattice = *surface.lattice();
-        let triangles = || whole_triangles(surface).filter(|triangle| wanted(*triangle));
-        let mut numbers = try_filled("triangles", lattice.len(), UNUSED)?;
+        let whole = || whole_triangles(surface).filter(|triangle| wanted(*triangle));
+        let mut numbers = try_filled("mesh", lattice.len(), UNUSED)?;
         let mut count = 0;
-        for triangle in triangles() {
+        for triangle in whole() {
             count += 1;
-            for i in triangle {
-                numbers[i] = 0;
-            }
+            triangle.iter().for_each(|i| numbers[*i] = 0);
         }
         if count == 0 {
             return Err(Error::Unsupported {
@@ -50,28 +56,49 @@ impl Triangulation {
                 reason: "no triangle of the lattice has a height at all three vertices".into(),
             });
         }
-        let mut numbered = try_filled("triangles", count, [0; 3])?;
-        let mut used = 0;
-        for number in numbers.iter_mut().filter(|number| **number != UNUSED) {
-            *number = used;
-            used += 1;
-        }
-        let mut vertices = try_filled("triangles", used as usize, 0)?;
-        let mut positions = try_filled("triangles", used as usize, [0.0; 3])?;
-        for (i, number) in numbers.iter().enumerate().filter(|(_, n)| **n != UNUSED) {
+        let used = numbers.iter().filter(|n| **n != UNUSED).count();
+        let mut vertices = room(used)?;
+        let mut positions = room(used)?;
+        for (i, number) in numbers
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, n)| **n != UNUSED)
+        {
+            *number = vertices.len() as u32;
+            vertices.push(i as u32);
             let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-            vertices[*number as usize] = i as u32;
-            positions[*number as usize] = [x, y, surface.heights()[i]];
+            positions.push(frame.unview([x, y, surface.heights()[i]]));
         }
-        for (out, triangle) in numbered.iter_mut().zip(triangles()) {
-            *out = triangle.map(|i| numbers[i]);
-        }
+        let mut triangles = room(count)?;
+        triangles.extend(whole().map(|triangle| triangle.map(|i| numbers[i])));
+        let mesh = Mesh::new(positions, triangles)?;
+        let normals = normals(&mesh, lattice.spacing())?;
         Ok(Triangulation {
             lattice,
             vertices,
-            positions,
-            triangles: numbered,
+            mesh: mesh.with_normals(normals)?,
         })
+    }
+
+    /// The same with colours, given for each vertex of the lattice as [`Mesh::with_colors`] takes
+    /// them; NaN becomes 0.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one for each vertex of the lattice, [`Error::OutOfMemory`].
+    pub fn with_colors(self, colors: &[[f32; 3]]) -> Result<Self> {
+        let colors = self.picked("colours of the surface", colors)?;
+        let mesh = self.mesh.with_colors(colors)?;
+        Ok(Triangulation { mesh, ..self })
+    }
+
+    /// The same with texture coordinates likewise.
+    ///
+    /// # Errors
+    /// As [`Triangulation::with_colors`].
+    pub fn with_uvs(self, uvs: &[[f32; 2]]) -> Result<Self> {
+        let uvs = self.picked("texture coordinates of the surface", uvs)?;
+        let mesh = self.mesh.with_uvs(uvs)?;
+        Ok(Triangulation { mesh, ..self })
     }
 
     /// The lattice.
@@ -86,24 +113,54 @@ impl Triangulation {
 
     /// `x, y, z` of each vertex.
     pub fn positions(&self) -> &[[f64; 3]] {
-        &self.positions
+        self.mesh.positions()
     }
 
     /// The vertices of each triangle, counted from 0 in [`Triangulation::vertices`].
     pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
+        self.mesh.triangles()
     }
 
-    /// Normal of a triangle with its doubled area as length, all in units of the spacing, so that
-    /// it neither over- nor underflows.
-    pub(crate) fn normal(&self, triangle: [u32; 3]) -> [f64; 3] {
-        let [a, b, c] = triangle.map(|v| {
-            self.positions[v as usize].map(|coordinate| coordinate / self.lattice.spacing())
-        });
-        let edge = |to: [f64; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];
-        let ([ux, uy, uz], [vx, vy, vz]) = (edge(b), edge(c));
-        [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
+
+    /// The mesh, without the rest.
+    pub fn into_mesh(self) -> Mesh {
+        self.mesh
+    }
+
+    /// Normal of a triangle with its doubled area as length, in units of the spacing.
+    pub(crate) fn normal(&self, triangle: [u32; 3]) -> [f64; 3] {
+        normal(self.mesh.corners(triangle), self.lattice.spacing())
+    }
+
+    fn picked<const N: usize>(
+        &self,
+        what: &'static str,
+        values: &[[f32; N]],
+    ) -> Result<Vec<[f32; N]>> {
+        check_count(what, self.lattice.len(), N, N * values.len())?;
+        let mut picked = room(self.vertices.len())?;
+        let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
+        picked.extend(
+            self.vertices
+                .iter()
+                .map(|i| values[*i as usize].map(finite)),
+        );
+        Ok(picked)
+    }
+}
+
+fn room<T>(len: usize) -> Result<Vec<T>> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(len)
+        .map_err(|_| Error::OutOfMemory {
+            what: "mesh",
+            bytes: len * size_of::<T>(),
+        })?;
+    Ok(list)
 }
 
 /// Lattice indices of the corners of each triangle with three heights.
@@ -126,6 +183,32 @@ fn whole_triangles(surface: &Heightfield) -> impl Iterator<Item = [usize; 3]> {
         .map(move |triangle| triangle.map(|(row, col)| lattice.index(row as usize, col as usize)))
 }
 
+/// The mean at each vertex of the normals around it, weighted by area.
+fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
+    let mut sums = try_filled("mesh", mesh.positions().len(), [0.0; 3])?;
+    for triangle in mesh.triangles() {
+        let normal = normal(mesh.corners(*triangle), spacing);
+        for vertex in triangle {
+            (0..3).for_each(|k| sums[*vertex as usize][k] += normal[k]);
+        }
+    }
+    let mut normals = room(sums.len())?;
+    normals.extend(sums.into_iter().map(|[x, y, z]: [f64; 3]| {
+        let length = x.hypot(y).hypot(z);
+        [x, y, z].map(|v| (v / length) as f32)
+    }));
+    Ok(normals)
+}
+
+/// Normal of a triangle with its doubled area as length, all in units of the spacing, so that it
+/// neither over- nor underflows.
+fn normal(corners: [[f64; 3]; 3], spacing: f64) -> [f64; 3] {
+    let [a, b, c] = corners.map(|corner| corner.map(|coordinate| coordinate / spacing));
+    let edge = |to: [f64; 3]| [to[0] - a[0], to[1] - a[1], to[2] - a[2]];
+    let ([ux, uy, uz], [vx, vy, vz]) = (edge(b), edge(c));
+    [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_full_lattice_has_two_triangles_for_each_parallelogram() {
-        let triangles = Triangulation::new(&flat(5, 7)).unwrap();
+        let triangles = Triangulation::new(&flat(5, 7), &Frame::default()).unwrap();
         assert_eq!(triangles.vertices().len(), 35);
         assert_eq!(triangles.triangles().len(), 2 * 4 * 6);
         for triangle in triangles.triangles() {
@@ -151,7 +234,8 @@ mod tests {
         let field = flat(5, 7);
         let mut keep = vec![1; 35];
         keep[2 * 7 + 3] = 0;
-        let triangles = Triangulation::new(&field.clone().masked(&keep).unwrap()).unwrap();
+        let triangles =
+            Triangulation::new(&field.clone().masked(&keep).unwrap(), &Frame::default()).unwrap();
         assert_eq!(triangles.triangles().len(), 48 - 6);
         assert_eq!(triangles.vertices().len(), 34);
         assert!(!triangles.vertices().contains(&17));
@@ -165,7 +249,9 @@ mod tests {
     fn without_a_triangle_there_is_no_surface() {
         let column = Heightfield::from_fn(Lattice::new(9, 1, 1.0).unwrap(), |_, _| 0.0).unwrap();
         assert_eq!(
-            Triangulation::new(&column).unwrap_err().code(),
+            Triangulation::new(&column, &Frame::default())
+                .unwrap_err()
+                .code(),
             "UNSUPPORTED"
         );
     }

@@ -43,6 +43,7 @@ use crate::error::{Error, Result, positive, try_filled};
 use crate::heightfield::Heightfield;
 use crate::lattice::ROW;
 use crate::triangulation::Triangulation;
+use crate::view::Frame;
 use arap::Limits;
 pub use distortion::Distortion;
 use distortion::{distortion, stretches};
@@ -165,7 +166,7 @@ impl Unrolling {
 /// any whole triangle, [`Error::Overflow`] for heights out of all proportion to the spacing,
 /// [`Error::OutOfMemory`].
 pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrolling> {
-    unroll_mesh(Triangulation::new(surface)?, options)
+    unroll_mesh(Triangulation::new(surface, &Frame::default())?, options)
 }
 
 /// The same for some of a surface's triangles.

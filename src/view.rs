@@ -15,7 +15,9 @@ pub enum View {
     /// so that what has the largest z is in front. By name, `"-z"`.
     Along([f64; 3]),
     /// Straight at the plane that fits the triangles best (their principal
-    /// axes, weighted by area), from the side that more of their area faces.
+    /// axes, weighted by area), from the side that more of their area faces. Of
+    /// a point cloud the points are fitted, and its larger axis is towards the
+    /// viewer.
     BestFit,
 }
 
@@ -43,6 +45,17 @@ pub struct Frame {
     pub up: [f64; 3],
     /// The axis of the heights, towards the viewer.
     pub towards: [f64; 3],
+}
+
+impl Default for Frame {
+    /// The axes themselves, as seen along `-z`.
+    fn default() -> Self {
+        Frame {
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            towards: [0.0, 0.0, 1.0],
+        }
+    }
 }
 
 impl FromStr for View {
@@ -75,10 +88,13 @@ impl View {
     /// # Errors
     /// [`Error::Option`] if the vector is zero or not finite,
     /// [`Error::Unsupported`] if there is no best-fit plane because all
-    /// triangles are degenerate.
+    /// triangles are degenerate, or all points the same.
     pub fn frame(&self, mesh: &Mesh) -> Result<Frame> {
         match self {
             View::Along(direction) => Frame::looking_along(*direction),
+            View::BestFit if mesh.is_cloud() => {
+                Frame::looking_along((-normal_of_points(mesh)?).into())
+            }
             View::BestFit => Frame::looking_along((-facing_normal(mesh)?).into()),
         }
     }
@@ -182,6 +198,31 @@ fn facing_normal(mesh: &Mesh) -> Result<Vector3<f64>> {
         normal[normal.iamax()]
     };
     Ok(normal * 1f64.copysign(sign))
+}
+
+/// The normal of the plane that fits the points of a cloud best, its largest component positive.
+fn normal_of_points(mesh: &Mesh) -> Result<Vector3<f64>> {
+    let (centre, size) = bounds(mesh);
+    let points = || {
+        let positions = mesh.positions().iter();
+        positions.map(|p| Vector3::from_fn(|k, _| p[k] / size - centre[k] / size))
+    };
+    let count = mesh.positions().len() as f64;
+    let mean = points().sum::<Vector3<f64>>() / count;
+    let spread = points()
+        .map(|p| (p - mean) * (p - mean).transpose())
+        .sum::<Matrix3<f64>>();
+    let eigen = SymmetricEigen::new(spread / count);
+    if eigen.eigenvalues.max() <= 0.0 {
+        return Err(Error::Unsupported {
+            format: "point cloud",
+            reason: "there is no best-fit plane, for all points are the same; give a direction to \
+                     look in"
+                .into(),
+        });
+    }
+    let normal: Vector3<f64> = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into();
+    Ok(normal * 1f64.copysign(normal[normal.iamax()]))
 }
 
 /// Centre and half the longest side of the box around all vertices, never 0.

@@ -1,14 +1,35 @@
 //! The library as JavaScript sees it, behind `pkg/direct.js`: plain objects and
 //! typed arrays in and out, errors with a `code`. Nothing is computed here.
 
+#[cfg(any(feature = "js-files", feature = "meshes"))]
+mod arrays;
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-images",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
+mod bytes;
+#[cfg(feature = "meshes")]
+mod camera;
 #[cfg(feature = "js-solver")]
 mod examples;
-#[cfg(any(feature = "formats", feature = "js-solver", feature = "js-unroll"))]
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-images",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
 mod fields;
-#[cfg(feature = "formats")]
+#[cfg(any(feature = "js-files", feature = "js-images"))]
+mod file;
+#[cfg(feature = "js-files")]
 mod files;
-#[cfg(any(feature = "formats", feature = "meshes"))]
+#[cfg(any(feature = "js-files", feature = "meshes"))]
 mod frame;
+#[cfg(feature = "js-images")]
+mod images;
 #[cfg(feature = "meshes")]
 mod meshes;
 #[cfg(feature = "js-solver")]
@@ -24,6 +45,10 @@ mod sheets;
 mod solver;
 #[cfg(feature = "js-solver")]
 mod source;
+#[cfg(feature = "meshes")]
+mod surfaces;
+#[cfg(any(feature = "js-files", feature = "meshes"))]
+mod triangulation;
 
 use js_sys::Reflect;
 use wasm_bindgen::prelude::*;

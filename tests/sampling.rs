@@ -78,7 +78,7 @@ fn check_against_rays(mesh: &Mesh, samples: &Samples, tolerance: f64) {
                     perhaps.iter().any(|z| (z - height).abs() < 1e-4),
                     "{height} is none of {perhaps:?}"
                 );
-                let corners = corners(mesh, hit.triangle);
+                let corners = corners(mesh, hit.index);
                 let point: Point = std::array::from_fn(|k| {
                     (0..3)
                         .map(|j| f64::from(hit.weights[j]) * corners[j][k])

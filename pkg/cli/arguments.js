@@ -6,15 +6,18 @@ import { commandOf, split, usage } from './flags.js';
 /**
  * @typedef {import('./flags.js').Flag} Flag
  * @typedef {import('./flags.js').Values} Values
+ * @typedef {Exclude<import('./flags.js').Command, 'info'>} WritingCommand
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {'.npy' | '.png' | '.obj' | '.json'} Extension
+ * @typedef {typeof surfaces[number] | '.json'} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
  * @property {string} output
  * @property {Extension} extension the output's
+ * @property {string} [array] of an NPZ file
  * @property {string} [mask]
  * @property {'square' | 'hex' | 'mesh'} lattice where the values are: pixels, the lattice, or a mesh to be sampled
+ * @property {import('../types.js').Intrinsics} [camera] of depths that are to be sampled as a mesh
  * @property {import('../types.js').SampleMeshOptions['view']} [view]
  * @property {number} [resolution]
  * @property {number} [spacing]
@@ -30,7 +33,7 @@ import { commandOf, split, usage } from './flags.js';
  * @property {string} [occlusionMask]
  *
  * @typedef {InputTask & KnownTask & {
- *   command: 'fit' | 'design', report?: string, options: SolverOptions,
+ *   command: 'fit' | 'design', report?: string, texture?: string, options: SolverOptions,
  * }} FitTask
  * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
  * @typedef {Omit<FitTask, 'command'> & { asIs: boolean }} SheetTask `asIs`: without a fit
@@ -39,16 +42,18 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture: string, dots?: number, trim: boolean, map?: string,
  * }} DewarpTask
+ * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
 
+const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const schedules = /** @type {const} */ (['default', 'paper']);
 const energies = /** @type {const} */ (['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm']);
 
-/** What each command can write. @type {Record<import('./flags.js').Command, readonly Extension[]>} */
+/** What each command can write. @type {Record<WritingCommand, readonly Extension[]>} */
 const extensions = {
-  fit: ['.npy', '.png', '.obj'],
-  design: ['.npy', '.png', '.obj'],
+  fit: surfaces,
+  design: surfaces,
   occlusions: ['.png', '.npy'],
   analyze: ['.json'],
   unroll: ['.obj', '.json'],
@@ -60,7 +65,7 @@ const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
- * @returns {FitTask | OcclusionsTask | AnalyzeTask | UnrollTask | DewarpTask | { command: 'help' } | { command: 'version' }}
+ * @returns {FitTask | OcclusionsTask | AnalyzeTask | UnrollTask | DewarpTask | InfoTask | { command: 'help' } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
@@ -71,10 +76,12 @@ export function parse(args) {
   const command = commandOf(name, values);
   if (input === undefined) throw usage('the input is missing');
   if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`);
-  const { output, report, mask, confidence, constraints, texture, map } = values;
+  const { output, report, mask, confidence, constraints, texture, map, array } = values;
+  if (command === 'info') return { command, input, array };
   if (output === undefined) throw usage('the output is missing: -o FILE');
   const read = { mask, confidence, constraints, texture, 'occlusion mask': values['occlusion-mask'] };
-  checkKind(isMesh(input), command, values);
+  const kind = kindOf(input, values);
+  checkKind(kind, command, values);
   if (report !== undefined) apart({ report }, { output, input, map, ...read });
   if (map !== undefined) apart({ map }, { output, input, ...read });
   apart({ output }, read);
@@ -84,8 +91,10 @@ export function parse(args) {
     input,
     output,
     extension: extension('output', output, extensions[command]),
+    array,
     mask,
-    lattice: isMesh(input) ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
+    lattice: kind !== 'image' ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
+    camera: kind === 'depths' ? intrinsics(values) : undefined,
     view: values.view === undefined ? undefined : view(values.view),
     resolution: number('resolution', values),
     spacing: number('spacing', values),
@@ -94,6 +103,9 @@ export function parse(args) {
     normalize: !values['no-normalize'],
   };
   if (command === 'occlusions') return { command, ...about, threshold: number('threshold', values) };
+  if (command === 'fit' && texture !== undefined && about.extension !== '.glb') {
+    throw usage('--texture is for outputs that end in .glb');
+  }
   const free = number('free', values);
   if (free !== undefined && command !== 'design' && constraints === undefined) {
     throw usage('--free says which value of --constraints means free, and there are none');
@@ -106,6 +118,7 @@ export function parse(args) {
     free,
     occlusionMask: values['occlusion-mask'],
     report,
+    texture,
     options: {
       lambda: lambda(values.lambda),
       gap: number('gap', values),
@@ -148,28 +161,61 @@ function apart(written, others) {
 }
 
 /** @param {string} input */
-function isMesh(input) {
+export function isMesh(input) {
   return ['.obj', '.ply', '.stl', '.glb', '.gltf'].includes(extname(input).toLowerCase());
 }
 
-/** Flags that are about the pixels of an image. */
-const OF_IMAGES = /** @type {const} */ ([
-  'lattice', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask',
-]);
+/** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */
+const strangers = {
+  image: ['view', 'resolution', 'ray', 'texture'],
+  mesh: ['lattice', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'ray'],
+  depths: ['lattice', 'height-scale', 'confidence', 'constraints', 'free', 'occlusion-mask'],
+};
+
+const plurals = { image: 'meshes and depths', mesh: 'images', depths: 'heights, and the input is depths' };
 
 /**
- * @param {boolean} mesh whether the input is one
+ * @param {string} input
+ * @param {Values} values
+ */
+function kindOf(input, { intrinsics }) {
+  if (!isMesh(input)) return intrinsics === undefined ? 'image' : 'depths';
+  if (intrinsics === undefined) return 'mesh';
+  throw usage('--intrinsics is for images of depths, and the input is none');
+}
+
+/**
+ * @param {'image' | 'mesh' | 'depths'} kind of the input
  * @param {string} command
  * @param {Values} values
  */
-function checkKind(mesh, command, values) {
-  if (mesh && command === 'design') throw usage('"design" takes constraints, not a mesh');
-  const stray = (mesh ? OF_IMAGES : /** @type {const} */ (['view', 'resolution']))
-    .find((flag) => values[flag] !== undefined);
-  if (stray) throw usage(`--${stray} is for ${mesh ? 'images' : 'meshes'}, and the input is none`);
-  if (mesh && values.spacing !== undefined && values.resolution !== undefined) {
+function checkKind(kind, command, values) {
+  if (kind === 'mesh' && command === 'design') throw usage('"design" takes constraints, not a mesh');
+  // A photo is of whatever is laid flat.
+  const stray = strangers[kind].find((flag) => values[flag] !== undefined && !(flag === 'texture' && command === 'dewarp'));
+  if (stray) throw usage(`--${stray} is for ${plurals[kind]}${kind === 'depths' ? '' : ', and the input is none'}`);
+  if (kind !== 'image' && values.spacing !== undefined && values.resolution !== undefined) {
     throw usage('--resolution and --spacing say the same: give one of them');
   }
+}
+
+/**
+ * Four or five numbers with commas between them.
+ * @param {Values} values
+ * @returns {import('../types.js').Intrinsics}
+ */
+function intrinsics({ intrinsics: text = '', ray }) {
+  const numbers = list(text);
+  if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) {
+    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale, but is "${text}"`);
+  }
+  const [fx, fy, cx, cy, depthScale] = numbers;
+  return { fx, fy, cx, cy, depthScale, depth: ray ? 'ray' : 'planar' };
+}
+
+/** Numbers with commas between them. @param {string} text */
+function list(text) {
+  return text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
 }
 
 /**
@@ -179,7 +225,7 @@ function checkKind(mesh, command, values) {
  */
 function view(text) {
   if (!text.includes(',')) return /** @type {import('../types.js').ViewName} */ (text);
-  const vector = text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
+  const vector = list(text);
   if (vector.length !== 3 || vector.some(Number.isNaN)) {
     throw usage(`--view must be a name or three numbers as in 0,-1,-1, but is "${text}"`);
   }
@@ -232,7 +278,7 @@ function choice(name, value, choices) {
 }
 
 /**
- * @param {Exclude<Flag, 'help' | 'version' | 'no-normalize' | 'as-is' | 'trim'>} name
+ * @param {Exclude<Flag, 'help' | 'version' | 'no-normalize' | 'ray' | 'as-is' | 'trim'>} name
  * @param {Values} values
  * @param {string} [names] what may stand there besides a number
  */

@@ -1,6 +1,6 @@
 /** `developable fit` and `developable design`. */
 import * as developable from '../index.js';
-import { checkPlace, writeWhole } from './files.js';
+import { checkPlace, readBytes, writeWhole } from './files.js';
 import { readInput } from './inputs.js';
 import { announce, percent, progressLine } from './terminal.js';
 
@@ -16,8 +16,9 @@ import { announce, percent, progressLine } from './terminal.js';
 export async function fit(task, signal) {
   await checkPlace(task.output);
   if (task.report !== undefined) await checkPlace(task.report);
+  const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
   const surface = await solve(task, await readInput(task), { signal, transfer: true });
-  const files = [{ path: task.output, bytes: await encode(task, surface) }];
+  const files = [{ path: task.output, bytes: await encode(task, surface, texture) }];
   const { report } = surface;
   if (task.report !== undefined) {
     const text = `${JSON.stringify(report, undefined, 2)}\n`;
@@ -53,11 +54,23 @@ export async function solve(task, input, control) {
 /**
  * @param {FitTask} task
  * @param {Surface} surface
+ * @param {Uint8Array} [texture]
  */
-function encode({ extension }, surface) {
-  if (extension === '.obj') return developable.writeObj(surface);
+function encode({ extension }, surface, texture) {
+  switch (extension) {
+    case '.obj': return developable.writeObj(surface);
+    case '.ply': return developable.writePly(surface);
+    case '.stl': return developable.writeStl(surface);
+    case '.glb': return developable.writeGlb(surface, { texture });
+  }
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.
   const image = surface.image ?? { width: cols, height: rows, data, pixelSize: spacing };
-  return extension === '.png' ? developable.writePng(image) : developable.writeNpy(image);
+  switch (extension) {
+    case '.png': return developable.writePng(image);
+    case '.exr': return developable.writeExr(image);
+    case '.tif':
+    case '.tiff': return developable.writeTiff(image);
+    default: return developable.writeNpy(image);
+  }
 }

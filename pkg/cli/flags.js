@@ -18,6 +18,9 @@ const flags = {
   lattice: text,
   spacing: text,
   'height-scale': text,
+  intrinsics: text,
+  ray: plain,
+  texture: text,
   view: text,
   resolution: text,
   mask: text,
@@ -28,10 +31,10 @@ const flags = {
   free: text,
   occlusions: text,
   threshold: text,
+  array: text,
   'occlusion-mask': text,
   report: text,
   'as-is': plain,
-  texture: text,
   dots: text,
   trim: plain,
   map: text,
@@ -40,25 +43,32 @@ const flags = {
 };
 
 /** @typedef {keyof typeof flags} Flag */
-/** @typedef {'fit' | 'design' | 'occlusions' | 'analyze' | 'unroll' | 'dewarp'} Command */
+/** @typedef {'fit' | 'design' | 'occlusions' | 'analyze' | 'unroll' | 'dewarp' | 'info'} Command */
 
 /** What only a flat image can be told. @type {readonly Flag[]} */
-const ofImages = ['texture', 'dots', 'trim', 'map'];
+const ofImages = ['dots', 'trim', 'map'];
 
 /** What is about flat sheets. @type {readonly Flag[]} */
 const ofSheets = ['as-is', ...ofImages];
 
+/** @type {readonly Flag[]} */
+const general = ['array', 'help', 'version'];
+
 /** What a command does not take. @type {Record<Command, readonly Flag[]>} */
 const foreign = {
   fit: ['threshold', ...ofSheets],
-  design: ['no-data', 'confidence', 'constraints', 'occlusions', 'threshold', ...ofSheets],
+  design: [
+    'intrinsics', 'ray', 'texture', 'no-data', 'confidence', 'constraints', 'occlusions', 'threshold',
+    ...ofSheets,
+  ],
   occlusions: [
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
-    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', ...ofSheets,
+    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture', ...ofSheets,
   ],
-  analyze: [...ofImages, 'report'],
-  unroll: ['threshold', ...ofImages],
+  analyze: ['texture', 'report', ...ofImages],
+  unroll: ['texture', 'threshold', ...ofImages],
   dewarp: ['threshold'],
+  info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
 };
 
 /** @param {string[]} args */

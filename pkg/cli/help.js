@@ -8,21 +8,24 @@ Usage: developable fit INPUT -o OUTPUT [options]
        developable analyze INPUT -o FIGURES [options]
        developable unroll INPUT -o SHEET [options]
        developable dewarp INPUT --texture PHOTO -o IMAGE [options]
+       developable info FILE [--array NAME]
 
 "fit" follows heights, "design" passes through heights and is free elsewhere,
 "occlusions" looks for places where a surface is torn, and prints how many
-vertices it has found. The last three fit a surface first: "analyze" tells how
+vertices it has found. Three commands fit a surface first: "analyze" tells how
 developable it is, beside the input, "unroll" lays it flat, and "dewarp" makes a
-photo of it flat.
+photo of it flat. "info" tells what is in a file, of either kind.
 
-  INPUT                  heights: a grey PNG (8 or 16 bit) or a 2D NumPy array;
-                         or a mesh, of which what is seen from one side is
-                         taken: .obj, .ply, .stl, .glb or .gltf
-  CONSTRAINTS            the same; transparent pixels and NaN are free
-  -o, --output FILE      .npy or .png (heights at the input's pixels) or .obj
-                         (a mesh); the file appears whole or not at all. Of a
-                         mesh, .obj is in its own coordinates, and the others
-                         are heights on the lattice
+  INPUT                  heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture
+                         (PNG, JPEG, WebP); or a mesh or point cloud, of which
+                         what is seen from one side is taken: .obj, .ply, .stl,
+                         .glb, .gltf
+  CONSTRAINTS            heights likewise; transparent pixels and NaN are free
+  -o, --output FILE      .npy, .png, .tif or .exr (heights at the input's
+                         pixels) or .obj, .ply, .stl or .glb (a mesh); the file
+                         appears whole or not at all. Of a mesh, the latter are
+                         in its own coordinates, with its colours and texture
+                         coordinates, the former heights on the lattice
   MASK                   .png or .npy, white (or 1) where the surface is torn
   FIGURES                .json
   SHEET                  .obj (a flat mesh) or .json (with stretch and overlaps)
@@ -54,17 +57,29 @@ How to read the heights
   --spacing S            distance of neighbours on the lattice (default: the
                          size of a pixel: 1 unless the file says otherwise)
   --height-scale S       factor from the file's values to heights (default: what
-                         the file says; for a PNG that says nothing, white is a
-                         quarter of the longer side above black; 1 for NPY)
-  --mask FILE            PNG or NPY of the same shape; 0 takes a value out
+                         the file says, 1 for floats, NPY and NPZ; for other
+                         whole numbers white is a quarter of the longer side
+                         above black)
+  --array NAME           the array of an NPZ file, where it holds several
+  --mask FILE            image of the same shape; 0 takes a value out
   --no-data V            value that means no data, besides NaN
 
 How to look at a mesh
+  --intrinsics fx,fy,cx,cy[,scale]
+                         INPUT holds the depths that a camera with these numbers
+                         (in pixels; the centre of the top left one is 0,0) has
+                         seen; 0 and below are none. It is taken for a mesh, in
+                         which jumps are not bridged; scale makes lengths of
+                         depths. x is to the right, y up, the axis along -z
+  --ray                  depths are from the camera, not along its axis
   --view V               the direction to look in: -x, +x, -y, +y, -z (the
                          default: what has the largest z is in front), +z, a
                          vector as 0,-1,-1, or best-fit: straight at the plane
                          that fits best. Up is near +y (along -y it is -z)
-  --resolution N         vertices along the longer side (default 200)
+  --texture FILE         PNG or JPEG picture with the outline of INPUT, or that
+                         its texture coordinates are about; for .glb
+  --resolution N         vertices along the longer side (default 200; of a point
+                         cloud fewer, to leave each some points)
   --spacing S            their distance instead, in the mesh's unit
 
 What else is known (files of the same shape)

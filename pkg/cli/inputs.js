@@ -16,7 +16,7 @@ import { Problem, status } from './problem.js';
  */
 export async function readInput(task) {
   if (task.lattice === 'mesh') return readSampled(task);
-  const file = await readImage(task.input);
+  const file = await readImage(task.input, task.array);
   const { mask, confidence, constraints, occlusionMask } = task;
   const known = {
     mask: mask && flags(await readBeside('mask', mask, file)),
@@ -51,31 +51,53 @@ export async function readInput(task) {
 }
 
 /** What is seen of a mesh. @param {InputTask} task */
-async function readSampled({ input, view, resolution, spacing }) {
-  const mesh = await decoded(input, developable.readMesh);
-  return developable.sampleMesh(mesh, { view, resolution, spacing });
+async function readSampled(task) {
+  const { view, resolution, spacing } = task;
+  return developable.sampleMesh(await readMesh(task), { view, resolution, spacing });
+}
+
+/**
+ * The mesh itself, or what a depth camera has seen.
+ * @param {InputTask} task
+ */
+async function readMesh({ input, array, camera, mask, noData }) {
+  if (!camera) {
+    const bytes = await readBytes(input);
+    return about(input, () => developable.readMesh(bytes));
+  }
+  const file = await readImage(input, array);
+  const { width, height, data } = file;
+  return developable.backProject({
+    width,
+    height,
+    data,
+    mask: mask === undefined ? undefined : flags(await readBeside('mask', mask, file)),
+    noData: asStored(noData, file),
+  }, camera);
 }
 
 /**
  * @param {string} path
+ * @param {string} [array] of an NPZ file
  * @returns {Promise<ReadResult>}
  */
-function readImage(path) {
-  return decoded(path, developable.read);
+async function readImage(path, array) {
+  const bytes = await readBytes(path);
+  return about(path, () => developable.read(bytes, { array }));
 }
 
 /**
+ * Names the file in what is wrong with it.
  * @template T
  * @param {string} path
- * @param {(bytes: Uint8Array) => Promise<T>} read
+ * @param {() => Promise<T>} read
  */
-export async function decoded(path, read) {
-  const bytes = await readBytes(path);
+export async function about(path, read) {
   try {
-    return await read(bytes);
+    return await read();
   } catch (error) {
     if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${error.message}`);
+      throw new Problem(status.input, `${path}: ${error.message.replace('the option `array`', '--array')}`);
     }
     throw error;
   }

@@ -6,6 +6,7 @@ import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
 import { fit } from './fit.js';
 import { help } from './help.js';
+import { info } from './info.js';
 import { occlusions } from './occlusions.js';
 import { analyze, dewarp, unroll } from './sheets.js';
 
@@ -44,6 +45,8 @@ async function perform(task, signal) {
     case 'version':
       process.stdout.write(`${await version()}\n`);
       return;
+    case 'info':
+      return info(task);
     case 'occlusions':
       return occlusions(task, signal);
     case 'analyze':

@@ -1,8 +1,8 @@
 /** `developable analyze`, `developable unroll` and `developable dewarp`. */
 import * as developable from '../index.js';
-import { checkPlace, writeWhole } from './files.js';
+import { checkPlace, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
-import { decoded, readInput } from './inputs.js';
+import { about, readInput } from './inputs.js';
 
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
@@ -48,7 +48,8 @@ export async function unroll(task, signal) {
  */
 export async function dewarp(task, signal) {
   await checkPlaces(task.output, task.report, task.map);
-  const photo = await decoded(task.texture, developable.readPhoto);
+  const bytes = await readBytes(task.texture);
+  const photo = await about(task.texture, () => developable.readPhoto(bytes));
   const { surface, options } = await flattened(task, signal);
   const { dots, trim } = task;
   const flat = await developable.dewarp(surface, photo, { ...options, dots, trim });

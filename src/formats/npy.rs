@@ -86,9 +86,34 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         height,
         values,
         pixel_size: 1.0,
+        unit: None,
         height_scale: 1.0,
         data_type,
     })
+}
+
+/// Shape and type of the array in a file that may end after the header.
+#[cfg(feature = "images")]
+pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
+    if Format::detect(bytes) != Some(Format::Npy) {
+        return Err(damaged("it does not begin like an NPY file".into()));
+    }
+    let start = check_header(bytes)?;
+    let header = NpyHeader::from_reader(&bytes[..start]).map_err(|e| damaged(e.to_string()))?;
+    let data_type = match header.dtype() {
+        DType::Plain(plain) => {
+            let bits = plain.size_field().saturating_mul(8);
+            match plain.type_char() {
+                TypeChar::Bool => "bool".into(),
+                TypeChar::Int => format!("i{bits}"),
+                TypeChar::Uint => format!("u{bits}"),
+                TypeChar::Float => format!("f{bits}"),
+                _ => header.dtype().descr().trim_matches('\'').into(),
+            }
+        }
+        other => other.descr(),
+    };
+    Ok((header.shape().to_vec(), data_type))
 }
 
 /// Where the data begin, once the header is known to be harmless to parse.

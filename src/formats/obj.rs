@@ -1,34 +1,22 @@
-//! Wavefront OBJ: the lattice as a triangle mesh.
+//! Wavefront OBJ: a mesh as text.
 
 use std::io::{self, Write};
 
 use super::Buffer;
-use crate::error::{Result, try_filled};
+use crate::error::Result;
 use crate::heightfield::Heightfield;
+use crate::mesh::Mesh;
 use crate::triangulation::Triangulation;
 use crate::view::Frame;
 
-/// An OBJ file of the surface: every lattice triangle whose three vertices have
-/// heights, counter-clockwise seen from above (from +z), and only the vertices
-/// these use, with a normal each.
-///
-/// Positions are `x y z` as in the lattice: `x` to the right, `y` up the image,
-/// `z` the height, all in the same unit, with as many digits as it takes to
-/// read back the same 64-bit floats. Normals are the means of those of the
-/// triangles around, weighted by area.
-///
-/// Costs `O(vertices)`.
+/// An OBJ file of the surface, as [`write_obj_mesh`] writes its
+/// [`Triangulation`]: positions are `x y z` as in the lattice, `x` to the right,
+/// `y` up the image, `z` the height, all in the same unit.
 ///
 /// # Errors
-/// [`Error::Unsupported`](crate::Error::Unsupported) if there is no whole triangle,
-/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+/// As [`Triangulation::new`].
 pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
-    let own = Frame {
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
-        towards: [0.0, 0.0, 1.0],
-    };
-    write_obj_in(surface, &own)
+    write_obj_in(surface, &Frame::default())
 }
 
 /// An OBJ file of a surface over what was seen of a mesh, turned back to the mesh's own axes: as
@@ -37,49 +25,50 @@ pub fn write_obj(surface: &Heightfield) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`write_obj`].
 pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
-    let mesh = Triangulation::new(surface)?;
-    let mut normals = try_filled("OBJ file", mesh.vertices().len(), [0.0; 3])?;
-    for triangle in mesh.triangles() {
-        let normal = mesh.normal(*triangle);
-        for vertex in triangle {
-            (normals[*vertex as usize].iter_mut().zip(normal)).for_each(|(sum, n)| *sum += n);
-        }
-    }
+    write_obj_mesh(Triangulation::new(surface, frame)?.mesh())
+}
+
+/// An OBJ file of a mesh: positions with as many digits as it takes to read back the same 64-bit
+/// floats, then what the mesh has of colours (three more numbers for each vertex, which not all
+/// readers know), texture coordinates and normals.
+///
+/// Costs `O(vertices + triangles)`.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_obj_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
     let mut file = Buffer::default();
-    let written = write(&mut file, &mesh, frame, &normals);
+    let written = write(&mut file, mesh);
     file.finish("OBJ file", written)
 }
 
-fn write(
-    file: &mut Buffer,
-    mesh: &Triangulation,
-    frame: &Frame,
-    normals: &[[f64; 3]],
-) -> io::Result<()> {
-    let Frame { right, up, towards } = frame;
-    writeln!(
-        file,
-        "# height surface: {right:?} to the right, {up:?} up, {towards:?} the height"
-    )?;
-    for position in mesh.positions() {
-        let [x, y, z] = frame.unview(*position);
-        writeln!(file, "v {x} {y} {z}")?;
+fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
+    for (i, [x, y, z]) in mesh.positions().iter().enumerate() {
+        write!(file, "v {x} {y} {z}")?;
+        match mesh.colors() {
+            Some(colors) => {
+                let [r, g, b] = colors[i];
+                writeln!(file, " {r} {g} {b}")?;
+            }
+            None => writeln!(file)?,
+        }
     }
-    for normal in normals {
-        let [x, y, z] = frame.unview(*normal);
-        let length = x.hypot(y).hypot(z);
-        writeln!(
-            file,
-            "vn {:.6} {:.6} {:.6}",
-            x / length,
-            y / length,
-            z / length
-        )?;
+    for [u, v] in mesh.uvs().unwrap_or_default() {
+        writeln!(file, "vt {u} {v}")?;
     }
+    for [x, y, z] in mesh.normals().unwrap_or_default() {
+        writeln!(file, "vn {x:.6} {y:.6} {z:.6}")?;
+    }
+    let corner: fn(u32) -> String = match (mesh.uvs(), mesh.normals()) {
+        (Some(_), Some(_)) => |i| format!("{i}/{i}/{i}"),
+        (Some(_), None) => |i| format!("{i}/{i}"),
+        (None, Some(_)) => |i| format!("{i}//{i}"),
+        (None, None) => |i| format!("{i}"),
+    };
     for triangle in mesh.triangles() {
-        // The file counts from 1.
-        let [a, b, c] = triangle.map(|v| v + 1);
-        writeln!(file, "f {a}//{a} {b}//{b} {c}//{c}")?;
+        // Counted from 1.
+        let [a, b, c] = triangle.map(|i| corner(i + 1));
+        writeln!(file, "f {a} {b} {c}")?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use ::png::{
     Transformations, text_metadata::TEXtChunk,
 };
 
-use super::{Buffer, Decoded, Format};
+use super::{Buffer, Decoded, Format, coloured, suggested_scale};
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::heightfield::HeightImage;
 
@@ -16,9 +16,6 @@ const DECODER_BYTES: usize = 1 << 28;
 
 /// The most that DEFLATE can shrink anything.
 const DEFLATE_RATIO: usize = 1032;
-
-/// Share of the longer side that black to white spans where no scale is recorded.
-const SUGGESTED_RELIEF: f64 = 0.25;
 
 /// Keywords of our own text chunks:
 /// `height = HEIGHT_SCALE · level + HEIGHT_OFFSET`, `NO_DATA` is the level that means none.
@@ -112,15 +109,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         if matches!(color, ColorType::Rgb | ColorType::Rgba)
             && (sample(0) != sample(1) || sample(0) != sample(2))
         {
-            return Err(Error::Unsupported {
-                format: "PNG",
-                reason: format!(
-                    "the pixel at row {}, column {} has a colour, from which no height follows; \
-                     grey images are read (grey, or RGB and palettes with grey pixels only)",
-                    i / width,
-                    i % width
-                ),
-            });
+            return Err(coloured("PNG", i, width));
         }
         *z = f64::from(sample(0));
     }
@@ -134,7 +123,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     }
     let height_scale = recorded
         .scale
-        .unwrap_or(SUGGESTED_RELIEF * width.max(height) as f64 / full);
+        .unwrap_or(suggested_scale(width, height, full));
     if let Some(offset) = recorded.offset {
         values.iter_mut().for_each(|z| *z += offset / height_scale);
     }
@@ -144,6 +133,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         height,
         values,
         pixel_size: recorded.pixel_size.unwrap_or(1.0),
+        unit: None,
         height_scale,
         data_type,
     })

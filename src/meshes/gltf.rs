@@ -121,9 +121,9 @@ fn add(
     let mode = primitive.mode();
     if !matches!(
         mode,
-        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
+        Mode::Points | Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
     ) {
-        return Ok(()); // points and lines
+        return Ok(()); // lines
     }
     let Some(positions) = primitive.get(&Semantic::Positions) else {
         return Ok(());
@@ -142,9 +142,14 @@ fn add(
     }
     if let Some(uvs) = primitive.get(&Semantic::TexCoords(0)) {
         let uvs = floats::<2>(&uvs, buffers)?;
-        parts
-            .uvs
-            .extend(uvs.iter().take(vertices).map(|c| c.map(|v| v as f32)));
+        parts.uvs.extend(
+            uvs.iter()
+                .take(vertices)
+                .map(|[u, v]| [*u as f32, (1.0 - v) as f32]),
+        );
+    }
+    if mode == Mode::Points {
+        return Ok(());
     }
     let indices = match primitive.indices() {
         Some(accessor) => whole(&accessor, buffers)?,

@@ -1,12 +1,19 @@
-//! The Stanford format, by way of `ply-rs-bw`.
+//! The Stanford format, in and out, by way of `ply-rs-bw`.
 
-use std::io::Cursor;
+use std::io::{self, Cursor};
 
 use ply_rs_bw::parser::{Parser, Reader};
-use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{
+    Addable, ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
+    PropertyDef, PropertyType, ScalarType,
+};
+use ply_rs_bw::writer::Writer;
 
+use super::narrow::byte;
 use super::{Parts, damaged, unsupported};
+use crate::buffer::Buffer;
 use crate::error::Result;
+use crate::mesh::Mesh;
 
 pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
     let mut reader = Reader::new(Cursor::new(bytes));
@@ -149,5 +156,135 @@ impl PropertyAccess for Face {
         }
         self.0 = property.to_u32_list();
         PropertyAccessResult::Set
+    }
+}
+
+/// A PLY file (binary, little-endian) of a mesh.
+///
+/// Positions are written as 64-bit floats, exactly; normals and texture
+/// coordinates (`s`, `t`) as 32-bit floats; colours as bytes, 0 to 255 for 0 to
+/// 1. What the mesh does not have is left out. Costs `O(vertices + triangles)`.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) from 2³¹ vertices,
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_ply(mesh: &Mesh) -> Result<Vec<u8>> {
+    if mesh.positions().len() > i32::MAX as usize {
+        return Err(unsupported("PLY", "more than 2³¹ vertices are not written"));
+    }
+    let mut file = Buffer::default();
+    let written = write(&mut file, mesh);
+    file.finish("PLY file", written)
+}
+
+fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
+    let mut properties = vec![(["x", "y", "z"].as_slice(), ScalarType::Double)];
+    if mesh.normals().is_some() {
+        properties.push((&["nx", "ny", "nz"], ScalarType::Float));
+    }
+    if mesh.colors().is_some() {
+        properties.push((&["red", "green", "blue"], ScalarType::UChar));
+    }
+    if mesh.uvs().is_some() {
+        properties.push((&["s", "t"], ScalarType::Float));
+    }
+    let mut vertex = ElementDef::new("vertex".into());
+    vertex.count = mesh.positions().len();
+    for (names, kind) in properties {
+        for name in names {
+            let kind = PropertyType::Scalar(kind.clone());
+            vertex
+                .properties
+                .add(PropertyDef::new((*name).into(), kind));
+        }
+    }
+    let mut face = ElementDef::new("face".into());
+    face.count = mesh.triangles().len();
+    let list = PropertyType::List(ScalarType::UChar, ScalarType::Int);
+    face.properties
+        .add(PropertyDef::new("vertex_indices".into(), list));
+
+    let mut header = Header::new();
+    header.encoding = Encoding::BinaryLittleEndian;
+    header.elements.add(vertex.clone());
+    header.elements.add(face.clone());
+    let writer = Writer::<Element>::new();
+    writer.write_header(file, &header)?;
+    for i in 0..mesh.positions().len() {
+        writer.write_little_endian_element(file, &Element::vertex(mesh, i), &vertex)?;
+    }
+    for triangle in mesh.triangles() {
+        let corners = Element::Triangle(triangle.map(|i| i as i32));
+        writer.write_little_endian_element(file, &corners, &face)?;
+    }
+    Ok(())
+}
+
+/// What is being written.
+enum Element {
+    Vertex {
+        position: [f64; 3],
+        normal: [f32; 3],
+        color: [u8; 3],
+        uv: [f32; 2],
+    },
+    Triangle([i32; 3]),
+}
+
+impl Element {
+    fn vertex(mesh: &Mesh, i: usize) -> Self {
+        Element::Vertex {
+            position: mesh.positions()[i],
+            normal: mesh.normals().map_or([0.0; 3], |n| n[i]),
+            color: mesh.colors().map_or([0; 3], |c| c[i].map(byte)),
+            uv: mesh.uvs().map_or([0.0; 2], |uv| uv[i]),
+        }
+    }
+}
+
+impl PropertyAccess for Element {
+    fn new() -> Self {
+        Element::Triangle([0; 3])
+    }
+
+    fn get_double(&self, name: &str) -> Option<f64> {
+        let Element::Vertex { position, .. } = self else {
+            return None;
+        };
+        ["x", "y", "z"]
+            .iter()
+            .position(|axis| *axis == name)
+            .map(|k| position[k])
+    }
+
+    fn get_float(&self, name: &str) -> Option<f32> {
+        let Element::Vertex { normal, uv, .. } = self else {
+            return None;
+        };
+        Some(match name {
+            "nx" => normal[0],
+            "ny" => normal[1],
+            "nz" => normal[2],
+            "s" => uv[0],
+            "t" => uv[1],
+            _ => return None,
+        })
+    }
+
+    fn get_uchar(&self, name: &str) -> Option<u8> {
+        let Element::Vertex { color, .. } = self else {
+            return None;
+        };
+        ["red", "green", "blue"]
+            .iter()
+            .position(|channel| *channel == name)
+            .map(|k| color[k])
+    }
+
+    fn get_list_int(&self, _: &str) -> Option<&[i32]> {
+        match self {
+            Element::Triangle(corners) => Some(corners),
+            Element::Vertex { .. } => None,
+        }
     }
 }

@@ -1,11 +1,15 @@
-//! Stereolithography, by way of `stl_io`.
+//! Stereolithography, in and out, by way of `stl_io`.
 
 use std::io::Cursor;
 
-use stl_io::create_stl_reader;
+use nalgebra::Vector3;
+use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
-use super::{Parts, damaged};
+use super::narrow::narrowed;
+use super::{Parts, damaged, unsupported};
+use crate::buffer::Buffer;
 use crate::error::Result;
+use crate::mesh::Mesh;
 
 /// Bytes before the triangles of a binary file, and of each triangle.
 const HEADER: usize = 84;
@@ -82,4 +86,44 @@ fn collect(bytes: &[u8], parts: &mut Parts) -> Result<()> {
         parts.triangle([start, start + 1, start + 2])?;
     }
     Ok(())
+}
+
+/// A binary STL file of a mesh's triangles, each with its own normal; positions are rounded to
+/// 32-bit floats.
+///
+/// Costs `O(triangles)`.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) for a point cloud,
+/// [`Error::NotFinite`](crate::Error::NotFinite) for a position beyond what 32 bits hold,
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_stl(mesh: &Mesh) -> Result<Vec<u8>> {
+    if mesh.is_cloud() {
+        return Err(unsupported(
+            "STL",
+            "it holds triangles, and a point cloud has none",
+        ));
+    }
+    let positions = narrowed("STL file", mesh)?;
+    let triangles = mesh.triangles().iter().map(|triangle| Triangle {
+        normal: Normal::new(normal(mesh.corners(*triangle))),
+        vertices: triangle.map(|i| Vertex::new(positions[i as usize])),
+    });
+    let mut file = Buffer::default();
+    let written = stl_io::write_stl(&mut file, triangles);
+    file.finish("STL file", written)
+}
+
+/// Of length 1, or 0 for a degenerate triangle.
+fn normal(corners: [[f64; 3]; 3]) -> [f32; 3] {
+    let [a, b, c] = corners.map(Vector3::from);
+    let (u, v) = (b - a, c - a);
+    // Scaled first: products would over- or underflow.
+    let across = (u / u.amax()).cross(&(v / v.amax()));
+    let normal = across.try_normalize(0.0).unwrap_or_default();
+    if normal.iter().all(|v| v.is_finite()) {
+        normal.map(|v| v as f32).into()
+    } else {
+        [0.0; 3]
+    }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::ascent::Ascent;
 use super::balance::balanced_bound;
 use super::cg::ConjugateGradients;
 use super::problem::Problem;
@@ -21,6 +22,7 @@ pub(crate) struct Level {
     pub seconds: Seconds,
     plan: Plan,
     cg: ConjugateGradients,
+    ascent: Option<Ascent>,
     /// Conjugate-gradient iterations of the z-step under way, and of its current round.
     z_step: usize,
     round: usize,
@@ -105,7 +107,6 @@ impl Level {
         state.update(&problem, 0.0, &mut cg);
         let mut best = Best::new(&state.z, &certificate);
         best.take_input(&problem);
-        let reason = plan.stop(&problem, 0, &certificate, 0.0, best.objective(), best.gap());
         let mut level = Level {
             problem,
             state,
@@ -114,6 +115,7 @@ impl Level {
             plan,
             first_energy: cg.energy(),
             cg,
+            ascent: None,
             z_step: 0,
             round: 0,
             iteration: 0,
@@ -121,6 +123,11 @@ impl Level {
             tuned: 0,
             cg_iterations: 0,
         };
+        level.climb()?;
+        let (objective, gap) = (level.best.objective(), level.best.gap());
+        let reason = level
+            .plan
+            .stop(&level.problem, 0, &certificate, 0.0, objective, gap);
         level.seconds.setup = start.elapsed().as_secs_f64();
         Ok((level, reason))
     }
@@ -202,8 +209,9 @@ impl Level {
         if self.plan.follows_normals {
             self.problem.take_normals(&self.state.z)?;
         }
-        let (state, relaxation) = (&mut self.state, self.plan.relaxation);
         let check = self.plan.is_check(self.iteration);
+        let relaxation = self.plan.relaxation(self.iteration);
+        let state = &mut self.state;
         let change = if check && self.plan.measures_change(&self.problem) {
             state.update_and_measure(&self.problem, relaxation, &mut self.cg)
         } else {
@@ -241,6 +249,7 @@ impl Level {
         } else {
             self.best.take(&self.state.z, &certificate);
         }
+        self.climb()?;
         let reason = self.plan.stop(
             &self.problem,
             self.iteration,
@@ -261,6 +270,22 @@ impl Level {
             self.first_energy = self.cg.energy();
         }
         Ok(reason)
+    }
+
+    /// Looks for a better bound with this iterate, if that is worth it.
+    fn climb(&mut self) -> Result<()> {
+        if !self.plan.climbs(&self.problem, self.best.gap()) {
+            return Ok(());
+        }
+        let (objective, bound) = (self.best.objective(), self.best.dual_bound);
+        let goal = self.plan.bound_wanted(objective);
+        let ascent = match &mut self.ascent {
+            Some(ascent) => ascent,
+            none => none.insert(Ascent::new(&self.problem)?),
+        };
+        let marks = [bound, goal, objective];
+        self.best.dual_bound = ascent.climb(&mut self.state, &self.problem, marks);
+        Ok(())
     }
 
     /// Another pass, in which every vertex's norm is weighted by one over its

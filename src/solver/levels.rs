@@ -4,7 +4,9 @@
 //! Coarse vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`, and every other
 //! fine vertex is the midpoint of a coarse edge. Since both terms of the energy
 //! are plain sums over vertices, λ stays; the dual is bounded by 1 whatever the
-//! resolution, so `Y` and `H` carry over by linear interpolation as `z` does.
+//! resolution, so `Y` and `H` carry over as they are. `z` is interpolated linearly, which
+//! keeps creases; `Y` more smoothly, by the rules of Loop's subdivision surfaces, for every kink of it
+//! is a residual.
 
 use super::problem::Problem;
 use super::state::State;
@@ -15,6 +17,7 @@ use crate::heightfield::Heightfield;
 use crate::input::Input;
 use crate::lattice::{Lattice, NEIGHBOURS, Towards};
 use crate::occlusions::Occlusions;
+use crate::spectral::Sym2;
 
 /// The input on the lattice of twice the spacing. A coarse vertex is valid where
 /// its fine vertex is; its height is the mean, by confidence, over the opposite
@@ -141,18 +144,18 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
             state.z[i] = 0.5 * (from.z[a] + from.z[b]);
         }
         if fine.domain.roles()[i] == Role::Interior {
-            let found = [interior(a), interior(b)];
-            let n = found.iter().flatten().count();
-            if n > 0 {
-                let weight = 1.0 / n as f64;
-                let halves = found
-                    .into_iter()
-                    .flatten()
-                    .map(|cell| from.matrices(coarse, cell));
-                let (dual, hessian) = halves.fold(Default::default(), |(y, h), (dy, dh)| {
-                    (y + dy.scale(weight), h + dh.scale(weight))
-                });
-                state.set_matrices(i, dual, hessian);
+            let (mut dual, mut hessian, mut total) = (Sym2::default(), Sym2::default(), 0.0);
+            for (vertex, weight) in loop_weights(a, b) {
+                let Some(cell) = interior(vertex) else {
+                    continue;
+                };
+                let (y, h) = from.matrices(coarse, cell);
+                dual = dual + y.scale(weight);
+                hessian = hessian + h.scale(weight);
+                total += weight;
+            }
+            if total > 0.0 {
+                state.set_matrices(i, dual.scale(1.0 / total), hessian.scale(1.0 / total));
             }
         }
     }
@@ -160,6 +163,22 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
         state.z[*cell as usize] = fine.target[*cell as usize];
     }
     Ok(state)
+}
+
+/// Coarse vertices that a fine one between `a` and `b` takes from, and their weights (Loop 1987):
+/// of a coarse vertex itself and its neighbours, or of an edge's ends and the vertices opposite.
+fn loop_weights(
+    a: (isize, isize),
+    b: (isize, isize),
+) -> impl Iterator<Item = ((isize, isize), f64)> {
+    let around = |(row, col)| NEIGHBOURS.map(|t: Towards| t.step(row, col));
+    let (ends, far) = if a == b { (10.0, 1.0) } else { (3.0, 1.0) };
+    let own = [(a, ends), (b, if a == b { 0.0 } else { ends })];
+    let others = around(a)
+        .into_iter()
+        .filter(move |v| a == b || around(b).contains(v))
+        .map(move |v| (v, far));
+    own.into_iter().chain(others)
 }
 
 /// The padded box's cell of a lattice vertex, if its role is wanted.

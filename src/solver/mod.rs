@@ -1,6 +1,7 @@
 //! ADMM for the nuclear norm of the Hessian (paper, Sec. 4.1), with a certified
 //! duality gap.
 
+mod ascent;
 mod balance;
 mod border;
 mod cg;

@@ -1,6 +1,7 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
+use super::law::Kind;
 use super::options::{Energy, Options, Schedule};
 use super::problem::Problem;
 use super::report::StopReason;
@@ -11,7 +12,7 @@ use super::state::Certificate;
 pub(crate) struct Plan {
     schedule: Schedule,
     /// Over-relaxation of `Cz` in the H-step and the dual update.
-    pub relaxation: f64,
+    relaxation: f64,
     /// Conjugate-gradient iterations in a z-step, at most; while the gap is above [`ROUGH`]; in
     /// the first one of a level; and where vertices are free, for there one V-cycle does less.
     cg_iterations: usize,
@@ -20,8 +21,9 @@ pub(crate) struct Plan {
     cg_free: usize,
     /// Residual, relative to `2λ z̃`, at which a z-step is solved; 0 if it need not be.
     pub cg_tolerance: f64,
-    /// Iterations from one certificate to the next.
+    /// Iterations from one certificate to the next, and at the beginning.
     check_every: usize,
+    check_first: usize,
     /// ρ changes when one relative residual exceeds the other by this factor.
     imbalance: f64,
     gap: f64,
@@ -41,9 +43,10 @@ const RELATIVE: f64 = 1e-3;
 const COARSEST: usize = 500;
 
 /// Relative residuals are balanced at primal = BALANCE · dual: the dual residual is
-/// measured behind `Cᵀ`, which weighs its highest frequencies most. Fewest iterations
-/// over three λ and two gaps on a scan; 1 took three times as many to a gap of 0.1 %.
-const BALANCE: f64 = 0.15;
+/// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound
+/// least, since `ascent` takes them away. Over three λ on a scan, 0.15 took 460, 210 and 90
+/// iterations to a gap of 0.1 %, 0.08 400, 150 and 90, this 270, 160 and 100.
+const BALANCE: f64 = 0.05;
 
 /// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
 /// the former is less than this share of it: from 860, 2630, 540 and 600 iterations to a gap of 0.1 %
@@ -58,11 +61,20 @@ const FREE_BALANCE: f64 = 10.0;
 /// ADMM iterations over three λ to 80, 40 and 20. Below, it only doubles the work.
 const ROUGH: f64 = 0.01;
 
+/// From one level to the next; 0.5 and 1 take as many iterations, 0.35 half as many again.
+const FINER: f64 = 0.7;
+
 /// Longest screening length of the z-step, in sizes of the domain.
 const SCREENING: f64 = 0.1;
 
 /// The same in cells: its fourth power is the condition number, and single precision ends at 10⁷.
 const CELLS: f64 = 16.0;
+
+/// Most of what a search for a better bound divides the gap by.
+const CLIMBABLE: f64 = 16.0;
+
+/// Iterations in which certificates are taken more often.
+const BEGINNING: usize = 30;
 
 /// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
 const COARSE_GAP: f64 = 0.01;
@@ -79,6 +91,7 @@ impl Plan {
             cg_first: 3,
             cg_tolerance: 0.0,
             check_every: 10,
+            check_first: 5,
             imbalance: 3.0,
             gap: options.gap,
             max_iterations: options.max_iterations,
@@ -93,6 +106,7 @@ impl Plan {
                 cg_free: 5000,
                 cg_first: 5000,
                 cg_tolerance: 1e-8,
+                check_first: 10,
                 imbalance: 5000.0,
                 ..common
             },
@@ -128,7 +142,7 @@ impl Plan {
 
     /// The penalty to go on with on the lattice of half the spacing.
     pub(crate) fn finer_rho(&self, rho: f64, fine: &Problem) -> f64 {
-        self.within_bounds(0.5 * rho, fine)
+        self.within_bounds(FINER * rho, fine)
     }
 
     /// Where the optimum is nearly affine the relative primal residual stays at 1, and
@@ -165,7 +179,37 @@ impl Plan {
 
     /// Whether a certificate is due.
     pub(crate) fn is_check(&self, iteration: usize) -> bool {
-        iteration.is_multiple_of(self.check_every) || self.is_last(iteration)
+        let every = if iteration <= BEGINNING {
+            self.check_first
+        } else {
+            self.check_every
+        };
+        iteration.is_multiple_of(every) || self.is_last(iteration)
+    }
+
+    /// Over-relaxation leaves nearly all of the highest frequencies of a residual, with the opposite
+    /// sign. An iteration without takes them away, where the start is full of them and where the
+    /// bound is to be taken.
+    pub(crate) fn relaxation(&self, iteration: usize) -> f64 {
+        if iteration == 1 || self.is_check(iteration) {
+            1.0
+        } else {
+            self.relaxation
+        }
+    }
+
+    /// Whether an iterate of such a gap is worth the search for a better bound.
+    pub(crate) fn climbs(&self, problem: &Problem, gap: f64) -> bool {
+        self.schedule == Schedule::Default
+            && problem.kind == Kind::Nuclear
+            && problem.free.is_empty()
+            && gap > self.gap
+            && gap < CLIMBABLE * self.gap
+    }
+
+    /// The bound that would end the iterations.
+    pub(crate) fn bound_wanted(&self, objective: f64) -> f64 {
+        (1.0 - self.gap) * objective
     }
 
     /// Whether the certificate is to be balanced, which costs as much as some tens of iterations:

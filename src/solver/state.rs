@@ -24,7 +24,7 @@ pub(crate) struct State {
     pub rho: f64,
     pub(super) rolling: Rolling<f64>,
     /// A row of what the certificate sums, over matrices and over heights.
-    terms: [Terms; 2],
+    pub(super) terms: [Terms; 2],
 }
 
 type Terms = [Vec<f64>; SUMS];
@@ -60,6 +60,16 @@ pub(super) struct MatrixRun<'a> {
 }
 
 impl MatrixField {
+    /// Zeros.
+    pub(super) fn new(problem: &Problem) -> Result<Self> {
+        let zeros = || try_filled("Hessians and dual", problem.domain.cells(), 0.0);
+        Ok(MatrixField {
+            mean: zeros()?,
+            diff: zeros()?,
+            off: zeros()?,
+        })
+    }
+
     #[inline(always)]
     pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
         let n = run.end - run.start;
@@ -82,7 +92,7 @@ impl MatrixRun<'_> {
     }
 
     #[inline(always)]
-    fn set(&mut self, i: usize, value: Sym2) {
+    pub(super) fn set(&mut self, i: usize, value: Sym2) {
         self.mean[i] = value.mean;
         self.diff[i] = value.diff;
         self.off[i] = value.off;
@@ -119,16 +129,11 @@ impl Certificate {
 impl State {
     /// `z = z̃`, `H = U = 0`.
     pub(crate) fn new(problem: &Problem, rho: f64) -> Result<Self> {
-        let zeros = || try_filled("Hessians and dual", problem.domain.cells(), 0.0);
         let mut z = try_filled("heights", problem.domain.cells(), 0.0)?;
         z.copy_from_slice(&problem.target);
         Ok(State {
             z,
-            v: MatrixField {
-                mean: zeros()?,
-                diff: zeros()?,
-                off: zeros()?,
-            },
+            v: MatrixField::new(problem)?,
             rho,
             rolling: Rolling::new(&problem.domain),
             terms: std::array::from_fn(|_| {

@@ -93,7 +93,7 @@ pub(super) fn lay_upright(mesh: &Triangulation, parts: &[u32], count: usize, pla
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Heightfield, Lattice};
+    use crate::{Frame, Heightfield, Lattice};
 
     #[test]
     fn parts_are_upright_again_however_they_were_turned() {
@@ -106,7 +106,7 @@ mod tests {
                 },
             )
             .unwrap();
-        let mesh = Triangulation::new(&field).unwrap();
+        let mesh = Triangulation::new(&field, &Frame::default()).unwrap();
         let (parts, count) = parts(&mesh).unwrap();
         assert_eq!(count, 2);
         assert_eq!(parts[0], 1, "the one to the left is smaller");

@@ -7,7 +7,20 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use crate::error::{Error, check_shape, try_filled};
-use crate::heightfield::{HeightImage, Heightfield};
+use crate::heightfield::HeightImage;
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
+use crate::heightfield::Heightfield;
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
 use crate::lattice::Lattice;
 
 /// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
@@ -20,18 +33,30 @@ pub(super) struct ImageInput {
     pub(super) data: JsValue,
     #[serde(default, with = "preserve")]
     mask: JsValue,
-    no_data: Option<f64>,
+    pub(super) no_data: Option<f64>,
     pixel_size: Option<f64>,
+    #[cfg(any(
+        feature = "js-files",
+        feature = "js-images",
+        feature = "js-solver",
+        feature = "js-unroll"
+    ))]
     height_scale: Option<f64>,
 }
 
 impl ImageInput {
-    #[cfg(feature = "formats")]
+    #[cfg(any(feature = "js-files", feature = "js-images"))]
     pub(super) fn into_image(self) -> Result<HeightImage> {
         self.heights("height image", &self.data)
     }
 
     /// Heights at the pixels, in units of length, within the mask.
+    #[cfg(any(
+        feature = "js-files",
+        feature = "js-images",
+        feature = "js-solver",
+        feature = "js-unroll"
+    ))]
     pub(super) fn heights(&self, what: &'static str, data: &JsValue) -> Result<HeightImage> {
         let values = values(what, self.height, self.width, data, self.no_data)?;
         Ok(self
@@ -52,6 +77,12 @@ impl ImageInput {
 }
 
 /// `Heightfield` of `types.d.ts`, without what only a solve wants to know.
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct LatticeInput {
@@ -64,12 +95,16 @@ pub(super) struct LatticeInput {
     #[serde(default, with = "preserve")]
     mask: JsValue,
     no_data: Option<f64>,
-    #[cfg(feature = "formats")]
-    pub(super) frame: Option<super::frame::FrameFields>,
 }
 
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
 impl LatticeInput {
-    #[cfg(feature = "formats")]
+    #[cfg(any(feature = "js-files", feature = "meshes"))]
     pub(super) fn into_heightfield(self) -> Result<Heightfield> {
         self.heights("heightfield", &self.heights)
     }

@@ -6,9 +6,11 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::arrays::{filled, groups};
+use super::bytes::copied;
 use super::frame::FrameFields;
 use super::options::{entries, option, unknown};
-use crate::error::{Error, try_filled};
+use crate::error::Error;
 use crate::mesh::Mesh;
 use crate::meshes::{MeshFormat, read_mesh};
 use crate::sampling::{Resolution, sample};
@@ -70,9 +72,10 @@ pub fn read_mesh_file(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
             _ => return Err(unknown(&name, "format")),
         }
     }
-    let mut file = try_filled("file", bytes.length() as usize, 0)?;
-    bytes.copy_to(&mut file);
-    let mesh = read_mesh(&file, format)?;
+    mesh_output(&read_mesh(&copied(bytes)?, format)?)
+}
+
+pub(super) fn mesh_output(mesh: &Mesh) -> Result<JsValue> {
     Ok(to_value(&MeshOutput {
         positions: mesh.positions().as_flattened().into(),
         triangles: mesh.triangles().as_flattened().into(),
@@ -112,7 +115,8 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
             return Err(Error::option("spacing", spacing, requirement).into());
         }
         (None, Some(spacing)) => Resolution::Spacing(spacing),
-        (across, None) => Resolution::Across(across.unwrap_or(DEFAULT_RESOLUTION)),
+        (Some(across), None) => Resolution::Across(across),
+        (None, None) => Resolution::Auto,
     };
     let view = view.unwrap_or(View::Along([0.0, 0.0, -1.0]));
     let samples = sample(&mesh, view, resolution)?;
@@ -137,9 +141,6 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// Vertices across the longer side, where nothing is said.
-const DEFAULT_RESOLUTION: usize = 200;
-
 fn view_from(value: JsValue) -> Result<View> {
     match value.as_string() {
         Some(name) => Ok(name.parse()?),
@@ -162,35 +163,17 @@ impl MeshInput {
         self.positions.copy_to(positions.as_flattened_mut());
         let mut triangles = filled(self.triangles.length(), 0)?;
         self.triangles.copy_to(triangles.as_flattened_mut());
-        let mut mesh = Mesh::new(positions, triangles)?;
-        if let Some(colors) = self.colors.dyn_ref::<Float32Array>() {
-            mesh = mesh.with_colors(attribute(colors)?)?;
+        let mut mesh = if triangles.is_empty() {
+            Mesh::cloud(positions)?
+        } else {
+            Mesh::new(positions, triangles)?
+        };
+        if let Some(colors) = groups(&self.colors)? {
+            mesh = mesh.with_colors(colors)?;
         }
-        if let Some(uvs) = self.uvs.dyn_ref::<Float32Array>() {
-            mesh = mesh.with_uvs(attribute(uvs)?)?;
+        if let Some(uvs) = groups(&self.uvs)? {
+            mesh = mesh.with_uvs(uvs)?;
         }
         Ok(mesh)
     }
-}
-
-fn attribute<const N: usize>(values: &Float32Array) -> Result<Vec<[f32; N]>> {
-    let mut list = filled(values.length(), 0.0)?;
-    values.copy_to(list.as_flattened_mut());
-    Ok(list)
-}
-
-/// Room for `length` numbers in groups, of which all have to be whole.
-fn filled<T: Copy, const N: usize>(length: u32, value: T) -> Result<Vec<[T; N]>> {
-    let length = length as usize;
-    if !length.is_multiple_of(N) {
-        return Err(Error::Shape {
-            what: "array of the mesh",
-            rows: length / N,
-            cols: N,
-            expected: length - length % N,
-            found: length,
-        }
-        .into());
-    }
-    Ok(try_filled("mesh", length / N, [value; N])?)
 }

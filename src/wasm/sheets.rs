@@ -6,6 +6,7 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::bytes::copied;
 use super::fields::{ImageInput, LatticeInput};
 use super::options::{entries, option, unknown};
 use crate::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
@@ -234,8 +235,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         height,
         data,
     } = from_value(photo)?;
-    let mut rgba = try_filled("photo", data.length() as usize, 0)?;
-    data.copy_to(&mut rgba);
+    let rgba = copied(&data)?;
     let photo = Photo::new(width, height, &rgba)?;
     let sheet: Unrolling = unroll(&scene.surface, &settings.unrolling)?;
     let extent = extent.unwrap_or(scene.extent);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, parseNpy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { drop, look, pageTest, reported, runBy, save } from './support/page.mjs';
+import { look, open, pageTest, reported, runBy, save } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -55,7 +55,7 @@ pageTest('a design passes through what is marked', async (page) => {
 
 pageTest('a file can be a design', async (page) => {
   const pins = new Map([3 * WIDTH + 4, 5 * WIDTH + 40, 30 * WIDTH + 20].map((i) => [i, plane[i]]));
-  await drop(page, 'pins.npy', npy(WIDTH, plane.map((_, i) => pins.get(i) ?? 0)));
+  await open(page, 'pins.npy', npy(WIDTH, plane.map((_, i) => pins.get(i) ?? 0)));
   await page.getByLabel('0 means no data').check();
   await page.getByLabel('Pass through these').check();
   await page.locator('#input-legend', { hasText: 'held at 3 pixels' }).waitFor();
@@ -68,8 +68,7 @@ pageTest('a file can be a design', async (page) => {
 
 pageTest('where it jumps it is torn, which can be seen before and after', async (page) => {
   const step = grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (col > 20 ? 15 : 0));
-  await drop(page, 'step.npy', npy(WIDTH, step));
-  await page.locator('#input-caption', { hasText: 'step' }).waitFor();
+  await open(page, 'step.npy', npy(WIDTH, step));
   const plain = (await look(page, '#input-canvas')).hash;
   await more(page);
   await page.getByLabel('Tear where it jumps').check();
@@ -96,7 +95,7 @@ pageTest('where it jumps it is torn, which can be seen before and after', async 
 
 pageTest('heights without confidence do not count', async (page) => {
   const spoilt = (/** @type {number} */ col, /** @type {number} */ row) => col > 20 && col < 28 && row > 12 && row < 20;
-  await drop(page, 'spoilt.npy', npy(WIDTH, grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (spoilt(col, row) ? 30 * Math.sin(col * row) : 0))));
+  await open(page, 'spoilt.npy', npy(WIDTH, grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (spoilt(col, row) ? 30 * Math.sin(col * row) : 0))));
   await run(page);
   assert.ok(deviation(await result(page), plane) > 1);
   await more(page);
@@ -112,8 +111,7 @@ pageTest('heights without confidence do not count', async (page) => {
 });
 
 pageTest('constraints hold besides heights, and wrong ones are refused', async (page) => {
-  await drop(page, 'slope.npy', npy(WIDTH, plane));
-  await page.locator('#input-caption', { hasText: 'slope' }).waitFor();
+  await open(page, 'slope.npy', npy(WIDTH, plane));
   await run(page);
   await more(page);
   const middle = 18 * WIDTH + 24;

@@ -2,6 +2,7 @@
 import { accuracy } from './comparisons/accuracy.mjs';
 import { conic } from './comparisons/conic.mjs';
 import { gaps } from './comparisons/gaps.mjs';
+import { meshes } from './comparisons/meshes.mjs';
 import { memory } from './comparisons/memory.mjs';
 import { nativeAndWasm } from './comparisons/native-and-wasm.mjs';
 import { restarts } from './comparisons/restarts.mjs';
@@ -15,6 +16,7 @@ export const tables = {
   'native-and-wasm': nativeAndWasm,
   sizes,
   memory,
+  meshes,
   gaps,
   accuracy,
   restarts,

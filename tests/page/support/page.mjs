@@ -217,6 +217,17 @@ export async function drop(page, name, bytes) {
 }
 
 /**
+ * Drops a file that can be read, and waits until it is what a run would start from.
+ * @param {Page} page
+ * @param {string} name
+ * @param {Buffer} bytes
+ */
+export async function open(page, name, bytes) {
+  await drop(page, name, bytes);
+  await page.locator('#input-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
+}
+
+/**
  * What a click on one of the save buttons downloads.
  * @param {Page} page
  * @param {'NPY' | 'PNG' | 'OBJ'} format

@@ -1,0 +1,69 @@
+/** `developable info`: what is in a file. */
+import * as developable from '../index.js';
+import { readBytes } from './files.js';
+import { isMesh } from './arguments.js';
+import { about } from './inputs.js';
+
+/** @typedef {import('../types.js').ReadResult} ReadResult */
+
+/** @param {import('./arguments.js').InfoTask} task */
+export async function info({ input, array }) {
+  const bytes = await readBytes(input);
+  const lines = await about(input, async () => {
+    if (isMesh(input)) return meshInWords(await developable.readMesh(bytes));
+    if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
+    return imageInWords(await developable.read(bytes, { array }));
+  });
+  process.stdout.write(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
+}
+
+/** @param {Uint8Array} bytes */
+function isArchive(bytes) {
+  return bytes[0] === 0x50 && bytes[1] === 0x4b;
+}
+
+/** @param {import('../types.js').NpzArray[]} arrays */
+function arraysInWords(arrays) {
+  return [
+    ['format', 'npz'],
+    ...arrays.map(({ name, shape, dataType }) => ['array', `${name}, ${shape.join(' × ') || 'one value'}, ${dataType}`]),
+  ];
+}
+
+/** @param {import('../types.js').Mesh} mesh */
+function meshInWords({ positions, triangles, colors, uvs }) {
+  const ranges = ['x', 'y', 'z'].map((axis, k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return [axis, `${low} to ${high}`];
+  });
+  return [
+    ['vertices', `${positions.length / 3}`],
+    ['triangles', triangles.length === 0 ? 'none: a point cloud' : `${triangles.length / 3}`],
+    ...ranges,
+    ['colours', colors ? 'yes' : 'no'],
+    ['texture', uvs ? 'has coordinates' : 'no coordinates'],
+  ];
+}
+
+/** @param {ReadResult} file */
+function imageInWords({ format, width, height, data, dataType, pixelSize, unit, heightScale }) {
+  let [low, high, missing] = [Infinity, -Infinity, 0];
+  for (const value of data) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+    if (Number.isNaN(value)) missing += 1;
+  }
+  return [
+    ['format', format],
+    ['size', `${width} × ${height} pixels`],
+    ['data type', dataType],
+    ['values', low <= high ? `${low} to ${high}` : 'none'],
+    ['no data', `${missing} pixels`],
+    ['pixel size', unit === null ? `${pixelSize}` : `${pixelSize} ${unit}`],
+    ['height scale', `${heightScale}`],
+  ];
+}

@@ -1,0 +1,35 @@
+//! A growing file in memory, whose lack of memory is an error instead of an abort.
+
+use std::io::{self, Write};
+
+use crate::error::{Error, Result};
+
+#[derive(Default)]
+pub(crate) struct Buffer(Vec<u8>);
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0
+            .try_reserve(bytes.len())
+            .map_err(|_| io::ErrorKind::OutOfMemory)?;
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Buffer {
+    /// The finished file. Writing into memory can fail for lack of memory only.
+    pub(crate) fn finish(self, what: &'static str, written: io::Result<()>) -> Result<Vec<u8>> {
+        match written {
+            Ok(()) => Ok(self.0),
+            Err(_) => Err(Error::OutOfMemory {
+                what,
+                bytes: self.0.len(),
+            }),
+        }
+    }
+}

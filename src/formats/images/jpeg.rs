@@ -1,0 +1,94 @@
+//! Grey JPEG pictures, by the `zune-jpeg` crate; which way up, by `kamadak-exif`.
+
+use exif::{In, Tag};
+use zune_core::bytestream::ZCursor;
+use zune_core::colorspace::ColorSpace;
+use zune_core::options::DecoderOptions;
+use zune_jpeg::JpegDecoder;
+
+use super::tiff_tags::oriented;
+use super::{Decoded, Format, check_length, damaged, picture, unsupported};
+use crate::error::{Error, Result, checked_cells, try_filled};
+
+/// More samples than one byte can stand for: an even block of 64 takes a few
+/// bits, and in a progressive file a run of such blocks does.
+const RATIO: usize = 4096;
+
+/// The marker that ends a file, and the one that data of the picture follow.
+const END: [u8; 2] = [0xff, 0xd9];
+const SCAN: u8 = 0xda;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let failed = |error| damaged(Format::Jpeg, format!("{error:?}"));
+    // The decoder makes up what is missing at the end.
+    if !ends(bytes) {
+        return Err(damaged(Format::Jpeg, "it is cut short"));
+    }
+    let options = DecoderOptions::default()
+        .set_strict_mode(true)
+        .set_max_width(usize::from(u16::MAX))
+        .set_max_height(usize::from(u16::MAX));
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers().map_err(failed)?;
+    let info = decoder
+        .info()
+        .ok_or_else(|| damaged(Format::Jpeg, "it has no header"))?;
+    let size = (usize::from(info.width), usize::from(info.height));
+    let len = checked_cells("JPEG image", size.1, size.0)?;
+    if len == 0 {
+        return Err(Error::Empty { what: "JPEG image" });
+    }
+    let (stride, colours) = match info.components {
+        1 => (1, ColorSpace::Luma),
+        3 => (3, ColorSpace::RGB),
+        other => {
+            return Err(unsupported(
+                Format::Jpeg,
+                format!("pixels of {other} components; grey images are read"),
+            ));
+        }
+    };
+    check_length(Format::Jpeg, bytes, stride * len, RATIO)?;
+    decoder.set_options(options.jpeg_set_out_colorspace(colours));
+    let mut samples = try_filled("JPEG image", stride * len, 0u8)?;
+    decoder.decode_into(&mut samples).map_err(failed)?;
+    let stored = picture(Format::Jpeg, size, &samples, stride)?;
+    let orientation = decoder.exif().map_or(1, |exif| orientation(exif));
+    let (values, (width, height)) = oriented(stored.values, size, orientation)?;
+    Ok(Decoded {
+        width,
+        height,
+        values,
+        ..stored
+    })
+}
+
+/// Which way up the camera was, as TIFF numbers it. What is no sound number is as good as none: it
+/// is no part of the picture.
+fn orientation(exif: &[u8]) -> u16 {
+    let fields = exif::Reader::new().read_raw(exif.to_vec()).ok();
+    let number = fields.and_then(|exif| {
+        let field = exif.get_field(Tag::Orientation, In::PRIMARY)?;
+        field.value.get_uint(0)
+    });
+    match number {
+        Some(number @ 1..=8) => number as u16,
+        _ => 1,
+    }
+}
+
+/// Whether the end is marked, not counting pictures within the metadata.
+fn ends(bytes: &[u8]) -> bool {
+    let mut rest = &bytes[2..];
+    while let [0xff, marker, high, low, ..] = *rest {
+        let length = 2 + usize::from(u16::from_be_bytes([high, low]));
+        let Some(next) = rest.get(length..) else {
+            return false;
+        };
+        rest = next;
+        if marker == SCAN {
+            break;
+        }
+    }
+    rest.windows(2).any(|pair| pair == END)
+}

@@ -1,0 +1,43 @@
+//! Grey WebP pictures, by the `image-webp` crate.
+
+use std::io::Cursor;
+
+use image_webp::{DecodingError, WebPDecoder};
+
+use super::{Decoded, Format, damaged, picture, unsupported};
+use crate::error::{Result, checked_cells, try_filled};
+
+/// What the decoder may allocate for metadata.
+const DECODER_BYTES: usize = 1 << 24;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    // The decoder makes up what is missing at the end; the length is in the header.
+    let length = bytes.get(4..8).map_or(0, |length| {
+        u32::from_le_bytes([length[0], length[1], length[2], length[3]])
+    });
+    if bytes.len() < length as usize {
+        return Err(damaged(Format::WebP, "it is cut short"));
+    }
+    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(failed)?;
+    decoder.set_memory_limit(DECODER_BYTES);
+    if decoder.is_animated() {
+        return Err(unsupported(
+            Format::WebP,
+            "an animation; only still pictures are read",
+        ));
+    }
+    let (width, height) = decoder.dimensions();
+    let (width, height) = (width as usize, height as usize);
+    let len = checked_cells("WebP image", height, width)?;
+    let stride = if decoder.has_alpha() { 4 } else { 3 };
+    let mut samples = try_filled("WebP image", stride * len, 0u8)?;
+    decoder.read_image(&mut samples).map_err(failed)?;
+    picture(Format::WebP, (width, height), &samples, stride)
+}
+
+fn failed(error: DecodingError) -> crate::error::Error {
+    match error {
+        DecodingError::UnsupportedFeature(what) => unsupported(Format::WebP, what),
+        other => damaged(Format::WebP, other),
+    }
+}

@@ -1,0 +1,145 @@
+/** Height images besides PNG and NPY: the wasm of their own, in each API and on the command line. */
+import assert from 'node:assert/strict';
+import { copyFile, readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+import { filesWasmFile, imagesWasmFile, pkg, root } from './support/paths.mjs';
+import { deviation, image, plane } from './support/shapes.mjs';
+
+const folder = await temporaryFolder();
+after(() => developable.dispose());
+
+/** @param {string} name */
+const data = (name) => readFile(join(root, 'tests/data', name));
+
+/** As `tests/data/make-images.py` begins: 3 rows of 4 values, one of them missing. */
+const ramp = Array.from({ length: 12 }, (_, i) => 7 * i + 3);
+const holes = ramp.map((value, i) => (i === 6 ? NaN : value / 8 - 2));
+
+/** @param {string} code @param {RegExp} message */
+const error = (code, message) => (/** @type {unknown} */ thrown) => {
+  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
+  assert.equal(thrown.code, code, thrown.message);
+  assert.match(thrown.message, message);
+  return true;
+};
+
+test('the direct API says which wasm file a format needs', async () => {
+  const tiff = await data('f4.tif');
+  assert.throws(() => direct.read(tiff), error('NOT_INITIALIZED', /initImages\(\)/));
+  assert.throws(() => direct.npzArrays(tiff), error('NOT_INITIALIZED', /initImages\(\)/));
+  assert.throws(() => direct.writeExr(image(3, 3, plane)), error('NOT_INITIALIZED', /initImages\(\)/));
+  direct.initImagesSync(await readFile(imagesWasmFile));
+  assert.equal(deviation(direct.read(tiff).data, holes), 0);
+  assert.throws(() => direct.read(new TextEncoder().encode('hello')), error('NOT_INITIALIZED', /initFiles\(\)/));
+  direct.initFilesSync(await readFile(filesWasmFile));
+  assert.throws(() => direct.read(new TextEncoder().encode('hello')), error('UNSUPPORTED', /PNG, NPY, TIFF, EXR/));
+});
+
+test('each format is read by its first bytes, and by its name', async () => {
+  for (const [name, format, dataType] of [
+    ['f4.tif', 'tiff', 'f32'], ['big.tif', 'tiff', 'f32'], ['zip.exr', 'exr', 'f32'], ['le.pfm', 'pfm', 'f32'],
+    ['deflated.npz', 'npz', 'f64'],
+  ]) {
+    const bytes = await data(name);
+    const options = { format: /** @type {import('../../pkg/types.js').Format} */ (format) };
+    for (const file of [direct.read(bytes), direct.read(bytes, options), await developable.read(bytes)]) {
+      assert.deepEqual([file.format, file.dataType, file.width, file.height], [format, dataType, 4, 3], name);
+      assert.equal(deviation(file.data, holes), 0, name);
+      assert.equal(file.unit, null);
+    }
+  }
+  const [jpeg, webp] = [await data('grey.jpg'), new Blob([new Uint8Array(await data('grey.webp'))])];
+  assert.deepEqual([direct.read(jpeg).format, direct.read(jpeg).width], ['jpeg', 16]);
+  assert.deepEqual([...(await developable.read(webp)).data], ramp.map((value) => 2 * value));
+});
+
+test('units come with the pixel size', async () => {
+  const [metres, dpi] = [direct.read(await data('geo-metres.tif')), direct.read(await data('dpi.tif'))];
+  assert.deepEqual([metres.unit, metres.pixelSize, dpi.unit], ['m', 0.5, 'mm']);
+  assert.ok(Math.abs(dpi.pixelSize - 0.1) < 1e-12);
+  const uneven = await data('unequal.tif');
+  await assert.rejects(developable.read(uneven), error('UNSUPPORTED', /0\.254 wide and 0\.127 high/));
+});
+
+test('arrays of an archive are chosen by name', async () => {
+  const bytes = await data('several.npz');
+  const arrays = [['depth', [3, 4], 'f64'], ['confidence', [3, 4], 'u8'], ['name', [1], '<U1']]
+    .map(([name, shape, dataType]) => ({ name, shape, dataType }));
+  assert.deepEqual(direct.npzArrays(bytes), arrays);
+  assert.deepEqual(await developable.npzArrays(bytes), arrays);
+  assert.throws(() => direct.read(bytes), error('UNSUPPORTED', /`depth`, `confidence`.*option `array`/));
+  assert.deepEqual([...direct.read(bytes, { array: 'confidence' }).data], ramp);
+  const exr = await data('zip.exr');
+  assert.throws(() => direct.read(exr, { array: 'depth' }), error('OPTION', /NPZ/));
+});
+
+test('what is wrong with a file is an error', async () => {
+  const exr = await data('zip.exr');
+  assert.throws(() => direct.read(exr.subarray(0, 300)), error('FORMAT', /EXR/));
+  assert.throws(() => direct.read(exr, { format: 'tiff' }), error('FORMAT', /begins like an OpenEXR/));
+  await assert.rejects(developable.read(await data('rgb-colour.tif')), error('UNSUPPORTED', /row 2, column 1/));
+  const unknown = /** @type {any} */ ({ format: 'gif' });
+  assert.throws(() => direct.read(exr, unknown), error('OPTION', /`webp`/));
+});
+
+test('TIFF and EXR come back as they were written', async () => {
+  const field = image(7, 5, (x, y) => Math.fround(x * x + 0.1 * y), 0.25);
+  field.data[9] = NaN;
+  for (const bytes of [direct.writeTiff(field), direct.writeExr(field), await developable.writeTiff(field), await developable.writeExr(field)]) {
+    const back = direct.read(bytes);
+    assert.deepEqual([back.width, back.height, back.pixelSize, back.dataType], [7, 5, 0.25, 'f32']);
+    assert.equal(deviation(back.data, field.data), 0);
+  }
+});
+
+test('a worker finds the wasm where it is told to', async () => {
+  const lost = new developable.DevelopableWorker({ imagesWasm: pathToFileURL(`${pkg}nothing.wasm`) });
+  const tiff = await data('f4.tif');
+  await assert.rejects(lost.read(tiff), error('INIT', /nothing\.wasm|no such file/i));
+  assert.equal((await lost.read(await data('f4-le.npy'))).width, 4);
+  lost.dispose();
+  const found = new developable.DevelopableWorker({ imagesWasm: await readFile(imagesWasmFile) });
+  assert.equal((await found.read(tiff)).width, 4);
+  found.dispose();
+});
+
+/** @param {string} line */
+const developableCommand = (line) => run(folder, line.split(' '));
+
+test('the command reads and writes them', async () => {
+  const field = image(12, 10, (x, y) => Math.fround(plane(x, y)), 0.5);
+  await writeFile(join(folder, 'plane.tif'), direct.writeTiff(field));
+  await writeFile(join(folder, 'mask.exr'), direct.writeExr({ ...field, data: field.data.map((_, i) => (i < 24 ? 0 : 1)) }));
+  for (const output of ['out.tif', 'out.tiff', 'out.exr']) {
+    const { status, stderr } = await developableCommand(`fit plane.tif -o ${output} --mask mask.exr`);
+    assert.equal(status, 0, stderr);
+    const back = direct.read(await readFile(join(folder, output)));
+    assert.deepEqual([back.width, back.height, back.pixelSize], [12, 10, 0.5]);
+    assert.ok(back.data.subarray(0, 24).every(Number.isNaN));
+    assert.ok(deviation(back.data.subarray(24), field.data.subarray(24)) < 1e-4);
+  }
+});
+
+test('the command tells what is in a file', async () => {
+  for (const name of ['several.npz', 'geo-metres.tif', 'colour.jpg']) await copyFile(join(root, 'tests/data', name), join(folder, name));
+  const arrays = await developableCommand('info several.npz');
+  assert.match(arrays.stdout, /^format: +npz\narray: +depth, 3 × 4, f64\narray: +confidence, 3 × 4, u8\narray: +name, 1, <U1\n$/);
+  const one = await developableCommand('info several.npz --array confidence');
+  assert.match(one.stdout, /values: +3 to 80\n/);
+  const tiff = await developableCommand('info geo-metres.tif');
+  for (const line of [
+    /^format: +tiff$/m, /^size: +4 × 3 pixels$/m, /^data type: +f32$/m, /^values: +-1\.625 to 8$/m,
+    /^no data: +1 pixels$/m, /^pixel size: +0\.5 m$/m, /^height scale: +1$/m,
+  ]) assert.match(tiff.stdout, line);
+  const refused = await developableCommand('info colour.jpg');
+  assert.deepEqual([refused.status, refused.stdout], [3, '']);
+  assert.match(refused.stderr, /colour\.jpg: JPEG: the pixel at row 0/);
+  const several = await developableCommand('fit several.npz -o out.npy');
+  assert.match(several.stderr, /several\.npz: .*choose one by --array/);
+  assert.equal((await developableCommand('info geo-metres.tif --lambda 3')).status, 2);
+});

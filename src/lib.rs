@@ -56,8 +56,8 @@
 //!
 //! # Cost
 //!
-//! Each iteration is linear in the number of vertices; their number grows slowly with it (from 30
-//! to 120 on the finest lattice from 20 thousand to 1 million vertices of a noisy page). About 130
+//! Each iteration is linear in the number of vertices; their number grows slowly with it (from 10
+//! to 50 on the finest lattice from 20 thousand to 1 million vertices of a noisy page). About 180
 //! bytes for each vertex. One thread.
 //! The result is the same on every run and, to rounding, on every machine.
 //!

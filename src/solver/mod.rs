@@ -95,7 +95,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Sets up a solve. Memory: about 130 bytes for each vertex of the valid
+    /// Sets up a solve. Memory: about 180 bytes for each vertex of the valid
     /// vertices' bounding box.
     ///
     /// # Errors

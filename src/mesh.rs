@@ -87,12 +87,7 @@ impl Mesh {
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.
     pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self> {
-        check_count(
-            "normals of the mesh",
-            self.positions.len(),
-            3,
-            3 * normals.len(),
-        )?;
+        self.check_each("normals of the mesh", &normals)?;
         self.normals = Some(normals);
         Ok(self)
     }
@@ -103,12 +98,7 @@ impl Mesh {
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.
     pub fn with_colors(mut self, colors: Vec<[f32; 3]>) -> Result<Self> {
-        check_count(
-            "colours of the mesh",
-            self.positions.len(),
-            3,
-            3 * colors.len(),
-        )?;
+        self.check_each("colours of the mesh", &colors)?;
         self.colors = Some(colors);
         Ok(self)
     }
@@ -120,14 +110,13 @@ impl Mesh {
     /// # Errors
     /// [`Error::Shape`] if there is not one pair for each vertex.
     pub fn with_uvs(mut self, uvs: Vec<[f32; 2]>) -> Result<Self> {
-        check_count(
-            "texture coordinates of the mesh",
-            self.positions.len(),
-            2,
-            2 * uvs.len(),
-        )?;
+        self.check_each("texture coordinates of the mesh", &uvs)?;
         self.uvs = Some(uvs);
         Ok(self)
+    }
+
+    fn check_each<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<()> {
+        check_count(what, self.positions.len(), N, N * values.len())
     }
 
     /// Positions of the vertices.

@@ -1,8 +1,6 @@
 //! Files in and out: those of other programs, exact round trips, damage.
 #![cfg(all(feature = "formats", not(target_arch = "wasm32")))]
 
-use std::path::PathBuf;
-
 use developable::dewarp::Photo;
 use developable::formats::{
     Decoded, Format, decode, decode_photo, write_npy, write_obj, write_photo, write_png,
@@ -10,21 +8,10 @@ use developable::formats::{
 use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
 use proptest::prelude::*;
 
-fn file(name: &str) -> Vec<u8> {
-    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests", "data", name]
-        .iter()
-        .collect();
-    std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
+#[path = "common/files.rs"]
+mod files;
 
-fn read(name: &str) -> Decoded {
-    decode(&file(name), None).unwrap_or_else(|e| panic!("{name}: {e}"))
-}
-
-/// The values that `tests/data/make.py` starts from.
-fn ramp() -> Vec<f64> {
-    (0..12).map(|i| (i * 7 + 3) as f64).collect()
-}
+use files::{file, holes, of_every_type, ramp, read};
 
 fn assert_same(name: &str, found: &[f64], expected: &[f64]) {
     assert_eq!(found.len(), expected.len(), "{name}");
@@ -36,32 +23,9 @@ fn assert_same(name: &str, found: &[f64], expected: &[f64]) {
     }
 }
 
-fn floats() -> Vec<f64> {
-    let mut holes: Vec<f64> = ramp().iter().map(|v| v / 8.0 - 2.0).collect();
-    holes[6] = f64::NAN;
-    holes
-}
-
 #[test]
 fn numpy_arrays_of_every_type_and_byte_order() {
-    for (name, data_type) in [
-        ("u1", "u8"),
-        ("i1", "i8"),
-        ("u2", "u16"),
-        ("i2", "i16"),
-        ("u4", "u32"),
-        ("i4", "i32"),
-        ("u8", "u64"),
-        ("i8", "i64"),
-        ("f2", "f16"),
-        ("f4", "f32"),
-        ("f8", "f64"),
-    ] {
-        let expected = match &name[..1] {
-            "u" => ramp(),
-            "i" => ramp().iter().map(|v| v - 50.0).collect(),
-            _ => floats(),
-        };
+    for (name, data_type, expected) in of_every_type() {
         for order in if name.ends_with('1') {
             &["le"][..]
         } else {
@@ -80,7 +44,7 @@ fn numpy_arrays_of_every_type_and_byte_order() {
         }
     }
     for name in ["fortran.npy", "third-axis.npy", "version2.npy"] {
-        assert_same(name, &read(name).values, &floats());
+        assert_same(name, &read(name).values, &holes());
     }
     let bools: Vec<f64> = ramp().iter().map(|v| f64::from(v % 3.0 == 0.0)).collect();
     assert_same("bool.npy", &read("bool.npy").values, &bools);
@@ -168,10 +132,10 @@ fn recorded_scales_are_used() {
 
 #[test]
 fn files_cut_short_anywhere_are_errors() {
-    let image = HeightImage::new(4, 3, floats()).unwrap();
+    let image = HeightImage::new(4, 3, holes()).unwrap();
     let ours = [
         write_png(&image).unwrap(),
-        write_npy(3, 4, &floats()).unwrap(),
+        write_npy(3, 4, &holes()).unwrap(),
     ];
     let theirs = [
         "grey16.png",

@@ -1,38 +1,19 @@
 //! Height and depth images: those of other programs, exact round trips, damage.
 #![cfg(all(feature = "images", not(target_arch = "wasm32")))]
 
-use std::path::PathBuf;
-
 use developable::formats::{
     Decoded, Format, Unit, decode, decode_npz, npz_arrays, write_exr, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
 
-fn file(name: &str) -> Vec<u8> {
-    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests", "data", name]
-        .iter()
-        .collect();
-    std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
+#[path = "common/files.rs"]
+mod files;
 
-fn read(name: &str) -> Decoded {
-    decode(&file(name), None).unwrap_or_else(|e| panic!("{name}: {e}"))
-}
-
-/// The values that `tests/data/make-images.py` starts from.
-fn ramp() -> Vec<f64> {
-    (0..12).map(|i| f64::from(i * 7 + 3)).collect()
-}
+use files::{file, holes, of_every_type, ramp, read};
 
 fn times(factor: f64) -> Vec<f64> {
     ramp().iter().map(|v| v * factor).collect()
-}
-
-fn holes() -> Vec<f64> {
-    let mut holes: Vec<f64> = ramp().iter().map(|v| v / 8.0 - 2.0).collect();
-    holes[6] = f64::NAN;
-    holes
 }
 
 fn without(mut values: Vec<f64>, pixel: usize) -> Vec<f64> {
@@ -60,26 +41,23 @@ fn refused(name: &str, code: &str, hint: &str) {
     assert!(error.to_string().contains(hint), "{name}: {error}");
 }
 
+fn refused_for_its_size(bytes: &[u8], what: &str) {
+    let error = decode(bytes, None).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            Error::Format { .. }
+                | Error::TooLarge { .. }
+                | Error::Empty { .. }
+                | Error::Unsupported { .. }
+        ),
+        "{what}: {error:?}"
+    );
+}
+
 #[test]
 fn tiffs_of_every_type() {
-    for (name, data_type) in [
-        ("u1", "u8"),
-        ("i1", "i8"),
-        ("u2", "u16"),
-        ("i2", "i16"),
-        ("u4", "u32"),
-        ("i4", "i32"),
-        ("u8", "u64"),
-        ("i8", "i64"),
-        ("f2", "f16"),
-        ("f4", "f32"),
-        ("f8", "f64"),
-    ] {
-        let expected = match &name[..1] {
-            "u" => ramp(),
-            "i" => ramp().iter().map(|v| v - 50.0).collect(),
-            _ => holes(),
-        };
+    for (name, data_type, expected) in of_every_type() {
         let found = check(&format!("{name}.tif"), data_type, &expected);
         assert_eq!(
             (found.format, found.pixel_size, found.unit),
@@ -338,17 +316,7 @@ fn sizes_that_cannot_be_are_refused() {
         (4096, 3),
         (3, 4096),
     ] {
-        let error = decode(&sized(width, height), None).unwrap_err();
-        assert!(
-            matches!(
-                error,
-                Error::Format { .. }
-                    | Error::TooLarge { .. }
-                    | Error::Empty { .. }
-                    | Error::Unsupported { .. }
-            ),
-            "{width} × {height}: {error:?}"
-        );
+        refused_for_its_size(&sized(width, height), &format!("{width} × {height}"));
     }
 
     // The data window of an EXR is named in its header: four 32-bit integers.
@@ -368,17 +336,7 @@ fn sizes_that_cannot_be_are_refused() {
         (3, -1),
         (3, i32::MAX),
     ] {
-        let error = decode(&windowed(right, bottom), None).unwrap_err();
-        assert!(
-            matches!(
-                error,
-                Error::Format { .. }
-                    | Error::TooLarge { .. }
-                    | Error::Empty { .. }
-                    | Error::Unsupported { .. }
-            ),
-            "{right}, {bottom}: {error:?}"
-        );
+        refused_for_its_size(&windowed(right, bottom), &format!("{right}, {bottom}"));
     }
 }
 

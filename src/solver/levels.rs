@@ -172,13 +172,12 @@ fn loop_weights(
     b: (isize, isize),
 ) -> impl Iterator<Item = ((isize, isize), f64)> {
     let around = |(row, col)| NEIGHBOURS.map(|t: Towards| t.step(row, col));
-    let (ends, far) = if a == b { (10.0, 1.0) } else { (3.0, 1.0) };
-    let own = [(a, ends), (b, if a == b { 0.0 } else { ends })];
-    let others = around(a)
+    let end = if a == b { 5.0 } else { 3.0 };
+    let shared = around(b);
+    let far = around(a).into_iter().filter(move |v| shared.contains(v));
+    [(a, end), (b, end)]
         .into_iter()
-        .filter(move |v| a == b || around(b).contains(v))
-        .map(move |v| (v, far));
-    own.into_iter().chain(others)
+        .chain(far.map(|vertex| (vertex, 1.0)))
 }
 
 /// The padded box's cell of a lattice vertex, if its role is wanted.

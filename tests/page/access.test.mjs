@@ -117,7 +117,7 @@ for (const width of [360, 768, 1280, 1920]) {
 }
 
 pageTest('the canvases have the pixels of the device', async (page) => {
-  const sizes = await page.locator('canvas').evaluateAll((canvases) =>
+  const sizes = await page.locator('canvas:visible').evaluateAll((canvases) =>
     canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));
   for (const [pixels, width] of sizes) assert.equal(pixels, 2 * width);
 }, { deviceScaleFactor: 2 });

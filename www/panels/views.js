@@ -3,18 +3,22 @@ import { element } from '../dom.js';
 import { number, shortest } from '../format.js';
 import { inputNormals, resultNormals } from '../surface/known.js';
 import { Light } from '../surface/light.js';
+import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
 import { MARKS } from '../words.js';
 
 /** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
 /** @import {Marks} from '../surface/marks.js' */
+/** @import {Shown} from '../views/shown.js' */
 
 /** @param {Session} session */
 export function viewsPanel(session) {
   const light = new Light();
   const before = new SurfaceView(element('input-canvas', HTMLCanvasElement), light);
   const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light);
+  const photo = new PictureView(element('input-picture', HTMLCanvasElement));
+  const flat = new PictureView(element('result-picture', HTMLCanvasElement));
   const views = element('views', HTMLElement);
   const figure = element('result-view', HTMLElement);
   const inputCaption = element('input-caption', HTMLElement);
@@ -68,6 +72,21 @@ export function viewsPanel(session) {
     figure.setAttribute('aria-busy', String(phase === 'running'));
     empty.textContent = phase === 'running' ? 'Solving…' : 'Not solved yet';
   });
+
+  return {
+    /**
+     * Draws over the surfaces, or puts pictures in their places.
+     * @param {Partial<Shown>} shown
+     */
+    show: ({ input, result, before: left, after: right }) => {
+      before.cover(input ?? null);
+      after.cover(result ?? null);
+      photo.show(left ?? null);
+      flat.show(right ?? null);
+      before.setAside(left !== undefined);
+      after.setAside(right !== undefined);
+    },
+  };
 }
 
 /**

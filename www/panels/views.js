@@ -1,6 +1,7 @@
 /** Input and result side by side under one light. */
 import { element } from '../dom.js';
 import { number, shortest } from '../format.js';
+import { gridOf, nearest } from '../surface/lattice.js';
 import { inputNormals, resultNormals } from '../surface/known.js';
 import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture.js';
@@ -96,7 +97,8 @@ export function viewsPanel(session) {
  * @param {CSSStyleDeclaration} style
  * @returns {(Marks & { words: string })[]}
  */
-function marksOf({ width, height, data, design, confidence, constraints }, torn, style) {
+function marksOf(input, torn, style) {
+  const { width, height, data, design, confidence, constraints } = input;
   const held = design ? data : constraints;
   /** @param {string} name @param {(pixel: number) => boolean} has @param {(number: number) => string} words */
   const marks = (name, has, words) => {
@@ -106,7 +108,7 @@ function marksOf({ width, height, data, design, confidence, constraints }, torn,
   };
   const found = [];
   if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < 0.5 && !Number.isNaN(data[i]), MARKS.doubted));
-  const flags = torn?.image;
+  const flags = torn && (torn.image ?? nearest(torn, gridOf(input)).map((vertex) => torn.vertices[vertex] ?? 0));
   if (torn && flags) found.push({ ...marks('--mark-torn', (i) => flags[i] !== 0, String), words: MARKS.torn(torn.count) });
   if (held) found.push(marks('--mark-held', (i) => !Number.isNaN(held[i]), MARKS.held));
   return found;

@@ -37,11 +37,11 @@ export function gridOf({ width, height, pixelSize, lattice }) {
  */
 export function gridOver({ rows, cols, spacing, origin = [0, 0] }) {
   return {
-    width: cols + 1,
+    width: cols,
     height: Math.max(1, Math.round((rows - 1) * ROW) + 1),
     pixelSize: spacing,
     // Vertices of even rows lie at pixels' centres, and so does the top row.
-    left: origin[0] - 1.5 * spacing,
+    left: origin[0] - 0.5 * spacing,
     top: origin[1] + 0.5 * spacing,
   };
 }
@@ -56,29 +56,42 @@ export function interpolated({ rows, cols, spacing, origin = [0, 0] }, values, {
   const out = new Float64Array(width * height).fill(NaN);
   /** @param {number} row @param {number} x in spacings, from the even rows' first vertex */
   const along = (row, x) => {
-    const place = x + 0.5 * (row % 2);
+    const place = within(x + 0.5 * (row % 2), cols);
     const col = Math.floor(place);
-    const share = place - col;
     const from = row * cols + col;
-    // A neighbour without weight need not be there.
-    if (share < 1e-9) return col >= 0 && col < cols ? values[from] : NaN;
-    if (share > 1 - 1e-9) return col >= -1 && col + 1 < cols ? values[from + 1] : NaN;
-    return col >= 0 && col + 1 < cols ? values[from] * (1 - share) + values[from + 1] * share : NaN;
+    return between(values[from], values[from + 1], place - col);
   };
   for (let i = 0, pixel = 0; i < height; i++) {
-    const down = (origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW);
-    const row = Math.min(rows - 1, Math.max(0, Math.floor(down)));
-    const share = down - row;
-    // Half a row beyond the first and the last one counts as them: pixels reach as far.
-    const single = share < 1e-9 ? row : share > 1 - 1e-9 && row + 1 < rows ? row + 1 : row + 1 >= rows ? row : -1;
-    const outside = share < -0.6 || (row + 1 >= rows && share > 0.6);
+    const down = within((origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW), rows);
+    const row = Math.floor(down);
     for (let k = 0; k < width; k++, pixel++) {
-      if (outside) continue;
+      if (Number.isNaN(down)) continue;
       const x = (left + (k + 0.5) * pixelSize - origin[0]) / spacing;
-      out[pixel] = single >= 0 ? along(single, x) : along(row, x) * (1 - share) + along(row + 1, x) * share;
+      out[pixel] = down === row ? along(row, x) : between(along(row, x), along(row + 1, x), down - row);
     }
   }
   return out;
+}
+
+/**
+ * A place among so many, NaN outside; a bit beyond the ends, as far as pixels reach, counts as them.
+ * @param {number} place
+ * @param {number} count
+ */
+function within(place, count) {
+  const inside = Math.min(count - 1, Math.max(0, place));
+  return Math.abs(place - inside) < 0.6 ? inside : NaN;
+}
+
+/**
+ * A neighbour without weight need not be there.
+ * @param {number} a
+ * @param {number} b
+ * @param {number} share
+ */
+function between(a, b, share) {
+  if (share < 1e-9) return a;
+  return share > 1 - 1e-9 ? b : a * (1 - share) + b * share;
 }
 
 /**

@@ -129,5 +129,5 @@ function drawRuler(context, dots, unit, ratio) {
   context.stroke();
   context.font = `${12 * ratio}px ${style.fontFamily}`;
   context.textBaseline = 'bottom';
-  context.fillText(`${number(length)} ${unit}`, x + 5 * ratio, y - 2 * ratio);
+  context.fillText(`${number(length)} ${length === 1 ? unit.replace(/^units$/, 'unit') : unit}`, x + 5 * ratio, y - 2 * ratio);
 }

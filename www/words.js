@@ -42,7 +42,7 @@ export const VERDICTS = {
 export const FLATTENED = {
   flat: 'The page was flat to begin with: the photo can be used as it is.',
   unrolled: 'Made flat: lengths are those on the page.',
-  stretched: 'Made flat with strain, for the surface is not developable: mind the figures.',
+  stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
 };
 
 /** A gap above this says little: the objective could be twice the optimum. */

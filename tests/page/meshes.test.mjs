@@ -153,3 +153,28 @@ pageTest('of an NPZ with several arrays one is chosen', async (page) => {
   await page.locator('#input-caption', { hasText: 'single' }).waitFor();
   assert.equal(await arrays.isVisible(), false);
 });
+
+pageTest('depths from a camera are put where it has seen them', async (page) => {
+  // A plane that recedes to the right: its depths are not linear over the image.
+  const [width, height, focus, slope] = [80, 60, 70, 0.6];
+  const [cx, cy] = [(width - 1) / 2, (height - 1) / 2];
+  const depths = grid(width, height, (col) => 2000 / (1 - (slope * (col - cx)) / focus));
+  await open(page, 'depth.npy', npy(width, depths));
+  await page.getByLabel('These are depths from a camera').check();
+  assert.equal(await page.getByLabel('Centre cx').inputValue(), String(cx));
+  assert.equal(await page.getByLabel('Centre cy').inputValue(), String(cy));
+  await page.getByLabel('Focal length fx').fill('0');
+  await page.getByRole('button', { name: 'Put in space' }).click();
+  assert.equal(await page.locator('#mesh-options').isVisible(), false, 'no camera has that');
+  await page.getByLabel('Focal length fx').fill(String(focus));
+  await page.getByLabel('Focal length fy').fill(String(focus));
+  await page.getByRole('button', { name: 'Put in space' }).click();
+  await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
+  // In metres, the depths' range among them.
+  const range = (Math.max(...depths) - Math.min(...depths)) / 1000;
+  const spans = (await page.locator('#mesh-span').innerText()).match(/[\d.]+(?=[,.]( |$))/g)?.map(Number) ?? [];
+  assert.ok(Math.abs(spans[2] / range - 1) < 0.01, `${spans} against ${range}`);
+  const { points } = await solved(page);
+  const seen = points.map(({ z }) => z).filter(Number.isFinite);
+  assert.ok(Math.max(...seen) - Math.min(...seen) < 1e-3 * range, 'flat, seen straight on');
+});

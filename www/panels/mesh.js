@@ -89,12 +89,17 @@ export function meshPanel(session) {
   });
 
   return {
+    /**
+     * @param {Pick<Input, 'name' | 'kind'>} file
+     * @param {() => Promise<Mesh>} load
+     * @param {string} doing
+     */
+    take: (file, load, doing) => see(file, load, { view: 'best-fit', resolution: wanted() }, doing),
     /** @param {File} file */
-    open: (file) => {
+    open(file) {
       const kind = NAMES.exec(file.name)?.[1].toUpperCase();
       const called = file.name.replace(NAMES, '') || 'mesh';
-      const options = { view: /** @type {const} */ ('best-fit'), resolution: wanted() };
-      return see({ name: called, kind }, () => session.api.readMesh(file), options, `“${file.name}” could not be read`);
+      return this.take({ name: called, kind }, () => session.api.readMesh(file), `“${file.name}” could not be read`);
     },
   };
 }

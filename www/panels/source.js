@@ -2,6 +2,7 @@
 import { designInput } from '../design.js';
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
+import { cameraPanel } from './camera.js';
 import { watchDrops } from './drop.js';
 import { isMesh, meshPanel } from './mesh.js';
 
@@ -25,6 +26,7 @@ export function sourcePanel(session) {
   const arrayField = element('array-field', HTMLElement);
   const array = element('array', HTMLSelectElement);
   const mesh = meshPanel(session);
+  cameraPanel(session, mesh.take);
   const designHint = element('design-hint', HTMLElement);
   /** The open file's values as they are stored. @type {Float64Array} */
   let stored = new Float64Array();

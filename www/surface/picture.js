@@ -24,7 +24,7 @@ export class PictureView {
   show(picture) {
     this.#picture = picture;
     this.canvas.hidden = picture === null;
-    this.canvas.setAttribute('aria-label', picture?.words ?? '');
+    if (picture) this.canvas.setAttribute('aria-label', picture.words);
     this.#paintSoon();
   }
 

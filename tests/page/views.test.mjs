@@ -88,6 +88,23 @@ pageTest('noise has curvature everywhere, the result next to none, on one scale'
   assert.ok(all > 95 && few < 20, `${all} % → ${few} %`);
 });
 
+pageTest('curvatures are in the units of the file', async (page) => {
+  // A cap of a sphere, whose curvatures are the same everywhere, in pixels that are not of side 1.
+  const [radius, side, pixels] = [40, 0.5, 61];
+  const cap = grid(pixels, pixels, (col, row) => Math.sqrt(radius ** 2 - (side * (col - 30)) ** 2 - (side * (row - 30)) ** 2));
+  await open(page, 'cap.npy', npy(pixels, cap));
+  await page.getByLabel('Pixel size').fill(String(side));
+  await page.getByLabel('Height scale').fill('1');
+  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await view(page, 'Curvature K');
+  const [gauss] = (await told(page, 'Median |K|')).split('→').map(parsed);
+  // Resampling to the lattice roughens the heights: it is the unit that matters here.
+  assert.ok(gauss * radius ** 2 > 0.7 && gauss * radius ** 2 < 1.5, `${gauss}`);
+  await view(page, 'κ₂');
+  const [bend] = (await told(page, 'Median |κ₂|')).split('→').map(parsed);
+  assert.ok(bend * radius > 0.7 && bend * radius < 1.5, `${bend}`);
+});
+
 /** Heights of the roof's parts: a vault along each axis, and a tower. */
 const arc = (/** @type {number} */ offset, /** @type {number} */ radius) =>
   Math.sqrt(radius ** 2 - offset ** 2) - Math.sqrt(radius ** 2 - 0.25);

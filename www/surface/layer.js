@@ -38,8 +38,8 @@ export function labelImage({ labels, ...lattice }, grid, pixel) {
     const vertex = vertices[i];
     if (vertex < 0) return 0;
     // At the border the nearest vertex may lie beyond it, and one beside it does not.
-    const label = [vertex, vertex - 1, vertex + 1].map((near) => labels[near]).find((found) => found >= 0);
-    return label === undefined ? 0 : pixel(label);
+    const near = labels[vertex] >= 0 ? vertex : labels[vertex - 1] >= 0 ? vertex - 1 : vertex + 1;
+    return labels[near] >= 0 ? pixel(labels[near]) : 0;
   });
 }
 

@@ -26,13 +26,14 @@ export async function patches(analyses, result) {
   const squared = input.unit ? `${unit}²` : 'square units';
   const grid = gridOf(input);
   const total = map.patches.reduce((sum, { area }) => sum + area, 0);
+  const colours = map.patches.map((_, i) => bytes(patchColour(i)));
   const longest = creases.toSorted((a, b) => b.length - a.length).slice(0, MOST);
   /** @param {number} patch */
   const named = (patch) => key(css(patchColour(patch)), String(patch + 1));
   return {
     result: {
       grid,
-      image: labelImage(map, grid, (label) => bytes(patchColour(label))),
+      image: labelImage(map, grid, (label) => colours[label]),
       draw: (context, place, ratio) => {
         context.strokeStyle = '#14181c';
         context.lineJoin = 'round';

@@ -194,6 +194,10 @@ pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
   assert.ok((await look(page, '#result-picture')).covered > 0.4);
   assert.equal(await page.locator('#result-canvas').isVisible(), false);
   assert.match(await page.locator('#result-picture').getAttribute('aria-label') ?? '', /laid flat/);
+  assert.equal(await page.locator('#result-title').innerText(), 'Laid flat');
+  await view(page, 'Shaded');
+  assert.equal(await page.locator('#result-title').innerText(), 'Result');
+  assert.equal(await page.locator('#result-canvas').isVisible(), true);
 });
 
 pageTest('what cannot be laid flat is said to be so', async (page) => {
@@ -258,6 +262,17 @@ pageTest('another result takes the place of an answer that is still being worked
   await page.locator('#analysis[aria-busy="false"]').waitFor();
   assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
   assert.equal(await page.locator('#notice').isVisible(), false);
+});
+
+pageTest('a view that cannot be worked out says so, and the surface stays', async (page) => {
+  const before = (await look(page, '#result-canvas')).hash;
+  await page.route('**/unroll_bg.wasm', (route) => route.fulfill({ contentType: 'application/wasm', body: 'nothing' }));
+  await view(page, 'Unrolled');
+  await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
+  assert.equal((await look(page, '#result-canvas')).hash, before);
+  await page.unroute('**/unroll_bg.wasm');
+  await view(page, 'Rulings');
+  assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');
 });
 
 pageTest('further formats are what they are called', async (page) => {

@@ -84,6 +84,9 @@ export function viewsPanel(session) {
       after.cover(result ?? null);
       photo.show(left ?? null);
       flat.show(right ?? null);
+      element('input-title', HTMLElement).textContent = left?.title ?? 'Input';
+      element('result-title', HTMLElement).textContent = right?.title ?? 'Result';
+      element('light-hint', HTMLElement).hidden = left !== undefined && right !== undefined;
       before.setAside(left !== undefined);
       after.setAside(right !== undefined);
     },

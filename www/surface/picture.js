@@ -3,6 +3,7 @@ import { eachFrame, followDevicePixels } from '../dom.js';
 
 /**
  * @typedef {object} Picture
+ * @property {string} title in the place of “Input” or “Result”
  * @property {string} words what is seen
  * @property {(context: CanvasRenderingContext2D, ratio: number) => void} paint `ratio`: pixels of the screen for one of the page
  */
@@ -40,11 +41,13 @@ export class PictureView {
 /**
  * An image as a picture, as large as there is room.
  * @param {HTMLCanvasElement} image
+ * @param {string} title
  * @param {string} words
  * @returns {Picture}
  */
-export function imagePicture(image, words) {
+export function imagePicture(image, title, words) {
   return {
+    title,
     words,
     paint: (context) => {
       const { width, height } = context.canvas;

@@ -22,8 +22,8 @@ export async function dewarped(analyses, result, photo, options) {
   const unit = result.input.unit ?? 'unit';
   return {
     flat,
-    before: imagePicture(canvasOf(photo), `The photo, ${photo.width} × ${photo.height} pixels`),
-    after: imagePicture(canvasOf(new ImageData(data, width)), `The photo made flat, ${width} × ${height} pixels`),
+    before: imagePicture(canvasOf(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`),
+    after: imagePicture(canvasOf(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`),
     about: [
       say(FLATTENED[verdict]),
       figures([

@@ -86,6 +86,7 @@ export function extentOf(places) {
  */
 function picture({ triangles, places }, extent, strains, scale, unit, words) {
   return {
+    title: 'Laid flat',
     words,
     paint: (context, ratio) => {
       const { width, height } = context.canvas;

@@ -5,7 +5,6 @@
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { build } from 'vite';
 import { pkgVendor, root, wwwVendor } from '../util/paths.mjs';
 
 const from = join(root, 'node_modules/comlink');
@@ -29,6 +28,8 @@ async function copyComlink() {
 }
 
 async function bundleThree() {
+  // Only now: on a fresh clone it has just been installed.
+  const { build } = await import('vite');
   await build({
     root,
     configFile: false,

@@ -98,7 +98,7 @@ export class Analyses {
   }
 
   /**
-   * A photo as if of the true surface of an example: a print on its flat sheet, seen from above.
+   * The true surface of an example, laid flat.
    * @param {Input & { truth: Float64Array }} input
    */
   sheetOfTruth(input) {
@@ -111,19 +111,19 @@ export class Analyses {
    * @param {{ dots?: number, trim: boolean }} options
    */
   dewarp({ surface }, photo, options) {
-    return this.#once(photo, `dewarp ${numberOf(surface)} ${options.dots} ${options.trim}`, (worker) =>
+    return this.#once(surface, `dewarp ${numberOf(photo)} ${options.dots} ${options.trim}`, (worker) =>
       worker.dewarp(surface, photo, options));
   }
 }
 
-let surfaces = 0;
-/** @type {WeakMap<object, number>} */
+let photos = 0;
+/** @type {WeakMap<Photo, number>} */
 const numbers = new WeakMap();
 
-/** A number that no other surface has. @param {object} surface */
-function numberOf(surface) {
-  const number = numbers.get(surface) ?? ++surfaces;
-  numbers.set(surface, number);
+/** A number that no other photo has: answers are kept with the surface, and go with it. @param {Photo} photo */
+function numberOf(photo) {
+  const number = numbers.get(photo) ?? ++photos;
+  numbers.set(photo, number);
   return number;
 }
 

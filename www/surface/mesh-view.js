@@ -5,7 +5,7 @@
 
 /** Radius of the mesh as it is drawn, and of what is seen at first. */
 const RADIUS = 1;
-const SEEN = 1.1;
+const SEEN = 1.04;
 const DISTANCE = 10;
 /** Turned by each press of an arrow key, in radians. */
 const KEY_STEP = Math.PI / 24;
@@ -41,10 +41,10 @@ export class MeshView {
     this.#scene = new three.Scene();
     this.#camera = new three.OrthographicCamera(-SEEN, SEEN, SEEN, -SEEN, 0, 2 * DISTANCE);
     // The light comes along with the viewer.
-    const light = new three.DirectionalLight(0xffffff, 2.2);
-    light.position.set(-0.5, 0.7, 1);
+    const light = new three.DirectionalLight(0xffffff, 2.6);
+    light.position.set(-0.9, 0.8, 0.7);
     this.#camera.add(light);
-    this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0x8a94a0, 0.9));
+    this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0x8a94a0, 0.7));
     this.#controls = new three.OrbitControls(this.#camera, canvas);
     this.#controls.enablePan = false;
     this.#controls.addEventListener('change', () => this.#draw());

@@ -1,6 +1,6 @@
 /** The switch between views of the result, and what stands below them. */
 import { Analyses } from '../analyses.js';
-import { element, elements } from '../dom.js';
+import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
 import { dewarped } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
@@ -66,7 +66,7 @@ export function analysisPanel(session, show) {
   const flat = async (result) => {
     const turn = asked;
     const wish = await photo.wish(result);
-    if (!wish) return { about: ['Open a photo that shows what the heights show, from above; it may have more pixels.'].map((text) => document.createTextNode(text)) };
+    if (!wish) return { about: [make('p', 'muted', 'Open a photo that shows what the heights show, from above; it may have more pixels.')] };
     const shown = await dewarped(analyses, result, wish.photo, wish.options);
     if (turn === asked) photo.made(shown.flat);
     return shown;

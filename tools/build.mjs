@@ -1,4 +1,4 @@
-/** `npm run build`: the release wasm, its JavaScript and the vendored library, into the package. */
+/** `npm run build`: the release wasm, its JavaScript and the libraries that come along, into the package and the page. */
 import { pathToFileURL } from 'node:url';
 import { setupBuild } from './setup.mjs';
 import { main } from './util/problem.mjs';

@@ -9,6 +9,11 @@
 /** @typedef {import('../pkg/types.js').Report} Report */
 /** @typedef {import('../pkg/types.js').StopReason} StopReason */
 /** @typedef {import('../pkg/types.js').Surface} Surface */
+/** @typedef {import('../pkg/types.js').Verdict} Verdict */
+/** @typedef {import('../pkg/types.js').Mesh} Mesh */
+/** @typedef {import('../pkg/types.js').NpzArray} NpzArray */
+/** @typedef {import('../pkg/types.js').SampledMesh} SampledMesh */
+/** @typedef {import('../pkg/types.js').SampleMeshOptions} SampleMeshOptions */
 
 /**
  * Loads the package and starts its worker.

@@ -62,3 +62,33 @@ export function followDevicePixels(canvas, changed) {
   // Zooming and moving to another screen change the ratio without changing the box.
   window.addEventListener('resize', fit);
 }
+
+/**
+ * A new element.
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {string} className
+ * @param {...(Node | string)} children
+ * @returns {HTMLElementTagNameMap[T]}
+ */
+export function make(tag, className, ...children) {
+  const made = document.createElement(tag);
+  if (className) made.className = className;
+  made.append(...children);
+  return made;
+}
+
+/**
+ * Hands a file to the browser's downloads.
+ * @param {Uint8Array<ArrayBuffer> | string} content
+ * @param {string} type
+ * @param {string} name
+ */
+export function download(content, type, name) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([content], { type }));
+  link.download = name;
+  link.click();
+  // Once the browser has taken hold of it.
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}

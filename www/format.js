@@ -54,6 +54,16 @@ export function percentAtMost(share) {
   return `${number(up, 2)}${BREAKLESS}%`;
 }
 
+/** @param {number} share */
+export function percent(share) {
+  return `${number(100 * share, 2)}${BREAKLESS}%`;
+}
+
+/** @param {number} angle in radians */
+export function degrees(angle) {
+  return `${number((angle * 180) / Math.PI, 2)}°`;
+}
+
 /** @param {number} s */
 export function seconds(s) {
   return s < 0.1 ? `${number(1000 * s, 2)}${BREAKLESS}ms` : `${number(s, s < 100 ? 2 : 3)}${BREAKLESS}s`;

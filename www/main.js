@@ -1,6 +1,7 @@
 /** Puts the page together. */
 import { connect } from './api.js';
 import { element } from './dom.js';
+import { analysisPanel } from './panels/analysis.js';
 import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
 import { headline, showNotice } from './panels/headline.js';
@@ -16,13 +17,14 @@ import { complaint } from './words.js';
 async function start() {
   const session = new Session(await connect());
   headline(session);
-  viewsPanel(session);
+  const { show } = viewsPanel(session);
   settingsPanel(session);
   besidePanel(session);
   runPanel(session);
   curvePanel(session);
   reportPanel(session);
   savePanel(session);
+  analysisPanel(session, show);
   const { openExample } = sourcePanel(session);
   // Something to see at once.
   await openExample();

@@ -7,7 +7,7 @@
  * runs it again, so that what is seen is what is set.
  */
 
-/** @import {Api, Energy, OpenSolver, Occlusions, Progress, Surface} from './api.js' */
+/** @import {Api, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -20,6 +20,10 @@
  * @property {Float64Array} [constraints] steps of height to be met exactly, NaN for none
  * @property {number} pixelSize
  * @property {number} heightScale
+ * @property {string} [unit] of lengths, where it is known
+ * @property {SampledMesh} [lattice] what is solved in the place of the pixels, which show it
+ * @property {{ file: File, names: readonly string[], name: string }} [array] of a file with several
+ * @property {{ mesh: Mesh, options: SampleMeshOptions }} [seen] the mesh, and how the lattice was taken from it
  * @property {Float64Array} [truth] the surface without noise, where it is known
  * @property {string} [kind] of file, in words; examples have none
  */
@@ -178,7 +182,7 @@ export class Session {
       if (this.#job !== job) return;
       const surface = await solver.fit({
         ...options,
-        spacing: coarsening * input.pixelSize,
+        ...spacingOf(input, coarsening),
         signal: job.signal,
         onAbort: 'keep',
         onProgress: (progress) => {
@@ -234,7 +238,7 @@ export class Session {
       return;
     }
     try {
-      const found = await this.api.occlusions(heightsOf(input), { threshold, spacing: coarsening * input.pixelSize });
+      const found = await this.api.occlusions(heightsOf(input), { threshold, ...spacingOf(input, coarsening) });
       if (turn === this.#looked) this.#emit('occlusions', found);
     } catch (error) {
       if (turn !== this.#looked) return;
@@ -258,10 +262,20 @@ export class Session {
 }
 
 /**
+ * A lattice has its own.
+ * @param {Input} input
+ * @param {number} coarsening
+ */
+function spacingOf({ pixelSize, lattice }, coarsening) {
+  return lattice ? {} : { spacing: coarsening * pixelSize };
+}
+
+/**
  * An input as the package takes it.
  * @param {Input} input
  */
-function heightsOf({ width, height, data, pixelSize, heightScale, design, confidence, constraints }) {
+function heightsOf({ width, height, data, pixelSize, heightScale, lattice, design, confidence, constraints }) {
+  if (lattice) return lattice;
   const frame = { width, height, pixelSize, heightScale };
   return design ? { ...frame, constraints: data } : { ...frame, data, confidence, constraints };
 }

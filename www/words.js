@@ -1,7 +1,7 @@
 /** What happened, in plain words. */
 import { count, percentAtMost, seconds } from './format.js';
 
-/** @import {Energy, Report, StopReason} from './api.js' */
+/** @import {Energy, Report, StopReason, Verdict} from './api.js' */
 
 /** @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
@@ -29,6 +29,20 @@ export const ENERGIES = {
   squaredNuclear: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.',
   secondFormOfInput: 'Nuclear norms of the second fundamental form, with the slopes of the input.',
   secondForm: 'Nuclear norms of the second fundamental form, with the surface’s own slopes: the bound is for its last slopes.',
+};
+
+/** What came of laying a surface flat. @type {Record<Verdict, string>} */
+export const VERDICTS = {
+  flat: 'It was flat to begin with.',
+  unrolled: 'Unrolled: lengths on the flat sheet are those on the surface.',
+  stretched: 'It cannot be laid flat without stretching or overlapping: mind the figures.',
+};
+
+/** What came of making a photo flat. @type {Record<Verdict, string>} */
+export const FLATTENED = {
+  flat: 'The page was flat to begin with: the photo can be used as it is.',
+  unrolled: 'Made flat: lengths are those on the page.',
+  stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
 };
 
 /** A gap above this says little: the objective could be twice the optimum. */

@@ -116,8 +116,20 @@ for (const width of [360, 768, 1280, 1920]) {
   }, { viewport: { width, height: 800 }, deviceScaleFactor: width < 600 ? 3 : 1 });
 }
 
+for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+  pageTest(`every view fits on a phone, ${colorScheme}`, async (page) => {
+    for (const radio of await page.locator('input[name="view"]').all()) {
+      await radio.check({ force: true });
+      await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+      await painted(page);
+      const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+      assert.ok(excess <= 0, `${await radio.inputValue()}: ${excess} pixels`);
+    }
+  }, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, colorScheme });
+}
+
 pageTest('the canvases have the pixels of the device', async (page) => {
-  const sizes = await page.locator('canvas').evaluateAll((canvases) =>
+  const sizes = await page.locator('canvas:visible').evaluateAll((canvases) =>
     canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));
   for (const [pixels, width] of sizes) assert.equal(pixels, 2 * width);
 }, { deviceScaleFactor: 2 });

@@ -4,9 +4,12 @@ import { test } from 'node:test';
 import { count, number, percentAtMost, shortest } from '../../www/format.js';
 import { linearTicks, logTicks } from '../../www/plot.js';
 import { meanAngle, rmsError } from '../../www/surface/compare.js';
+import { linear, logarithmic, magnitude } from '../../www/surface/colours.js';
+import { gridOver, interpolated, nearest } from '../../www/surface/lattice.js';
 import { Light } from '../../www/surface/light.js';
 import { HOLE, UNIT, normalsOf } from '../../www/surface/normals.js';
 import { NOTHING, SIDE, rasterOf } from '../../www/surface/raster.js';
+import { fillTriangles } from '../../www/surface/triangles.js';
 import { lambdaHint, verdict } from '../../www/words.js';
 import { grid } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
@@ -119,4 +122,64 @@ test('each λ and each way to stop has words of its own', () => {
   assert.equal(verdict(report).replaceAll('\u00a0', ' '), 'Certified to within 0.9 % of the optimum in 0.42 s.');
   assert.match(verdict({ ...report, stopReason: 'cancelled' }), /^Cancelled/);
   assert.match(verdict({ ...report, stopReason: 'cancelled', gap: 1 }), /too early/);
+});
+
+/** A lattice with the value of a function at each vertex. @param {(x: number, y: number) => number} value */
+function latticeOf(value) {
+  const lattice = { rows: 9, cols: 12, spacing: 0.5, origin: /** @type {const} */ ([3, 7]) };
+  const values = grid(lattice.cols, lattice.rows, (col, row) =>
+    value(3 + 0.5 * (col - 0.5 * (row % 2)), 7 - 0.5 * Math.sqrt(0.75) * row));
+  return { lattice, values };
+}
+
+test('what is linear on the lattice is so on the pixels that show it', () => {
+  const plane = (/** @type {number} */ x, /** @type {number} */ y) => 2 * x - 3 * y;
+  const { lattice, values } = latticeOf(plane);
+  const whole = gridOver(lattice);
+  for (const area of [whole, { ...whole, pixelSize: whole.pixelSize / 3, width: 3 * whole.width, height: 3 * whole.height }]) {
+    const found = interpolated(lattice, values, area);
+    let inner = 0;
+    found.forEach((z, i) => {
+      const [x, y] = [area.left + (i % area.width + 0.5) * area.pixelSize, area.top - (Math.floor(i / area.width) + 0.5) * area.pixelSize];
+      const inside = x >= 3 && x <= 3 + 0.5 * 10.5 && y <= 7 && y >= 7 - 0.5 * Math.sqrt(0.75) * 8;
+      if (!inside) return;
+      inner++;
+      assert.ok(Math.abs(z - plane(x, y)) < 1e-9, `${z} at ${x}, ${y}`);
+    });
+    assert.ok(inner > 0.75 * found.length);
+  }
+});
+
+test('a hole in the lattice is a hole in the image, and as large', () => {
+  const { lattice, values } = latticeOf(() => 1);
+  values[4 * 12 + 6] = NaN;
+  const grid = gridOver(lattice);
+  const holes = interpolated(lattice, values, grid).filter(Number.isNaN).length;
+  assert.ok(holes >= 1 && holes <= 4, `${holes}`);
+  assert.equal(nearest(lattice, grid)[0], 0, 'the first pixel shows the first vertex');
+});
+
+test('scales are symmetric, and a share of the values is within them', () => {
+  for (const scale of [logarithmic(1e-3, 250), linear(0.02, String)]) {
+    const places = scale.ticks.map(({ value }) => scale.place(value));
+    assert.ok(places.every((place, i) => Math.abs(place + places[places.length - 1 - i]) < 1e-12));
+    assert.ok(places.every((place, i) => Math.abs(place) <= 1 + 1e-12 && (i === 0 || place > places[i - 1])));
+  }
+  const log = logarithmic(1e-3, 250);
+  assert.ok(Math.abs(log.place(250) - 1) < 1e-9 && log.place(1e-5) < 0.01);
+  assert.equal(magnitude([[-5, 1, NaN], [2, -3, 4]], 0.5), 3);
+  assert.equal(magnitude([[NaN]], 0.5), 0);
+});
+
+test('triangles that share an edge leave no gap, and their weights say where a pixel lies', () => {
+  const [width, height] = [20, 15];
+  const seen = new Uint8Array(width * height);
+  const places = [0, 0, width, 0, width, height, 0, height];
+  fillTriangles({ width, height }, [0, 1, 2, 0, 3, 2], places, (pixel, triangle, a, b, c) => {
+    seen[pixel]++;
+    const corners = triangle === 0 ? [0, 1, 2] : [0, 3, 2];
+    const x = [a, b, c].reduce((sum, weight, k) => sum + weight * places[2 * corners[k]], 0);
+    assert.ok(Math.abs(x - (pixel % width + 0.5)) < 1e-9);
+  });
+  assert.ok(seen.every((times) => times >= 1));
 });

@@ -1,11 +1,20 @@
-/** comlink, copied into the package with its types and licence: the package has no dependencies. */
+/**
+ * Libraries that come along: comlink, copied into the package with its types and licence, for the
+ * package has no dependencies; and for the page what it needs of three.js, as one file.
+ */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
-import { pkgVendor, root } from '../util/paths.mjs';
+import { fileURLToPath } from 'node:url';
+import { pkgVendor, root, wwwVendor } from '../util/paths.mjs';
 
 const from = join(root, 'node_modules/comlink');
 
 export async function buildVendor() {
+  await copyComlink();
+  await bundleThree();
+}
+
+async function copyComlink() {
   await mkdir(pkgVendor, { recursive: true });
   for (const name of ['comlink.mjs', 'node-adapter.mjs']) {
     const text = await readFile(join(from, 'dist/esm', name), 'utf8');
@@ -16,4 +25,21 @@ export async function buildVendor() {
   await copyFile(join(from, 'dist/esm/node-adapter.d.ts'), join(pkgVendor, 'node-adapter.d.mts'));
   await copyFile(join(from, 'dist/esm/protocol.d.ts'), join(pkgVendor, 'protocol.d.ts'));
   await copyFile(join(from, 'LICENSE'), join(pkgVendor, 'LICENSE-comlink'));
+}
+
+async function bundleThree() {
+  // Only now: on a fresh clone it has just been installed.
+  const { build } = await import('vite');
+  await build({
+    root,
+    configFile: false,
+    publicDir: false,
+    logLevel: 'warn',
+    build: {
+      outDir: wwwVendor,
+      emptyOutDir: true,
+      lib: { entry: fileURLToPath(new URL('three.js', import.meta.url)), formats: ['es'], fileName: () => 'three.js' },
+    },
+  });
+  await copyFile(join(root, 'node_modules/three/LICENSE'), join(wwwVendor, 'LICENSE-three'));
 }

@@ -13,6 +13,8 @@ export const pkgWasm = join(pkg, 'wasm');
 export const pkgVendor = join(pkg, 'vendor');
 /** The page. */
 export const www = join(root, 'www');
+/** Libraries that only the page needs. */
+export const wwwVendor = join(www, 'vendor');
 
 /** Tools that are built once for all checkouts of this machine. */
 export const cache = resolve(

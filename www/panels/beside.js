@@ -12,8 +12,8 @@ export function besidePanel(session) {
     imageRow(session, 'constraints', (image) => ({ constraints: constraintsOf(image) })),
   ];
   session.on('input', (input) => {
-    // A design is all constraints.
-    panel.hidden = input.design === true;
+    // A design is all constraints, and a mesh has no pixels.
+    panel.hidden = input.design === true || input.lattice !== undefined;
     for (const show of rows) show(input);
   });
 }

@@ -19,7 +19,7 @@ export function headline(session) {
 
   session.on('input', (input) => {
     hideNotice();
-    if (input.kind) say(`Opened ${input.name}.`, 'Check the pixel size and the height scale, choose λ, then press Run.');
+    if (input.kind) say(`Opened ${input.name}.`, `${input.seen ? 'Choose where to look from' : 'Check the pixel size and the height scale'}, choose λ, then press Run.`);
   });
   session.on('start', () => {
     hideNotice();

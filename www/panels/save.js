@@ -1,10 +1,14 @@
 /** The result as files. */
-import { elements } from '../dom.js';
+import { download, element, elements } from '../dom.js';
+import { resultImage } from '../surface/known.js';
 
 /** @import {Result, Session} from '../session.js' */
 
 /** @type {Record<string, string>} */
-const TYPES = { npy: 'application/octet-stream', png: 'image/png', obj: 'model/obj' };
+const TYPES = {
+  npy: 'application/octet-stream', png: 'image/png', tiff: 'image/tiff', exr: 'image/x-exr',
+  obj: 'model/obj', ply: 'model/ply', stl: 'model/stl', glb: 'model/gltf-binary',
+};
 
 /** @param {Session} session */
 export function savePanel(session) {
@@ -16,12 +20,18 @@ export function savePanel(session) {
       if (!result) return;
       try {
         const bytes = await encode(session, result, format);
-        download(new Blob([bytes], { type: TYPES[format] }), `${fileStem(result)}.${format}`);
+        download(bytes, TYPES[format], `${fileStem(result)}.${format}`);
       } catch (error) {
         session.fail(`The ${format.toUpperCase()} could not be written`, error);
       }
     });
   }
+  const more = element('save-more', HTMLButtonElement);
+  more.addEventListener('click', () => {
+    const open = more.getAttribute('aria-expanded') !== 'true';
+    more.setAttribute('aria-expanded', String(open));
+    element('save-others', HTMLElement).hidden = !open;
+  });
   /** @param {boolean} ready */
   const enable = (ready) => {
     for (const button of buttons) button.disabled = !ready;
@@ -37,12 +47,18 @@ export function savePanel(session) {
  * @param {string} format
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
-async function encode({ api }, { surface }, format) {
-  const image = surface.image;
-  const bytes = format === 'obj' || !image
-    ? await api.writeObj(surface)
-    : await (format === 'png' ? api.writePng(image) : api.writeNpy(image));
-  return /** @type {Uint8Array<ArrayBuffer>} */ (bytes);
+async function encode({ api }, result, format) {
+  const { surface } = result;
+  switch (format) {
+    case 'npy': return api.writeNpy(resultImage(result));
+    case 'png': return api.writePng(resultImage(result));
+    case 'tiff': return api.writeTiff(resultImage(result));
+    case 'exr': return api.writeExr(resultImage(result));
+    case 'ply': return api.writePly(surface);
+    case 'stl': return api.writeStl(surface);
+    case 'glb': return api.writeGlb(surface);
+    default: return api.writeObj(surface);
+  }
 }
 
 /** @param {Result} result */
@@ -50,17 +66,4 @@ function fileStem({ input, settings, surface }) {
   const lambda = input.design ? '' : `-${settings.lambda.toExponential().replace('e+', 'e')}`;
   const cancelled = surface.report.stopReason === 'cancelled' ? '-cancelled' : '';
   return `${input.name}-developable${lambda}${cancelled}`;
-}
-
-/**
- * @param {Blob} blob
- * @param {string} name
- */
-function download(blob, name) {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  // Once the browser has taken hold of it.
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

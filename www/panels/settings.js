@@ -58,8 +58,9 @@ export function settingsPanel(session) {
     else field.reportValidity();
   });
   display(session.settings.lambda);
-  session.on('input', ({ design }) => {
+  session.on('input', ({ design, lattice }) => {
     fieldset.disabled = design === true;
+    coarsening.disabled = lattice !== undefined;
     hint.textContent = design ? NO_FIDELITY : lambdaHint(session.settings.lambda);
   });
 

@@ -2,7 +2,9 @@
 import { designInput } from '../design.js';
 import { element, elements } from '../dom.js';
 import { number } from '../format.js';
+import { cameraPanel } from './camera.js';
 import { watchDrops } from './drop.js';
+import { isMesh, meshPanel } from './mesh.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
@@ -21,6 +23,10 @@ export function sourcePanel(session) {
   const span = element('scale-span', HTMLElement);
   const zero = element('zero-is-nothing', HTMLInputElement);
   const design = element('is-design', HTMLInputElement);
+  const arrayField = element('array-field', HTMLElement);
+  const array = element('array', HTMLSelectElement);
+  const mesh = meshPanel(session);
+  cameraPanel(session, mesh.take);
   const designHint = element('design-hint', HTMLElement);
   /** The open file's values as they are stored. @type {Float64Array} */
   let stored = new Float64Array();
@@ -40,19 +46,26 @@ export function sourcePanel(session) {
     if (opened) await session.run();
   };
 
-  /** @param {File} chosen */
-  const openFile = async (chosen) => {
+  /**
+   * @param {File} chosen
+   * @param {string} [wanted] array of it
+   */
+  const openFile = async (chosen, wanted) => {
+    if (isMesh(chosen.name)) return void mesh.open(chosen);
     /** @type {Float64Array} */
     let values = stored;
     const opened = await session.open(`“${chosen.name}” could not be read`, async () => {
-      const { format, dataType, width, height, data, pixelSize: side, heightScale: step } = await session.api.read(chosen);
+      const names = await arraysOf(session, chosen);
+      const several = names.length > 1 ? { file: chosen, names, name: wanted ?? names[0] } : undefined;
+      const options = several && { array: several.name };
+      const { format, dataType, width, height, data, pixelSize: side, heightScale: step, unit } = await session.api.read(chosen, options);
       if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
       if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
       if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
       values = data;
       const name = chosen.name.replace(/\.[^.]*$/, '') || 'heights';
       const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
-      return { name, kind, width, height, data, pixelSize: side, heightScale: step };
+      return { name, kind, width, height, data, pixelSize: side, heightScale: step, unit: unit ?? undefined, array: several };
     });
     if (!opened) return;
     stored = values;
@@ -84,15 +97,22 @@ export function sourcePanel(session) {
     // So that choosing the same file again, perhaps mended, is a change.
     file.value = '';
   });
-  watchDrops(openFile);
+  watchDrops((dropped) => void openFile(dropped));
+  array.addEventListener('change', () => {
+    const several = session.input?.array;
+    if (several) void openFile(several.file, array.value);
+  });
 
   session.on('input', (input) => {
     const isFile = input.kind !== undefined;
     exampleOptions.hidden = isFile || input.design === true;
     designHint.hidden = isFile || !input.design;
-    fileOptions.hidden = !isFile;
+    fileOptions.hidden = !isFile || input.seen !== undefined;
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
-    if (!isFile) return;
+    if (fileOptions.hidden) return;
+    const { array: several } = input;
+    arrayField.hidden = several === undefined;
+    array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
     fileName.textContent = `${input.name} (${input.kind})`;
     pixelSize.value = plain(input.pixelSize);
     heightScale.value = plain(input.heightScale);
@@ -100,6 +120,17 @@ export function sourcePanel(session) {
   });
 
   return { openExample };
+}
+
+/**
+ * The names of the arrays of an NPZ that may be heights; other files have none.
+ * @param {Session} session
+ * @param {File} file
+ */
+async function arraysOf(session, file) {
+  if (!/\.npz$/i.test(file.name)) return [];
+  const arrays = await session.api.npzArrays(file);
+  return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
 }
 
 /** @param {string} type such as u16 */

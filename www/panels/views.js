@@ -1,20 +1,25 @@
 /** Input and result side by side under one light. */
 import { element } from '../dom.js';
 import { number, shortest } from '../format.js';
+import { gridOf, nearest } from '../surface/lattice.js';
 import { inputNormals, resultNormals } from '../surface/known.js';
 import { Light } from '../surface/light.js';
+import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
 import { MARKS } from '../words.js';
 
 /** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
 /** @import {Marks} from '../surface/marks.js' */
+/** @import {Shown} from '../views/shown.js' */
 
 /** @param {Session} session */
 export function viewsPanel(session) {
   const light = new Light();
   const before = new SurfaceView(element('input-canvas', HTMLCanvasElement), light);
   const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light);
+  const photo = new PictureView(element('input-picture', HTMLCanvasElement));
+  const flat = new PictureView(element('result-picture', HTMLCanvasElement));
   const views = element('views', HTMLElement);
   const figure = element('result-view', HTMLElement);
   const inputCaption = element('input-caption', HTMLElement);
@@ -68,6 +73,24 @@ export function viewsPanel(session) {
     figure.setAttribute('aria-busy', String(phase === 'running'));
     empty.textContent = phase === 'running' ? 'Solving…' : 'Not solved yet';
   });
+
+  return {
+    /**
+     * Draws over the surfaces, or puts pictures in their places.
+     * @param {Partial<Shown>} shown
+     */
+    show: ({ input, result, before: left, after: right }) => {
+      before.cover(input ?? null);
+      after.cover(result ?? null);
+      photo.show(left ?? null);
+      flat.show(right ?? null);
+      element('input-title', HTMLElement).textContent = left?.title ?? 'Input';
+      element('result-title', HTMLElement).textContent = right?.title ?? 'Result';
+      element('light-hint', HTMLElement).hidden = left !== undefined && right !== undefined;
+      before.setAside(left !== undefined);
+      after.setAside(right !== undefined);
+    },
+  };
 }
 
 /**
@@ -77,7 +100,8 @@ export function viewsPanel(session) {
  * @param {CSSStyleDeclaration} style
  * @returns {(Marks & { words: string })[]}
  */
-function marksOf({ width, height, data, design, confidence, constraints }, torn, style) {
+function marksOf(input, torn, style) {
+  const { width, height, data, design, confidence, constraints } = input;
   const held = design ? data : constraints;
   /** @param {string} name @param {(pixel: number) => boolean} has @param {(number: number) => string} words */
   const marks = (name, has, words) => {
@@ -87,7 +111,7 @@ function marksOf({ width, height, data, design, confidence, constraints }, torn,
   };
   const found = [];
   if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < 0.5 && !Number.isNaN(data[i]), MARKS.doubted));
-  const flags = torn?.image;
+  const flags = torn && (torn.image ?? nearest(torn, gridOf(input)).map((vertex) => torn.vertices[vertex] ?? 0));
   if (torn && flags) found.push({ ...marks('--mark-torn', (i) => flags[i] !== 0, String), words: MARKS.torn(torn.count) });
   if (held) found.push(marks('--mark-held', (i) => !Number.isNaN(held[i]), MARKS.held));
   return found;

@@ -1,5 +1,6 @@
 /** What several panels ask about an input or a result, worked out once for each. */
 import { meanAngle, rmsError } from './compare.js';
+import { gridOf, interpolated } from './lattice.js';
 import { normalsOf } from './normals.js';
 
 /** @import {Input, Result} from '../session.js' */
@@ -23,9 +24,18 @@ function once(make) {
 export const inputNormals = once((/** @type {Input} */ input) =>
   normalsOf(input.data, input.width, input.height, input.heightScale / input.pixelSize));
 
-/** At the input's pixels; null for a result without an image. */
-export const resultNormals = once((/** @type {Result} */ { surface: { image } }) =>
-  image ? normalsOf(image.data, image.width, image.height, 1 / image.pixelSize) : null);
+/** The result at the input's pixels, or at those that show the input's lattice. */
+export const resultImage = once((/** @type {Result} */ { input, surface }) => {
+  if (surface.image) return surface.image;
+  const grid = gridOf(input);
+  const { width, height, pixelSize } = grid;
+  return { width, height, pixelSize, data: interpolated(surface, surface.heights, grid) };
+});
+
+export const resultNormals = once((/** @type {Result} */ result) => {
+  const { data, width, height, pixelSize } = resultImage(result);
+  return normalsOf(data, width, height, 1 / pixelSize);
+});
 
 /** The truth and the input's errors against it, where it is known. */
 const truthOf = once((/** @type {Input} */ input) => {
@@ -45,12 +55,11 @@ const truthOf = once((/** @type {Input} */ input) => {
  * of the normals, mean angle in degrees. Null where the truth is not known.
  */
 export const accuracyOf = once((/** @type {Result} */ result) => {
-  const { input, surface: { image } } = result;
+  const { input } = result;
   const truth = truthOf(input);
-  const normals = resultNormals(result);
-  if (!truth || !image || !normals) return null;
+  if (!truth) return null;
   return {
-    heights: { before: truth.heightError, after: rmsError(image.data, 1, truth.heights, input.heightScale) },
-    normals: { before: truth.normalError, after: meanAngle(normals, truth.normals) },
+    heights: { before: truth.heightError, after: rmsError(resultImage(result).data, 1, truth.heights, input.heightScale) },
+    normals: { before: truth.normalError, after: meanAngle(resultNormals(result), truth.normals) },
   };
 });

@@ -5,6 +5,7 @@ import { rasterOf } from './raster.js';
 
 /** @import {Light} from './light.js' */
 /** @import {Normals} from './normals.js' */
+/** @import {Layer} from './layer.js' */
 /** @import {Marks} from './marks.js' */
 /** @import {Raster} from './raster.js' */
 
@@ -26,6 +27,9 @@ export class SurfaceView {
   #marks = [];
   /** The same in the canvas' pixels. @type {HTMLCanvasElement | null} */
   #overlay = null;
+  /** @type {Layer | null} */
+  #layer = null;
+  #lit = false;
   #paintSoon = eachFrame(() => this.#paint());
 
   /**
@@ -61,8 +65,22 @@ export class SurfaceView {
     this.#normals = normals;
     this.#raster = null;
     this.#overlay = null;
-    if (this.sun) this.sun.hidden = !lit;
+    this.#lit = lit;
+    this.#shine();
     this.#paintSoon();
+  }
+
+  /**
+   * Makes room for a picture in its place.
+   * @param {boolean} aside
+   */
+  setAside(aside) {
+    this.canvas.hidden = aside;
+    this.#shine();
+  }
+
+  #shine() {
+    if (this.sun) this.sun.hidden = !this.#lit || this.canvas.hidden;
   }
 
   /**
@@ -72,6 +90,15 @@ export class SurfaceView {
   mark(marks) {
     this.#marks = marks;
     this.#overlay = null;
+    this.#paintSoon();
+  }
+
+  /**
+   * Draws a layer over the surface, until another is drawn.
+   * @param {Layer | null} layer
+   */
+  cover(layer) {
+    this.#layer = layer;
     this.#paintSoon();
   }
 
@@ -91,7 +118,21 @@ export class SurfaceView {
     const top = Math.floor((canvas.height - height) / 2);
     context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;
     context.imageSmoothingQuality = 'medium';
+    const layer = this.#layer;
+    if (layer?.image) {
+      context.drawImage(layer.image, left, top, width, height);
+      // The shape shows through, and the colours stay what they are in the legend, nearly.
+      context.globalCompositeOperation = 'soft-light';
+      context.globalAlpha = 0.5;
+    }
     context.drawImage(this.#shaded, left, top, width, height);
+    context.globalCompositeOperation = 'source-over';
+    context.globalAlpha = 1;
+    if (layer?.draw) {
+      const { grid } = layer;
+      const scale = width / (grid.width * grid.pixelSize);
+      layer.draw(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], window.devicePixelRatio);
+    }
     if (this.#marks.length === 0) return;
     this.#overlay ??= markedCanvas(this.#marks, width, height, window.devicePixelRatio);
     context.drawImage(this.#overlay, left, top);

@@ -89,3 +89,60 @@ function crc32(bytes) {
   }
   return ~crc >>> 0;
 }
+
+/**
+ * NPZ: a ZIP of stored NPY files.
+ * @param {Record<string, Buffer>} arrays
+ */
+export function npz(arrays) {
+  const bodies = [];
+  const directory = [];
+  let offset = 0;
+  for (const [name, bytes] of Object.entries(arrays)) {
+    const path = Buffer.from(`${name}.npy`);
+    const common = Buffer.alloc(26);
+    // Version 2, no flags, stored, no time.
+    common.writeUInt16LE(20, 0);
+    common.writeUInt32LE(crc32(bytes), 10);
+    common.writeUInt32LE(bytes.length, 14);
+    common.writeUInt32LE(bytes.length, 18);
+    common.writeUInt16LE(path.length, 22);
+    const body = Buffer.concat([Buffer.from('PK\x03\x04'), common, path, bytes]);
+    const tail = Buffer.alloc(14);
+    tail.writeUInt32LE(offset, 10);
+    directory.push(Buffer.from('PK\x01\x02\x14\x00', 'latin1'), common, tail, path);
+    bodies.push(body);
+    offset += body.length;
+  }
+  const entries = Buffer.concat(directory);
+  const end = Buffer.alloc(18);
+  end.writeUInt16LE(bodies.length, 4);
+  end.writeUInt16LE(bodies.length, 6);
+  end.writeUInt32LE(entries.length, 8);
+  end.writeUInt32LE(offset, 12);
+  return Buffer.concat([...bodies, entries, Buffer.from('PK\x05\x06'), end]);
+}
+
+/** @typedef {{ points: (readonly [number, number, number])[], triangles: (readonly [number, number, number])[] }} Mesh */
+
+/** Wavefront OBJ. @param {Mesh} mesh */
+export function obj({ points, triangles }) {
+  const lines = [
+    ...points.map((point) => `v ${point.join(' ')}`),
+    ...triangles.map((corners) => `f ${corners.map((corner) => corner + 1).join(' ')}`),
+  ];
+  return Buffer.from(`${lines.join('\n')}\n`);
+}
+
+/** PLY in text. @param {Mesh} mesh */
+export function ply({ points, triangles }) {
+  const lines = [
+    'ply', 'format ascii 1.0',
+    `element vertex ${points.length}`, 'property double x', 'property double y', 'property double z',
+    `element face ${triangles.length}`, 'property list uchar int vertex_indices',
+    'end_header',
+    ...points.map((point) => point.join(' ')),
+    ...triangles.map((corners) => `3 ${corners.join(' ')}`),
+  ];
+  return Buffer.from(`${lines.join('\n')}\n`);
+}

@@ -9,7 +9,7 @@ import { serve } from '../../../tools/serve.mjs';
 
 const executablePath = process.env.DEVELOPABLE_CHROME || '/usr/bin/chromium';
 const args = [
-  '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
+  '--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
 
@@ -106,6 +106,8 @@ function watch(page) {
   /** @type {string[]} */
   const incidents = [];
   page.on('console', (message) => {
+    // Chromium's own, where it draws WebGL without a graphics card.
+    if (message.text().includes('GL Driver Message')) return;
     if (message.type() !== 'log') incidents.push(`${message.type()}: ${message.text()}`);
   });
   page.on('pageerror', (error) => incidents.push(`uncaught: ${error.message}`));
@@ -230,13 +232,18 @@ export async function open(page, name, bytes) {
 /**
  * What a click on one of the save buttons downloads.
  * @param {Page} page
- * @param {'NPY' | 'PNG' | 'OBJ'} format
+ * @param {string} format
  */
-export async function save(page, format) {
-  const [download] = await Promise.all([
-    page.waitForEvent('download'),
-    page.getByRole('button', { name: format, exact: true }).click(),
-  ]);
+export function save(page, format) {
+  return downloaded(page, () => page.getByRole('button', { name: format, exact: true }).click());
+}
+
+/**
+ * @param {Page} page
+ * @param {() => Promise<unknown>} act what starts the download
+ */
+export async function downloaded(page, act) {
+  const [download] = await Promise.all([page.waitForEvent('download'), act()]);
   const pieces = [];
   for await (const piece of await download.createReadStream()) pieces.push(piece);
   return { name: download.suggestedFilename(), bytes: Buffer.concat(pieces) };

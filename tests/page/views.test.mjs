@@ -1,0 +1,300 @@
+/** Views of the result, against what is known of the examples' shapes. */
+import assert from 'node:assert/strict';
+import { grid, npy, png16 } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
+import { downloaded, look, open, pageTest, painted, runBy, save } from './support/page.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/**
+ * @param {Page} page
+ * @param {string} name
+ */
+async function view(page, name) {
+  await page.getByRole('radio', { name, exact: true }).check({ force: true });
+  await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+  await painted(page);
+}
+
+/**
+ * The text beside a name below the views.
+ * @param {Page} page
+ * @param {string | RegExp} name
+ */
+async function told(page, name) {
+  const figure = page.locator('#about-view .figures div').filter({ has: page.locator('dt', { hasText: name }) });
+  return (await figure.locator('dd').innerText()).trim();
+}
+
+/**
+ * @param {Page} page
+ * @param {string} example
+ * @param {{ size?: string, noise?: string }} [options]
+ */
+async function example(page, example, { size = '200', noise } = {}) {
+  await runBy(page, () => page.locator('#size').selectOption(size));
+  if (noise !== undefined) await runBy(page, () => page.locator('#noise').selectOption(noise));
+  const radio = page.locator(`input[value="${example}"]`);
+  if (!(await radio.isChecked())) await runBy(page, () => radio.check());
+}
+
+/** @param {Page} page */
+const ticks = async (page) => (await page.locator('#about-view .ticks span').allInnerTexts()).map(parsed);
+
+/** @param {number[]} values */
+const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
+
+/** Points over the square that the examples lie over. @param {number} n */
+const points = (n) => grid(n, n, (col, row) => row * n + col)
+  .map((i) => [((i % n) + 0.5) / n - 0.5, (Math.floor(i / n) + 0.5) / n - 0.5]);
+
+/** The cylinder example: its radius, and its axis 25° from x. */
+const RADIUS = 0.85;
+const [SIN, COS] = [Math.sin((25 * Math.PI) / 180), Math.cos((25 * Math.PI) / 180)];
+/** @param {number[]} point */
+const across = ([x, y]) => COS * y - SIN * x;
+
+pageTest('curvatures of the cylinder: one bend as the radius says, none of the other', async (page) => {
+  await example(page, 'cylinder', { noise: '0' });
+  const plain = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  await view(page, 'κ₂');
+  const bends = points(60).map((point) => RADIUS ** 2 / (RADIUS ** 2 - across(point) ** 2) ** 1.5);
+  const [kappa1] = (await told(page, 'κ₁')).split('→').map(parsed);
+  assert.ok(Math.abs(kappa1 / median(bends) - 1) < 0.03, `${kappa1} against ${median(bends)}`);
+  const [before, after] = (await told(page, 'κ₂')).split('→').map(parsed);
+  // The input's is what resampling it to the lattice leaves.
+  assert.ok(before < 0.03 / RADIUS && after < 0.01 / RADIUS, `${before} → ${after}`);
+  assert.match(await page.locator('#about-view figcaption').innerText(), /κ₂.*1\/unit$/);
+  const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  assert.ok(seen[0] !== plain[0] && seen[1] !== plain[1], 'both are coloured');
+
+  await view(page, 'Curvature K');
+  assert.match(await page.locator('#about-view figcaption').innerText(), /K in 1\/unit²$/);
+  const values = await ticks(page);
+  assert.ok(values.every((value, i) => value === -values[values.length - 1 - i]), 'symmetric');
+  assert.ok(values.includes(0) && values.length >= 3);
+  assert.ok(parsed((await told(page, 'Median |K|')).split('→')[1]) < 0.02 / RADIUS ** 2);
+  await view(page, 'Shaded');
+  assert.equal((await look(page, '#result-canvas')).hash, plain[1]);
+  assert.equal(await page.locator('#analysis').isVisible(), false);
+});
+
+pageTest('noise has curvature everywhere, the result next to none, on one scale', async (page) => {
+  await example(page, 'cylinder');
+  await view(page, 'Curvature K');
+  const [before, after] = (await told(page, 'Median |K|')).split('→').map(parsed);
+  assert.ok(after < before / 1000, `${before} → ${after}`);
+  const [all, few] = (await told(page, '|K| above 1')).split('→').map(parsed);
+  assert.ok(all > 95 && few < 20, `${all} % → ${few} %`);
+});
+
+pageTest('curvatures are in the units of the file', async (page) => {
+  // A cap of a sphere, whose curvatures are the same everywhere, in pixels that are not of side 1.
+  const [radius, side, pixels] = [40, 0.5, 61];
+  const cap = grid(pixels, pixels, (col, row) => Math.sqrt(radius ** 2 - (side * (col - 30)) ** 2 - (side * (row - 30)) ** 2));
+  await open(page, 'cap.npy', npy(pixels, cap));
+  await page.getByLabel('Pixel size').fill(String(side));
+  await page.getByLabel('Height scale').fill('1');
+  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await view(page, 'Curvature K');
+  const [gauss] = (await told(page, 'Median |K|')).split('→').map(parsed);
+  // Resampling to the lattice roughens the heights: it is the unit that matters here.
+  assert.ok(gauss * radius ** 2 > 0.7 && gauss * radius ** 2 < 1.5, `${gauss}`);
+  await view(page, 'κ₂');
+  const [bend] = (await told(page, 'Median |κ₂|')).split('→').map(parsed);
+  assert.ok(bend * radius > 0.7 && bend * radius < 1.5, `${bend}`);
+});
+
+/** Heights of the roof's parts: a vault along each axis, and a tower. */
+const arc = (/** @type {number} */ offset, /** @type {number} */ radius) =>
+  Math.sqrt(radius ** 2 - offset ** 2) - Math.sqrt(radius ** 2 - 0.25);
+/** @type {((x: number, y: number) => number)[]} */
+const parts = [(_, y) => arc(y, 0.7), (x) => arc(x, 0.65), (x, y) => 0.45 - 1.3 * Math.hypot(x, y)];
+
+pageTest('the roof has the patches that it was made of, with their areas and folds', async (page) => {
+  await example(page, 'roof', { noise: '0' });
+  await view(page, 'Patches');
+  assert.equal(await told(page, 'Patches'), '5', 'a tower, and two vaults in two pieces each');
+  assert.equal(await told(page, 'Creases'), '8');
+  // By the surface's area element over a fine grid.
+  const areas = [0, 0, 0];
+  const [n, step] = [500, 1e-6];
+  for (const [x, y] of points(n)) {
+    const heights = parts.map((part) => part(x, y));
+    const top = heights.indexOf(Math.max(...heights));
+    const slopes = [parts[top](x + step, y) - heights[top], parts[top](x, y + step) - heights[top]].map((d) => d / step);
+    areas[top] += Math.hypot(1, ...slopes) / n ** 2;
+  }
+  const expected = [areas[0] / 2, areas[0] / 2, areas[1] / 2, areas[1] / 2, areas[2]].sort((a, b) => b - a);
+  const rows = page.locator('#about-view table').first().locator('tbody tr');
+  const found = (await rows.locator('td:nth-child(2)').allInnerTexts()).map(parsed);
+  assert.equal(found.length, 5);
+  found.forEach((area, i) => assert.ok(Math.abs(area / expected[i] - 1) < 0.05, `${found} against ${expected}`));
+  const creases = page.locator('#about-view table').last().locator('tbody tr');
+  for (const fold of (await creases.locator('td:nth-child(3)').allInnerTexts()).map(parsed)) {
+    assert.ok(fold > 10 && fold < 90, `${fold}°`);
+  }
+});
+
+pageTest('rulings are drawn over the result only', async (page) => {
+  await example(page, 'cylinder', { noise: '0' });
+  const plain = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  await view(page, 'Rulings');
+  const seen = [await look(page, '#input-canvas'), await look(page, '#result-canvas')].map(({ hash }) => hash);
+  assert.ok(seen[0] === plain[0] && seen[1] !== plain[1]);
+  assert.ok(parsed(await told(page, 'Lines')) > 10);
+  assert.ok(parsed(await told(page, 'Off straight')) < 3);
+  // Along the axis, from side to side.
+  const longest = parsed(await told(page, 'Longest'));
+  assert.ok(longest > 0.9 && longest < 1 / COS + 0.01, `${longest}`);
+});
+
+pageTest('the cylinder laid flat is as large as it is bent', async (page) => {
+  await example(page, 'cylinder', { size: '400', noise: '0' });
+  // Without the shrinking of curvature that comes with a smaller λ.
+  await runBy(page, async () => {
+    await page.getByLabel('λ as a number').fill('1e9');
+    await page.getByLabel('λ as a number').press('Tab');
+  });
+  await view(page, 'Unrolled');
+  // Flat places of the border's points, turned as little as possible from where they are seen.
+  const along = (/** @type {number[]} */ [x, y]) => COS * x + SIN * y;
+  const flat = (/** @type {number[]} */ point) => {
+    const [s, t] = [along(point), RADIUS * Math.asin(across(point) / RADIUS)];
+    return [COS * s - SIN * t, SIN * s + COS * t];
+  };
+  let [dot, cross] = [0, 0];
+  for (const point of points(100)) {
+    const [x, y] = flat(point);
+    dot += x * point[0] + y * point[1];
+    cross += point[0] * y - point[1] * x;
+  }
+  const [c, s] = [dot / Math.hypot(dot, cross), cross / Math.hypot(dot, cross)];
+  // The lattice's vertices lie between the centres of the outermost pixels.
+  const [side, edge] = [1 / 400, 0.5 - 0.5 / 400 + 1e-9];
+  const ends = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let row = 0, y = edge; y > -edge; y = edge - ++row * side * Math.sqrt(0.75)) {
+    for (let col = 0; col <= 400; col++) {
+      const x = (col - 0.5 * (row % 2)) * side - edge;
+      if (Math.abs(x) > edge) continue;
+      const [fx, fy] = flat([x, y]);
+      [c * fx + s * fy, c * fy - s * fx].forEach((at, k) => {
+        ends[2 * k] = Math.min(ends[2 * k], at);
+        ends[2 * k + 1] = Math.max(ends[2 * k + 1], at);
+      });
+    }
+  }
+  const expected = [ends[1] - ends[0], ends[3] - ends[2]];
+  const found = (await told(page, 'Size of the sheet')).split('×').map(parsed);
+  found.forEach((side, k) => assert.ok(Math.abs(side / expected[k] - 1) < 0.005, `${found} against ${expected}`));
+  assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
+  assert.ok(parsed(await told(page, 'Strain, root mean square')) < 0.1);
+  assert.equal(await told(page, 'Flipped triangles'), '0');
+  assert.equal(await told(page, 'Overlaps'), 'none');
+  assert.ok((await look(page, '#result-picture')).covered > 0.4);
+  assert.equal(await page.locator('#result-canvas').isVisible(), false);
+  assert.match(await page.locator('#result-picture').getAttribute('aria-label') ?? '', /laid flat/);
+  assert.equal(await page.locator('#result-title').innerText(), 'Laid flat');
+  await view(page, 'Shaded');
+  assert.equal(await page.locator('#result-title').innerText(), 'Result');
+  assert.equal(await page.locator('#result-canvas').isVisible(), true);
+});
+
+pageTest('what cannot be laid flat is said to be so', async (page) => {
+  await example(page, 'roof');
+  await view(page, 'Unrolled');
+  assert.match(await page.locator('#about-view .said').innerText(), /cannot be laid flat/);
+  assert.ok(parsed(await told(page, 'Above 1 %')) > 10);
+});
+
+pageTest('the printed page is made flat: an A4 sheet, with its pixels and its map', async (page) => {
+  await example(page, 'page');
+  await view(page, 'Dewarped');
+  assert.match(await page.locator('#about-view .said').innerText(), /^Made flat/);
+  assert.ok((await look(page, '#input-picture')).covered > 0.2 && (await look(page, '#result-picture')).covered > 0.2);
+  const [width, height] = (await told(page, 'Flat image')).split('×').map(parsed);
+  assert.ok(Math.abs(width / height / (210 / 297) - 1) < 0.01, `${width} × ${height}`);
+
+  const png = await downloaded(page, () => page.getByRole('button', { name: 'Flat PNG' }).click());
+  assert.equal(png.name, 'page-flat.png');
+  assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [width, height]);
+  const map = await downloaded(page, () => page.getByRole('button', { name: 'Warp map' }).click());
+  const { places, ...size } = JSON.parse(map.bytes.toString());
+  assert.deepEqual([size.width, size.height, places.length], [width, height, width * height]);
+  // Upright: further to the right there is further to the right here.
+  const row = places.slice(width * (height >> 1), width * ((height >> 1) + 1)).filter(Boolean);
+  assert.ok(row.length > 0.9 * width && row.at(-1)[0] > row[0][0] + width / 2);
+
+  const dots = page.getByLabel('Pixels per unit');
+  await dots.fill('300');
+  await dots.press('Tab');
+  await page.locator('#analysis[aria-busy="false"]').waitFor();
+  await page.locator('#about-view', { hasText: '300 pixels per unit' }).waitFor();
+  const smaller = (await told(page, 'Flat image')).split('×').map(parsed);
+  const scale = 300 / parsed(String(size.resolution));
+  assert.ok(Math.abs(smaller[1] / (height * scale) - 1) < 0.02, `${smaller}`);
+});
+
+const [WIDTH, HEIGHT] = [48, 36];
+
+pageTest('a photo of what is flat is called that, and what is no photo is refused', async (page) => {
+  await open(page, 'table.npy', npy(WIDTH, grid(WIDTH, HEIGHT, () => 3)));
+  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await view(page, 'Dewarped');
+  assert.match(await page.locator('#about-view').innerText(), /Open a photo/);
+  const choose = async (/** @type {string} */ name, /** @type {Buffer} */ buffer) => {
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Open a photo' }).click()]);
+    await chooser.setFiles({ name, mimeType: '', buffer });
+  };
+  await choose('notes.png', Buffer.from('no picture'));
+  await page.getByRole('alert').filter({ hasText: 'notes.png' }).waitFor();
+  await choose('photo.png', png16(2 * WIDTH, grid(2 * WIDTH, 2 * HEIGHT, (col) => 600 * col)));
+  await page.locator('#about-view .said', { hasText: 'flat to begin with' }).waitFor();
+  assert.equal(await page.locator('#photo-name').innerText(), 'photo.png');
+  const [width, height] = (await told(page, 'Flat image')).split('×').map(parsed);
+  assert.ok(Math.abs(width - 2 * WIDTH) <= 2 && Math.abs(height - 2 * HEIGHT) <= 2, `${width} × ${height}`);
+});
+
+pageTest('another result takes the place of an answer that is still being worked out', async (page) => {
+  await page.getByRole('radio', { name: 'Unrolled', exact: true }).check({ force: true });
+  // Not waited for: the answer is about something that is gone.
+  await runBy(page, () => page.locator('input[value="cylinder"]').check());
+  await page.locator('#analysis[aria-busy="false"]').waitFor();
+  assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
+  assert.equal(await page.locator('#notice').isVisible(), false);
+});
+
+pageTest('a view that cannot be worked out says so, and the surface stays', async (page) => {
+  const before = (await look(page, '#result-canvas')).hash;
+  await page.route('**/unroll_bg.wasm', (route) => route.fulfill({ contentType: 'application/wasm', body: 'nothing' }));
+  await view(page, 'Unrolled');
+  await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
+  assert.equal((await look(page, '#result-canvas')).hash, before);
+  await page.unroute('**/unroll_bg.wasm');
+  await view(page, 'Rulings');
+  assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');
+});
+
+pageTest('further formats are what they are called', async (page) => {
+  await example(page, 'cone', { size: '100' });
+  await page.getByRole('button', { name: 'More', exact: true }).click();
+  /** @type {Record<string, (bytes: Buffer) => boolean>} */
+  const formats = {
+    TIFF: (bytes) => ['II*\0', 'MM\0*'].includes(bytes.toString('latin1', 0, 4)),
+    EXR: (bytes) => bytes.readUInt32LE(0) === 20000630,
+    PLY: (bytes) => bytes.toString('latin1', 0, 4) === 'ply\n',
+    STL: (bytes) => bytes.length === 84 + 50 * bytes.readUInt32LE(80),
+    GLB: (bytes) => bytes.toString('latin1', 0, 4) === 'glTF' && bytes.readUInt32LE(8) === bytes.length,
+  };
+  for (const [format, sound] of Object.entries(formats)) {
+    const { name, bytes } = await save(page, format);
+    assert.ok(name.endsWith(`.${format.toLowerCase()}`) && sound(bytes), `${name}, ${bytes.length} bytes`);
+  }
+});
+
+pageTest('the views can be switched by keyboard', async (page) => {
+  await page.getByRole('radio', { name: 'Shaded', exact: true }).focus();
+  await page.keyboard.press('ArrowRight');
+  await page.locator('#analysis[aria-busy="false"] .bar').waitFor();
+  assert.ok(await page.getByRole('radio', { name: 'Curvature K' }).isChecked());
+});

@@ -1,0 +1,84 @@
+/** The switch between views of the result, and what stands below them. */
+import { Analyses } from '../analyses.js';
+import { element, elements, make } from '../dom.js';
+import { gaussian, kappa2 } from '../views/curvature.js';
+import { dewarped } from '../views/dewarped.js';
+import { patches } from '../views/patches.js';
+import { rulings } from '../views/rulings.js';
+import { sheet } from '../views/sheet.js';
+import { photoPanel } from './photo.js';
+
+/** @import {Result, Session} from '../session.js' */
+/** @import {Shown} from '../views/shown.js' */
+/** @typedef {(analyses: Analyses, result: Result) => Promise<Shown>} View */
+
+/** @type {Record<string, View>} */
+const VIEWS = { gaussian, kappa2, rulings, patches, sheet };
+
+/**
+ * @param {Session} session
+ * @param {(shown: Partial<Shown>) => void} show
+ */
+export function analysisPanel(session, show) {
+  const analyses = new Analyses(session.api);
+  const radios = elements('input[name="view"]', HTMLInputElement);
+  const panel = element('analysis', HTMLElement);
+  const about = element('about-view', HTMLElement);
+  /** Counts what was asked for, to tell the newest. */
+  let asked = 0;
+
+  const chosen = () => radios.find((radio) => radio.checked)?.value ?? 'shaded';
+
+  /** @param {Partial<Shown>} shown */
+  const put = (shown) => {
+    show(shown);
+    about.replaceChildren(...(shown.about ?? []));
+    panel.dataset.view = chosen();
+    panel.setAttribute('aria-busy', 'false');
+  };
+
+  const update = async () => {
+    const turn = ++asked;
+    const { result } = session;
+    const name = chosen();
+    photo.show(name === 'dewarped');
+    photo.made(null);
+    put({});
+    panel.hidden = name === 'shaded';
+    if (name === 'shaded') return;
+    if (!result) {
+      about.textContent = 'Appears when a run has ended.';
+      return;
+    }
+    panel.setAttribute('aria-busy', 'true');
+    about.textContent = 'Working it out…';
+    try {
+      const shown = await (name === 'dewarped' ? flat(result) : VIEWS[name](analyses, result));
+      if (turn === asked) put(shown);
+    } catch (error) {
+      if (turn !== asked) return;
+      put({});
+      session.fail('This view could not be worked out', error);
+    }
+  };
+
+  /** @param {Result} result @returns {Promise<Partial<Shown>>} */
+  const flat = async (result) => {
+    const turn = asked;
+    const wish = await photo.wish(result);
+    if (!wish) return { about: [make('p', 'muted', 'Open a photo that shows what the heights show, from above; it may have more pixels.')] };
+    const shown = await dewarped(analyses, result, wish.photo, wish.options);
+    if (turn === asked) photo.made(shown.flat);
+    return shown;
+  };
+
+  const photo = photoPanel(session, analyses, () => void update());
+  /** What has begun for another result is of no use. */
+  const renew = () => {
+    analyses.stop();
+    void update();
+  };
+  for (const radio of radios) radio.addEventListener('change', renew);
+  session.on('result', renew);
+  session.on('cleared', renew);
+}

@@ -1,0 +1,119 @@
+/** Meshes and point clouds: turned, and seen as heights from a direction. */
+import { element, elements } from '../dom.js';
+import { count, number } from '../format.js';
+import { gridOver, interpolated } from '../surface/lattice.js';
+import { MeshView } from '../surface/mesh-view.js';
+
+/** @import {Mesh, SampleMeshOptions} from '../api.js' */
+/** @import {Input, Session} from '../session.js' */
+
+const NAMES = /\.(obj|ply|stl|glb|gltf)$/i;
+
+/** @param {string} name of a file */
+export function isMesh(name) {
+  return NAMES.test(name);
+}
+
+/** @param {Session} session */
+export function meshPanel(session) {
+  const panel = element('mesh-options', HTMLElement);
+  const canvas = element('mesh-canvas', HTMLCanvasElement);
+  const missing = element('mesh-missing', HTMLElement);
+  const name = element('mesh-name', HTMLElement);
+  const span = element('mesh-span', HTMLElement);
+  const resolution = element('mesh-resolution', HTMLInputElement);
+  const turned = element('mesh-turned', HTMLButtonElement);
+  const buttons = elements('button[data-view]', HTMLButtonElement);
+  /** @type {Promise<MeshView | null> | null} */
+  let viewer = null;
+  /** @type {Mesh | null} */
+  let shown = null;
+
+  /**
+   * Takes the heights that are seen from a direction as the input.
+   * @param {Pick<Input, 'name' | 'kind'>} file
+   * @param {() => Promise<Mesh>} load
+   * @param {SampleMeshOptions} options
+   * @param {string} doing
+   */
+  const see = (file, load, options, doing) => session.open(doing, async () => {
+    const mesh = await load();
+    const lattice = await session.api.sampleMesh(mesh, options);
+    const grid = gridOver(lattice);
+    const data = interpolated(lattice, lattice.heights, grid);
+    if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
+    return { ...file, ...grid, heightScale: 1, data, lattice, seen: { mesh, options } };
+  });
+
+  /** The package knows what suits a mesh, and what a point cloud. */
+  const wanted = () => (resolution.value === '' ? undefined : resolution.valueAsNumber);
+
+  /** @param {SampleMeshOptions} change */
+  const again = (change) => {
+    const { input } = session;
+    if (!input?.seen) return;
+    const { mesh, options } = input.seen;
+    void see({ name: input.name, kind: input.kind }, async () => mesh, { ...options, ...change }, 'The mesh could not be seen so');
+  };
+  for (const button of buttons) {
+    button.addEventListener('click', () => again({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
+  }
+  turned.addEventListener('click', async () => {
+    const view = await viewer;
+    if (view) again({ view: view.direction });
+  });
+  resolution.addEventListener('change', () => {
+    const number = wanted();
+    const sound = number === undefined || (Number.isInteger(number) && number >= 3);
+    resolution.setCustomValidity(sound ? '' : 'It must be a whole number, at least 3, or empty.');
+    if (resolution.reportValidity()) again({ resolution: number });
+  });
+
+  session.on('input', async ({ seen, lattice, name: called, kind }) => {
+    panel.hidden = seen === undefined;
+    if (!seen || !lattice) return;
+    const { mesh, options } = seen;
+    name.textContent = `${called} (${kind})`;
+    span.textContent = spanInWords(mesh);
+    for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
+    turned.setAttribute('aria-pressed', String(typeof options.view !== 'string'));
+    viewer ??= MeshView.on(canvas).catch(() => null);
+    const view = await viewer;
+    canvas.hidden = turned.hidden = view === null;
+    missing.hidden = view !== null;
+    if (session.input?.seen !== seen || !view) return;
+    if (shown !== mesh) view.show(mesh);
+    shown = mesh;
+    const { towards } = lattice.frame;
+    if (typeof options.view === 'string') view.look([-towards[0], -towards[1], -towards[2]]);
+  });
+
+  return {
+    /**
+     * @param {Pick<Input, 'name' | 'kind'>} file
+     * @param {() => Promise<Mesh>} load
+     * @param {string} doing
+     */
+    take: (file, load, doing) => see(file, load, { view: 'best-fit', resolution: wanted() }, doing),
+    /** @param {File} file */
+    open(file) {
+      const kind = NAMES.exec(file.name)?.[1].toUpperCase();
+      const called = file.name.replace(NAMES, '') || 'mesh';
+      return this.take({ name: called, kind }, () => session.api.readMesh(file), `“${file.name}” could not be read`);
+    },
+  };
+}
+
+/** @param {Mesh} mesh */
+function spanInWords({ positions, triangles }) {
+  const sides = [0, 1, 2].map((k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return number(high - low);
+  });
+  const what = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
+  return `${what}; x, y and z span ${sides.join(', ')}.`;
+}

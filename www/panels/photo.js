@@ -1,0 +1,128 @@
+/** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
+import { download, element } from '../dom.js';
+import { photographed } from '../views/print.js';
+
+/** @import {Analyses} from '../analyses.js' */
+/** @import {Result, Session} from '../session.js' */
+/** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
+
+/** @typedef {{ photo: ImageData, options: { dots?: number, trim: boolean } }} Wish */
+
+/**
+ * @param {Session} session
+ * @param {Analyses} analyses
+ * @param {() => void} changed what is to be shown is another
+ */
+export function photoPanel(session, analyses, changed) {
+  const panel = element('photo', HTMLElement);
+  const file = element('photo-file', HTMLInputElement);
+  const open = element('photo-open', HTMLButtonElement);
+  const name = element('photo-name', HTMLElement);
+  const dots = element('dots', HTMLInputElement);
+  const trim = element('trim', HTMLInputElement);
+  const png = element('flat-png', HTMLButtonElement);
+  const map = element('flat-map', HTMLButtonElement);
+  const hint = name.textContent ?? '';
+  /** @type {ImageData | null} */
+  let photo = null;
+  /** @type {Dewarped | null} */
+  let flat = null;
+
+  const forget = () => {
+    photo = null;
+    name.textContent = hint;
+  };
+  session.on('cleared', forget);
+
+  open.addEventListener('click', () => file.click());
+  file.addEventListener('change', async () => {
+    const { result } = session;
+    const chosen = file.files?.[0];
+    // So that choosing the same file again, perhaps mended, is a change.
+    file.value = '';
+    if (!chosen || !result) return;
+    try {
+      const read = await pixelsOf(chosen);
+      if (session.input !== result.input) return;
+      photo = read;
+      name.textContent = chosen.name;
+      changed();
+    } catch (error) {
+      session.fail(`“${chosen.name}” could not be used`, error);
+    }
+  });
+  dots.addEventListener('change', () => {
+    const sound = dots.value === '' || dots.valueAsNumber > 0;
+    dots.setCustomValidity(sound ? '' : 'It must be a number above 0, or empty.');
+    if (dots.reportValidity()) changed();
+  });
+  trim.addEventListener('change', changed);
+
+  const stem = () => `${session.input?.name}-flat`;
+  png.addEventListener('click', async () => {
+    if (!flat) return;
+    const image = flat;
+    try {
+      const bytes = await session.api.writePhoto(image);
+      download(bytes, 'image/png', `${stem()}.png`);
+    } catch (error) {
+      session.fail('The flat image could not be written', error);
+    }
+  });
+  map.addEventListener('click', () => {
+    if (flat) download(mapJson(flat), 'application/json', `${stem()}-map.json`);
+  });
+
+  return {
+    /** @param {boolean} wanted */
+    show: (wanted) => {
+      panel.hidden = !wanted;
+    },
+    /**
+     * The photo that there is, or else a print, where the true surface is known.
+     * @param {Result} result
+     * @returns {Promise<Wish | null>}
+     */
+    async wish({ input }) {
+      if (!photo && input.truth) {
+        const known = { ...input, truth: input.truth };
+        const printed = photographed(known, await analyses.sheetOfTruth(known));
+        if (session.input === input && !photo) {
+          photo = printed;
+          name.textContent = 'a page printed on the true surface';
+        }
+      }
+      return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked } };
+    },
+    /** @param {Dewarped | null} made what can be saved */
+    made: (made) => {
+      flat = made;
+      for (const button of [png, map]) button.disabled = made === null;
+    },
+  };
+}
+
+/**
+ * Whatever pictures the browser knows.
+ * @param {File} file
+ */
+async function pixelsOf(file) {
+  const bitmap = await createImageBitmap(file).catch(() => {
+    throw new Error('it is no picture that this browser can read');
+  });
+  const canvas = document.createElement('canvas');
+  canvas.width = bitmap.width;
+  canvas.height = bitmap.height;
+  const context = canvas.getContext('2d');
+  if (!context) throw new Error('the browser gives no canvas of that size');
+  context.drawImage(bitmap, 0, 0);
+  bitmap.close();
+  return context.getImageData(0, 0, canvas.width, canvas.height);
+}
+
+/** The warp map: for each pixel its place in the photo, null where there is no sheet. @param {Dewarped} flat */
+function mapJson({ width, height, resolution, corner, map }) {
+  const places = Array.from({ length: width * height }, (_, i) =>
+    (Number.isNaN(map[2 * i]) ? null : [map[2 * i], map[2 * i + 1]].map((place) => Math.round(1000 * place) / 1000)));
+  return `${JSON.stringify({ width, height, resolution, corner, places })}\n`;
+}

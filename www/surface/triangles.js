@@ -1,0 +1,31 @@
+/** Triangles as pixels: more of them than a canvas draws in a moment. */
+
+/**
+ * Visits the pixels whose centres lie in a triangle, for each triangle; those on an edge, in both.
+ * @param {{ width: number, height: number }} image
+ * @param {ArrayLike<number>} triangles three corners each
+ * @param {ArrayLike<number>} places x, y of each corner in pixels, y down, (0, 0) the upper left corner
+ * @param {(pixel: number, triangle: number, a: number, b: number, c: number) => void} visit with the corners' weights
+ */
+export function fillTriangles({ width, height }, triangles, places, visit) {
+  for (let t = 0; 3 * t < triangles.length; t++) {
+    const [i, j, k] = [2 * triangles[3 * t], 2 * triangles[3 * t + 1], 2 * triangles[3 * t + 2]];
+    const [ax, ay, bx, by, cx, cy] = [places[i], places[i + 1], places[j], places[j + 1], places[k], places[k + 1]];
+    const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+    if (area === 0) continue;
+    const left = Math.max(0, Math.ceil(Math.min(ax, bx, cx) - 0.5));
+    const right = Math.min(width - 1, Math.floor(Math.max(ax, bx, cx) - 0.5));
+    const top = Math.max(0, Math.ceil(Math.min(ay, by, cy) - 0.5));
+    const bottom = Math.min(height - 1, Math.floor(Math.max(ay, by, cy) - 0.5));
+    for (let row = top; row <= bottom; row++) {
+      const y = row + 0.5;
+      for (let col = left; col <= right; col++) {
+        const x = col + 0.5;
+        const b = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area;
+        const c = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area;
+        // So that rounding leaves no gap between neighbours.
+        if (b > -1e-6 && c > -1e-6 && b + c < 1 + 1e-6) visit(row * width + col, t, 1 - b - c, b, c);
+      }
+    }
+  }
+}

@@ -1,0 +1,42 @@
+/** The lines along which the surface is straight, over its shading. */
+import { count, number, percent } from '../format.js';
+import { gridOf } from '../surface/lattice.js';
+import { drawLine } from '../surface/layer.js';
+import { figures, key } from './legend.js';
+
+/** @import {Analyses} from '../analyses.js' */
+/** @import {Result} from '../session.js' */
+/** @import {Shown} from './shown.js' */
+
+/** Seen on bright steel as on dark. */
+const COLOUR = '#e8590c';
+
+/**
+ * @param {Analyses} analyses
+ * @param {Result} result
+ * @returns {Promise<Shown>}
+ */
+export async function rulings(analyses, result) {
+  const { lines } = await analyses.rulings(result);
+  const { input } = result;
+  const unit = input.unit ?? 'units';
+  const bent = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
+  return {
+    result: {
+      grid: gridOf(input),
+      draw: (context, place, ratio) => {
+        context.strokeStyle = COLOUR;
+        context.lineWidth = 1.25 * ratio;
+        for (const { points } of lines) drawLine(context, place, points);
+      },
+    },
+    about: [
+      key(COLOUR, 'rulings: straight lines on the surface, across which alone it bends'),
+      figures([
+        ['Lines', count(lines.length)],
+        ['Longest', lines.length > 0 ? `${number(Math.max(...lines.map(({ length }) => length)))} ${unit}` : '–'],
+        ['Off straight, median', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of length` : '–'],
+      ]),
+    ],
+  };
+}

@@ -16,7 +16,7 @@ use crate::stencil::{Ring, weights_of};
 
 /// Steps at most, and the share of the gap that one has to close for the next to be taken: a
 /// step costs less than an iteration.
-const STEPS: usize = 8;
+const STEPS: usize = 16;
 const WORTHWHILE: f64 = 0.03;
 
 /// `h⁴‖CᵀC‖` of the unbounded lattice, where two of the three second differences are at their
@@ -48,8 +48,8 @@ impl Ascent {
         })
     }
 
-    /// The best bound on the way from the iterate's dual, whose own is `bound`, until it reaches
-    /// `goal` or no longer gets much closer to `objective`.
+    /// The best bound on the way from the iterate's dual, or the `bound` known already, until it
+    /// reaches `goal` or no longer gets much closer to `objective`.
     pub(crate) fn climb(
         &mut self,
         state: &mut State,
@@ -57,7 +57,7 @@ impl Ascent {
         [bound, goal, objective]: [f64; 3],
     ) -> f64 {
         self.start(state, problem);
-        let mut best = bound.max(self.bound(state, problem));
+        let mut best = self.bound(state, problem);
         for _ in 0..STEPS {
             if best >= goal {
                 break;
@@ -70,7 +70,7 @@ impl Ascent {
                 break;
             }
         }
-        best
+        best.max(bound)
     }
 
     fn start(&mut self, state: &mut State, problem: &Problem) {

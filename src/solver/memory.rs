@@ -13,7 +13,7 @@ use crate::error::Result;
 
 /// Factors from one λ to the next within which the last answer is a better start
 /// than a coarse lattice: measured on four surfaces, three λ and two levels of noise.
-pub(super) const WORTH_KEEPING: RangeInclusive<f64> = 0.4..=8.0;
+pub(super) const WORTH_KEEPING: RangeInclusive<f64> = 0.4..=3.0;
 
 /// What an earlier solve has found, to start from.
 #[derive(Debug, Clone)]

@@ -67,11 +67,16 @@ const FINER: f64 = 0.7;
 /// Longest screening length of the z-step, in sizes of the domain.
 const SCREENING: f64 = 0.1;
 
-/// The same in cells: its fourth power is the condition number, and single precision ends at 10⁷.
-const CELLS: f64 = 16.0;
+/// The same in cells: its fourth power is the condition number. Longer ones move the surface
+/// faster and its bound more slowly: to a gap of 1 %, a noisy page of a million vertices takes 20
+/// iterations on its finest lattice at 10, 25 at 12 and 30 at 16; at λ = 1e5 8 takes half as many again.
+const CELLS: f64 = 10.0;
 
 /// Most of what a search for a better bound divides the gap by.
-const CLIMBABLE: f64 = 16.0;
+const CLIMBABLE: f64 = 50.0;
+
+/// Iterations without over-relaxation on a new lattice.
+const SETTLING: usize = 5;
 
 /// Iterations in which certificates are taken more often.
 const BEGINNING: usize = 30;
@@ -188,10 +193,10 @@ impl Plan {
     }
 
     /// Over-relaxation leaves nearly all of the highest frequencies of a residual, with the opposite
-    /// sign. An iteration without takes them away, where the start is full of them and where the
+    /// sign. Iterations without take them away, where the start is full of them and where the
     /// bound is to be taken.
     pub(crate) fn relaxation(&self, iteration: usize) -> f64 {
-        if iteration == 1 || self.is_check(iteration) {
+        if iteration <= SETTLING || self.is_check(iteration) {
             1.0
         } else {
             self.relaxation

@@ -1,6 +1,7 @@
 /** Every comparison there is, by the name that chooses it. */
 import { accuracy } from './comparisons/accuracy.mjs';
 import { conic } from './comparisons/conic.mjs';
+import { dewarping } from './comparisons/dewarping.mjs';
 import { gaps } from './comparisons/gaps.mjs';
 import { meshes } from './comparisons/meshes.mjs';
 import { memory } from './comparisons/memory.mjs';
@@ -20,4 +21,5 @@ export const tables = {
   gaps,
   accuracy,
   restarts,
+  dewarping,
 };

@@ -109,6 +109,8 @@ pub struct Sheet {
 pub struct Run {
     /// The crease that is cut here; `None` for the border.
     pub seam: Option<Seam>,
+    /// Which of the crease's two patches this is the side of; `None` for the border.
+    pub patch: Option<u32>,
     /// At least two; the first one again at the end where the run is a whole outline.
     pub points: Vec<[f64; 2]>,
 }
@@ -129,6 +131,8 @@ pub struct Fold {
 pub struct Seam {
     /// The crease, by its place in [`Patches::creases`].
     pub crease: usize,
+    /// The patches on either side of it, the lower number first.
+    pub patches: [u32; 2],
     /// Which way it is folded.
     pub direction: Direction,
     /// By how much, in radians: 0 is flat.
@@ -184,6 +188,7 @@ pub fn pattern(
     let places = spots(surface, patches.labels(), &net, &arrangement.layout);
     let seam = |crease: usize| Seam {
         crease,
+        patches: net.seams[crease].patches,
         direction: match net.seams[crease].rise > 0.0 {
             true => Direction::Mountain,
             false => Direction::Valley,

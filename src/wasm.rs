@@ -35,6 +35,10 @@ mod meshes;
 #[cfg(feature = "js-solver")]
 mod occlusions;
 mod options;
+#[cfg(feature = "js-unroll")]
+mod pattern;
+#[cfg(feature = "js-patterns")]
+mod patterns;
 #[cfg(feature = "js-solver")]
 mod results;
 #[cfg(feature = "js-solver")]

@@ -19,6 +19,9 @@ const SPECK: f64 = 3.0;
 /// So many points from its end tell where a line is heading.
 const BACK: usize = 6;
 
+/// A seam, and the one of its patches that is beside it.
+type Side = (usize, u32);
+
 /// The outlines of a sheet, the longest first.
 pub(super) fn outlines(
     net: &Net,
@@ -31,8 +34,9 @@ pub(super) fn outlines(
         .map(|line| {
             let runs = runs(net, line);
             let long = runs.iter().map(|(_, p)| length(p)).sum();
-            let run = |(number, points): (Option<usize>, Vec<Point>)| Run {
-                seam: number.map(&seam),
+            let run = |(side, points): (Option<Side>, Vec<Point>)| Run {
+                seam: side.map(|(number, _)| seam(number)),
+                patch: side.map(|(_, patch)| patch),
                 points: pairs(&points),
             };
             (long, runs.into_iter().map(run).collect())
@@ -94,7 +98,7 @@ fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Poin
 }
 
 /// A closed line as runs along one side of one seam each, or along the border.
-fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<usize>, Vec<Point>)> {
+fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     let tolerance = TOLERANCE * net.spacing;
     let n = line.len();
     let kind = |i: usize| {
@@ -111,14 +115,14 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<usize>, Vec<Point>)> {
             }
         };
         let again = ring.first().copied();
-        return vec![(line[0].seam, ring.into_iter().chain(again).collect())];
+        return vec![(kind(0), ring.into_iter().chain(again).collect())];
     };
-    let mut groups: Vec<(Option<usize>, Vec<Corner>)> = Vec::new();
+    let mut groups: Vec<(Option<Side>, Vec<Corner>)> = Vec::new();
     for i in first..first + n {
         let corner = line[i % n];
         match groups.last_mut() {
             Some((_, group)) if kind(i) == kind(i - 1) && i > first => group.push(corner),
-            _ => groups.push((corner.seam, vec![corner])),
+            _ => groups.push((kind(i), vec![corner])),
         }
     }
     // Each group with the first corner of the next one.
@@ -127,7 +131,7 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<usize>, Vec<Point>)> {
     for (k, (_, group)) in groups.iter_mut().enumerate() {
         group.push(starts[(k + 1) % count]);
     }
-    let mut out: Vec<(Option<usize>, Vec<Point>)> = (groups.iter())
+    let mut out: Vec<(Option<Side>, Vec<Point>)> = (groups.iter())
         .map(|(seam, group)| match seam {
             Some(_) => (*seam, places(group)),
             None => {
@@ -153,7 +157,7 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<usize>, Vec<Point>)> {
 }
 
 /// Moves the ends of a border along the seams that it lies between to where these meet its line.
-fn meet(runs: &mut [(Option<usize>, Vec<Point>)], k: usize, spacing: f64) {
+fn meet(runs: &mut [(Option<Side>, Vec<Point>)], k: usize, spacing: f64) {
     let count = runs.len();
     let (before, after) = ((k + count - 1) % count, (k + 1) % count);
     for (other, starts) in [(before, true), (after, false)] {

@@ -18,8 +18,8 @@ use crate::rulings::{Ruling, Rulings, TraceOptions};
 use crate::unroll::{UnrollOptions, UnrollReport, Unrolling, unroll};
 
 /// Heights to be looked at, and what a photo of them shows.
-struct Scene {
-    surface: Heightfield,
+pub(super) struct Scene {
+    pub(super) surface: Heightfield,
     extent: Extent,
 }
 
@@ -30,12 +30,12 @@ struct Kind {
 }
 
 /// Whether a field has pixels, which a spacing can be about.
-fn is_image(field: &JsValue) -> Result<bool> {
+pub(super) fn is_image(field: &JsValue) -> Result<bool> {
     Ok(!field.is_undefined() && from_value::<Kind>(field.clone())?.kind == "image")
 }
 
 /// A spacing is for images: a lattice has its own.
-fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
+pub(super) fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
     match spacing {
         Some(spacing) if !images => {
             let requirement = "must be left out: a lattice has the spacing of its input";
@@ -46,7 +46,7 @@ fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
 }
 
 impl Scene {
-    fn new(field: JsValue, spacing: Option<f64>) -> Result<Self> {
+    pub(super) fn new(field: JsValue, spacing: Option<f64>) -> Result<Self> {
         if is_image(&field)? {
             let input: ImageInput = from_value(field)?;
             let image = input.heights("height image", &input.data)?;
@@ -350,14 +350,14 @@ pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
 
 /// `UnrollOptions` of `types.d.ts`.
 #[derive(Default)]
-struct Settings {
-    unrolling: UnrollOptions,
-    spacing: Option<f64>,
+pub(super) struct Settings {
+    pub(super) unrolling: UnrollOptions,
+    pub(super) spacing: Option<f64>,
 }
 
 impl Settings {
     /// Whether an option is one of these; its value is taken then.
-    fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
+    pub(super) fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
         let value = value.clone();
         match name {
             "tolerance" => {

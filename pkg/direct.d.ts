@@ -28,12 +28,12 @@ export function initMeshes(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the wasm file that `analyze`, `patches`, `rulings`, `unroll`, `pattern` and `dewarp` need; otherwise like `init`. */
+/** Loads the wasm file that `analyze`, `patches`, `rulings`, `unroll` and `dewarp` need; otherwise like `init`. */
 export function initUnroll(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initUnrollSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the wasm file that `writeSvg`, `writePdf` and `writeDxf` need; otherwise like `init`. */
+/** Loads the wasm file that `pattern`, `writeSvg`, `writePdf` and `writeDxf` need; otherwise like `init`. */
 export function initPatterns(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initPatternsSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;

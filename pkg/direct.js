@@ -278,7 +278,7 @@ export function unroll(input, options) {
 /** @type {typeof import('./direct.js').pattern} */
 export function pattern(input, options) {
   const field = asField(input);
-  return sheets.call((wasm) => wasm.pattern(field, options));
+  return patterns.call((wasm) => wasm.pattern(field, options));
 }
 
 /** @type {typeof import('./direct.js').writeSvg} */

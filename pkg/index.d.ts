@@ -21,7 +21,7 @@ export interface WorkerOptions {
   meshesWasm?: InitInput;
   /** Where the wasm is that analyses, unrolls and dewarps, likewise. */
   unrollWasm?: InitInput;
-  /** Where the wasm is that writes drawings of patterns, likewise. */
+  /** Where the wasm is that makes patterns and writes them, likewise. */
   patternsWasm?: InitInput;
 }
 

@@ -198,7 +198,7 @@ export const service = {
 
   /** @type {(input: Input, options?: import('./types.js').PatternOptions) => Promise<import('./types.js').Drawing>} */
   async pattern(input, options) {
-    await withUnroll();
+    await withPatterns();
     return direct.pattern(heights(input), options);
   },
 

@@ -201,6 +201,7 @@ impl Drawing {
     }
 
     /// Whether it is one that can be written: what comes from elsewhere need not be.
+    #[cfg(feature = "patterns")]
     pub(crate) fn check(&self) -> Result<()> {
         let size = |value: f64| (0.0..=MAX_SIZE).contains(&value);
         let near = |p: &[f64; 2]| p.iter().all(|v| v.abs() <= 2.0 * MAX_SIZE);

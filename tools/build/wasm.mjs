@@ -19,8 +19,8 @@ const files = [
   { name: 'files', feature: 'js-files', limit: 250_000 },
   { name: 'images', feature: 'js-images', limit: 560_000 },
   { name: 'meshes', feature: 'meshes', limit: 270_000 },
-  { name: 'unroll', feature: 'js-unroll', limit: 170_000 },
-  { name: 'patterns', feature: 'js-patterns', limit: 300_000 },
+  { name: 'unroll', feature: 'js-unroll', limit: 150_000 },
+  { name: 'patterns', feature: 'js-patterns', limit: 420_000 },
 ];
 
 const stamp = join(pkgWasm, 'made-from');

@@ -353,7 +353,8 @@ fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> 
     let folds = |direction: Direction| -> f64 {
         let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
         let own = lines.filter(|line| line.direction == direction);
-        own.map(|line| line.length).sum()
+        // Not `sum`, which is −0 of nothing.
+        own.map(|line| line.length).fold(0.0, |a, b| a + b)
     };
     let around = |cut: &Vec<[f64; 2]>| -> f64 {
         let closing = [cut[cut.len() - 1], cut[0]];

@@ -103,14 +103,15 @@ const GREY: u8 = 90;
 /// From the middle of a line of text down to where its letters stand, in sizes of the font.
 const DROP: f64 = 0.35;
 
+/// A line's points, and whether it is closed.
+type Drawn<'a> = (&'a [[f64; 2]], bool);
+
 /// Of each kind the lines, sheet by sheet.
-fn layers(
-    drawing: &Drawing,
-) -> impl Iterator<Item = (Kind, Vec<(&DrawnSheet, &[[f64; 2]], bool)>)> {
+fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
     Kind::ALL.into_iter().map(|kind| {
         let lines = drawing.sheets.iter().flat_map(move |sheet| {
             let (lines, closed) = kind.lines(sheet);
-            lines.into_iter().map(move |points| (sheet, points, closed))
+            lines.into_iter().map(move |points| (points, closed))
         });
         (kind, lines.collect())
     })

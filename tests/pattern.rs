@@ -31,7 +31,7 @@ fn length(points: &[[f64; 2]]) -> f64 {
 }
 
 /// Both sides of each crease that is cut, by its number.
-fn cuts<'a>(sheets: &'a [Sheet], crease: usize) -> Vec<&'a Run> {
+fn cuts(sheets: &[Sheet], crease: usize) -> Vec<&Run> {
     let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
     runs.filter(|run| run.seam.is_some_and(|seam| seam.crease == crease))
         .collect()

@@ -50,10 +50,9 @@ pub(super) fn settle(surface: &Heightfield, bend: &Bend, labels: &mut [u32]) {
                 continue;
             }
             let nearest = others.into_iter().map(|patch| (distance(patch), patch));
-            if let Some((away, patch)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                if away < 0.5 * own {
-                    moves.push((i, patch));
-                }
+            let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((_, patch)) = nearest.filter(|(away, _)| *away < 0.5 * own) {
+                moves.push((i, patch));
             }
         }
         if moves.is_empty() {

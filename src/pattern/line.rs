@@ -84,11 +84,10 @@ pub(super) fn sharpened(points: &[Point], short: f64, closed: bool) -> Vec<Point
         if !long || (r - q).norm() >= short || gone[b] {
             continue;
         }
-        if let Some(corner) = meeting([p, q], [s, r]) {
-            if (corner - q).norm() < short && (corner - r).norm() < short {
-                out[b] = corner;
-                gone[c] = true;
-            }
+        let near = |corner: &Point| (corner - q).norm().max((corner - r).norm()) < short;
+        if let Some(corner) = meeting([p, q], [s, r]).filter(near) {
+            out[b] = corner;
+            gone[c] = true;
         }
     }
     let pairs = out.into_iter().zip(gone);

@@ -51,7 +51,7 @@ pub fn write_dxf(drawing: &Drawing) -> Result<Vec<u8>> {
         });
     }
     for (kind, lines) in layers(drawing) {
-        for (_, points, closed) in lines {
+        for (points, closed) in lines {
             let vertices = points.iter().map(|[x, y]| LwPolylineVertex {
                 x: *x,
                 y: *y,

@@ -123,7 +123,7 @@ fn figure(drawing: &Drawing) -> Vec<u8> {
         out.set_stroke_rgb(r, g, b);
         let dashes = kind.dashes().iter().map(|d| d * POINTS as f32);
         out.set_dash_pattern(dashes, 0.0);
-        for (_, line, closed) in lines {
+        for (line, closed) in lines {
             for (i, [x, y]) in line.iter().enumerate() {
                 match i {
                     0 => out.move_to(points(*x), points(*y)),

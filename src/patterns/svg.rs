@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use ::svg::node::element::{Group, Path, Text, Title};
 use ::svg::{Document, Node};
 
-use super::{DROP, GREY, Kind, WIDTH, layers};
+use super::{DROP, GREY, Kind, WIDTH};
 use crate::drawing::{Drawing, LabelKind};
 use crate::error::Result;
 
@@ -30,7 +30,7 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
         .add(Title::new("Pattern"));
     // Rows count down in SVG.
     let place = |[x, y]: [f64; 2]| [number(x), number(drawing.height - y)];
-    for (kind, _) in layers(drawing) {
+    for kind in Kind::ALL {
         let mut layer = layer(kind.name())
             .set("fill", "none")
             .set("stroke", rgb(kind.color()))

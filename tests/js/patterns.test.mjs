@@ -82,7 +82,7 @@ test('SVG, measured by a browser', { skip }, async () => {
         fold: path('mountain').getTotalLength(),
         angle: Number(path('mountain').dataset.angle),
         valleys: document.querySelectorAll('#valley path').length,
-        texts: [...document.querySelectorAll('#label text')].map((text) => text.textContent),
+        texts: [...document.querySelectorAll('#label text')].map((text) => text.textContent.trim()),
       };
     })()`);
     near(found.page[0], drawing.width, 1e-3);

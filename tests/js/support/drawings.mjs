@@ -46,7 +46,7 @@ const MM = 25.4 / 72;
  * @param {Uint8Array} file
  */
 export async function readPdf(file) {
-  const task = getDocument({ data: file.slice(), verbosity: 0 });
+  const task = getDocument({ data: new Uint8Array(file), verbosity: 0 });
   const pdf = await task.promise;
   const pages = [];
   for (let i = 1; i <= pdf.numPages; i += 1) {

@@ -214,6 +214,33 @@ export class DevelopableWorker {
 
   /**
    * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').PatternOptions} [options]
+   */
+  async pattern(input, options) {
+    const { field, buffers } = detached(asField(input));
+    return this.#request((remote) => remote.pattern(transfer(field, buffers), options));
+  }
+
+  /** @param {import('./types.js').Drawing} drawing */
+  writeSvg(drawing) {
+    return this.#request((remote) => remote.writeSvg(drawing));
+  }
+
+  /**
+   * @param {import('./types.js').Drawing} drawing
+   * @param {import('./types.js').WritePdfOptions} [options]
+   */
+  writePdf(drawing, options) {
+    return this.#request((remote) => remote.writePdf(drawing, options));
+  }
+
+  /** @param {import('./types.js').Drawing} drawing */
+  writeDxf(drawing) {
+    return this.#request((remote) => remote.writeDxf(drawing));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
    * @param {import('./types.js').Photo} photo
    * @param {import('./types.js').DewarpOptions} [given]
    */
@@ -273,8 +300,9 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm } = this.#options;
-      this.#wasm ??= Promise.all([wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm].map(portable));
+      const { wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm } = this.#options;
+      const sources = [wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm];
+      this.#wasm ??= Promise.all(sources.map(portable));
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
     }

@@ -25,7 +25,7 @@ export class Connection {
 
   /**
    * @param {string | URL | undefined} workerUrl
-   * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes' and the unrolling's
+   * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes', the unrolling's and the patterns'
    */
   constructor(workerUrl, wasm) {
     /** @param {string} reason */

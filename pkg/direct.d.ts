@@ -1,10 +1,10 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
-  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Example,
+  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
   ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
-  OcclusionOptions, PatchMap, PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult,
-  RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
-  UnrollOptions,
+  OcclusionOptions, PatchMap, PatchOptions, PatternOptions, Photo, Progress, ReadMeshOptions, ReadOptions,
+  ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
+  UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -32,6 +32,11 @@ export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembl
 export function initUnroll(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initUnrollSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+
+/** Loads the wasm file that `pattern`, `writeSvg`, `writePdf` and `writeDxf` need; otherwise like `init`. */
+export function initPatterns(input?: InitInput): Promise<void>;
+/** The same, synchronously. */
+export function initPatternsSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
 export interface WriteGlbOptions {
   /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
@@ -116,6 +121,20 @@ export function patches(input: HeightImage | Heightfield, options?: PatchOptions
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
 /** Lays a surface flat, as rigidly as it goes. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Unrolling;
+/**
+ * Cuts a surface along its creases into sheets that lie flat, with as few cuts as possible, and
+ * draws them beside each other in millimetres.
+ */
+export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Drawing;
+/** SVG of a drawing, in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
+export function writeSvg(drawing: Drawing): Uint8Array<ArrayBuffer>;
+/**
+ * PDF of a drawing in true size, to be printed at 100 %: one page as large as the drawing, or pages
+ * of paper that overlap, with crosses by which they are laid on each other.
+ */
+export function writePdf(drawing: Drawing, options?: WritePdfOptions): Uint8Array<ArrayBuffer>;
+/** DXF (AutoCAD 2000) of a drawing, in millimetres, with the same layers in capitals. */
+export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /** Decodes a PNG file of any kind, as RGBA bytes. */

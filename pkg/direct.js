@@ -3,7 +3,7 @@ import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
 import { asBytes, asField, asImage, asInput, asLattice, carriedOf } from './input.js';
-import { files, images, meshes, sheets, solver } from './instances.js';
+import { files, images, meshes, patterns, sheets, solver } from './instances.js';
 import { asMesh } from './mesh-input.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, dewarpOptions } from './sheet-input.js';
@@ -31,6 +31,11 @@ export const initMeshesSync = (input) => meshes.initSync(input);
 export const initUnroll = (input) => sheets.init(input);
 /** @type {typeof import('./direct.js').initUnrollSync} */
 export const initUnrollSync = (input) => sheets.initSync(input);
+
+/** @type {typeof import('./direct.js').initPatterns} */
+export const initPatterns = (input) => patterns.init(input);
+/** @type {typeof import('./direct.js').initPatternsSync} */
+export const initPatternsSync = (input) => patterns.initSync(input);
 
 /**
  * @typedef {import('./direct.js').Solver} SolverApi
@@ -268,6 +273,27 @@ export function rulings(input, options) {
 export function unroll(input, options) {
   const field = asField(input);
   return sheets.call((wasm) => wasm.unroll(field, options));
+}
+
+/** @type {typeof import('./direct.js').pattern} */
+export function pattern(input, options) {
+  const field = asField(input);
+  return patterns.call((wasm) => wasm.pattern(field, options));
+}
+
+/** @type {typeof import('./direct.js').writeSvg} */
+export function writeSvg(drawing) {
+  return unshared(patterns.call((wasm) => wasm.writeSvg(drawing)));
+}
+
+/** @type {typeof import('./direct.js').writePdf} */
+export function writePdf(drawing, options) {
+  return unshared(patterns.call((wasm) => wasm.writePdf(drawing, options)));
+}
+
+/** @type {typeof import('./direct.js').writeDxf} */
+export function writeDxf(drawing) {
+  return unshared(patterns.call((wasm) => wasm.writeDxf(drawing)));
 }
 
 /** @type {typeof import('./direct.js').dewarp} */

@@ -1,10 +1,10 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
-  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Example,
+  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
   ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
-  OcclusionOptions, PatchMap, PatchOptions, Photo, Progress, ReadMeshOptions, ReadOptions, ReadResult,
-  RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
-  UnrollOptions,
+  OcclusionOptions, PatchMap, PatchOptions, PatternOptions, Photo, Progress, ReadMeshOptions, ReadOptions,
+  ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
+  UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -21,6 +21,8 @@ export interface WorkerOptions {
   meshesWasm?: InitInput;
   /** Where the wasm is that analyses, unrolls and dewarps, likewise. */
   unrollWasm?: InitInput;
+  /** Where the wasm is that makes patterns and writes them, likewise. */
+  patternsWasm?: InitInput;
 }
 
 export interface WriteGlbOptions {
@@ -105,6 +107,11 @@ export function patches(input: HeightImage | Heightfield, options?: PatchOptions
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
 /** Lays a surface flat, as rigidly as it goes. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
+/** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
+export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
+export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
+export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
 export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
@@ -142,6 +149,10 @@ export class DevelopableWorker {
   patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
   rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
   unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
+  pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+  writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
+  writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
   dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
   readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
   writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;

@@ -59,6 +59,14 @@ export const patches = (input, options) => worker().patches(input, options);
 export const rulings = (input, options) => worker().rulings(input, options);
 /** @type {typeof import('./index.js').unroll} */
 export const unroll = (input, options) => worker().unroll(input, options);
+/** @type {typeof import('./index.js').pattern} */
+export const pattern = (input, options) => worker().pattern(input, options);
+/** @type {typeof import('./index.js').writeSvg} */
+export const writeSvg = (drawing) => worker().writeSvg(drawing);
+/** @type {typeof import('./index.js').writePdf} */
+export const writePdf = (drawing, options) => worker().writePdf(drawing, options);
+/** @type {typeof import('./index.js').writeDxf} */
+export const writeDxf = (drawing) => worker().writeDxf(drawing);
 /** @type {typeof import('./index.js').dewarp} */
 export const dewarp = (input, photo, options) => worker().dewarp(input, photo, options);
 /** @type {typeof import('./index.js').readPhoto} */

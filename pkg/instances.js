@@ -3,6 +3,7 @@ import { Instance } from './instance.js';
 import * as filesGlue from './wasm/files.js';
 import * as imagesGlue from './wasm/images.js';
 import * as meshesGlue from './wasm/meshes.js';
+import * as patternsGlue from './wasm/patterns.js';
 import * as solverGlue from './wasm/solver.js';
 import * as unrollGlue from './wasm/unroll.js';
 
@@ -34,4 +35,10 @@ export const sheets = new Instance(
   unrollGlue,
   new URL('./wasm/unroll_bg.wasm', import.meta.url),
   'initUnroll()',
+);
+
+export const patterns = new Instance(
+  patternsGlue,
+  new URL('./wasm/patterns_bg.wasm', import.meta.url),
+  'initPatterns()',
 );

@@ -18,12 +18,12 @@ const kept = new Map();
 /** @typedef {import('./types.js').InitInput | undefined} Place */
 
 /** Where the other wasm files are, each loaded when it is needed. @type {Place[]} */
-let [filesWasm, imagesWasm, meshesWasm, unrollWasm] = /** @type {Place[]} */ ([]);
+let [filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm] = /** @type {Place[]} */ ([]);
 
 export const service = {
-  /** @param {Place[]} places of the solver's wasm, the files', the images', the meshes' and the unrolling's */
+  /** @param {Place[]} places of the solver's wasm, the files', the images', the meshes', the unrolling's and the patterns' */
   init([wasm, ...others]) {
-    [filesWasm, imagesWasm, meshesWasm, unrollWasm] = others;
+    [filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm] = others;
     return direct.init(wasm);
   },
 
@@ -137,6 +137,18 @@ export const service = {
   writePly: written(withMeshes, direct.writePly),
   writeStl: written(withMeshes, direct.writeStl),
   writePhoto: written(withFiles, direct.writePhoto),
+  writeSvg: written(withPatterns, direct.writeSvg),
+  writeDxf: written(withPatterns, direct.writeDxf),
+
+  /**
+   * @param {Parameters<typeof direct.writePdf>[0]} drawing
+   * @param {Parameters<typeof direct.writePdf>[1]} [options]
+   */
+  async writePdf(drawing, options) {
+    await withPatterns();
+    const bytes = direct.writePdf(drawing, options);
+    return transfer(bytes, buffersOf(bytes));
+  },
 
   /**
    * @param {Parameters<typeof direct.writeGlb>[0]} input
@@ -182,6 +194,12 @@ export const service = {
     const result = direct.unroll(heights(input), options);
     const { vertices, positions, triangles, places, parts, stretches, overlaps } = result;
     return transfer(result, buffersOf(vertices, positions, triangles, places, parts, stretches, overlaps));
+  },
+
+  /** @type {(input: Input, options?: import('./types.js').PatternOptions) => Promise<import('./types.js').Drawing>} */
+  async pattern(input, options) {
+    await withPatterns();
+    return direct.pattern(heights(input), options);
   },
 
   /** @type {(input: Input, photo: import('./types.js').Photo, options?: import('./types.js').DewarpOptions) => Promise<import('./types.js').Dewarped>} */
@@ -254,6 +272,10 @@ function withMeshes() {
 
 function withUnroll() {
   return direct.initUnroll(unrollWasm);
+}
+
+function withPatterns() {
+  return direct.initPatterns(patternsWasm);
 }
 
 /**

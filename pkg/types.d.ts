@@ -573,6 +573,96 @@ export interface Unrolling {
   report: UnrollReport;
 }
 
+export interface PatternOptions extends PatchOptions, UnrollOptions {
+  /** Millimetres for each unit of length. Default 1. */
+  scale?: number;
+  /** Depth of tabs along cut creases, in millimetres. Default: no tabs. */
+  tabs?: number;
+  /**
+   * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
+   * length; a quarter of the lattice's spacing is always allowed. Default 0.005.
+   */
+  gap?: number;
+}
+
+/** A line to fold along. */
+export interface FoldLine {
+  /** The crease, by its place in what `patches` gives with the same options. */
+  crease: number;
+  /** Which way, seen from above: a mountain is a ridge. */
+  direction: 'mountain' | 'valley';
+  /** By how much, in degrees: 0 is flat. */
+  angle: number;
+  length: number;
+  points: [number, number][];
+}
+
+/** A text on a sheet. */
+export interface DrawingLabel {
+  /** The number of a patch (from 1), the letter of a cut crease, a fold's direction and angle, a sheet's name. */
+  kind: 'patch' | 'seam' | 'fold' | 'sheet';
+  text: string;
+  /** Its middle. */
+  place: [number, number];
+  /** Size of the font. */
+  size: number;
+  /** Degrees counter-clockwise. */
+  turn: number;
+}
+
+/** A sheet to be cut out, as it is seen from above, from where the heights point. */
+export interface DrawnSheet {
+  /** `'Sheet 1'` and so on. */
+  name: string;
+  /** Its patches, counted from 0. */
+  patches: number[];
+  /** Lower left and upper right corner. */
+  bounds: [[number, number], [number, number]];
+  /** Closed lines to cut, around tabs, too; the last point is joined to the first. */
+  cuts: [number, number][][];
+  folds: FoldLine[];
+  /** Where tabs are folded. */
+  tabs: FoldLine[];
+  labels: DrawingLabel[];
+}
+
+/**
+ * A pattern as it is drawn, all in millimetres, x to the right and y up from the lower left corner.
+ *
+ * Sheets end where the continuations of their patches meet; cut creases have the same letter on
+ * both sides.
+ */
+export interface Drawing {
+  width: number;
+  height: number;
+  /** Those with the largest patches first; none lies on another. */
+  sheets: DrawnSheet[];
+  summary: {
+    sheets: number;
+    /** Creases that are cut, those that are folds, and tabs. */
+    seams: number;
+    folds: number;
+    tabs: number;
+    cutLength: number;
+    mountainLength: number;
+    valleyLength: number;
+    /** In square millimetres, without tabs. */
+    area: number;
+    /** The largest strain of a sheet, as a share (root of the mean square). */
+    strain: number;
+    /** Most that the two sides of a fold are apart (root of the mean square). */
+    gap: number;
+    /** Pages it takes. */
+    a4: number;
+    letter: number;
+  };
+}
+
+export interface WritePdfOptions {
+  /** Spread it over pages of this size. Default: one page as large as the drawing. */
+  paper?: 'a4' | 'letter';
+}
+
 export interface DewarpOptions extends UnrollOptions {
   /** Pixels of the flat image per unit of length. Default: as many as the photo has. */
   dots?: number;

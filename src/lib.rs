@@ -72,11 +72,12 @@
 #![warn(missing_docs)]
 
 pub mod analysis;
-#[cfg(any(feature = "formats", feature = "meshes"))]
+#[cfg(any(feature = "formats", feature = "meshes", feature = "patterns"))]
 mod buffer;
 mod camera;
 pub mod dewarp;
 mod domain;
+pub mod drawing;
 mod error;
 mod examples;
 #[cfg(feature = "formats")]
@@ -91,6 +92,8 @@ pub mod meshes;
 mod occlusions;
 pub mod patches;
 pub mod pattern;
+#[cfg(feature = "patterns")]
+pub mod patterns;
 mod resample;
 mod restore;
 pub mod rulings;

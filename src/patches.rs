@@ -6,8 +6,9 @@
 //! same on steep and on level ground, and two thresholds instead of one: a crease is a band of
 //! vertices that bend by more than the lower one, with one among them that bends by more than the
 //! higher one. What is left falls apart into patches. Then the patches grow into the bands, the
-//! vertices that bend least first, until they meet on the bands' ridges; and patches with hardly an
-//! angle between them become one.
+//! vertices that bend least first, until they meet on the bands' ridges; patches with hardly an
+//! angle between them become one. Where creases end at the border of the surface, vertices go to the
+//! patch that they lie on.
 //!
 //! ```
 //! use developable::patches::{PatchOptions, Patches};
@@ -25,7 +26,8 @@
 //! ```
 
 mod bend;
-mod crease;
+pub(crate) mod crease;
+pub(crate) mod extend;
 mod flood;
 mod merge;
 
@@ -131,9 +133,10 @@ impl Patches {
         let valid = labels.iter().filter(|label| **label != NO_PATCH).count();
         let least = options.smallest * valid as f64;
         merge::merge(surface.lattice(), &bend, fold, least, &mut labels);
+        extend::settle(surface, &bend, &mut labels);
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let patches = sorted(&mesh, &mut labels)?;
-        let creases = crease::creases(surface, &mesh, &bend, &labels)?;
+        let creases = crease::creases(surface, &mesh, &bend, &labels);
         Ok(Patches {
             labels,
             patches,

@@ -32,8 +32,8 @@ mod distortion;
 mod grid;
 mod laplacian;
 mod multigrid;
-mod overlap;
-mod pieces;
+pub(crate) mod overlap;
+pub(crate) mod pieces;
 mod repair;
 mod sheets;
 

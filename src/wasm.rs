@@ -17,6 +17,7 @@ mod examples;
 #[cfg(any(
     feature = "js-files",
     feature = "js-images",
+    feature = "js-patterns",
     feature = "js-solver",
     feature = "js-unroll",
     feature = "meshes"
@@ -35,8 +36,12 @@ mod meshes;
 #[cfg(feature = "js-solver")]
 mod occlusions;
 mod options;
+#[cfg(feature = "js-patterns")]
+mod patterns;
 #[cfg(feature = "js-solver")]
 mod results;
+#[cfg(any(feature = "js-patterns", feature = "js-unroll"))]
+mod scene;
 #[cfg(feature = "js-solver")]
 mod settings;
 #[cfg(feature = "js-unroll")]

@@ -8,7 +8,7 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {import('./flags.js').Values} Values
  * @typedef {Exclude<import('./flags.js').Command, 'info'>} WritingCommand
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {typeof surfaces[number] | '.json'} Extension
+ * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json'} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
@@ -40,12 +40,17 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {SheetTask & { command: 'analyze', threshold?: number }} AnalyzeTask
  * @typedef {SheetTask & { command: 'unroll' }} UnrollTask
  * @typedef {SheetTask & {
+ *   command: 'pattern', scale?: number, tabs?: number, paper?: 'a4' | 'letter',
+ * }} PatternTask
+ * @typedef {SheetTask & {
  *   command: 'dewarp', texture: string, dots?: number, trim: boolean, map?: string,
  * }} DewarpTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
 
 const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb']);
+const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
+const papers = /** @type {const} */ (['a4', 'letter', 'none']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const schedules = /** @type {const} */ (['default', 'paper']);
 const energies = /** @type {const} */ (['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm']);
@@ -57,6 +62,7 @@ const extensions = {
   occlusions: ['.png', '.npy'],
   analyze: ['.json'],
   unroll: ['.obj', '.json'],
+  pattern: [...drawings, '.json'],
   dewarp: ['.png'],
 };
 
@@ -65,7 +71,7 @@ const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
- * @returns {FitTask | OcclusionsTask | AnalyzeTask | UnrollTask | DewarpTask | InfoTask | { command: 'help' } | { command: 'version' }}
+ * @returns {FitTask | OcclusionsTask | AnalyzeTask | UnrollTask | PatternTask | DewarpTask | InfoTask | { command: 'help' } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
@@ -137,6 +143,8 @@ export function parse(args) {
       return { command, ...fitting, asIs, threshold: number('threshold', values) };
     case 'unroll':
       return { command, ...fitting, asIs };
+    case 'pattern':
+      return { command, ...fitting, asIs, ...drawing(values, about.extension) };
     case 'dewarp':
       if (texture === undefined) throw usage('the photo is missing: --texture PHOTO');
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
@@ -144,6 +152,21 @@ export function parse(args) {
     default:
       return { command, ...fitting };
   }
+}
+
+/**
+ * How a pattern is drawn.
+ * @param {Values} values
+ * @param {Extension} extension
+ */
+function drawing(values, extension) {
+  const paper = choice('paper', values.paper ?? 'none', papers);
+  if (values.paper !== undefined && extension !== '.pdf') throw usage('--paper is for outputs that end in .pdf');
+  return {
+    scale: number('scale', values),
+    tabs: number('tabs', values),
+    paper: paper === 'none' ? undefined : paper,
+  };
 }
 
 /**

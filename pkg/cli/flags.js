@@ -38,18 +38,24 @@ const flags = {
   dots: text,
   trim: plain,
   map: text,
+  scale: text,
+  paper: text,
+  tabs: text,
   help: /** @type {const} */ ({ type: 'boolean', short: 'h' }),
   version: plain,
 };
 
 /** @typedef {keyof typeof flags} Flag */
-/** @typedef {'fit' | 'design' | 'occlusions' | 'analyze' | 'unroll' | 'dewarp' | 'info'} Command */
+/** @typedef {'fit' | 'design' | 'occlusions' | 'analyze' | 'unroll' | 'pattern' | 'dewarp' | 'info'} Command */
 
 /** What only a flat image can be told. @type {readonly Flag[]} */
 const ofImages = ['dots', 'trim', 'map'];
 
+/** What only a pattern can be told. @type {readonly Flag[]} */
+const ofPatterns = ['scale', 'paper', 'tabs'];
+
 /** What is about flat sheets. @type {readonly Flag[]} */
-const ofSheets = ['as-is', ...ofImages];
+const ofSheets = ['as-is', ...ofImages, ...ofPatterns];
 
 /** @type {readonly Flag[]} */
 const general = ['array', 'help', 'version'];
@@ -65,9 +71,10 @@ const foreign = {
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
     'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture', ...ofSheets,
   ],
-  analyze: ['texture', 'report', ...ofImages],
-  unroll: ['texture', 'threshold', ...ofImages],
-  dewarp: ['threshold'],
+  analyze: ['texture', 'report', ...ofImages, ...ofPatterns],
+  unroll: ['texture', 'threshold', ...ofImages, ...ofPatterns],
+  pattern: ['texture', 'threshold', ...ofImages],
+  dewarp: ['threshold', ...ofPatterns],
   info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
 };
 

@@ -7,13 +7,15 @@ Usage: developable fit INPUT -o OUTPUT [options]
        developable occlusions INPUT -o MASK [options]
        developable analyze INPUT -o FIGURES [options]
        developable unroll INPUT -o SHEET [options]
+       developable pattern INPUT -o PATTERN [options]
        developable dewarp INPUT --texture PHOTO -o IMAGE [options]
        developable info FILE [--array NAME]
 
 "fit" follows heights, "design" passes through heights and is free elsewhere,
 "occlusions" looks for places where a surface is torn, and prints how many
-vertices it has found. Three commands fit a surface first: "analyze" tells how
-developable it is, beside the input, "unroll" lays it flat, and "dewarp" makes a
+vertices it has found. Four commands fit a surface first: "analyze" tells how
+developable it is, beside the input, "unroll" lays it flat, "pattern" cuts it
+along its creases into sheets to be made of paper or metal, and "dewarp" makes a
 photo of it flat. "info" tells what is in a file, of either kind.
 
   INPUT                  heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture
@@ -29,6 +31,7 @@ photo of it flat. "info" tells what is in a file, of either kind.
   MASK                   .png or .npy, white (or 1) where the surface is torn
   FIGURES                .json
   SHEET                  .obj (a flat mesh) or .json (with stretch and overlaps)
+  PATTERN                .svg, .pdf or .dxf in true size, or .json
   IMAGE                  .png, transparent where there is no sheet
 
 What to minimise
@@ -103,6 +106,12 @@ Flat sheets and images
   --trim                 cut off the margins where there is no sheet
   --map FILE             .npy (height, width, 2) or .json: for each pixel of the
                          flat image its place x, y in the photo
+  --scale MM             millimetres of the pattern for each unit of length
+                         (default 1)
+  --tabs MM              depth of tabs to glue along creases that are cut
+                         (default: none)
+  --paper P              a4 or letter: a .pdf on pages that are put together by
+                         the crosses on them; none (the default): on one page
   --threshold K          Gaussian curvature that counts for "analyze"
                          (default 1)
 

@@ -8,7 +8,7 @@ import { fit } from './fit.js';
 import { help } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
-import { analyze, dewarp, unroll } from './sheets.js';
+import { analyze, dewarp, pattern, unroll } from './sheets.js';
 
 /**
  * @param {string[]} args
@@ -53,6 +53,8 @@ async function perform(task, signal) {
       return analyze(task, signal);
     case 'unroll':
       return unroll(task, signal);
+    case 'pattern':
+      return pattern(task, signal);
     case 'dewarp':
       return dewarp(task, signal);
     default:

@@ -1,4 +1,4 @@
-/** `developable analyze`, `developable unroll` and `developable dewarp`. */
+/** `developable analyze`, `developable unroll`, `developable pattern` and `developable dewarp`. */
 import * as developable from '../index.js';
 import { checkPlace, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
@@ -43,6 +43,40 @@ export async function unroll(task, signal) {
 }
 
 /**
+ * @param {import('./arguments.js').PatternTask} task
+ * @param {AbortSignal} signal
+ */
+export async function pattern(task, signal) {
+  await checkPlaces(task.output, task.report);
+  const { surface, options } = await flattened(task, signal);
+  const { scale, tabs, paper } = task;
+  const drawing = await developable.pattern(surface, { ...options, scale, tabs });
+  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, paper) }];
+  if (task.report !== undefined) files.push({ path: task.report, bytes: json(drawing.summary) });
+  await writeWhole(files, signal);
+  const { strain } = drawing.summary;
+  if (strain > 0.01) {
+    process.stderr.write(
+      `developable: warning: there is a sheet that cannot be laid flat without stretching it (by ${share(strain)})\n`,
+    );
+  }
+}
+
+/**
+ * @param {import('../types.js').Drawing} drawing
+ * @param {import('./arguments.js').Extension} extension
+ * @param {'a4' | 'letter'} [paper]
+ */
+async function drawn(drawing, extension, paper) {
+  switch (extension) {
+    case '.svg': return developable.writeSvg(drawing);
+    case '.pdf': return developable.writePdf(drawing, { paper });
+    case '.dxf': return developable.writeDxf(drawing);
+    default: return json(drawing);
+  }
+}
+
+/**
  * @param {import('./arguments.js').DewarpTask} task
  * @param {AbortSignal} signal
  */
@@ -61,7 +95,7 @@ export async function dewarp(task, signal) {
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the page was flat to begin with: the photo can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
-    const strain = `${Number((100 * flat.report.distortion.rms).toPrecision(2))} %`;
+    const strain = share(flat.report.distortion.rms);
     process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
   }
 }
@@ -93,6 +127,11 @@ async function checkPlaces(...paths) {
  */
 function reported({ report: path }, { report, verdict }) {
   return path === undefined ? [] : [{ path, bytes: json({ verdict, ...report }) }];
+}
+
+/** @param {number} value */
+function share(value) {
+  return `${Number((100 * value).toPrecision(2))} %`;
 }
 
 /** @param {unknown} value */

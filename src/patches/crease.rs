@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::NO_PATCH;
 use super::bend::Bend;
-use crate::error::Result;
 use crate::heightfield::Heightfield;
 use crate::triangulation::Triangulation;
 
@@ -29,16 +28,12 @@ pub struct Crease {
 /// How often a line is smoothed: the lattice's zigzag goes, its course stays.
 const SMOOTHING: usize = 8;
 
-/// An edge of the lattice between two patches, by its vertices, the lower one first; or a triangle
-/// between three, by its number and that of no vertex.
-type Node = (u32, u32);
+/// An edge of the lattice between two patches, by the mesh's vertices, the lower one first; or a
+/// triangle between three, by its number and that of no vertex.
+pub(crate) type Node = (u32, u32);
 
-pub(super) fn creases(
-    surface: &Heightfield,
-    mesh: &Triangulation,
-    bend: &Bend,
-    labels: &[u32],
-) -> Result<Vec<Crease>> {
+/// The nodes along each crease and the patches beside it, in the order of [`creases`].
+pub(crate) fn lines(mesh: &Triangulation, labels: &[u32]) -> Vec<([u32; 2], Vec<Node>)> {
     let label = |vertex: u32| labels[mesh.vertices()[vertex as usize] as usize];
     // For each pair of patches what its nodes are joined to.
     let mut lines: BTreeMap<[u32; 2], BTreeMap<Node, Vec<Node>>> = BTreeMap::new();
@@ -73,25 +68,37 @@ pub(super) fn creases(
             continue;
         }
         while let Some(nodes) = chain(&mut line) {
-            let points = smoothed(nodes.iter().map(|node| point(mesh, *node)).collect());
-            let length = points.windows(2).map(|p| distance(p[0], p[1])).sum();
-            let folds = nodes
-                .iter()
-                .filter(|(_, q)| *q != u32::MAX)
-                .filter_map(|(p, q)| {
-                    let ends = [p, q].map(|v| mesh.vertices()[*v as usize] as usize);
-                    bend.fold(surface.lattice(), labels, ends)
-                });
-            let (sum, count) = folds.fold((0.0, 0.0), |(sum, n), fold| (sum + fold, n + 1.0));
-            out.push(Crease {
-                patches,
-                points,
-                length,
-                fold: if count > 0.0 { sum / count } else { 0.0 },
-            });
+            out.push((patches, nodes));
         }
     }
-    Ok(out)
+    out
+}
+
+pub(super) fn creases(
+    surface: &Heightfield,
+    mesh: &Triangulation,
+    bend: &Bend,
+    labels: &[u32],
+) -> Vec<Crease> {
+    let crease = |(patches, nodes): ([u32; 2], Vec<Node>)| {
+        let points = smoothed(nodes.iter().map(|node| point(mesh, *node)).collect());
+        let length = points.windows(2).map(|p| distance(p[0], p[1])).sum();
+        let folds = nodes
+            .iter()
+            .filter(|(_, q)| *q != u32::MAX)
+            .filter_map(|(p, q)| {
+                let ends = [p, q].map(|v| mesh.vertices()[*v as usize] as usize);
+                bend.fold(surface.lattice(), labels, ends)
+            });
+        let (sum, count) = folds.fold((0.0, 0.0), |(sum, n), fold| (sum + fold, n + 1.0));
+        Crease {
+            patches,
+            points,
+            length,
+            fold: if count > 0.0 { sum / count } else { 0.0 },
+        }
+    };
+    lines(mesh, labels).into_iter().map(crease).collect()
 }
 
 /// Takes one line off: from one end to the other, or around.
@@ -128,13 +135,14 @@ fn point(mesh: &Triangulation, (p, q): Node) -> [f64; 3] {
     [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
 }
 
-fn smoothed(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+/// Points along a line, smoothed but for its ends; closed if the last one is the first.
+pub(crate) fn smoothed<const N: usize>(mut points: Vec<[f64; N]>) -> Vec<[f64; N]> {
     let n = points.len();
     let closed = n > 3 && points[0] == points[n - 1];
     for _ in 0..SMOOTHING {
         let last = points.clone();
-        let mean = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {
-            [0, 1, 2].map(|k| 0.25 * a[k] + 0.5 * b[k] + 0.25 * c[k])
+        let mean = |a: [f64; N], b: [f64; N], c: [f64; N]| {
+            std::array::from_fn(|k| 0.25 * a[k] + 0.5 * b[k] + 0.25 * c[k])
         };
         for i in 1..n.saturating_sub(1) {
             points[i] = mean(last[i - 1], last[i], last[i + 1]);

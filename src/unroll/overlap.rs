@@ -10,7 +10,7 @@ use super::pieces::Point;
 
 /// Pairs of border edges that cross. Linear cost where edges are about equally long and few lie
 /// at one place.
-pub(super) fn crossings(places: &[Point], border: &[[u32; 2]]) -> Vec<[usize; 2]> {
+pub(crate) fn crossings(places: &[Point], border: &[[u32; 2]]) -> Vec<[usize; 2]> {
     let ends = |edge: usize| border[edge].map(|v| places[v as usize]);
     let longest = (0..border.len()).map(|i| {
         let [a, b] = ends(i);

@@ -7,7 +7,7 @@ use nalgebra::Complex;
 use super::grid::Grid;
 use crate::error::{Error, Result, try_filled};
 
-pub(super) type Point = Complex<f64>;
+pub(crate) type Point = Complex<f64>;
 
 /// A triangle in the plane, its corners counted counter-clockwise: the first at 0, the second on
 /// the positive real axis. Lengths are in units of the lattice spacing. All zero where there is

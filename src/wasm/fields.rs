@@ -10,6 +10,7 @@ use crate::error::{Error, check_shape, try_filled};
 use crate::heightfield::HeightImage;
 #[cfg(any(
     feature = "js-files",
+    feature = "js-patterns",
     feature = "js-solver",
     feature = "js-unroll",
     feature = "meshes"
@@ -17,6 +18,7 @@ use crate::heightfield::HeightImage;
 use crate::heightfield::Heightfield;
 #[cfg(any(
     feature = "js-files",
+    feature = "js-patterns",
     feature = "js-solver",
     feature = "js-unroll",
     feature = "meshes"
@@ -38,6 +40,7 @@ pub(super) struct ImageInput {
     #[cfg(any(
         feature = "js-files",
         feature = "js-images",
+        feature = "js-patterns",
         feature = "js-solver",
         feature = "js-unroll"
     ))]
@@ -54,6 +57,7 @@ impl ImageInput {
     #[cfg(any(
         feature = "js-files",
         feature = "js-images",
+        feature = "js-patterns",
         feature = "js-solver",
         feature = "js-unroll"
     ))]
@@ -79,6 +83,7 @@ impl ImageInput {
 /// `Heightfield` of `types.d.ts`, without what only a solve wants to know.
 #[cfg(any(
     feature = "js-files",
+    feature = "js-patterns",
     feature = "js-solver",
     feature = "js-unroll",
     feature = "meshes"
@@ -99,6 +104,7 @@ pub(super) struct LatticeInput {
 
 #[cfg(any(
     feature = "js-files",
+    feature = "js-patterns",
     feature = "js-solver",
     feature = "js-unroll",
     feature = "meshes"

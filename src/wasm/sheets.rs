@@ -7,62 +7,14 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use super::bytes::copied;
-use super::fields::{ImageInput, LatticeInput};
 use super::options::{entries, option, unknown};
+use super::scene::{Scene, Settings, check_spacing, is_image};
 use crate::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
 use crate::dewarp::{DewarpOptions, Extent, Photo, Verdict, WarpMap};
-use crate::error::{Error, try_filled};
-use crate::heightfield::Heightfield;
+use crate::error::try_filled;
 use crate::patches::{Crease, Patch, PatchOptions, Patches};
 use crate::rulings::{Ruling, Rulings, TraceOptions};
-use crate::unroll::{UnrollOptions, UnrollReport, Unrolling, unroll};
-
-/// Heights to be looked at, and what a photo of them shows.
-struct Scene {
-    surface: Heightfield,
-    extent: Extent,
-}
-
-/// An image or heights on the lattice, as `input.js` marks them.
-#[derive(Deserialize)]
-struct Kind {
-    kind: String,
-}
-
-/// Whether a field has pixels, which a spacing can be about.
-fn is_image(field: &JsValue) -> Result<bool> {
-    Ok(!field.is_undefined() && from_value::<Kind>(field.clone())?.kind == "image")
-}
-
-/// A spacing is for images: a lattice has its own.
-fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
-    match spacing {
-        Some(spacing) if !images => {
-            let requirement = "must be left out: a lattice has the spacing of its input";
-            Err(Error::option("spacing", spacing, requirement).into())
-        }
-        _ => Ok(()),
-    }
-}
-
-impl Scene {
-    fn new(field: JsValue, spacing: Option<f64>) -> Result<Self> {
-        if is_image(&field)? {
-            let input: ImageInput = from_value(field)?;
-            let image = input.heights("height image", &input.data)?;
-            return Ok(Scene {
-                surface: image.to_lattice(spacing)?,
-                extent: Extent::of(&image),
-            });
-        }
-        let input: LatticeInput = from_value(field)?;
-        let surface = input.heights("heightfield", &input.heights)?;
-        Ok(Scene {
-            extent: Extent::of_lattice(&surface),
-            surface,
-        })
-    }
-}
+use crate::unroll::{UnrollReport, Unrolling, unroll};
 
 /// `Analysis` of `types.d.ts`.
 #[derive(Serialize)]
@@ -346,31 +298,4 @@ pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
         confidence: found.confidence().into(),
         lines: &lines,
     })?)
-}
-
-/// `UnrollOptions` of `types.d.ts`.
-#[derive(Default)]
-struct Settings {
-    unrolling: UnrollOptions,
-    spacing: Option<f64>,
-}
-
-impl Settings {
-    /// Whether an option is one of these; its value is taken then.
-    fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
-        let value = value.clone();
-        match name {
-            "tolerance" => {
-                let tolerance = option("tolerance", value, "must be a number")?;
-                self.unrolling = self.unrolling.tolerance(tolerance);
-            }
-            "maxIterations" => {
-                let most = option("maxIterations", value, "must be a whole number")?;
-                self.unrolling = self.unrolling.max_iterations(most);
-            }
-            "spacing" => self.spacing = Some(option("spacing", value, "must be a number")?),
-            _ => return Ok(false),
-        }
-        Ok(true)
-    }
 }

@@ -50,7 +50,7 @@ test('help and version', async () => {
     '--output', '--lambda', '--gap', '--schedule', '--max-iterations', '--lattice', '--spacing', '--height-scale',
     '--mask', '--no-data', '--no-normalize', '--report', '--help', '--version', '--energy', '--reweight', '--tie-break',
     '--view', '--resolution', '--confidence', '--constraints', '--free', '--occlusions', '--threshold', '--occlusion-mask',
-    '--as-is', '--texture', '--dots', '--trim', '--map',
+    '--as-is', '--texture', '--dots', '--trim', '--map', '--scale', '--tabs', '--paper',
   ];
   for (const flag of flags) assert.ok(help.stdout.includes(flag), flag);
   assert.ok(help.stdout.split('\n').every((line) => line.length <= 80));

@@ -34,7 +34,7 @@ test('the package holds what it needs and nothing else', async () => {
     'index.js', 'index.d.ts', 'direct.js', 'direct.d.ts', 'types.d.ts', 'worker.js', 'bin/developable.js',
     'wasm/solver.js', 'wasm/solver_bg.wasm', 'wasm/files.js', 'wasm/files_bg.wasm',
     'wasm/images.js', 'wasm/images_bg.wasm', 'wasm/meshes.js', 'wasm/meshes_bg.wasm',
-    'wasm/unroll.js', 'wasm/unroll_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
+    'wasm/unroll.js', 'wasm/unroll_bg.wasm', 'wasm/patterns.js', 'wasm/patterns_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
     'LICENSE-MIT', 'LICENSE-APACHE', 'README.md',
   ];
   for (const path of needed) assert.ok(paths.includes(path), path);
@@ -164,7 +164,7 @@ test('an app bundled with Vite runs under the strict policy', { skip }, async ()
   const assets = await readdir(join(app, 'dist/assets'));
   // Each of the package's wasm files, once.
   const modules = assets.filter((name) => name.endsWith('.wasm')).map((name) => name.split('-')[0]);
-  assert.deepEqual(modules.sort(), ['files_bg', 'images_bg', 'meshes_bg', 'solver_bg', 'unroll_bg']);
+  assert.deepEqual(modules.sort(), ['files_bg', 'images_bg', 'meshes_bg', 'patterns_bg', 'solver_bg', 'unroll_bg']);
   const server = await serve({ '/': join(app, 'dist') });
   after(() => server.close());
   await checkApp(server.url);

@@ -20,6 +20,7 @@ const files = [
   { name: 'images', feature: 'js-images', limit: 560_000 },
   { name: 'meshes', feature: 'meshes', limit: 270_000 },
   { name: 'unroll', feature: 'js-unroll', limit: 150_000 },
+  { name: 'patterns', feature: 'js-patterns', limit: 320_000 },
 ];
 
 const stamp = join(pkgWasm, 'made-from');

@@ -1,0 +1,171 @@
+//! Sheets turned and laid beside each other: boxes in rows, the tallest first. (Shelves are not the
+//! least area, but near it for few sheets, and everybody sees what comes where.)
+
+use super::MARGIN;
+
+/// A turn and a shift, and the box that comes of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    turn: [f64; 2],
+    shift: [f64; 2],
+    size: [f64; 2],
+}
+
+/// A turn must save this share of the box's area, for what is upright is better known again.
+const WORTH: f64 = 0.03;
+
+impl Place {
+    pub(super) fn of(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let ([cos, sin], [dx, dy]) = (self.turn, self.shift);
+        [cos * x - sin * y + dx, sin * x + cos * y + dy]
+    }
+
+    pub(super) fn degrees(&self) -> f64 {
+        self.turn[1].atan2(self.turn[0]).to_degrees()
+    }
+
+    /// The turn with the smallest box, its corner at the origin: one of the convex hull's edges is
+    /// level then.
+    pub(super) fn around(lines: &[Vec<[f64; 2]>]) -> Place {
+        let hull = hull(lines.iter().flatten().copied().collect());
+        let boxed = |turn: [f64; 2]| {
+            let turned = Place {
+                turn,
+                shift: [0.0; 2],
+                size: [0.0; 2],
+            };
+            let points = || hull.iter().map(|p| turned.of(*p));
+            let low = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+            let high = [0, 1].map(|k| points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+            Place {
+                turn,
+                shift: low.map(|v| -v),
+                size: [high[0] - low[0], high[1] - low[1]],
+            }
+        };
+        let area = |place: &Place| place.size[0] * place.size[1];
+        let upright = boxed([1.0, 0.0]);
+        let mut best = upright;
+        for i in 0..hull.len() {
+            let [p, q] = [hull[i], hull[(i + 1) % hull.len()]];
+            let (x, y) = (q[0] - p[0], q[1] - p[1]);
+            let long = x.hypot(y);
+            if long > 0.0 {
+                let place = boxed([x / long, -y / long]);
+                if area(&place) < (1.0 - 1e-9) * area(&best) {
+                    best = place;
+                }
+            }
+        }
+        match area(&best) < (1.0 - WORTH) * area(&upright) {
+            true => best,
+            false => upright,
+        }
+    }
+}
+
+/// Where boxes go, and how large the whole is.
+pub(super) fn packed(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    order.sort_by(|a, b| boxes[*b].size[1].total_cmp(&boxes[*a].size[1]));
+    let padded = |place: &Place| place.size.map(|side| side + MARGIN);
+    let area: f64 = boxes.iter().map(|b| padded(b)[0] * padded(b)[1]).sum();
+    let widest = boxes.iter().map(|b| padded(b)[0]).fold(0.0, f64::max);
+    let limit = widest.max(1.1 * area.sqrt());
+    let mut out = boxes.to_vec();
+    // From the top down, and upwards once the height is known.
+    let (mut x, mut y, mut row, mut width) = (0.0, 0.0, 0.0f64, 0.0f64);
+    for i in order {
+        let [w, h] = padded(&boxes[i]);
+        if x > 0.0 && x + w > limit {
+            (x, y, row) = (0.0, y + row, 0.0);
+        }
+        out[i].shift[0] += x + MARGIN;
+        out[i].shift[1] -= y + h;
+        row = row.max(h);
+        x += w;
+        width = width.max(x);
+    }
+    let height = y + row + MARGIN;
+    for place in &mut out {
+        place.shift[1] += height;
+    }
+    (out, [width + MARGIN, height])
+}
+
+/// Corners of the convex hull, counter-clockwise (Andrew 1979).
+fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    };
+    let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut out: Vec<[f64; 2]> = Vec::new();
+        for point in points {
+            while let [.., p, q] = out[..] {
+                if side(p, q, point) > 0.0 {
+                    break;
+                }
+                out.pop();
+            }
+            out.push(point);
+        }
+        out.pop();
+        out
+    };
+    let mut out = half(&mut points.iter().copied());
+    out.extend(half(&mut points.iter().rev().copied()));
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_rectangle_is_turned_back() {
+        let (sin, cos) = 20f64.to_radians().sin_cos();
+        let corners = [[0.0, 0.0], [30.0, 0.0], [30.0, 10.0], [0.0, 10.0]];
+        let line = corners.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+        let place = Place::around(&[line.to_vec()]);
+        let (long, short) = (
+            place.size[0].max(place.size[1]),
+            place.size[0].min(place.size[1]),
+        );
+        assert!(
+            (long - 30.0).abs() < 1e-9 && (short - 10.0).abs() < 1e-9,
+            "{place:?}"
+        );
+    }
+
+    #[test]
+    fn boxes_keep_their_distance() {
+        let sides = [
+            [50.0, 20.0],
+            [10.0, 80.0],
+            [30.0, 30.0],
+            [25.0, 5.0],
+            [60.0, 60.0],
+        ];
+        let boxes =
+            sides.map(|[w, h]| Place::around(&[vec![[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]]));
+        let (places, [width, height]) = packed(&boxes);
+        for (i, a) in places.iter().enumerate() {
+            let [x, y] = a.shift;
+            assert!(x >= MARGIN && y >= MARGIN - 1e-9);
+            assert!(
+                x + a.size[0] <= width - MARGIN + 1e-9 && y + a.size[1] <= height - MARGIN + 1e-9
+            );
+            for b in &places[..i] {
+                let apart = |k: usize| {
+                    (a.shift[k] - b.shift[k] - b.size[k]).max(b.shift[k] - a.shift[k] - a.size[k])
+                };
+                assert!(apart(0).max(apart(1)) >= MARGIN - 1e-9, "{a:?} {b:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,282 @@
+/** Patterns to be cut out: lengths in the files, read by other programs, against the surface. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { launch, skip } from './support/browser.mjs';
+import { run, temporaryFolder } from './support/command.mjs';
+import { extent, length, readDxf, readPdf } from './support/drawings.mjs';
+import { lattice } from './support/shapes.mjs';
+
+after(() => developable.dispose());
+
+const slope = 0.6;
+const [rows, cols] = [101, 90];
+/** A card of 89 by 100 rows, folded upright at x = 40.3: a ridge. */
+const card = lattice(rows, cols, (x) => -slope * Math.abs(x - 40.3));
+const scale = 3;
+/** The card when it was flat, in millimetres. */
+const flat = { width: scale * (cols - 1) * Math.hypot(1, slope), height: scale * (rows - 1) * Math.sqrt(0.75) };
+const angle = (2 * Math.atan(slope) * 180) / Math.PI;
+
+/** A pyramid: four faces, a cut from the apex to a corner. */
+const pyramid = lattice(94, 81, (x, y) => -0.8 * Math.max(Math.abs(x - 40.2), Math.abs(y + 40.4)));
+
+/** @param {number} found @param {number} expected @param {number} [share] */
+function near(found, expected, share = 0.002) {
+  assert.ok(Math.abs(found - expected) <= share * Math.abs(expected), `${found} is not ${expected}`);
+}
+
+/** @param {string} code @param {RegExp} [message] */
+const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
+  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
+  assert.equal(thrown.code, code);
+  assert.match(thrown.message, message);
+  return true;
+};
+
+before(() => Promise.all([direct.init(), direct.initFiles(), direct.initUnroll()]));
+
+test('patterns have a wasm of their own', async () => {
+  assert.throws(() => direct.pattern(card), error('NOT_INITIALIZED', /initPatterns\(\)/));
+  await direct.initPatterns();
+});
+
+test('a drawing in millimetres', async () => {
+  const drawing = direct.pattern(card, { scale });
+  const { sheets: [sheet], summary } = drawing;
+  assert.deepEqual([drawing.sheets.length, sheet.name, sheet.patches.length], [1, 'Sheet 1', 2]);
+  const [fold] = sheet.folds;
+  assert.equal(fold.direction, 'mountain');
+  near(fold.angle, angle, 0.01);
+  near(fold.length, flat.height);
+  near(length(fold.points), fold.length, 1e-9);
+  near(summary.cutLength, 2 * (flat.width + flat.height));
+  near(summary.mountainLength, flat.height);
+  near(summary.area, flat.width * flat.height, 0.01);
+  assert.deepEqual([summary.valleyLength, summary.seams, summary.folds, summary.tabs], [0, 0, 1, 0]);
+  // The other way round it is a groove.
+  const groove = lattice(rows, cols, (x) => slope * Math.abs(x - 40.3));
+  assert.equal(direct.pattern(groove).sheets[0].folds[0].direction, 'valley');
+  assert.deepEqual(await developable.pattern(card, { scale }), drawing);
+});
+
+test('SVG, measured by a browser', { skip }, async () => {
+  const drawing = direct.pattern(card, { scale });
+  const svg = direct.writeSvg(drawing);
+  assert.deepEqual(await developable.writeSvg(drawing), svg);
+  const browser = await launch();
+  try {
+    const page = await browser.newPage();
+    await page.setContent(`<body style="margin:0">${new TextDecoder().decode(svg)}</body>`);
+    const found = await page.evaluate(`(() => {
+      const millimetres = ({ width, height }) => [width, height].map((side) => (side * 25.4) / 96);
+      const path = (layer) => document.querySelector('#' + layer + ' path');
+      return {
+        page: millimetres(document.querySelector('svg').getBoundingClientRect()),
+        sheet: [path('cut').getBBox().width, path('cut').getBBox().height],
+        shown: millimetres(path('cut').getBoundingClientRect()),
+        around: path('cut').getTotalLength(),
+        fold: path('mountain').getTotalLength(),
+        angle: Number(path('mountain').dataset.angle),
+        valleys: document.querySelectorAll('#valley path').length,
+        texts: [...document.querySelectorAll('#label text')].map((text) => text.textContent.trim()),
+      };
+    })()`);
+    near(found.page[0], drawing.width, 1e-3);
+    near(found.page[1], drawing.height, 1e-3);
+    near(found.sheet[0], flat.width);
+    near(found.sheet[1], flat.height);
+    near(found.shown[0], flat.width, 0.005); // with the line's width
+    near(found.around, 2 * (flat.width + flat.height));
+    near(found.fold, flat.height);
+    near(found.angle, angle, 0.01);
+    assert.equal(found.valleys, 0);
+    assert.deepEqual(found.texts.sort(), ['1', '2', `M ${Math.round(angle)}°`, 'Sheet 1'].sort());
+  } finally {
+    await browser.close();
+  }
+});
+
+test('PDF on one page, measured by PDF.js', async () => {
+  const drawing = direct.pattern(card, { scale });
+  const pdf = direct.writePdf(drawing);
+  assert.deepEqual(await developable.writePdf(drawing), pdf);
+  const [page, ...more] = await readPdf(pdf);
+  assert.equal(more.length, 0);
+  near(page.size[0], drawing.width, 1e-5);
+  near(page.size[1], drawing.height, 1e-5);
+  const [cut] = page.lines.filter(({ dashes }) => dashes === 0);
+  const [width, height] = extent(cut.points);
+  near(width, flat.width);
+  near(height, flat.height);
+  near(length(cut.points, true), 2 * (flat.width + flat.height));
+  const [fold] = page.lines.filter(({ dashes }) => dashes === 4);
+  near(length(fold.points), flat.height);
+  assert.ok(page.texts.includes(`M ${Math.round(angle)}°`), page.texts.join());
+});
+
+for (const [paper, sides] of /** @type {const} */ ([['a4', [210, 297]], ['letter', [215.9, 279.4]]])) {
+  test(`pages of ${paper} give the whole back when they are laid on each other by their marks`, async () => {
+    const drawing = direct.pattern(card, { scale });
+    const pages = await readPdf(direct.writePdf(drawing, { paper }));
+    assert.equal(pages.length, drawing.summary[paper]);
+    assert.ok(pages.length >= 4, `${pages.length} pages`);
+    // Each cross is two lines with a common middle, upright and level.
+    const sheets = pages.map(({ size, texts, lines, clip }) => {
+      assert.deepEqual(size.map(Math.round).sort(), sides.map(Math.round));
+      const middles = lines.flatMap(({ points: [p, q], points, dashes }) =>
+        (points.length === 2 && dashes === 0 && p[1] === q[1] ? [/** @type {[number, number]} */ ([(p[0] + q[0]) / 2, p[1]])] : []));
+      assert.ok(middles.length >= 4);
+      const name = texts.find((text) => /^[A-Z]+\d+$/.test(text)) ?? '';
+      return { name, crosses: middles, clip: clip ?? [], drawn: lines.filter(({ points, dashes }) => points.length > 2 || dashes > 0) };
+    });
+    assert.equal(new Set(sheets.map(({ name }) => name)).size, pages.length);
+    // From page to page: the crosses at the right of one are those at the left of the next.
+    /** @param {[number, number][]} crosses @param {0 | 1} k @param {1 | -1} way */
+    const edge = (crosses, k, way) => {
+      const most = Math.max(...crosses.map((p) => way * p[k]));
+      return crosses.filter((p) => way * p[k] > most - 1).sort((p, q) => p[1 - k] - q[1 - k]);
+    };
+    /** @type {Map<string, [number, number]>} */
+    const shifts = new Map([[sheets[0].name, [0, 0]]]);
+    for (let pass = 0; pass < sheets.length; pass += 1) {
+      for (const sheet of sheets) {
+        const shift = shifts.get(sheet.name);
+        if (!shift) continue;
+        const [, letters, number] = /** @type {RegExpExecArray} */ (/^([A-Z])(\d+)$/.exec(sheet.name));
+        const right = `${String.fromCharCode(letters.charCodeAt(0) + 1)}${number}`;
+        const below = `${letters}${Number(number) + 1}`;
+        for (const [name, k, way] of /** @type {const} */ ([[right, 0, 1], [below, 1, -1]])) {
+          const other = sheets.find((one) => one.name === name);
+          if (!other || shifts.has(name)) continue;
+          const [here] = edge(sheet.crosses, k, way);
+          const [there] = edge(other.crosses, k, /** @type {1 | -1} */ (-way));
+          shifts.set(name, [shift[0] + here[0] - there[0], shift[1] + here[1] - there[1]]);
+        }
+      }
+    }
+    assert.equal(shifts.size, sheets.length);
+    // In the first page's place every page draws the same, and together they show all of it.
+    /** @param {typeof sheets[number]} sheet @param {readonly [number, number][]} points */
+    const placed = ({ name }, points) => {
+      const [dx, dy] = /** @type {[number, number]} */ (shifts.get(name));
+      return points.map(([x, y]) => /** @type {[number, number]} */ ([x + dx, y + dy]));
+    };
+    const whole = sheets[0].drawn;
+    const parts = [];
+    for (const sheet of sheets) {
+      for (const [i, { points }] of sheet.drawn.entries()) {
+        placed(sheet, points).forEach(([x, y], k) => {
+          const [p, q] = whole[i].points[k];
+          assert.ok(Math.hypot(x - p, y - q) < 0.01, `${sheet.name}: ${x} ${y}, ${p} ${q}`);
+        });
+      }
+      const clip = placed(sheet, sheet.clip);
+      parts.push([0, 1].flatMap((k) => [Math.min(...clip.map((p) => p[k])), Math.max(...clip.map((p) => p[k]))]));
+    }
+    for (const { points, closed } of whole) {
+      const ring = closed ? [...points, points[0]] : points;
+      for (let i = 1; i < ring.length; i += 1) {
+        for (let t = 0; t <= 1; t += 1 / 64) {
+          const [x, y] = [0, 1].map((k) => ring[i - 1][k] + t * (ring[i][k] - ring[i - 1][k]));
+          assert.ok(parts.some(([l, r, b, u]) => x >= l && x <= r && y >= b && y <= u), `${x} ${y} is on no page`);
+        }
+      }
+    }
+    near(extent(whole.flatMap(({ points }) => points))[0], flat.width);
+  });
+}
+
+test('DXF, read by another library', async () => {
+  const drawing = direct.pattern(card, { scale });
+  const dxf = direct.writeDxf(drawing);
+  assert.deepEqual(await developable.writeDxf(drawing), dxf);
+  assert.deepEqual(direct.writeDxf(drawing), dxf, 'the same each time');
+  const { layers, texts, unit } = readDxf(dxf);
+  assert.equal(unit, 4);
+  assert.deepEqual(Object.keys(layers).sort(), ['CUT', 'MOUNTAIN']);
+  const [{ points, closed }] = layers.CUT;
+  assert.equal(closed, true);
+  near(extent(points)[0], flat.width);
+  near(extent(points)[1], flat.height);
+  near(length(layers.MOUNTAIN[0].points), flat.height);
+  assert.ok(texts.some((text) => text.startsWith(`M ${Math.round(angle)}`)), texts.join());
+});
+
+test('both sides of a cut are as long as the crease', () => {
+  const drawing = direct.pattern(pyramid, { scale: 2, tabs: 6 });
+  const [sheet] = drawing.sheets;
+  assert.deepEqual([drawing.sheets.length, sheet.folds.length, drawing.summary.seams >= 1], [1, 3, true]);
+  const crease = direct.patches(pyramid).creases[sheet.tabs[0].crease];
+  const base = sheet.tabs.filter(({ crease: number }) => number === sheet.tabs[0].crease);
+  const tabbed = base.reduce((sum, tab) => sum + tab.length, 0);
+  near(tabbed, 2 * crease.length, 0.03);
+  const { layers } = readDxf(direct.writeDxf(drawing));
+  assert.equal(layers.TAB.length, drawing.summary.tabs);
+  near(layers.TAB.reduce((sum, { points }) => sum + length(points), 0), tabbed, 1e-3);
+  // The same letter on both sides and on the tab.
+  const letters = sheet.labels.filter(({ kind }) => kind === 'seam').map(({ text }) => text);
+  assert.ok(letters.filter((letter) => letter === letters[0]).length >= 3, letters.join());
+  // Tabs add what they have beyond the crease: their sides, and less of an outer edge.
+  const plain = direct.pattern(pyramid, { scale: 2 });
+  assert.equal(plain.summary.tabs, 0);
+  assert.ok(drawing.summary.cutLength > plain.summary.cutLength);
+  near(drawing.summary.area, plain.summary.area, 1e-9);
+});
+
+test('what is wrong is said', async () => {
+  for (const options of [{ scale: -1 }, { scale: NaN }, { tabs: NaN }, { tabs: 0 }, { gap: -1 }, { scale: 1e9 }]) {
+    const [name] = Object.keys(options);
+    assert.throws(() => direct.pattern(card, options), error('OPTION', new RegExp(name)));
+  }
+  assert.throws(() => direct.pattern(card, /** @type {any} */ ({ scales: 2 })), error('OPTION', /scales/));
+  assert.throws(() => direct.pattern(card, { spacing: 2 }), error('OPTION', /spacing/));
+  assert.throws(() => direct.pattern(lattice(2, 2, () => 0)), error('NO_INTERIOR'));
+  assert.throws(() => direct.pattern(lattice(9, 9, () => NaN)), error('NO_INTERIOR'));
+  const drawing = direct.pattern(card, { scale: 100 });
+  assert.throws(() => direct.writePdf(drawing, { paper: 'a4' }), error('UNSUPPORTED', /pages/));
+  assert.throws(() => direct.writePdf(drawing), error('UNSUPPORTED', /5\.08/));
+  assert.throws(() => direct.writePdf(drawing, /** @type {any} */ ({ paper: 'a5' })), error('OPTION', /a4 or letter/));
+  for (const nothing of [undefined, {}, { ...drawing, sheets: 3 }]) {
+    assert.throws(() => direct.writeSvg(/** @type {any} */ (nothing)), error('INPUT', /drawing/));
+  }
+  const broken = { ...drawing, width: NaN };
+  assert.throws(() => direct.writeSvg(broken), error('UNSUPPORTED', /finite/));
+  await assert.rejects(developable.pattern(card, { scale: 0 }), error('OPTION', /scale/));
+});
+
+test('the command', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'card.npy'), direct.writeNpy(card));
+  /** @param {string} args */
+  const command = (args) => run(folder, args.split(' '));
+  const silent = { status: 0, stdout: '', stderr: '' };
+  const from = 'pattern card.npy --lattice hex --no-data 1e9 --as-is';
+  assert.deepEqual(await command(`${from} -o card.svg --scale ${scale} --report card.json`), silent);
+  const drawing = direct.pattern(card, { scale });
+  assert.deepEqual(new Uint8Array(await readFile(join(folder, 'card.svg'))), direct.writeSvg(drawing));
+  assert.deepEqual(JSON.parse(await readFile(join(folder, 'card.json'), 'utf8')), drawing.summary);
+  assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --paper letter`), silent);
+  assert.equal((await readPdf(await readFile(join(folder, 'card.pdf')))).length, drawing.summary.letter);
+  assert.deepEqual(await command(`${from} -o card.dxf --tabs 5`), silent);
+  assert.equal(readDxf(await readFile(join(folder, 'card.dxf'))).unit, 4);
+  assert.deepEqual(await command('pattern card.npy --lattice hex --no-data 1e9 -o fitted.json --lambda big'), silent);
+  const fitted = JSON.parse(await readFile(join(folder, 'fitted.json'), 'utf8'));
+  near(fitted.sheets[0].folds[0].length, flat.height / scale, 0.01);
+  for (const [args, status, message] of /** @type {const} */ ([
+    [`${from} -o card.png`, 2, /\.svg, \.pdf, \.dxf or \.json/],
+    [`${from} -o card.svg --paper a4`, 2, /--paper is for outputs that end in \.pdf/],
+    [`${from} -o card.pdf --paper a5`, 2, /--paper must be a4 or letter or none/],
+    [`${from} -o card.svg --scale -2`, 2, /--scale is -2/],
+    [`${from} -o card.svg --tabs none`, 2, /--tabs must be a number/],
+    [`${from} -o card.pdf --scale 100 --paper a4`, 3, /pages/],
+    ['unroll card.npy -o card.obj --scale 2', 2, /--scale is not for "unroll"/],
+  ])) {
+    const { status: found, stderr } = await command(args);
+    assert.equal(found, status, `${args}: ${stderr}`);
+    assert.match(stderr, message);
+  }
+});

@@ -24,8 +24,8 @@ export async function dewarping() {
       + 'their exact heights, 200 vertices across; the same with normal noise of 1 % of their range, or in whole '
       + 'voxels of the spacing; unrolled as they are, smoothed by averages of neighbours (as many steps as '
       + 'leave the lines straightest, which takes knowing the truth), and fitted at medium λ, without and with '
-      + 'a reweighted pass. Against the page itself: the mean strain of the triangles, the share of them beyond 1 %, how far the grid\'s lines are from straight (standard deviation in '
-      + 'widths of the page), by how much the aspect ratio is off, and the multi-scale structural similarity of '
+      + 'a reweighted pass. Against the page itself: the mean strain of the triangles, the share of them beyond 1 %, how '
+      + 'far the grid\'s lines are from straight (standard deviation in widths of the page), by how much the aspect ratio is off, and the multi-scale structural similarity of '
       + 'the flat image and the page\'s own (none where they are too unlike for it to be defined).',
     columns: ['page', 'scan', 'surface', 'vertices', 'mean strain', 'beyond 1 %', 'lines', 'aspect', 'similarity'],
     rows: rows.map(({ page, scan, surface, vertices, stretch, above, bend, aspect, similarity }) => [

@@ -128,7 +128,8 @@ pub fn read_mesh(bytes: &[u8], format: Option<MeshFormat>) -> Result<Mesh> {
 /// Where there are points but no faces, they are a point cloud
 /// ([`Mesh::is_cloud`]). Polygons are cut into fans. Colours and texture coordinates are kept where
 /// every vertex has them; vertices without a colour of their own have that of their material, which
-/// is white where nothing says otherwise. Colours are not changed: those of glTF are linear by its
+/// is white where nothing says otherwise, and where there are textures, those without any need no
+/// coordinates. Colours are not changed: those of glTF are linear by its
 /// specification, and are so here. Costs `O(bytes)`.
 ///
 /// # Errors
@@ -173,6 +174,9 @@ pub fn read_mesh_beside(
 /// What a vertex has where nothing gives it a colour.
 const WHITE: [f32; 3] = [1.0; 3];
 
+/// The texture coordinates of vertices that have none.
+const NO_UV: [f32; 2] = [f32::MIN; 2];
+
 /// The number of no texture.
 const NO_TEXTURE: i32 = -1;
 
@@ -214,6 +218,11 @@ impl Parts {
         self.colors.extend(std::iter::repeat_n(color, vertices));
     }
 
+    /// The last vertices have no texture coordinates, which others may have.
+    fn no_uvs(&mut self) {
+        self.uvs.resize(self.positions.len(), NO_UV);
+    }
+
     /// The number of a picture by its name; of one that has none, a new one.
     fn picture(&mut self, name: &str, bytes: &[u8]) -> Result<i32> {
         let known = (self.pictures.iter()).position(|p| !name.is_empty() && p.name == name);
@@ -253,9 +262,13 @@ impl Parts {
         if self.colors.len() == vertices && self.colors.iter().any(|color| *color != WHITE) {
             mesh = mesh.with_colors(self.colors)?;
         }
-        if self.uvs.len() == vertices {
+        let textured = self.textures.iter().any(|number| *number != NO_TEXTURE);
+        let complete = self.uvs.len() == vertices;
+        if complete && (textured || !self.uvs.contains(&NO_UV)) {
+            let without = self.uvs.iter_mut().filter(|uv| **uv == NO_UV);
+            without.for_each(|uv| *uv = [0.0; 2]);
             mesh = mesh.with_uvs(self.uvs)?;
-            if self.textures.iter().any(|number| *number != NO_TEXTURE) {
+            if textured {
                 self.textures.resize(triangles, NO_TEXTURE);
                 mesh = mesh.with_textures(self.textures)?;
             }

@@ -35,6 +35,8 @@ mod meshes;
 #[cfg(feature = "js-solver")]
 mod occlusions;
 mod options;
+#[cfg(any(feature = "js-files", feature = "js-unroll"))]
+mod photo;
 #[cfg(feature = "js-solver")]
 mod results;
 #[cfg(feature = "js-solver")]

@@ -157,6 +157,20 @@ fn each_triangle_has_the_texture_of_its_material() {
 }
 
 #[test]
+fn parts_without_textures_need_no_coordinates() {
+    let text = MATERIALS.replace("usemtl red\nf 1/1 2/2 3/3", "usemtl red\nf 1 2 3");
+    let files = [("my own.mtl", MTL.as_bytes()), ("a.png", b"A")];
+    let found = read_mesh_beside(text.as_bytes(), None, &files).unwrap();
+    assert_eq!(found.missing, ["b c.png"]);
+    assert_eq!(found.mesh.textures().unwrap(), [-1, -1, 0, -1, 0]);
+    let corner =
+        |t: usize, k: usize| found.mesh.uvs().unwrap()[found.mesh.triangles()[t][k] as usize];
+    assert_eq!([corner(2, 1), corner(2, 2)], [[1.0, 0.0], [0.0, 1.0]]);
+    // Without any texture they say nothing.
+    assert!(read_mesh(text.as_bytes(), None).unwrap().uvs().is_none());
+}
+
+#[test]
 fn damaged_materials_and_textures_are_errors() {
     let with = |mtl: &[u8]| {
         let files = [("my own.mtl", mtl), ("a.png", b"A"), ("b c.png", b"B")];

@@ -8,7 +8,9 @@ use super::{Beside, NO_TEXTURE, Parts, WHITE, damaged};
 use crate::error::Result;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
-    check_indices(bytes)?;
+    // Names may be in any encoding.
+    let mut text = String::from_utf8_lossy(bytes);
+    check_indices(&text)?;
     let cloud = !lines(bytes).any(|line| line.starts_with(b"f"));
     let options = LoadOptions {
         triangulate: true,
@@ -16,8 +18,6 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<(
         ignore_points: !cloud,
         ignore_lines: true,
     };
-    // Names may be in any encoding.
-    let mut text = String::from_utf8_lossy(bytes);
     if cloud {
         // `tobj` gives the vertices of faces only: here each is one.
         let points = lines(bytes).filter(is_vertex).count();
@@ -62,6 +62,9 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<(
         parts.texture(number);
         let uvs = mesh.texcoords.chunks_exact(2);
         parts.uvs.extend(uvs.map(|c| [c[0] as f32, c[1] as f32]));
+        if mesh.texcoords.is_empty() {
+            parts.no_uvs();
+        }
     }
     Ok(())
 }
@@ -104,25 +107,44 @@ pub(super) fn is_vertex(line: &&[u8]) -> bool {
     line.starts_with(b"v ") || line.starts_with(b"v\t")
 }
 
-/// No index can be larger than the file is long. `tobj` multiplies them unchecked, which could
-/// overflow.
-fn check_indices(bytes: &[u8]) -> Result<()> {
-    for (i, line) in lines(bytes).enumerate() {
-        let Some((b'f' | b'l' | b'p', rest)) = line.split_first() else {
-            continue;
-        };
-        // The first number that does not fit: digits alone count, whatever is between them.
-        let too_large = |digits: &[u8]| {
-            digits.iter().fold(0usize, |n, d| {
-                n.saturating_mul(10).saturating_add(usize::from(d - b'0'))
-            }) > bytes.len()
-        };
-        if rest.split(|b| !b.is_ascii_digit()).any(too_large) {
-            return Err(damaged(
-                "OBJ",
-                format!("line {} names a vertex that cannot be there", i + 1),
-            ));
+/// No index can be larger than the file is long, and none that counts back can be larger than what
+/// is there so far. `tobj` computes with them unchecked, which could overflow.
+fn check_indices(text: &str) -> Result<()> {
+    // Of positions, texture coordinates and normals, which a corner names in this order.
+    let mut counts = [0; 3];
+    for (i, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => counts[0] += 1,
+            Some("vt") => counts[1] += 1,
+            Some("vn") => counts[2] += 1,
+            Some("f" | "l" | "p") => {
+                let fits = |corner: &str| {
+                    let numbers = corner.split('/').zip(counts);
+                    numbers
+                        .into_iter()
+                        .all(|(number, count)| match number.strip_prefix('-') {
+                            Some(back) => whole(back) <= count,
+                            None => whole(number) <= text.len(),
+                        })
+                };
+                if !words.all(fits) {
+                    return Err(damaged(
+                        "OBJ",
+                        format!("line {} names a vertex that cannot be there", i + 1),
+                    ));
+                }
+            }
+            _ => {}
         }
     }
     Ok(())
+}
+
+/// The number, as far as digits go: what else there may be is refused later.
+fn whole(text: &str) -> usize {
+    let digits = text.bytes().filter(u8::is_ascii_digit);
+    digits.fold(0, |n, digit| {
+        n.saturating_mul(10).saturating_add((digit - b'0').into())
+    })
 }

@@ -1,6 +1,6 @@
 //! Meshes from files, and what is seen of them.
 
-use js_sys::{Array, Float32Array, Float64Array, Int32Array, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Array, Float32Array, Float64Array, Int32Array, Uint8Array, Uint32Array};
 use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
@@ -71,7 +71,7 @@ struct SampledOutput {
     texture_of: Int32Array,
 }
 
-/// Decodes a mesh file; `files` are names and bytes of what lies beside it, in turn.
+/// Decodes a mesh file; `files` are pairs of a name and the bytes of what lies beside it.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
     let mut format = None;
@@ -86,9 +86,9 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
         }
     }
     let mut beside = Vec::new();
-    for file in files.iter() {
-        let name = Reflect::get_u32(&file, 0)?.as_string().unwrap_or_default();
-        beside.push((name, copied(&Reflect::get_u32(&file, 1)?.unchecked_into())?));
+    for file in files.iter().map(|file| Array::from(&file)) {
+        let name = file.get(0).as_string().unwrap_or_default();
+        beside.push((name, copied(&file.get(1).unchecked_into())?));
     }
     let beside: Vec<_> = (beside.iter())
         .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))

@@ -368,6 +368,12 @@ fn scenes_that_make_no_sense() {
     ] {
         assert!(!survives(&altered(from, to), None), "{to}");
     }
+    // By fuzzing: less than the header itself.
+    for length in [0, 11] {
+        let mut glb = file("fan.glb");
+        glb[8..12].copy_from_slice(&u32::to_le_bytes(length));
+        assert_eq!(read_mesh(&glb, None).unwrap_err().code(), "FORMAT");
+    }
     // Deeply nested text.
     survives("[".repeat(1 << 20).as_bytes(), Some(MeshFormat::Gltf));
     survives("{\"a\":".repeat(1 << 18).as_bytes(), None);

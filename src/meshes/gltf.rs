@@ -20,6 +20,11 @@ const NAME: &str = "glTF";
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
     let binary = bytes.starts_with(b"glTF");
     let (json, bin) = if binary {
+        // `gltf` takes the header's own length off what that says.
+        let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
+        if length.is_none_or(|length| u32::from_le_bytes(length) < 12) {
+            return Err(damaged(NAME, "its header states a length that cannot be"));
+        }
         let glb = Glb::from_slice(bytes).map_err(|error| damaged(NAME, error))?;
         (glb.json, glb.bin)
     } else {
@@ -95,6 +100,9 @@ struct Scene<'a> {
     buffers: &'a [Cow<'a, [u8]>],
     beside: &'a Beside<'a>,
 }
+
+/// A file's name, empty for what is embedded, and its bytes.
+type Named<'a> = (&'a str, Cow<'a, [u8]>);
 
 /// What a primitive looks like where its vertices do not say: a colour, the number of a texture,
 /// and which of its texture coordinates are about that.
@@ -184,7 +192,7 @@ impl Scene<'_> {
     }
 
     /// The bytes of an image, and the name of the file that they are from, if it is there.
-    fn picture(&self, image: &Image) -> Result<Option<(&str, Cow<'_, [u8]>)>> {
+    fn picture(&self, image: &Image) -> Result<Option<Named<'_>>> {
         if let Some(uri) = &image.uri {
             return match embedded(uri)? {
                 Some(bytes) => Ok(Some(("", bytes.into()))),

@@ -3,7 +3,7 @@ import { Connection } from './connection.js';
 import { asOptions, controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { asBytes, asField, asImage, asInput, asLattice, detached } from './input.js';
-import { asMesh } from './mesh-input.js';
+import { asFiles, asMesh, asPicture } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, dewarpOptions } from './sheet-input.js';
@@ -118,10 +118,18 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.writeExr(transfer(field, buffers)));
   }
 
-  /** @param {Heightfield} input */
-  async writeObj(input) {
+  /**
+   * @param {Heightfield} input
+   * @param {import('./index.js').WriteObjOptions} [options]
+   */
+  async writeObj(input, options) {
     const { field, buffers } = detached(asLattice(input));
-    return this.#request((remote) => remote.writeObj(transfer(field, buffers)));
+    return this.#request((remote) => remote.writeObj(transfer(field, buffers), options));
+  }
+
+  /** @param {string} picture */
+  async writeMtl(picture) {
+    return this.#request((remote) => remote.writeMtl(picture));
   }
 
   /** @param {Heightfield} input */
@@ -143,15 +151,17 @@ export class DevelopableWorker {
   async writeGlb(input, given) {
     const { field, buffers } = detached(asLattice(input));
     const { texture, ...rest } = asOptions(given);
-    const options = { ...rest, texture: texture === undefined ? undefined : await ownBytes(texture) };
+    const options = { ...rest, texture: texture === undefined || texture === null ? texture : await ownBytes(texture) };
     return this.#request((remote) => remote.writeGlb(transfer(field, buffers), options));
   }
 
   /**
    * @param {Uint8Array | ArrayBuffer | Blob} bytes
-   * @param {import('./types.js').ReadMeshOptions} [options]
+   * @param {import('./types.js').ReadMeshOptions} [given]
    */
-  async readMesh(bytes, options) {
+  async readMesh(bytes, given) {
+    const { files, ...rest } = asOptions(given);
+    const options = { ...rest, files: new Map(asFiles(files)) };
     const file = await ownBytes(bytes);
     return this.#request((remote) => remote.readMesh(transfer(file, [file.buffer]), options));
   }
@@ -172,6 +182,22 @@ export class DevelopableWorker {
   async backProject(input, camera) {
     const { field, buffers } = detached(asImage(input));
     return this.#request((remote) => remote.backProject(transfer(field, buffers), camera));
+  }
+
+  /**
+   * @template {Heightfield} F
+   * @param {F} input
+   * @param {import('./types.js').Picture | Blob} picture
+   * @param {import('./types.js').PaintOptions} [options]
+   * @returns {Promise<import('./types.js').Painted<F>>}
+   */
+  async paint(input, picture, options) {
+    const isBlob = typeof Blob === 'function' && picture instanceof Blob;
+    const given = asPicture(isBlob ? await ownBytes(picture) : /** @type {import('./types.js').Picture} */ (picture));
+    const { extent = dewarpOptions(input).extent, ...others } = asOptions(options);
+    const place = { ...others, extent: input.uvs && options?.extent === undefined ? undefined : extent };
+    const { field, buffers } = detached(asLattice(input));
+    return { ...input, ...await this.#request((remote) => remote.paint(transfer(field, buffers), given, place)) };
   }
 
   /**

@@ -2,9 +2,9 @@
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
   ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
-  OcclusionOptions, PatchMap, PatchOptions, PatternOptions, Photo, Progress, ReadMeshOptions, ReadOptions,
-  ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
-  UnrollOptions, WritePdfOptions,
+  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
+  ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
+  SolverOptions, Surface, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -39,8 +39,16 @@ export function initPatterns(input?: InitInput): Promise<void>;
 export function initPatternsSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
 export interface WriteGlbOptions {
-  /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
-  texture?: Uint8Array | ArrayBuffer;
+  /**
+   * A PNG or JPEG file that the texture coordinates are about, to be embedded as it is; it takes the
+   * place of colours. Default: the field's own; `null` for none.
+   */
+  texture?: Uint8Array | ArrayBuffer | null;
+}
+
+export interface WriteObjOptions {
+  /** Name of a file that `writeMtl` has made: its picture takes the place of colours. */
+  materials?: string;
 }
 
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
@@ -91,16 +99,21 @@ export function writeExr(input: HeightImage): Uint8Array<ArrayBuffer>;
  * OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`, with
  * normals, and with the field's `colors` and `uvs`.
  */
-export function writeObj(input: Heightfield): Uint8Array<ArrayBuffer>;
+export function writeObj(input: Heightfield, options?: WriteObjOptions): Uint8Array<ArrayBuffer>;
+/** The MTL file that goes with such an OBJ: one material, with the name of a picture's file. */
+export function writeMtl(picture: string): Uint8Array<ArrayBuffer>;
 /** The same mesh as PLY (binary, little-endian): positions in 64 bits, colours as bytes. */
 export function writePly(input: Heightfield): Uint8Array<ArrayBuffer>;
 /** The same mesh as STL (binary): positions in 32 bits, and nothing else but each triangle's normal. */
 export function writeStl(input: Heightfield): Uint8Array<ArrayBuffer>;
 /** The same mesh as GLB (binary glTF): positions in 32 bits, colours as bytes, and a texture if one is given. */
 export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Uint8Array<ArrayBuffer>;
-/** Decodes an OBJ, PLY, STL, glTF or GLB file. */
+/** Decodes an OBJ, PLY, STL, glTF or GLB file, with the files beside it that it names. */
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
-/** What is seen of a mesh, as heights on a lattice: an input for `fit`. */
+/**
+ * What is seen of a mesh, as heights on a lattice: an input for `fit`. Textures are read as by
+ * `readPhoto`, which takes `initFiles()` and, but for PNG, `initImages()`.
+ */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
 /**
  * What a depth camera has seen, as a mesh: vertex i is pixel i (so that a picture of the same size
@@ -113,6 +126,12 @@ export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh
  * line of sight.
  */
 export function backProject(image: HeightImage, camera: Intrinsics): Mesh;
+/**
+ * Gives a surface the colours of a picture of it, and texture coordinates where it has none: the
+ * picture shows what the heights show, with as many pixels as it likes. Of a file, `texture` is set,
+ * too. Where the picture is transparent, colours stay as they are.
+ */
+export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
 /** The smooth patches of a surface, and the creases between them. */

@@ -4,11 +4,13 @@ import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
 import { asBytes, asField, asImage, asInput, asLattice, carriedOf } from './input.js';
 import { files, images, meshes, patterns, sheets, solver } from './instances.js';
-import { asMesh } from './mesh-input.js';
+import { asFiles, asMesh } from './mesh-input.js';
+import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, dewarpOptions } from './sheet-input.js';
 
 export { DevelopableError } from './errors.js';
+export { readPhoto };
 
 /** @type {typeof import('./direct.js').init} */
 export const init = (input) => solver.init(input);
@@ -206,9 +208,14 @@ export function writeExr(input) {
 }
 
 /** @type {typeof import('./direct.js').writeObj} */
-export function writeObj(input) {
+export function writeObj(input, options) {
   const lattice = asLattice(input);
-  return bytesOf((wasm) => wasm.writeObj(lattice));
+  return bytesOf((wasm) => wasm.writeObj(lattice, options));
+}
+
+/** @type {typeof import('./direct.js').writeMtl} */
+export function writeMtl(picture) {
+  return bytesOf((wasm) => wasm.writeMtl(String(picture)));
 }
 
 /** @type {typeof import('./direct.js').writePly} */
@@ -226,21 +233,29 @@ export function writeStl(input) {
 /** @type {typeof import('./direct.js').writeGlb} */
 export function writeGlb(input, given) {
   const lattice = asLattice(input);
-  const { texture, ...rest } = asOptions(given);
-  const options = { ...rest, texture: texture === undefined ? undefined : asBytes(texture) };
+  const { texture = lattice.texture, ...rest } = asOptions(given);
+  const options = { ...rest, texture: texture === null || texture === undefined ? undefined : asBytes(texture) };
   return unshared(meshes.call((wasm) => wasm.writeGlb(lattice, options)));
 }
 
 /** @type {typeof import('./direct.js').readMesh} */
-export function readMesh(bytes, options) {
+export function readMesh(bytes, given) {
   const file = asBytes(bytes);
-  return meshes.call((wasm) => wasm.readMesh(file, options));
+  const { files: beside, ...options } = asOptions(given);
+  const pairs = asFiles(beside);
+  return meshes.call((wasm) => wasm.readMesh(file, pairs, options));
 }
 
 /** @type {typeof import('./direct.js').sampleMesh} */
 export function sampleMesh(mesh, options) {
-  const given = asMesh(mesh);
-  return meshes.call((wasm) => wasm.sampleMesh(given, options));
+  const { textures, ...given } = asMesh(mesh);
+  const { textureOf, ...seen } = meshes.call((wasm) => wasm.sampleMesh(given, options));
+  return inColour(seen, textureOf, textures);
+}
+
+/** @type {typeof import('./direct.js').paint} */
+export function paint(input, picture, options) {
+  return { ...input, ...paintOf(input, picture, options) };
 }
 
 /** @type {typeof import('./direct.js').backProject} */
@@ -301,12 +316,6 @@ export function dewarp(input, photo, given) {
   const options = dewarpOptions(input, given);
   const [field, pixels] = [asField(input), asPhoto(photo)];
   return sheets.call((wasm) => wasm.dewarp(field, pixels, options));
-}
-
-/** @type {typeof import('./direct.js').readPhoto} */
-export function readPhoto(bytes) {
-  const file = asBytes(bytes);
-  return files.call((wasm) => wasm.readPhoto(file));
 }
 
 /** @type {typeof import('./direct.js').writePhoto} */

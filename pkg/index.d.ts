@@ -2,9 +2,9 @@
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
   ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
-  OcclusionOptions, PatchMap, PatchOptions, PatternOptions, Photo, Progress, ReadMeshOptions, ReadOptions,
-  ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SolverOptions, Surface, Unrolling,
-  UnrollOptions, WritePdfOptions,
+  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
+  ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
+  SolverOptions, Surface, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -26,8 +26,16 @@ export interface WorkerOptions {
 }
 
 export interface WriteGlbOptions {
-  /** A PNG or JPEG file that the texture coordinates are about, to be embedded as it is. */
-  texture?: Uint8Array | ArrayBuffer | Blob;
+  /**
+   * A PNG or JPEG file that the texture coordinates are about, to be embedded as it is; it takes the
+   * place of colours. Default: the field's own; `null` for none.
+   */
+  texture?: Uint8Array | ArrayBuffer | Blob | null;
+}
+
+export interface WriteObjOptions {
+  /** Name of a file that `writeMtl` has made: its picture takes the place of colours. */
+  materials?: string;
 }
 
 export interface OpenFitOptions extends SolverOptions {
@@ -92,13 +100,16 @@ export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<A
 export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
 export function writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-export function writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+export function writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
+export function writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
 export function writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
 export function backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
+/** Gives a surface the colours of a picture of it. */
+export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
 /** The smooth patches of a surface, and the creases between them. */
@@ -138,13 +149,15 @@ export class DevelopableWorker {
   writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
   writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-  writeObj(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
+  writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
   writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
   writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
   backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
+  paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
   analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
   patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
   rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;

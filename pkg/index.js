@@ -38,7 +38,9 @@ export const writeTiff = (input) => worker().writeTiff(input);
 /** @type {typeof import('./index.js').writeExr} */
 export const writeExr = (input) => worker().writeExr(input);
 /** @type {typeof import('./index.js').writeObj} */
-export const writeObj = (input) => worker().writeObj(input);
+export const writeObj = (input, options) => worker().writeObj(input, options);
+/** @type {typeof import('./index.js').writeMtl} */
+export const writeMtl = (picture) => worker().writeMtl(picture);
 /** @type {typeof import('./index.js').writePly} */
 export const writePly = (input) => worker().writePly(input);
 /** @type {typeof import('./index.js').writeStl} */
@@ -51,6 +53,8 @@ export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
 /** @type {typeof import('./index.js').backProject} */
 export const backProject = (input, camera) => worker().backProject(input, camera);
+/** @type {typeof import('./index.js').paint} */
+export const paint = (input, picture, options) => worker().paint(input, picture, options);
 /** @type {typeof import('./index.js').analyze} */
 export const analyze = (input, options) => worker().analyze(input, options);
 /** @type {typeof import('./index.js').patches} */

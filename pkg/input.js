@@ -15,7 +15,9 @@ import { DevelopableError } from './errors.js';
  */
 
 /** The arrays that an input may have. */
-const ARRAYS = ['data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges', 'colors', 'uvs'];
+const ARRAYS = [
+  'data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges', 'colors', 'uvs', 'texture',
+];
 
 const SHAPES =
   'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +
@@ -113,7 +115,7 @@ function pixels(input) {
  * @param {Heightfield} input
  */
 function vertices(input) {
-  const { rows, cols, spacing, origin, mask, noData, frame, colors, uvs } = Object(input);
+  const { rows, cols, spacing, origin, mask, noData, frame, colors, uvs, texture } = Object(input);
   if (origin !== undefined && !(origin?.length === 2 && isNumber(origin[0]) && isNumber(origin[1]))) {
     throw new DevelopableError('INPUT', `origin must be two numbers [x, y], but is ${show(origin)}`);
   }
@@ -128,6 +130,7 @@ function vertices(input) {
     frame: frame === undefined ? undefined : asFrame(frame),
     colors: optionalFloats('colors', colors),
     uvs: optionalFloats('uvs', uvs),
+    texture: texture === undefined ? undefined : asBytes(texture),
   };
 }
 
@@ -148,14 +151,14 @@ function asFrame(frame) {
 }
 
 /**
- * What a surface has from its input: the axes of a view, colours and texture coordinates.
+ * What a surface has from its input: the axes of a view, colours, texture coordinates and texture.
  * @param {Image | Lattice} field
- * @returns {Partial<Pick<Heightfield, 'frame' | 'colors' | 'uvs'>>}
+ * @returns {Partial<Pick<Heightfield, 'frame' | 'colors' | 'uvs' | 'texture'>>}
  */
 export function carriedOf(field) {
   if (field.kind === 'image') return {};
-  const { frame, colors, uvs } = field;
-  return { ...(frame && { frame }), ...(colors && { colors }), ...(uvs && { uvs }) };
+  const { frame, colors, uvs, texture } = field;
+  return { ...(frame && { frame }), ...(colors && { colors }), ...(uvs && { uvs }), ...(texture && { texture }) };
 }
 
 /**

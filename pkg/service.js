@@ -5,6 +5,8 @@ import { isImage } from './formats.js';
 import { asBytes } from './input.js';
 import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
+import { asPicture } from './mesh-input.js';
+import { paintOf } from './paint.js';
 import { transfer } from './wire.js';
 
 /** @type {Map<number, Job>} */
@@ -133,7 +135,7 @@ export const service = {
   writePng: written(withFiles, direct.writePng),
   writeTiff: written(withImages, direct.writeTiff),
   writeExr: written(withImages, direct.writeExr),
-  writeObj: written(withFiles, direct.writeObj),
+  writeMtl: written(withFiles, direct.writeMtl),
   writePly: written(withMeshes, direct.writePly),
   writeStl: written(withMeshes, direct.writeStl),
   writePhoto: written(withFiles, direct.writePhoto),
@@ -151,6 +153,16 @@ export const service = {
   },
 
   /**
+   * @param {Parameters<typeof direct.writeObj>[0]} input
+   * @param {Parameters<typeof direct.writeObj>[1]} [options]
+   */
+  async writeObj(input, options) {
+    await withFiles();
+    const bytes = direct.writeObj(input, options);
+    return transfer(bytes, buffersOf(bytes));
+  },
+
+  /**
    * @param {Parameters<typeof direct.writeGlb>[0]} input
    * @param {Parameters<typeof direct.writeGlb>[1]} [options]
    */
@@ -162,9 +174,16 @@ export const service = {
 
   /** @param {Parameters<typeof direct.readPhoto>[0]} bytes */
   async readPhoto(bytes) {
-    await withFiles();
+    await withPictures([bytes]);
     const photo = direct.readPhoto(bytes);
     return transfer(photo, buffersOf(photo.data));
+  },
+
+  /** @type {(input: Input, picture: import('./types.js').Picture, options?: import('./types.js').PaintOptions) => Promise<ReturnType<typeof paintOf>>} */
+  async paint(input, picture, options) {
+    await withPictures([picture]);
+    const painted = paintOf(/** @type {import('./types.js').Heightfield} */ (input), picture, options);
+    return transfer(painted, buffersOf(painted.uvs, painted.colors));
   },
 
   /** @type {(input: Input, options?: import('./types.js').AnalyzeOptions) => Promise<import('./types.js').Analysis>} */
@@ -216,7 +235,7 @@ export const service = {
   async readMesh(bytes, options) {
     await withMeshes();
     const mesh = direct.readMesh(bytes, options);
-    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.colors, mesh.uvs));
+    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.colors, mesh.uvs, mesh.textureOf));
   },
 
   /**
@@ -224,7 +243,7 @@ export const service = {
    * @param {Parameters<typeof direct.sampleMesh>[1]} [options]
    */
   async sampleMesh(mesh, options) {
-    await withMeshes();
+    await Promise.all([withMeshes(), mesh.textures && withPictures(mesh.textures)]);
     const sampled = direct.sampleMesh(mesh, options);
     return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
   },
@@ -264,6 +283,18 @@ function withFiles() {
 
 function withImages() {
   return direct.initImages(imagesWasm);
+}
+
+/**
+ * What it takes to read pictures, and to paint with them.
+ * @param {import('./types.js').Picture[]} pictures
+ */
+async function withPictures(pictures) {
+  const others = pictures.some((picture) => {
+    const given = asPicture(picture);
+    return given instanceof Uint8Array && isImage(given);
+  });
+  await Promise.all([withFiles(), others && withImages()]);
 }
 
 function withMeshes() {

@@ -79,6 +79,8 @@ export interface Heightfield extends Known {
   colors?: Float32Array;
   /** Texture coordinates of each vertex, from the left and from the bottom of the picture, likewise. */
   uvs?: Float32Array;
+  /** A PNG or JPEG file that they are about, for GLB. */
+  texture?: Uint8Array;
 }
 
 /**
@@ -102,6 +104,12 @@ export interface Mesh {
   colors?: Float32Array;
   /** Texture coordinates of each vertex, from the left and from the bottom of the picture. */
   uvs?: Float32Array;
+  /** Pictures that they are about, each a PNG, JPEG or WebP file or its pixels. */
+  textures?: Picture[];
+  /** The number of each triangle's texture, -1 for none. Without it all have the first one. */
+  textureOf?: Int32Array;
+  /** Names of materials and textures that a file names and that were not given with it. */
+  missing?: string[];
 }
 
 /** A pinhole camera without distortion, in pixels: the centre of the top left one is (0, 0), rows count down. */
@@ -123,6 +131,12 @@ export interface Intrinsics {
 export interface ReadMeshOptions {
   /** Taken from the bytes where it is not given. */
   format?: 'obj' | 'ply' | 'stl' | 'gltf' | 'glb';
+  /**
+   * What lies beside the file, by name: the materials (MTL) and textures of an OBJ, the texture of a
+   * PLY, the buffers and textures of a glTF. A name is looked for as it is and then without its
+   * folders; what is not there is listed in the mesh's `missing`, but a glTF needs its buffers.
+   */
+  files?: Map<string, Uint8Array | ArrayBuffer> | Record<string, Uint8Array | ArrayBuffer>;
 }
 
 /** A direction to look in: `'-z'` looks down the z axis, so that what has the largest z is in front. */
@@ -156,10 +170,15 @@ export interface SampledMesh extends Heightfield {
   origin: [number, number];
   heights: Float64Array;
   frame: Frame;
-  /** The mesh's colours where it was hit, three for each vertex; NaN elsewhere. */
+  /**
+   * Colours where the mesh was hit, three for each vertex; NaN elsewhere. Of triangles with a texture
+   * they are the texture's, of others the mesh's own.
+   */
   colors?: Float32Array;
   /** Its texture coordinates likewise, two for each vertex. */
   uvs?: Float32Array;
+  /** Its texture, where all that is seen has the same one and that is a PNG or JPEG file. */
+  texture?: Uint8Array;
 }
 
 /**
@@ -340,6 +359,8 @@ export interface Surface {
   colors?: Float32Array;
   /** The input's. */
   uvs?: Float32Array;
+  /** The input's. */
+  texture?: Uint8Array;
   report: Report;
 }
 
@@ -440,6 +461,20 @@ export interface Photo {
   /** `4 * width * height` bytes. */
   data: Uint8ClampedArray | Uint8Array;
 }
+
+/** A PNG, JPEG or WebP file, or its pixels. */
+export type Picture = Uint8Array | ArrayBuffer | Photo;
+
+export interface PaintOptions {
+  /**
+   * The part of the plane that the picture shows: left, bottom, right, top. Default: what the
+   * surface's texture coordinates say; without any, as for `dewarp`.
+   */
+  extent?: readonly [number, number, number, number];
+}
+
+/** A surface in the colours of a picture. */
+export type Painted<F> = F & { uvs: Float32Array; colors: Float32Array; texture?: Uint8Array };
 
 export interface DecodedPhoto extends Photo {
   data: Uint8ClampedArray<ArrayBuffer>;

@@ -33,7 +33,9 @@ mod trim;
 
 use serde::Serialize;
 
+use crate::error::{Error, Result, try_filled};
 use crate::heightfield::{HeightImage, Heightfield};
+use crate::lattice::Lattice;
 use crate::unroll::UnrollReport;
 pub use map::WarpMap;
 pub use photo::Photo;
@@ -94,6 +96,51 @@ impl Extent {
                 top - (lattice.rows() - 1) as f64 * lattice.row_spacing(),
             ],
             max: [left + (lattice.cols() - 1) as f64 * lattice.spacing(), top],
+        }
+    }
+
+    /// Texture coordinates of each vertex of a lattice: its place in the photo, as shares from the
+    /// left and from the bottom. What lies beside the photo has the place nearest to it.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] for an extent without area, [`Error::OutOfMemory`].
+    pub fn uvs(&self, lattice: &Lattice) -> Result<Vec<[f32; 2]>> {
+        let [width, height] = self.sides()?;
+        let mut uvs = try_filled("texture coordinates", lattice.len(), [0.0; 2])?;
+        for (i, uv) in uvs.iter_mut().enumerate() {
+            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+            let place = [(x - self.min[0]) / width, (y - self.min[1]) / height];
+            *uv = place.map(|share| share.clamp(0.0, 1.0) as f32);
+        }
+        Ok(uvs)
+    }
+
+    /// Width and height, of which there has to be some.
+    fn sides(&self) -> Result<[f64; 2]> {
+        let sides = [0, 1].map(|k| self.max[k] - self.min[k]);
+        if sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+            Ok(sides)
+        } else {
+            Err(Error::Empty { what: "photo" })
+        }
+    }
+}
+
+/// Colours for vertices with texture coordinates, from the photo that these are about. Where it is
+/// transparent they stay as they are, and so do vertices that are not `wanted`.
+///
+/// # Panics
+/// If there are not as many colours as texture coordinates.
+pub fn paint(
+    colors: &mut [[f32; 3]],
+    uvs: &[[f32; 2]],
+    photo: &Photo<'_>,
+    wanted: impl Fn(usize) -> bool,
+) {
+    assert_eq!(colors.len(), uvs.len());
+    for (i, (color, uv)) in colors.iter_mut().zip(uvs).enumerate() {
+        if let Some(found) = photo.color(*uv).filter(|_| wanted(i)) {
+            *color = found;
         }
     }
 }

@@ -22,12 +22,12 @@ use crate::buffer::Buffer;
 use crate::error::{Error, Result};
 use crate::heightfield::HeightImage;
 
-#[cfg(all(feature = "js-images", target_arch = "wasm32"))]
-pub(crate) use images::decode as decode_image;
 #[cfg(feature = "images")]
 pub use images::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
+#[cfg(all(feature = "js-images", target_arch = "wasm32"))]
+pub(crate) use images::{decode as decode_image, decode_photo as decode_image_photo};
 pub use npy::write_npy;
-pub use obj::{write_obj, write_obj_in, write_obj_mesh};
+pub use obj::{write_mtl, write_obj, write_obj_in, write_obj_mesh, write_obj_textured};
 pub use photo::{PhotoFile, decode_photo, write_photo};
 pub use png::write_png;
 

@@ -14,6 +14,7 @@ pub struct Mesh {
     normals: Option<Vec<[f32; 3]>>,
     colors: Option<Vec<[f32; 3]>>,
     uvs: Option<Vec<[f32; 2]>>,
+    textures: Option<Vec<i32>>,
 }
 
 impl Mesh {
@@ -52,6 +53,7 @@ impl Mesh {
             normals: None,
             colors: None,
             uvs: None,
+            textures: None,
         })
     }
 
@@ -74,6 +76,7 @@ impl Mesh {
             normals: None,
             colors: None,
             uvs: None,
+            textures: None,
         })
     }
 
@@ -115,6 +118,18 @@ impl Mesh {
         Ok(self)
     }
 
+    /// The same mesh with the number of a texture for each triangle, -1 for none: which of several
+    /// pictures the texture coordinates of its corners are about.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one for each triangle.
+    pub fn with_textures(mut self, textures: Vec<i32>) -> Result<Self> {
+        let triangles = self.triangles.len();
+        check_count("textures of the mesh", triangles, 1, textures.len())?;
+        self.textures = Some(textures);
+        Ok(self)
+    }
+
     fn check_each<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<()> {
         check_count(what, self.positions.len(), N, N * values.len())
     }
@@ -142,6 +157,11 @@ impl Mesh {
     /// Texture coordinates for each vertex.
     pub fn uvs(&self) -> Option<&[[f32; 2]]> {
         self.uvs.as_deref()
+    }
+
+    /// The number of each triangle's texture, -1 for none.
+    pub fn textures(&self) -> Option<&[i32]> {
+        self.textures.as_deref()
     }
 
     /// The corners of one triangle.

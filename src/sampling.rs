@@ -184,8 +184,8 @@ impl Samples {
     }
 
     /// Values at the mesh's vertices carried to the lattice's: linear in each
-    /// triangle, the nearest point's of a cloud, NaN where nothing was hit. For colours, texture coordinates or
-    /// anything else of the mesh that was sampled.
+    /// triangle, the nearest point's of a cloud, NaN where nothing was hit. For
+    /// colours, texture coordinates or anything else of the mesh that was sampled.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -206,6 +206,21 @@ impl Samples {
             }
         }
         Ok(carried)
+    }
+
+    /// The number of the texture that was hit through each lattice vertex: -1 where there is none.
+    /// Without [`Mesh::textures`] all triangles have number 0.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn textures(&self, mesh: &Mesh) -> Result<Vec<i32>> {
+        let mut textures = try_filled("sampled values", self.indices.len(), -1)?;
+        for (i, out) in textures.iter_mut().enumerate() {
+            if let Some(Hit { index, .. }) = self.hit(i) {
+                *out = mesh.textures().map_or(0, |textures| textures[index]);
+            }
+        }
+        Ok(textures)
     }
 }
 

@@ -38,6 +38,8 @@ mod occlusions;
 mod options;
 #[cfg(feature = "js-patterns")]
 mod patterns;
+#[cfg(any(feature = "js-files", feature = "js-unroll"))]
+mod photo;
 #[cfg(feature = "js-solver")]
 mod results;
 #[cfg(any(feature = "js-patterns", feature = "js-unroll"))]

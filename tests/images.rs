@@ -2,7 +2,7 @@
 #![cfg(all(feature = "images", not(target_arch = "wasm32")))]
 
 use developable::formats::{
-    Decoded, Format, Unit, decode, decode_npz, npz_arrays, write_exr, write_tiff,
+    Decoded, Format, Unit, decode, decode_npz, decode_photo, npz_arrays, write_exr, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
@@ -224,6 +224,51 @@ fn jpegs_are_seen_the_way_their_exif_says() {
     bytes[at + 6..at + 8].copy_from_slice(b"??");
     let found = decode(&bytes, None).unwrap();
     assert_eq!((found.width, found.height), (16, 24));
+}
+
+#[test]
+fn photos_have_their_colours() {
+    let colour = |name: &str, i: usize| {
+        let photo = decode_photo(&file(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(photo.rgba.len(), 4 * photo.width * photo.height, "{name}");
+        <[u8; 4]>::try_from(&photo.rgba[4 * i..][..4]).unwrap()
+    };
+    let grey = |i: usize| 2 * ramp()[i] as u8;
+    assert_eq!(colour("colour.webp", 9), [200, 10, 10, 255]);
+    assert_eq!(
+        colour("colour.webp", 10),
+        [grey(10), grey(10), grey(10), 255]
+    );
+    assert_eq!(colour("alpha.webp", 1)[3], 0);
+    assert_eq!(colour("alpha.webp", 11), [grey(11), grey(11), grey(11), 90]);
+    // Red falls as green and blue grow: in steps of 8 pixels, as `make-images.py` has them.
+    let [r, g, b, a] = colour("colour.jpg", 0);
+    assert!(r > 230 && g < 25 && b < 25 && a == 255, "{r} {g} {b}");
+    for name in ["grey.jpg", "grey.webp", "progressive.jpg"] {
+        let values = read(name).values;
+        let found = (0..values.len()).map(|i| colour(name, i));
+        for ([r, g, b, a], value) in found.zip(values) {
+            assert_eq!((r, g, b, a), (r, r, r, 255), "{name}");
+            assert_eq!(f64::from(r), value, "{name}");
+        }
+    }
+    // The way up is that of the heights.
+    let seen = decode_photo(&file("exif6.jpg")).unwrap();
+    let heights = read("exif6.jpg");
+    assert_eq!((seen.width, seen.height), (heights.width, heights.height));
+    let reds: Vec<f64> = seen.rgba.chunks(4).map(|p| p[0].into()).collect();
+    assert_eq!(reds, heights.values);
+    let refused = |name: &str| decode_photo(&file(name)).unwrap_err().code();
+    assert_eq!(refused("half.exr"), "UNSUPPORTED");
+    for name in ["colour.jpg", "colour.webp"] {
+        let bytes = file(name);
+        for length in 0..bytes.len() - 2 {
+            assert!(
+                decode_photo(&bytes[..length]).is_err(),
+                "{name} cut to {length}"
+            );
+        }
+    }
 }
 
 /// A file of each kind, as small as it gets.

@@ -162,6 +162,9 @@ fn obj_in_all_its_shapes() {
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
+        // By fuzzing.
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//-21\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n\u{a0}f 1//6148914691236517206 2//1 3//1\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//6148914691236517206 2//1 3//1\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1431655766 2//1 3//1\n",
         "v 0 0\nf 1 1 1\n",
@@ -364,6 +367,12 @@ fn scenes_that_make_no_sense() {
         ("base64,", "base64,*"),
     ] {
         assert!(!survives(&altered(from, to), None), "{to}");
+    }
+    // By fuzzing: less than the header itself.
+    for length in [0, 11] {
+        let mut glb = file("fan.glb");
+        glb[8..12].copy_from_slice(&u32::to_le_bytes(length));
+        assert_eq!(read_mesh(&glb, None).unwrap_err().code(), "FORMAT");
     }
     // Deeply nested text.
     survives("[".repeat(1 << 20).as_bytes(), Some(MeshFormat::Gltf));

@@ -253,10 +253,34 @@ fn accessor<'a>(json: &Value, bin: &'a [u8], index: &Value) -> (Bytes<'a>, usize
     )
 }
 
+/// Its one material shows this image from both sides.
+fn check_material(json: &Value, bin: &[u8], image: &[u8]) {
+    let primitive = &json["meshes"][0]["primitives"][0];
+    let material = &json["materials"][primitive["material"].as_u64().unwrap() as usize];
+    assert_eq!(material["doubleSided"], true);
+    assert_eq!(
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"],
+        0
+    );
+    let picture = &json["images"][json["textures"][0]["source"].as_u64().unwrap() as usize];
+    assert_eq!(picture["mimeType"], "image/jpeg");
+    let view = &json["bufferViews"][picture["bufferView"].as_u64().unwrap() as usize];
+    let start = view["byteOffset"].as_u64().unwrap() as usize;
+    assert_eq!(&bin[start..start + image.len()], image);
+    assert_eq!(view["byteLength"], image.len());
+}
+
 #[test]
 fn glb_has_all_of_it() {
     let image = b"\xff\xd8\xff\xe0 a picture";
-    let file = write_glb(&mesh(), Some(image)).unwrap();
+    // Colours are in the file without a texture only: the two would be multiplied.
+    let textured = write_glb(&mesh(), Some(image)).unwrap();
+    let (json, bin) = glb(&textured);
+    let plain = &json["meshes"][0]["primitives"][0]["attributes"];
+    assert!(plain.get("COLOR_0").is_none());
+    check_material(&json, bin, image);
+
+    let file = write_glb(&mesh(), None).unwrap();
     let (json, bin) = glb(&file);
     assert_eq!(json["asset"]["version"], "2.0");
     assert_eq!(json["buffers"][0]["byteLength"], bin.len());
@@ -300,23 +324,29 @@ fn glb_has_all_of_it() {
     let triangles = rest.many(23, |rest| [rest.u32(), rest.u32(), rest.u32()]);
     check_triangles(&triangles, &positions());
 
-    let material = &json["materials"][primitive["material"].as_u64().unwrap() as usize];
-    assert_eq!(material["doubleSided"], true);
-    assert_eq!(
-        material["pbrMetallicRoughness"]["baseColorTexture"]["index"],
-        0
-    );
-    let picture = &json["images"][json["textures"][0]["source"].as_u64().unwrap() as usize];
-    assert_eq!(picture["mimeType"], "image/jpeg");
-    let view = &json["bufferViews"][picture["bufferView"].as_u64().unwrap() as usize];
-    let start = view["byteOffset"].as_u64().unwrap() as usize;
-    assert_eq!(&bin[start..start + image.len()], image);
-    assert_eq!(view["byteLength"], image.len());
-
     let back = read_mesh(&file, None).unwrap();
     assert_eq!(back.triangles(), mesh().triangles());
     assert_eq!(back.colors(), mesh().colors());
     assert_eq!(back.uvs(), mesh().uvs());
+}
+
+#[test]
+fn glb_keeps_the_heights_of_coordinates_on_a_map() {
+    // Metres, a sheet of three metres at a spacing of a hand's width, two thousand metres up.
+    let lattice = Lattice::new(30, 30, 0.1).unwrap();
+    let lattice = lattice.with_origin([512_345.678, 5_413_210.987]).unwrap();
+    let height = |x: f64, y: f64| 2000.0 + 0.1 * (x - 512_345.0) - 0.2 * (y - 5_413_210.0);
+    let surface = Heightfield::from_fn(lattice, height).unwrap();
+    for frame in [Frame::default(), frame()] {
+        let mesh = Triangulation::new(&surface, &frame).unwrap().into_mesh();
+        let back = read_mesh(&write_glb(&mesh, None).unwrap(), None).unwrap();
+        for (found, expected) in back.positions().iter().zip(mesh.positions()) {
+            close(*found, *expected, 1e-3 * 0.1);
+        }
+        assert_eq!(back.triangles(), mesh.triangles());
+    }
+    // In 32 bits alone it would be half a metre off.
+    assert!((f64::from(5_413_210.987f32) - 5_413_210.987).abs() > 1e-3);
 }
 
 #[test]

@@ -4,9 +4,9 @@
 pub use libfuzzer_sys::fuzz_target;
 
 pub use developable::formats::Format;
-use developable::formats::{decode, decode_npz, npz_arrays};
+use developable::formats::{decode, decode_npz, decode_photo, npz_arrays};
 pub use developable::meshes::MeshFormat;
-use developable::meshes::read_mesh;
+use developable::meshes::read_mesh_beside;
 use developable::{Resolution, View, sample};
 
 /// The fuzz target of a format of height images.
@@ -38,11 +38,35 @@ pub fn read_image(bytes: &[u8], format: Format) {
     }
 }
 
+/// Decodes a picture with its colours.
+pub fn read_photo(bytes: &[u8]) {
+    if let Ok(photo) = decode_photo(bytes) {
+        assert_eq!(photo.rgba.len(), 4 * photo.width * photo.height);
+    }
+}
+
 /// Decodes, and looks at what comes out from two sides.
 pub fn look_at(bytes: &[u8], format: MeshFormat) {
-    if let Ok(mesh) = read_mesh(bytes, Some(format)) {
+    look_beside(bytes, format, &[]);
+}
+
+/// A triangle for each of the first materials, `a` and `b`.
+const TRIANGLES: &[u8] = b"mtllib m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n\
+                           usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 2/2 3/3\n";
+
+/// Decodes the materials of a mesh.
+pub fn look_with(materials: &[u8]) {
+    let files = [("m", materials), ("p", &b"a picture"[..])];
+    look_beside(TRIANGLES, MeshFormat::Obj, &files);
+}
+
+fn look_beside(bytes: &[u8], format: MeshFormat, files: &[(&str, &[u8])]) {
+    if let Ok(file) = read_mesh_beside(bytes, Some(format), files) {
+        let numbers = file.mesh.textures().unwrap_or_default();
+        let there = |number: &i32| *number < file.textures.len() as i32;
+        assert!(numbers.iter().all(there));
         for view in [View::Along([0.0, 0.0, -1.0]), View::BestFit] {
-            let _ = sample(&mesh, view, Resolution::Across(16));
+            let _ = sample(&file.mesh, view, Resolution::Across(16));
         }
     }
 }

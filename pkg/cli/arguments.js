@@ -8,7 +8,7 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {import('./flags.js').Values} Values
  * @typedef {Exclude<import('./flags.js').Command, 'info'>} WritingCommand
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json'} Extension
+ * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json' | '.mtl'} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
@@ -33,7 +33,7 @@ import { commandOf, split, usage } from './flags.js';
  * @property {string} [occlusionMask]
  *
  * @typedef {InputTask & KnownTask & {
- *   command: 'fit' | 'design', report?: string, texture?: string, options: SolverOptions,
+ *   command: 'fit' | 'design', report?: string, texture?: string, mtl?: string, options: SolverOptions,
  * }} FitTask
  * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
  * @typedef {Omit<FitTask, 'command'> & { asIs: boolean }} SheetTask `asIs`: without a fit
@@ -82,7 +82,7 @@ export function parse(args) {
   const command = commandOf(name, values);
   if (input === undefined) throw usage('the input is missing');
   if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`);
-  const { output, report, mask, confidence, constraints, texture, map, array } = values;
+  const { output, report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
   if (output === undefined) throw usage('the output is missing: -o FILE');
   const read = { mask, confidence, constraints, texture, 'occlusion mask': values['occlusion-mask'] };
@@ -90,6 +90,7 @@ export function parse(args) {
   checkKind(kind, command, values);
   if (report !== undefined) apart({ report }, { output, input, map, ...read });
   if (map !== undefined) apart({ map }, { output, input, ...read });
+  if (mtl !== undefined) apart({ mtl }, { output, input, report, ...read });
   apart({ output }, read);
 
   /** @type {InputTask} */
@@ -109,8 +110,12 @@ export function parse(args) {
     normalize: !values['no-normalize'],
   };
   if (command === 'occlusions') return { command, ...about, threshold: number('threshold', values) };
-  if (command === 'fit' && texture !== undefined && about.extension !== '.glb') {
-    throw usage('--texture is for outputs that end in .glb');
+  if (command === 'fit' && texture !== undefined && !['.obj', '.ply', '.glb'].includes(about.extension)) {
+    throw usage('--texture is for outputs that end in .obj, .ply or .glb');
+  }
+  if (mtl !== undefined) {
+    extension('mtl', mtl, ['.mtl']);
+    if (texture === undefined || about.extension !== '.obj') throw usage('--mtl is for an output .obj with a --texture');
   }
   const free = number('free', values);
   if (free !== undefined && command !== 'design' && constraints === undefined) {
@@ -125,6 +130,7 @@ export function parse(args) {
     occlusionMask: values['occlusion-mask'],
     report,
     texture,
+    mtl,
     options: {
       lambda: lambda(values.lambda),
       gap: number('gap', values),
@@ -190,7 +196,7 @@ export function isMesh(input) {
 
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */
 const strangers = {
-  image: ['view', 'resolution', 'ray', 'texture'],
+  image: ['view', 'resolution', 'ray'],
   mesh: ['lattice', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'ray'],
   depths: ['lattice', 'height-scale', 'confidence', 'constraints', 'free', 'occlusion-mask'],
 };
@@ -214,8 +220,7 @@ function kindOf(input, { intrinsics }) {
  */
 function checkKind(kind, command, values) {
   if (kind === 'mesh' && command === 'design') throw usage('"design" takes constraints, not a mesh');
-  // A photo is of whatever is laid flat.
-  const stray = strangers[kind].find((flag) => values[flag] !== undefined && !(flag === 'texture' && command === 'dewarp'));
+  const stray = strangers[kind].find((flag) => values[flag] !== undefined);
   if (stray) throw usage(`--${stray} is for ${plurals[kind]}${kind === 'depths' ? '' : ', and the input is none'}`);
   if (kind !== 'image' && values.spacing !== undefined && values.resolution !== undefined) {
     throw usage('--resolution and --spacing say the same: give one of them');

@@ -1,7 +1,8 @@
 /** `developable fit` and `developable design`. */
+import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
 import { checkPlace, readBytes, writeWhole } from './files.js';
-import { readInput } from './inputs.js';
+import { about, readInput } from './inputs.js';
 import { announce, percent, progressLine } from './terminal.js';
 
 /**
@@ -16,9 +17,16 @@ import { announce, percent, progressLine } from './terminal.js';
 export async function fit(task, signal) {
   await checkPlace(task.output);
   if (task.report !== undefined) await checkPlace(task.report);
+  if (task.mtl !== undefined) await checkPlace(task.mtl);
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
-  const surface = await solve(task, await readInput(task), { signal, transfer: true });
-  const files = [{ path: task.output, bytes: await encode(task, surface, texture) }];
+  const bare = await solve(task, await readInput(task), { signal, transfer: true });
+  const surface = texture === undefined
+    ? bare
+    : await about(String(task.texture), () => developable.paint(bare, texture));
+  const files = [{ path: task.output, bytes: await encode(task, surface) }];
+  if (task.mtl !== undefined) {
+    files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
+  }
   const { report } = surface;
   if (task.report !== undefined) {
     const text = `${JSON.stringify(report, undefined, 2)}\n`;
@@ -32,6 +40,15 @@ export async function fit(task, signal) {
         `${percent(report.gap)}; --max-iterations allows more\n`,
     );
   }
+}
+
+/**
+ * How one file names another.
+ * @param {string} file
+ * @param {string} other
+ */
+function from(file, other) {
+  return relative(dirname(file), other).replaceAll(sep, '/');
 }
 
 /**
@@ -54,14 +71,13 @@ export async function solve(task, input, control) {
 /**
  * @param {FitTask} task
  * @param {Surface} surface
- * @param {Uint8Array} [texture]
  */
-function encode({ extension }, surface, texture) {
+function encode({ extension, output, mtl }, surface) {
   switch (extension) {
-    case '.obj': return developable.writeObj(surface);
+    case '.obj': return developable.writeObj(surface, mtl === undefined ? {} : { materials: from(output, mtl) });
     case '.ply': return developable.writePly(surface);
     case '.stl': return developable.writeStl(surface);
-    case '.glb': return developable.writeGlb(surface, { texture });
+    case '.glb': return developable.writeGlb(surface);
   }
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.

@@ -21,6 +21,7 @@ const flags = {
   intrinsics: text,
   ray: plain,
   texture: text,
+  mtl: text,
   view: text,
   resolution: text,
   mask: text,
@@ -64,17 +65,17 @@ const general = ['array', 'help', 'version'];
 const foreign = {
   fit: ['threshold', ...ofSheets],
   design: [
-    'intrinsics', 'ray', 'texture', 'no-data', 'confidence', 'constraints', 'occlusions', 'threshold',
+    'intrinsics', 'ray', 'texture', 'mtl', 'no-data', 'confidence', 'constraints', 'occlusions', 'threshold',
     ...ofSheets,
   ],
   occlusions: [
     'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
-    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture', ...ofSheets,
+    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture', 'mtl', ...ofSheets,
   ],
-  analyze: ['texture', 'report', ...ofImages, ...ofPatterns],
-  unroll: ['texture', 'threshold', ...ofImages, ...ofPatterns],
-  pattern: ['texture', 'threshold', ...ofImages],
-  dewarp: ['threshold', ...ofPatterns],
+  analyze: ['texture', 'mtl', 'report', ...ofImages, ...ofPatterns],
+  unroll: ['texture', 'mtl', 'threshold', ...ofImages, ...ofPatterns],
+  pattern: ['texture', 'mtl', 'threshold', ...ofImages],
+  dewarp: ['mtl', 'threshold', ...ofPatterns],
   info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
 };
 

@@ -21,7 +21,9 @@ photo of it flat. "info" tells what is in a file, of either kind.
   INPUT                  heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture
                          (PNG, JPEG, WebP); or a mesh or point cloud, of which
                          what is seen from one side is taken: .obj, .ply, .stl,
-                         .glb, .gltf
+                         .glb, .gltf. Materials, textures and buffers that it
+                         names are read from its folder or below; what is not
+                         there is warned of
   CONSTRAINTS            heights likewise; transparent pixels and NaN are free
   -o, --output FILE      .npy, .png, .tif or .exr (heights at the input's
                          pixels) or .obj, .ply, .stl or .glb (a mesh); the file
@@ -67,6 +69,14 @@ How to read the heights
   --mask FILE            image of the same shape; 0 takes a value out
   --no-data V            value that means no data, besides NaN
 
+Colours of OUTPUT
+  --texture FILE         PNG, JPEG or WebP picture with the outline of INPUT, or
+                         that its texture coordinates are about: the colours of
+                         an .obj or .ply, the texture of a .glb. A mesh with
+                         textures of its own does not need it
+  --mtl FILE             .mtl file to be written, too, through which an .obj has
+                         that picture as its texture
+
 How to look at a mesh
   --intrinsics fx,fy,cx,cy[,scale]
                          INPUT holds the depths that a camera with these numbers
@@ -79,8 +89,6 @@ How to look at a mesh
                          default: what has the largest z is in front), +z, a
                          vector as 0,-1,-1, or best-fit: straight at the plane
                          that fits best. Up is near +y (along -y it is -z)
-  --texture FILE         PNG or JPEG picture with the outline of INPUT, or that
-                         its texture coordinates are about; for .glb
   --resolution N         vertices along the longer side (default 200; of a point
                          cloud fewer, to leave each some points)
   --spacing S            their distance instead, in the mesh's unit
@@ -99,8 +107,8 @@ What else is known (files of the same shape)
 
 Flat sheets and images
   --as-is                take the heights as they are, without a fit
-  --texture PHOTO        a PNG of what the heights show, with as many pixels as
-                         it likes
+  --texture PHOTO        a PNG, JPEG or WebP of what the heights show, with as
+                         many pixels as it likes
   --dots D               pixels of the flat image per unit of length (default:
                          as many as the photo has)
   --trim                 cut off the margins where there is no sheet

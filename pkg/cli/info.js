@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { readBytes } from './files.js';
 import { isMesh } from './arguments.js';
-import { about } from './inputs.js';
+import { about, readMeshFile } from './inputs.js';
 
 /** @typedef {import('../types.js').ReadResult} ReadResult */
 
@@ -10,7 +10,7 @@ import { about } from './inputs.js';
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
   const lines = await about(input, async () => {
-    if (isMesh(input)) return meshInWords(await developable.readMesh(bytes));
+    if (isMesh(input)) return meshInWords(await readMeshFile(input));
     if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
     return imageInWords(await developable.read(bytes, { array }));
   });
@@ -31,7 +31,7 @@ function arraysInWords(arrays) {
 }
 
 /** @param {import('../types.js').Mesh} mesh */
-function meshInWords({ positions, triangles, colors, uvs }) {
+function meshInWords({ positions, triangles, colors, uvs, textures = [], missing = [] }) {
   const ranges = ['x', 'y', 'z'].map((axis, k) => {
     let [low, high] = [Infinity, -Infinity];
     for (let i = k; i < positions.length; i += 3) {
@@ -45,7 +45,8 @@ function meshInWords({ positions, triangles, colors, uvs }) {
     ['triangles', triangles.length === 0 ? 'none: a point cloud' : `${triangles.length / 3}`],
     ...ranges,
     ['colours', colors ? 'yes' : 'no'],
-    ['texture', uvs ? 'has coordinates' : 'no coordinates'],
+    ['texture', uvs ? `has coordinates, ${textures.length || 'no'} picture${textures.length === 1 ? '' : 's'}` : 'no coordinates'],
+    ...missing.map((name) => ['missing', name]),
   ];
 }
 

@@ -1,4 +1,6 @@
 /** What a solve is about, from files: the heights, and what else is known. */
+import { realpath, stat } from 'node:fs/promises';
+import { dirname, join, sep } from 'node:path';
 import * as developable from '../index.js';
 import { readBytes } from './files.js';
 import { Problem, status } from './problem.js';
@@ -62,8 +64,11 @@ async function readSampled(task) {
  */
 async function readMesh({ input, array, camera, mask, noData }) {
   if (!camera) {
-    const bytes = await readBytes(input);
-    return about(input, () => developable.readMesh(bytes));
+    const mesh = await readMeshFile(input);
+    for (const name of mesh.missing ?? []) {
+      process.stderr.write(`developable: warning: ${input} names ${JSON.stringify(name)}, which is not there\n`);
+    }
+    return mesh;
   }
   const file = await readImage(input, array);
   const { width, height, data } = file;
@@ -74,6 +79,60 @@ async function readMesh({ input, array, camera, mask, noData }) {
     mask: mask === undefined ? undefined : flags(await readBeside('mask', mask, file)),
     noData: asStored(noData, file),
   }, camera);
+}
+
+/**
+ * A mesh with the files that it names: those of them that there are, in its own folder or below.
+ * @param {string} input
+ */
+export async function readMeshFile(input) {
+  const bytes = await readBytes(input);
+  /** @type {Map<string, Uint8Array>} */
+  const files = new Map();
+  const names = gltfNames(bytes);
+  for (;;) {
+    for (const name of names) {
+      const file = await neighbour(dirname(input), name);
+      if (file) files.set(name, file);
+    }
+    const mesh = await about(input, () => developable.readMesh(bytes, { files }));
+    // The materials that were found name textures in turn.
+    const others = (mesh.missing ?? []).filter((name) => !names.includes(name));
+    if (others.length === 0) return mesh;
+    names.push(...others);
+  }
+}
+
+/**
+ * The buffers that a glTF file in JSON names, without which it cannot be read.
+ * @param {Uint8Array} bytes
+ * @returns {string[]}
+ */
+function gltfNames(bytes) {
+  if (bytes.find((byte) => byte > 0x20) !== 0x7b) return [];
+  try {
+    /** @type {{ buffers?: { uri?: string }[] }} */
+    const { buffers = [] } = JSON.parse(new TextDecoder().decode(bytes));
+    return buffers.flatMap(({ uri }) => (uri === undefined || uri.startsWith('data:') ? [] : [decodeURIComponent(uri)]));
+  } catch {
+    return []; // what is wrong with it is said by who reads it
+  }
+}
+
+/**
+ * The file of a name that another file gives: in the same folder or below, else, where the name is a
+ * path on another machine, beside it.
+ * @param {string} folder
+ * @param {string} name
+ */
+async function neighbour(folder, name) {
+  const home = await realpath(folder).catch(() => folder);
+  const plain = name.replaceAll('\\', '/');
+  for (const path of [join(home, plain), join(home, plain.split('/').at(-1) ?? '')]) {
+    const found = await realpath(path).catch(() => undefined);
+    if (found?.startsWith(home.endsWith(sep) ? home : home + sep) && (await stat(found)).isFile()) return readBytes(found);
+  }
+  return undefined;
 }
 
 /**

@@ -40,9 +40,8 @@ impl WarpMap {
         photo: [usize; 2],
         options: &DewarpOptions,
     ) -> Result<Self> {
-        let sides = [0, 1].map(|k| extent.max[k] - extent.min[k]);
-        let sound = sides.iter().all(|side| side.is_finite() && *side > 0.0);
-        if !sound || photo.contains(&0) {
+        let sides = extent.sides()?;
+        if photo.contains(&0) {
             return Err(Error::Empty { what: "photo" });
         }
         let per_unit = [0, 1].map(|k| photo[k] as f64 / sides[k]);

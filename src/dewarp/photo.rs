@@ -55,6 +55,23 @@ impl<'a> Photo<'a> {
         self.rgba
     }
 
+    /// The colour, from 0 to 1, at texture coordinates: from the left and from the bottom, and over
+    /// and over again beyond 0 and 1. Between pixels it is bilinear. Nothing where the photo is
+    /// transparent, or a coordinate is no number.
+    pub fn color(&self, uv: [f32; 2]) -> Option<[f32; 3]> {
+        let within = |v: f32| {
+            if (0.0..=1.0).contains(&v) {
+                v
+            } else {
+                v - v.floor()
+            }
+        };
+        let [u, v] = uv.map(within);
+        let place = [u * self.width as f32, (1.0 - v) * self.height as f32];
+        let [r, g, b, a] = self.bilinear(place.map(|at| at - 0.5));
+        (a > 0.0).then(|| [r, g, b].map(|value| value / a / 255.0))
+    }
+
     /// The mean colour of the parallelogram around a place that two steps span, in pixels; `[0, 0]`
     /// is the centre of the upper left one. Transparent outside of the photo.
     pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {
@@ -125,6 +142,41 @@ mod tests {
         assert_eq!(photo.sample([-0.6, 0.0], ONE), [0; 4]);
         assert_eq!(photo.sample([9.4, 3.4], ONE), [180, 10, 5, 255]);
         assert_eq!(photo.sample([9.6, 3.0], ONE), [0; 4]);
+    }
+
+    #[test]
+    fn texture_coordinates_count_from_the_lower_left_corner() {
+        // Red to the right, green downwards; the lower right pixel is transparent.
+        let rgba = [
+            [0, 0, 51, 255],
+            [255, 0, 51, 255],
+            [0, 255, 51, 255],
+            [9; 4],
+        ];
+        let mut rgba = rgba.as_flattened().to_vec();
+        rgba[15] = 0;
+        let photo = Photo::new(2, 2, &rgba).unwrap();
+        let close = |uv, expected: [f32; 3]| {
+            let found = photo.color(uv).unwrap();
+            assert!(
+                found
+                    .iter()
+                    .zip(expected)
+                    .all(|(a, b)| (a - b).abs() < 1e-6),
+                "{found:?}"
+            );
+        };
+        close([0.25, 0.75], [0.0, 0.0, 0.2]);
+        close([0.75, 0.75], [1.0, 0.0, 0.2]);
+        close([0.25, 0.25], [0.0, 1.0, 0.2]);
+        close([0.5, 0.75], [0.5, 0.0, 0.2]);
+        // The border itself, and once around.
+        close([0.0, 1.0], [0.0, 0.0, 0.2]);
+        close([1.0, 1.0], [1.0, 0.0, 0.2]);
+        close([-0.25, 5.75], [1.0, 0.0, 0.2]);
+        assert_eq!(photo.color([0.75, 0.25]), None);
+        assert_eq!(photo.color([f32::NAN, 0.25]), None);
+        assert_eq!(photo.color([f32::INFINITY, 0.25]), None);
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod tiff;
 mod tiff_tags;
 mod webp;
 
+use super::photo::PhotoFile;
 use super::{Decoded, Format, coloured, suggested_scale};
 use crate::error::{Error, Result, try_filled};
 use crate::heightfield::HeightImage;
@@ -30,6 +31,30 @@ pub(crate) fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
             reason: "it is decoded elsewhere".into(),
         }),
     }
+}
+
+/// Decodes a picture with its colours.
+pub(crate) fn decode_photo(bytes: &[u8], format: Format) -> Result<PhotoFile> {
+    match format {
+        Format::Jpeg => jpeg::decode_photo(bytes),
+        Format::WebP => webp::decode_photo(bytes),
+        other => Err(unsupported(
+            other,
+            "photos are read from PNG, JPEG and WebP files",
+        )),
+    }
+}
+
+/// Red, green, blue and alpha from 8-bit samples: of grey, of colours, or of both.
+fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<Vec<[u8; 4]>> {
+    let mut rgba = try_filled(format.title(), samples.len() / stride, [u8::MAX; 4])?;
+    for (out, pixel) in rgba.iter_mut().zip(samples.chunks_exact(stride)) {
+        match pixel {
+            [grey] => out[..3].fill(*grey),
+            other => out[..stride].copy_from_slice(other),
+        }
+    }
+    Ok(rgba)
 }
 
 /// What the samples of a pixel are: one of grey or three of colour come first.

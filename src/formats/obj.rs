@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::Buffer;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::heightfield::Heightfield;
 use crate::mesh::Mesh;
 use crate::triangulation::Triangulation;
@@ -37,15 +37,64 @@ pub fn write_obj_in(surface: &Heightfield, frame: &Frame) -> Result<Vec<u8>> {
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_obj_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
+    write_obj_textured(mesh, None)
+}
+
+/// The same with the name of a file of materials ([`write_mtl`]), if there is one, of which the mesh
+/// has the one there is. Its picture takes the place of colours, for readers would multiply the two.
+///
+/// # Errors
+/// [`Error::Option`](crate::Error::Option) for a name that is empty or of several lines,
+/// [`Error::Unsupported`](crate::Error::Unsupported) for a mesh without texture coordinates,
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8>> {
+    let mut head = String::new();
+    if let Some(name) = materials {
+        if mesh.uvs().is_none() {
+            return Err(Error::Unsupported {
+                format: "OBJ",
+                reason: "a material's picture needs texture coordinates, and the mesh has none"
+                    .into(),
+            });
+        }
+        head = format!(
+            "mtllib {}\nusemtl {MATERIAL}\n",
+            one_line("materials", name)?
+        );
+    }
     let mut file = Buffer::default();
-    let written = write(&mut file, mesh);
+    let written = file.write_all(head.as_bytes());
+    let written = written.and_then(|()| write(&mut file, mesh, materials.is_none()));
     file.finish("OBJ file", written)
 }
 
-fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
+/// The name of the one material.
+const MATERIAL: &str = "surface";
+
+/// An MTL file: the material of [`write_obj_textured`], with the name of its picture's file.
+///
+/// # Errors
+/// [`Error::Option`](crate::Error::Option) for a name that is empty or of several lines.
+pub fn write_mtl(picture: &str) -> Result<Vec<u8>> {
+    let picture = one_line("picture", picture)?;
+    Ok(format!("newmtl {MATERIAL}\nKd 1 1 1\nmap_Kd {picture}\n").into_bytes())
+}
+
+fn one_line<'a>(option: &'static str, name: &'a str) -> Result<&'a str> {
+    if name.trim().is_empty() || name.contains(['\n', '\r']) {
+        return Err(Error::option(
+            option,
+            name,
+            "must be a file's name, on one line",
+        ));
+    }
+    Ok(name)
+}
+
+fn write(file: &mut Buffer, mesh: &Mesh, colored: bool) -> io::Result<()> {
     for (i, [x, y, z]) in mesh.positions().iter().enumerate() {
         write!(file, "v {x} {y} {z}")?;
-        match mesh.colors() {
+        match mesh.colors().filter(|_| colored) {
             Some(colors) => {
                 let [r, g, b] = colors[i];
                 writeln!(file, " {r} {g} {b}")?;

@@ -2,8 +2,8 @@
 
 use ::png::{BitDepth, ColorType, Encoder, EncodingError, Transformations};
 
-use super::Buffer;
 use super::png::Pixels;
+use super::{Buffer, Format, announced};
 use crate::dewarp::Photo;
 use crate::error::{Result, try_filled};
 
@@ -19,12 +19,40 @@ pub struct PhotoFile {
     pub rgba: Vec<u8>,
 }
 
-/// Decodes a PNG file of any kind to RGBA bytes; 16 bits are cut to 8.
+impl PhotoFile {
+    #[cfg(feature = "images")]
+    pub(super) fn new((width, height): (usize, usize), rgba: Vec<[u8; 4]>) -> Self {
+        PhotoFile {
+            width,
+            height,
+            rgba: rgba.into_flattened(),
+        }
+    }
+}
+
+/// Decodes a PNG file of any kind to RGBA bytes, 16 bits cut to 8; with the cargo feature `images`
+/// also JPEG (the way up that its Exif data state) and WebP files.
 ///
 /// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) for other files,
 /// [`Error::Format`](crate::Error::Format), [`Error::TooLarge`](crate::Error::TooLarge),
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    match announced(bytes, None)? {
+        Format::Png => decode_png(bytes),
+        #[cfg(feature = "images")]
+        other => super::images::decode_photo(bytes, other),
+        #[cfg(not(feature = "images"))]
+        other => Err(crate::Error::Unsupported {
+            format: other.title(),
+            reason: "this build reads photos from PNG files only; the cargo feature `images` adds \
+                     JPEG and WebP"
+                .into(),
+        }),
+    }
+}
+
+fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
     let transformations = Transformations::normalize_to_color8() | Transformations::ALPHA;
     let Pixels {
         reader,

@@ -15,7 +15,7 @@ use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Buffer, Image, Index, Material, Mesh as GltfMesh};
 use gltf::json::{Node, Root, Scene, Value};
 
-use super::narrow::{byte, narrowed};
+use super::narrow::{byte, narrowed, near_origin};
 use super::unsupported;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -25,7 +25,12 @@ const NAME: &str = "GLB";
 /// A GLB file of a mesh: positions rounded to 32-bit floats, and what the mesh
 /// has of normals, colours (as bytes, 0 to 255 for 0 to 1) and texture
 /// coordinates, in one material that is seen from both sides. The texture is a
-/// PNG or JPEG file, which is embedded as it is.
+/// PNG or JPEG file, which is embedded as it is; it takes the place of colours,
+/// for the two would be multiplied.
+///
+/// A mesh that is small beside its distance from the origin is written around
+/// an origin of its own, its node's translation: of coordinates on a map, 32
+/// bits would not hold the heights.
 ///
 /// Positions keep the mesh's axes; viewers of glTF take +y for up and look at
 /// it along -z. Costs `O(vertices + triangles)`.
@@ -39,8 +44,9 @@ pub fn write_glb(mesh: &Mesh, texture: Option<&[u8]>) -> Result<Vec<u8>> {
     let texture = texture.map(|image| checked(image, mesh)).transpose()?;
     let mut file = File::default();
     let material = file.material(texture)?;
-    let primitive = file.primitive(mesh, material)?;
-    file.finish(primitive)
+    let origin = near_origin(mesh);
+    let primitive = file.primitive(mesh, origin, material, texture.is_some())?;
+    file.finish(primitive, origin)
 }
 
 /// A texture with its type, if the mesh can have it.
@@ -105,10 +111,16 @@ impl File {
         })
     }
 
-    fn primitive(&mut self, mesh: &Mesh, material: Index<Material>) -> Result<Primitive> {
+    fn primitive(
+        &mut self,
+        mesh: &Mesh,
+        origin: [f64; 3],
+        material: Index<Material>,
+        textured: bool,
+    ) -> Result<Primitive> {
         let mut attributes = BTreeMap::new();
         let mut add = |semantic, index| attributes.insert(Checked::Valid(semantic), index);
-        let positions = narrowed("GLB file", mesh)?;
+        let positions = narrowed("GLB file", mesh, origin)?;
         let vertices = positions.len();
         let index = self.floats(&positions, Type::Vec3)?;
         let accessor = &mut self.root.accessors[index.value()];
@@ -123,7 +135,7 @@ impl File {
             let uvs: Vec<_> = uvs.iter().map(|[u, v]| [*u, 1.0 - v]).collect();
             add(Semantic::TexCoords(0), self.floats(&uvs, Type::Vec2)?);
         }
-        if let Some(colors) = mesh.colors() {
+        if let Some(colors) = mesh.colors().filter(|_| !textured) {
             // With an alpha, for every element has to begin at a multiple of four bytes.
             let bytes = colors.iter().map(|c| {
                 let [r, g, b] = c.map(byte);
@@ -206,7 +218,7 @@ impl File {
         }))
     }
 
-    fn finish(mut self, primitive: Primitive) -> Result<Vec<u8>> {
+    fn finish(mut self, primitive: Primitive, origin: [f64; 3]) -> Result<Vec<u8>> {
         self.root.push(Buffer {
             byte_length: USize64::from(self.bin.len()),
             uri: None,
@@ -221,6 +233,7 @@ impl File {
         });
         let node = self.root.push(Node {
             mesh: Some(mesh),
+            translation: (origin != [0.0; 3]).then(|| origin.map(|v| v as f32)),
             ..Default::default()
         });
         let scene = self.root.push(Scene {

@@ -1,23 +1,30 @@
 //! glTF 2.0 and GLB: the scene by way of `gltf`, its buffers by hand, for their ranges need not be
 //! those that the file says.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use gltf::accessor::{DataType, Dimensions};
+mod data;
+
+use std::borrow::Cow;
+
 use gltf::buffer::Source;
-use gltf::json::Root;
+use gltf::json::{Image, Root};
 use gltf::mesh::Mode;
-use gltf::{Accessor, Document, Glb, Primitive, Semantic};
+use gltf::{Document, Glb, Primitive, Semantic};
 use nalgebra::{Matrix4, Vector4};
 
-use super::{Parts, damaged, unsupported};
-use crate::error::Result;
+use self::data::{embedded, floats, plain, whole};
+use super::{Beside, NO_TEXTURE, Parts, WHITE, damaged, unsupported};
+use crate::error::{Error, Result};
 
 const NAME: &str = "glTF";
 
-pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
     let binary = bytes.starts_with(b"glTF");
     let (json, bin) = if binary {
+        // `gltf` takes the header's own length off what that says.
+        let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
+        if length.is_none_or(|length| u32::from_le_bytes(length) < 12) {
+            return Err(damaged(NAME, "its header states a length that cannot be"));
+        }
         let glb = Glb::from_slice(bytes).map_err(|error| damaged(NAME, error))?;
         (glb.json, glb.bin)
     } else {
@@ -59,201 +66,225 @@ pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
         .buffers()
         .map(|buffer| match buffer.source() {
             Source::Bin => bin
-                .as_ref()
-                .map(|bin| bin.to_vec())
+                .as_deref()
+                .map(Cow::Borrowed)
                 .ok_or_else(|| damaged(NAME, "there is no binary chunk")),
-            Source::Uri(uri) => embedded(uri),
+            Source::Uri(uri) => match embedded(uri)? {
+                Some(bytes) => Ok(Cow::Owned(bytes)),
+                None => match beside.find(&plain(uri)) {
+                    Some((_, bytes)) => Ok(Cow::Borrowed(bytes)),
+                    None => Err(elsewhere(uri)),
+                },
+            },
         })
         .collect::<Result<Vec<_>>>()?;
-    visit(&document, &buffers, parts)
+    let scene = Scene {
+        document: &document,
+        buffers: &buffers,
+        beside,
+    };
+    scene.visit(parts)
 }
 
-/// The bytes of a `data:` address.
-fn embedded(uri: &str) -> Result<Vec<u8>> {
-    let data = uri
-        .strip_prefix("data:")
-        .and_then(|rest| rest.split_once(";base64,"));
-    let Some((_, data)) = data else {
-        return Err(unsupported(
-            NAME,
-            "its buffers are in other files; save it as GLB, or with embedded buffers",
-        ));
-    };
-    STANDARD.decode(data).map_err(|error| damaged(NAME, error))
+fn elsewhere(uri: &str) -> Error {
+    let name = uri.chars().take(60).collect::<String>();
+    let reason = format!(
+        "its buffer {name} is another file, which is missing; save it as GLB, or give that file too"
+    );
+    unsupported(NAME, reason)
 }
 
-/// Every node of the scene, with the transforms of those above it.
-fn visit(document: &Document, buffers: &[Vec<u8>], parts: &mut Parts) -> Result<()> {
-    let Some(scene) = document
-        .default_scene()
-        .or_else(|| document.scenes().next())
-    else {
-        return Err(unsupported(NAME, "there is no scene in it"));
-    };
-    let mut seen = vec![false; document.nodes().len()];
-    let mut open: Vec<_> = scene
-        .nodes()
-        .map(|node| (node, Matrix4::identity()))
-        .collect();
-    while let Some((node, above)) = open.pop() {
-        if std::mem::replace(&mut seen[node.index()], true) {
+/// A document with the bytes of its buffers.
+struct Scene<'a> {
+    document: &'a Document,
+    buffers: &'a [Cow<'a, [u8]>],
+    beside: &'a Beside<'a>,
+}
+
+/// A file's name, empty for what is embedded, and its bytes.
+type Named<'a> = (&'a str, Cow<'a, [u8]>);
+
+/// What a primitive looks like where its vertices do not say: a colour, the number of a texture,
+/// and which of its texture coordinates are about that.
+struct Look {
+    color: [f32; 3],
+    texture: i32,
+    set: u32,
+}
+
+impl Scene<'_> {
+    /// Every node of the scene, with the transforms of those above it.
+    fn visit(&self, parts: &mut Parts) -> Result<()> {
+        let document = self.document;
+        let Some(scene) = document
+            .default_scene()
+            .or_else(|| document.scenes().next())
+        else {
+            return Err(unsupported(NAME, "there is no scene in it"));
+        };
+        let mut pictures = vec![None; document.as_json().images.len()];
+        let mut seen = vec![false; document.nodes().len()];
+        let mut open: Vec<_> = scene
+            .nodes()
+            .map(|node| (node, Matrix4::identity()))
+            .collect();
+        while let Some((node, above)) = open.pop() {
+            if std::mem::replace(&mut seen[node.index()], true) {
+                return Err(damaged(
+                    NAME,
+                    "a node has two parents, or is its own ancestor",
+                ));
+            }
+            let own = Matrix4::from(node.transform().matrix()).cast::<f64>();
+            let transform = above * own;
+            for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
+                let look = self.look(&primitive, &mut pictures, parts)?;
+                self.add(&primitive, &transform, &look, parts)?;
+            }
+            open.extend(node.children().map(|child| (child, transform)));
+        }
+        Ok(())
+    }
+
+    /// The base colour of a primitive's material, and its texture, which is read once.
+    fn look(
+        &self,
+        primitive: &Primitive,
+        pictures: &mut [Option<i32>],
+        parts: &mut Parts,
+    ) -> Result<Look> {
+        let mut look = Look {
+            color: WHITE,
+            texture: NO_TEXTURE,
+            set: 0,
+        };
+        let root = self.document.as_json();
+        let material = primitive.material().index();
+        let Some(material) = material.and_then(|index| root.materials.get(index)) else {
+            return Ok(look);
+        };
+        let base = &material.pbr_metallic_roughness;
+        let [r, g, b, _] = base.base_color_factor.0;
+        look.color = [r, g, b];
+        let Some(info) = &base.base_color_texture else {
+            return Ok(look);
+        };
+        let texture = root.textures.get(info.index.value());
+        let Some(image) = texture.map(|texture| texture.source.value()) else {
+            return Ok(look);
+        };
+        let (Some(picture), Some(known)) = (root.images.get(image), pictures.get_mut(image)) else {
+            return Ok(look);
+        };
+        look.set = info.tex_coord;
+        look.texture = match *known {
+            Some(number) => number,
+            None => {
+                let number = match self.picture(picture)? {
+                    Some((name, bytes)) => parts.picture(name, &bytes)?,
+                    None => NO_TEXTURE,
+                };
+                *known = Some(number);
+                number
+            }
+        };
+        Ok(look)
+    }
+
+    /// The bytes of an image, and the name of the file that they are from, if it is there.
+    fn picture(&self, image: &Image) -> Result<Option<Named<'_>>> {
+        if let Some(uri) = &image.uri {
+            return match embedded(uri)? {
+                Some(bytes) => Ok(Some(("", bytes.into()))),
+                None => Ok(self
+                    .beside
+                    .find(&plain(uri))
+                    .map(|(name, b)| (name, b.into()))),
+            };
+        }
+        let view = image.buffer_view.map(|index| index.value());
+        let views = &self.document.as_json().buffer_views;
+        let bytes = || {
+            let view = views.get(view?)?;
+            let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok()?;
+            let end = start.checked_add(usize::try_from(view.byte_length.0).ok()?)?;
+            self.buffers.get(view.buffer.value())?.get(start..end)
+        };
+        let bytes = bytes().ok_or_else(|| damaged(NAME, "an image reaches beyond its buffer"))?;
+        Ok(Some(("", bytes.into())))
+    }
+
+    fn add(
+        &self,
+        primitive: &Primitive,
+        transform: &Matrix4<f64>,
+        look: &Look,
+        parts: &mut Parts,
+    ) -> Result<()> {
+        let buffers = self.buffers;
+        let mode = primitive.mode();
+        if !matches!(
+            mode,
+            Mode::Points | Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
+        ) {
+            return Ok(()); // lines
+        }
+        let Some(positions) = primitive.get(&Semantic::Positions) else {
+            return Ok(());
+        };
+        let start = parts.positions.len();
+        for p in floats::<3>(&positions, buffers)? {
+            let point = transform * Vector4::new(p[0], p[1], p[2], 1.0);
+            parts.position([point.x, point.y, point.z])?;
+        }
+        let vertices = parts.positions.len() - start;
+        if let Some(colors) = primitive.get(&Semantic::Colors(0)) {
+            let colors = floats::<3>(&colors, buffers)?;
+            parts
+                .colors
+                .extend(colors.iter().take(vertices).map(|c| c.map(|v| v as f32)));
+        } else {
+            parts.material(start, look.color);
+        }
+        if let Some(uvs) = primitive.get(&Semantic::TexCoords(look.set)) {
+            let uvs = floats::<2>(&uvs, buffers)?;
+            parts.uvs.extend(
+                uvs.iter()
+                    .take(vertices)
+                    .map(|[u, v]| [*u as f32, (1.0 - v) as f32]),
+            );
+        } else {
+            parts.no_uvs();
+        }
+        if mode == Mode::Points {
+            return Ok(());
+        }
+        let indices = match primitive.indices() {
+            Some(accessor) => whole(&accessor, buffers)?,
+            None => (0..vertices as u32).collect(),
+        };
+        if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
             return Err(damaged(
                 NAME,
-                "a node has two parents, or is its own ancestor",
+                format!("a triangle names vertex {outside} of {vertices}"),
             ));
         }
-        let own = Matrix4::from(node.transform().matrix()).cast::<f64>();
-        let transform = above * own;
-        for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
-            add(&primitive, &transform, buffers, parts)?;
-        }
-        open.extend(node.children().map(|child| (child, transform)));
+        let indices: Vec<u32> = indices.iter().map(|i| i + start as u32).collect();
+        match mode {
+            Mode::TriangleFan => parts.fan(&indices),
+            Mode::TriangleStrip => indices.windows(3).enumerate().try_for_each(|(i, t)| {
+                let [a, b] = if i % 2 == 0 {
+                    [t[0], t[1]]
+                } else {
+                    [t[1], t[0]]
+                };
+                parts.triangle([a, b, t[2]])
+            }),
+            _ => indices
+                .chunks_exact(3)
+                .try_for_each(|t| parts.triangle([t[0], t[1], t[2]])),
+        }?;
+        parts.texture(look.texture);
+        Ok(())
     }
-    Ok(())
-}
-
-fn add(
-    primitive: &Primitive,
-    transform: &Matrix4<f64>,
-    buffers: &[Vec<u8>],
-    parts: &mut Parts,
-) -> Result<()> {
-    let mode = primitive.mode();
-    if !matches!(
-        mode,
-        Mode::Points | Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
-    ) {
-        return Ok(()); // lines
-    }
-    let Some(positions) = primitive.get(&Semantic::Positions) else {
-        return Ok(());
-    };
-    let start = parts.positions.len();
-    for p in floats::<3>(&positions, buffers)? {
-        let point = transform * Vector4::new(p[0], p[1], p[2], 1.0);
-        parts.position([point.x, point.y, point.z])?;
-    }
-    let vertices = parts.positions.len() - start;
-    if let Some(colors) = primitive.get(&Semantic::Colors(0)) {
-        let colors = floats::<3>(&colors, buffers)?;
-        parts
-            .colors
-            .extend(colors.iter().take(vertices).map(|c| c.map(|v| v as f32)));
-    }
-    if let Some(uvs) = primitive.get(&Semantic::TexCoords(0)) {
-        let uvs = floats::<2>(&uvs, buffers)?;
-        parts.uvs.extend(
-            uvs.iter()
-                .take(vertices)
-                .map(|[u, v]| [*u as f32, (1.0 - v) as f32]),
-        );
-    }
-    if mode == Mode::Points {
-        return Ok(());
-    }
-    let indices = match primitive.indices() {
-        Some(accessor) => whole(&accessor, buffers)?,
-        None => (0..vertices as u32).collect(),
-    };
-    if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
-        return Err(damaged(
-            NAME,
-            format!("a triangle names vertex {outside} of {vertices}"),
-        ));
-    }
-    let indices: Vec<u32> = indices.iter().map(|i| i + start as u32).collect();
-    match mode {
-        Mode::TriangleFan => parts.fan(&indices),
-        Mode::TriangleStrip => indices.windows(3).enumerate().try_for_each(|(i, t)| {
-            let [a, b] = if i % 2 == 0 {
-                [t[0], t[1]]
-            } else {
-                [t[1], t[0]]
-            };
-            parts.triangle([a, b, t[2]])
-        }),
-        _ => indices
-            .chunks_exact(3)
-            .try_for_each(|t| parts.triangle([t[0], t[1], t[2]])),
-    }
-}
-
-/// The first `N` components of each element; whole numbers as shares of their largest.
-fn floats<const N: usize>(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<[f64; N]>> {
-    let kind = accessor.data_type();
-    let (width, components) = (kind.size(), count(accessor.dimensions()));
-    if components < N {
-        return Err(damaged(NAME, "an attribute has too few components"));
-    }
-    let component = |bytes: &[u8]| match (kind, bytes) {
-        (DataType::F32, [a, b, c, d]) => Some(f64::from(f32::from_le_bytes([*a, *b, *c, *d]))),
-        (DataType::U8, [a]) => Some(f64::from(*a) / f64::from(u8::MAX)),
-        (DataType::U16, [a, b]) => {
-            Some(f64::from(u16::from_le_bytes([*a, *b])) / f64::from(u16::MAX))
-        }
-        _ => None,
-    };
-    elements(accessor, buffers)?
-        .map(|element| {
-            let mut out = [0.0; N];
-            for (out, bytes) in out.iter_mut().zip(element.chunks_exact(width)) {
-                *out = component(bytes)
-                    .ok_or_else(|| unsupported(NAME, "an attribute has an unusual type"))?;
-            }
-            Ok(out)
-        })
-        .collect()
-}
-
-fn whole(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<u32>> {
-    elements(accessor, buffers)?
-        .map(|element| match (accessor.data_type(), element) {
-            (DataType::U8, [a]) => Ok(u32::from(*a)),
-            (DataType::U16, [a, b]) => Ok(u32::from(u16::from_le_bytes([*a, *b]))),
-            (DataType::U32, [a, b, c, d]) => Ok(u32::from_le_bytes([*a, *b, *c, *d])),
-            _ => Err(damaged(NAME, "indices are not single whole numbers")),
-        })
-        .collect()
-}
-
-fn count(dimensions: Dimensions) -> usize {
-    match dimensions {
-        Dimensions::Scalar => 1,
-        Dimensions::Vec2 => 2,
-        Dimensions::Vec3 => 3,
-        Dimensions::Vec4 | Dimensions::Mat2 => 4,
-        Dimensions::Mat3 => 9,
-        Dimensions::Mat4 => 16,
-    }
-}
-
-/// The bytes of each element.
-fn elements<'a>(
-    accessor: &Accessor,
-    buffers: &'a [Vec<u8>],
-) -> Result<impl Iterator<Item = &'a [u8]>> {
-    if accessor.sparse().is_some() {
-        return Err(unsupported(NAME, "sparse accessors are not read"));
-    }
-    let Some(view) = accessor.view() else {
-        return Err(unsupported(NAME, "an accessor has no buffer view"));
-    };
-    let size = accessor.data_type().size() * count(accessor.dimensions());
-    let stride = view.stride().unwrap_or(size);
-    let whole = || {
-        let buffer = buffers.get(view.buffer().index())?;
-        let view = buffer.get(view.offset()..view.offset().checked_add(view.length())?)?;
-        let bytes = view.get(accessor.offset()..)?;
-        let last = accessor.count().checked_sub(1)?;
-        let needed = last.checked_mul(stride)?.checked_add(size)?;
-        (stride >= size).then_some(bytes.get(..needed)?)
-    };
-    let bytes = whole().ok_or_else(|| {
-        damaged(
-            NAME,
-            "an accessor reaches beyond its buffer, which may have been cut short",
-        )
-    })?;
-    // The last one may be shorter than the stride.
-    Ok(bytes.chunks(stride).map(move |element| &element[..size]))
 }

@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
-use tobj::{LoadError, LoadOptions, MTLLoadResult, load_obj_buf};
+use tobj::{LoadError, LoadOptions, MTLLoadResult, Material, load_mtl_buf, load_obj_buf};
 
-use super::{Parts, damaged};
+use super::{Beside, NO_TEXTURE, Parts, WHITE, damaged};
 use crate::error::Result;
 
-pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
-    check_indices(bytes)?;
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
+    // Names may be in any encoding.
+    let mut text = String::from_utf8_lossy(bytes);
+    check_indices(&text)?;
     let cloud = !lines(bytes).any(|line| line.starts_with(b"f"));
     let options = LoadOptions {
         triangulate: true,
@@ -16,17 +18,23 @@ pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
         ignore_points: !cloud,
         ignore_lines: true,
     };
-    // Names may be in any encoding.
-    let mut text = String::from_utf8_lossy(bytes);
     if cloud {
         // `tobj` gives the vertices of faces only: here each is one.
         let points = lines(bytes).filter(is_vertex).count();
         let faces = (1..=points).map(|i| format!("\nf {i}"));
         text.to_mut().extend(faces);
     }
-    let no_materials = |_: &Path| -> MTLLoadResult { Err(LoadError::OpenFileFailed) };
-    let (models, _) = load_obj_buf(&mut text.as_bytes(), &options, no_materials)
+    let materials = |path: &Path| -> MTLLoadResult {
+        let file = beside.find(&path.to_string_lossy());
+        let (_, file) = file.ok_or(LoadError::OpenFileFailed)?;
+        load_mtl_buf(&mut looks(file).ok_or(LoadError::ColorParseError)?.as_bytes())
+    };
+    let (models, materials) = load_obj_buf(&mut text.as_bytes(), &options, materials)
         .map_err(|error| damaged("OBJ", error))?;
+    let materials = match materials {
+        Err(LoadError::OpenFileFailed) => Vec::new(),
+        other => other.map_err(|error| damaged("MTL", error))?,
+    };
     for model in models {
         let mesh = model.mesh;
         let start = parts.positions.len() as u32;
@@ -36,14 +44,57 @@ pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
         for t in mesh.indices.chunks_exact(3).filter(|_| !cloud) {
             parts.triangle([0, 1, 2].map(|k| start + t[k]))?;
         }
+        let material = mesh.material_id.and_then(|id| materials.get(id));
+        if mesh.vertex_color.is_empty() {
+            let diffuse = material.and_then(|material| material.diffuse);
+            let color = diffuse.map_or(WHITE, |color| color.map(|v| v as f32));
+            parts.material(start as usize, color);
+        }
         let colors = mesh.vertex_color.chunks_exact(3);
         parts
             .colors
             .extend(colors.map(|c| [0, 1, 2].map(|k| c[k] as f32)));
+        let picture = material.and_then(texture);
+        let number = match picture.and_then(|name| beside.find(name)) {
+            Some((name, bytes)) => parts.picture(name, bytes)?,
+            None => NO_TEXTURE,
+        };
+        parts.texture(number);
         let uvs = mesh.texcoords.chunks_exact(2);
         parts.uvs.extend(uvs.map(|c| [c[0] as f32, c[1] as f32]));
+        if mesh.texcoords.is_empty() {
+            parts.no_uvs();
+        }
     }
     Ok(())
+}
+
+/// The lines of a material file that tell its materials' names, colours and pictures, if each colour
+/// has three numbers: `tobj` panics where there are more or less. It refuses what is odd in others.
+fn looks(bytes: &[u8]) -> Option<String> {
+    let mut kept = String::new();
+    for line in lines(bytes) {
+        let line = String::from_utf8_lossy(line);
+        let words = line.split_whitespace().count();
+        match line.split_whitespace().next() {
+            Some("Kd") if words != 4 => return None,
+            Some("Kd" | "map_Kd" | "newmtl") => {
+                kept.push_str(line.trim());
+                kept.push('\n');
+            }
+            _ => {}
+        }
+    }
+    Some(kept)
+}
+
+/// The name of a material's picture. Options may stand before it (`-s 1 1 1`), which are passed over.
+fn texture(material: &Material) -> Option<&str> {
+    let name = material.diffuse_texture.as_deref()?;
+    match name.strip_prefix('-') {
+        Some(options) => options.split_whitespace().last(),
+        None => Some(name),
+    }
 }
 
 /// The lines of a file, without the blanks that they begin with.
@@ -56,25 +107,44 @@ pub(super) fn is_vertex(line: &&[u8]) -> bool {
     line.starts_with(b"v ") || line.starts_with(b"v\t")
 }
 
-/// No index can be larger than the file is long. `tobj` multiplies them unchecked, which could
-/// overflow.
-fn check_indices(bytes: &[u8]) -> Result<()> {
-    for (i, line) in lines(bytes).enumerate() {
-        let Some((b'f' | b'l' | b'p', rest)) = line.split_first() else {
-            continue;
-        };
-        // The first number that does not fit: digits alone count, whatever is between them.
-        let too_large = |digits: &[u8]| {
-            digits.iter().fold(0usize, |n, d| {
-                n.saturating_mul(10).saturating_add(usize::from(d - b'0'))
-            }) > bytes.len()
-        };
-        if rest.split(|b| !b.is_ascii_digit()).any(too_large) {
-            return Err(damaged(
-                "OBJ",
-                format!("line {} names a vertex that cannot be there", i + 1),
-            ));
+/// No index can be larger than the file is long, and none that counts back can be larger than what
+/// is there so far. `tobj` computes with them unchecked, which could overflow.
+fn check_indices(text: &str) -> Result<()> {
+    // Of positions, texture coordinates and normals, which a corner names in this order.
+    let mut counts = [0; 3];
+    for (i, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => counts[0] += 1,
+            Some("vt") => counts[1] += 1,
+            Some("vn") => counts[2] += 1,
+            Some("f" | "l" | "p") => {
+                let fits = |corner: &str| {
+                    let numbers = corner.split('/').zip(counts);
+                    numbers
+                        .into_iter()
+                        .all(|(number, count)| match number.strip_prefix('-') {
+                            Some(back) => whole(back) <= count,
+                            None => whole(number) <= text.len(),
+                        })
+                };
+                if !words.all(fits) {
+                    return Err(damaged(
+                        "OBJ",
+                        format!("line {} names a vertex that cannot be there", i + 1),
+                    ));
+                }
+            }
+            _ => {}
         }
     }
     Ok(())
+}
+
+/// The number, as far as digits go: what else there may be is refused later.
+fn whole(text: &str) -> usize {
+    let digits = text.bytes().filter(u8::is_ascii_digit);
+    digits.fold(0, |n, digit| {
+        n.saturating_mul(10).saturating_add((digit - b'0').into())
+    })
 }

@@ -10,12 +10,12 @@ use ply_rs_bw::ply::{
 use ply_rs_bw::writer::Writer;
 
 use super::narrow::byte;
-use super::{Parts, damaged, unsupported};
+use super::{Beside, Parts, damaged, unsupported};
 use crate::buffer::Buffer;
 use crate::error::Result;
 use crate::mesh::Mesh;
 
-pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = Parser::<Skipped>::new()
         .read_header(&mut reader)
@@ -66,6 +66,14 @@ pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
                     .map_err(|error| damaged("PLY", error))?;
             }
         }
+    }
+    // Several of them would be told apart by a number at each face, for which there is no one name.
+    let mut names = (header.comments.iter()).filter_map(|c| c.trim().strip_prefix("TextureFile"));
+    if let (Some(name), None) = (names.next().map(str::trim), names.next())
+        && let Some((name, bytes)) = beside.find(name)
+    {
+        let number = parts.picture(name, bytes)?;
+        parts.texture(number);
     }
     Ok(())
 }

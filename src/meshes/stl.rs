@@ -89,7 +89,8 @@ fn collect(bytes: &[u8], parts: &mut Parts) -> Result<()> {
 }
 
 /// A binary STL file of a mesh's triangles, each with its own normal; positions are rounded to
-/// 32-bit floats.
+/// 32-bit floats. Far from the origin that takes detail away: at 10⁶ they are steps of 0.06. (STL
+/// knows no origin of its own, as GLB does, and not more bits, as PLY and OBJ do.)
 ///
 /// Costs `O(triangles)`.
 ///
@@ -104,7 +105,7 @@ pub fn write_stl(mesh: &Mesh) -> Result<Vec<u8>> {
             "it holds triangles, and a point cloud has none",
         ));
     }
-    let positions = narrowed("STL file", mesh)?;
+    let positions = narrowed("STL file", mesh, [0.0; 3])?;
     let triangles = mesh.triangles().iter().map(|triangle| Triangle {
         normal: Normal::new(normal(mesh.corners(*triangle))),
         vertices: triangle.map(|i| Vertex::new(positions[i as usize])),

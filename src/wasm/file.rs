@@ -1,13 +1,13 @@
-//! The options of reading a height image in, what the file holds out.
+//! The options of reading an image in, what the file holds out.
 
-use js_sys::Float64Array;
+use js_sys::{Float64Array, Uint8ClampedArray};
 use serde::Serialize;
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::options::{entries, option, unknown};
 use super::{Failure, Result};
-use crate::formats::{Decoded, FORMAT_NAMES, Format};
+use crate::formats::{Decoded, FORMAT_NAMES, Format, PhotoFile};
 
 /// `ReadOptions` of `types.d.ts`.
 #[derive(Default)]
@@ -69,5 +69,22 @@ pub(super) fn output(file: Decoded) -> Result<JsValue> {
         unit: file.unit.map_or(JsValue::NULL, |unit| unit.symbol().into()),
         height_scale: file.height_scale,
         data_type: file.data_type,
+    })?)
+}
+
+/// `Photo` of `types.d.ts` on its way out.
+#[derive(Serialize)]
+struct PhotoOutput {
+    width: usize,
+    height: usize,
+    #[serde(with = "preserve")]
+    data: Uint8ClampedArray,
+}
+
+pub(super) fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
+    Ok(to_value(&PhotoOutput {
+        width: photo.width,
+        height: photo.height,
+        data: photo.rgba.as_slice().into(),
     })?)
 }

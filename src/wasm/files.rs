@@ -1,17 +1,22 @@
 //! PNG, NPY and OBJ from and to bytes.
 
-use js_sys::{Uint8Array, Uint8ClampedArray};
-use serde::Serialize;
-use serde_wasm_bindgen::{from_value, preserve, to_value};
+use js_sys::{Float32Array, Int32Array, Uint8Array};
+use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::arrays::filled;
 use super::bytes::copied;
 use super::fields::{ImageInput, LatticeInput};
-use super::file::{ReadOptions, output};
+use super::file::{ReadOptions, output, photo_output};
+use super::options::{entries, option, unknown};
+use super::photo::{PhotoInput, extent_from};
 use super::triangulation::mesh_of;
-use crate::dewarp::Photo;
-use crate::formats::{decode, decode_photo, write_npy, write_obj_mesh, write_photo, write_png};
+use crate::dewarp::{self, Extent, Photo};
+use crate::error::check_count;
+use crate::formats::{
+    decode, decode_photo, write_mtl, write_npy, write_obj_textured, write_photo, write_png,
+};
 
 /// Decodes a PNG or NPY file.
 #[wasm_bindgen]
@@ -45,30 +50,71 @@ pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
     Ok(write_png(&image)?.as_slice().into())
 }
 
-/// OBJ mesh of lattice heights, in the axes of their frame.
+/// OBJ mesh of lattice heights, in the axes of their frame, and the file of its material, if any.
 #[wasm_bindgen(js_name = writeObj)]
-pub fn write_obj_file(field: JsValue) -> Result<Uint8Array> {
-    Ok(write_obj_mesh(&mesh_of(field)?)?.as_slice().into())
+pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
+    let mut material = None;
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "materials" => material = Some(option("materials", value, "must be a file's name")?),
+            _ => return Err(unknown(&name, "materials")),
+        }
+    }
+    let material: Option<String> = material;
+    let file = write_obj_textured(&mesh_of(field)?, material.as_deref())?;
+    Ok(file.as_slice().into())
 }
 
-/// `Photo` of `types.d.ts` on its way out.
-#[derive(Serialize)]
-struct PhotoOutput {
-    width: usize,
-    height: usize,
-    #[serde(with = "preserve")]
-    data: Uint8ClampedArray,
+/// MTL file of one material with a picture.
+#[wasm_bindgen(js_name = writeMtl)]
+pub fn write_mtl_file(picture: &str) -> Result<Uint8Array> {
+    Ok(write_mtl(picture)?.as_slice().into())
 }
 
 /// Decodes a PNG file with colours.
 #[wasm_bindgen(js_name = readPhoto)]
 pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
-    let photo = decode_photo(&copied(bytes)?)?;
-    Ok(to_value(&PhotoOutput {
-        width: photo.width,
-        height: photo.height,
-        data: photo.rgba.as_slice().into(),
-    })?)
+    photo_output(&decode_photo(&copied(bytes)?)?)
+}
+
+/// Texture coordinates of a lattice's vertices in a photo of a part of the plane: left, bottom,
+/// right and top; nothing for what the vertices cover.
+#[wasm_bindgen(js_name = planeUvs)]
+pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
+    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
+    let extent = match extent.is_undefined() {
+        true => Extent::of_lattice(&field),
+        false => extent_from(extent)?,
+    };
+    let uvs = extent.uvs(field.lattice())?;
+    Ok(uvs.as_flattened().into())
+}
+
+/// Colours for those vertices whose texture has the number (of all, where there are no numbers).
+#[wasm_bindgen]
+pub fn paint(
+    colors: &Float32Array,
+    uvs: &Float32Array,
+    photo: JsValue,
+    texture_of: Option<Int32Array>,
+    number: i32,
+) -> Result<Float32Array> {
+    let PhotoInput {
+        width,
+        height,
+        data,
+    } = from_value(photo)?;
+    let rgba = copied(&data)?;
+    let photo = Photo::new(width, height, &rgba)?;
+    let mut painted = filled(colors.length(), 0.0f32)?;
+    colors.copy_to(painted.as_flattened_mut());
+    let mut places = filled(uvs.length(), 0.0f32)?;
+    uvs.copy_to(places.as_flattened_mut());
+    check_count("texture coordinates", painted.len(), 1, places.len())?;
+    let numbers = texture_of.map(|numbers| numbers.to_vec());
+    let wanted = |i: usize| numbers.as_ref().is_none_or(|n| n.get(i) == Some(&number));
+    dewarp::paint(&mut painted, &places, &photo, wanted);
+    Ok(painted.as_flattened().into())
 }
 
 /// 8-bit RGBA PNG file.

@@ -8,9 +8,10 @@ use wasm_bindgen::prelude::*;
 use super::Result;
 use super::bytes::copied;
 use super::fields::ImageInput;
-use super::file::{ReadOptions, output};
+use super::file::{ReadOptions, output, photo_output};
 use crate::formats::{
-    Format, announced, decode_image, decode_npz, npz_arrays, write_exr, write_tiff,
+    Format, announced, decode_image, decode_image_photo, decode_npz, npz_arrays, write_exr,
+    write_tiff,
 };
 
 /// Decodes any height image but PNG and NPY.
@@ -25,6 +26,13 @@ pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
             output(decode_image(&file, format)?)
         }
     }
+}
+
+/// Decodes a JPEG or WebP file with colours.
+#[wasm_bindgen(js_name = readPhoto)]
+pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
+    let file = copied(bytes)?;
+    photo_output(&decode_image_photo(&file, announced(&file, None)?)?)
 }
 
 /// `NpzArray` of `types.d.ts`.

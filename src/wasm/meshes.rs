@@ -1,6 +1,6 @@
 //! Meshes from files, and what is seen of them.
 
-use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use js_sys::{Array, Float32Array, Float64Array, Int32Array, Uint8Array, Uint32Array};
 use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
@@ -10,14 +10,15 @@ use super::arrays::{filled, groups};
 use super::bytes::copied;
 use super::frame::FrameFields;
 use super::options::{entries, option, unknown};
-use crate::error::Error;
+use crate::error::{Error, try_filled};
 use crate::mesh::Mesh;
-use crate::meshes::{MeshFormat, read_mesh};
+use crate::meshes::{MeshFormat, read_mesh_beside};
 use crate::sampling::{Resolution, sample};
 use crate::view::View;
 
 /// `Mesh` of `types.d.ts`, on its way in; checked by `input.js` to have arrays of these types.
 #[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
 struct MeshInput {
     #[serde(with = "preserve")]
     positions: Float64Array,
@@ -27,10 +28,13 @@ struct MeshInput {
     colors: JsValue,
     #[serde(default, with = "preserve")]
     uvs: JsValue,
+    #[serde(default, with = "preserve")]
+    texture_of: JsValue,
 }
 
 /// `Mesh` of `types.d.ts`, on its way out.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct MeshOutput {
     #[serde(with = "preserve")]
     positions: Float64Array,
@@ -40,10 +44,17 @@ struct MeshOutput {
     colors: JsValue,
     #[serde(with = "preserve")]
     uvs: JsValue,
+    #[serde(with = "preserve")]
+    texture_of: JsValue,
+    #[serde(with = "preserve")]
+    textures: JsValue,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    missing: Vec<String>,
 }
 
-/// `SampledMesh` of `types.d.ts`.
+/// `SampledMesh` of `types.d.ts`, and the texture at each vertex, for `direct.js` to paint with.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct SampledOutput {
     rows: usize,
     cols: usize,
@@ -56,11 +67,13 @@ struct SampledOutput {
     colors: JsValue,
     #[serde(with = "preserve")]
     uvs: JsValue,
+    #[serde(with = "preserve")]
+    texture_of: Int32Array,
 }
 
-/// Decodes a mesh file.
+/// Decodes a mesh file; `files` are pairs of a name and the bytes of what lies beside it.
 #[wasm_bindgen(js_name = readMesh)]
-pub fn read_mesh_file(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
+pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
     let mut format = None;
     for (name, value) in entries(&options)? {
         match name.as_str() {
@@ -69,19 +82,50 @@ pub fn read_mesh_file(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
                 let name: String = option("format", value, requirement)?;
                 format = Some(name.parse::<MeshFormat>()?);
             }
-            _ => return Err(unknown(&name, "format")),
+            _ => return Err(unknown(&name, "format and files")),
         }
     }
-    mesh_output(&read_mesh(&copied(bytes)?, format)?)
+    let mut beside = Vec::new();
+    for file in files.iter().map(|file| Array::from(&file)) {
+        let name = file.get(0).as_string().unwrap_or_default();
+        beside.push((name, copied(&file.get(1).unchecked_into())?));
+    }
+    let beside: Vec<_> = (beside.iter())
+        .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+        .collect();
+    let file = read_mesh_beside(&copied(bytes)?, format, &beside)?;
+    let textures: Array = (file.textures.iter())
+        .map(|texture| Uint8Array::from(texture.bytes.as_slice()))
+        .collect();
+    Ok(to_value(&MeshOutput {
+        textures: if textures.length() > 0 {
+            textures.into()
+        } else {
+            JsValue::UNDEFINED
+        },
+        missing: file.missing,
+        ..MeshOutput::new(&file.mesh)
+    })?)
 }
 
 pub(super) fn mesh_output(mesh: &Mesh) -> Result<JsValue> {
-    Ok(to_value(&MeshOutput {
-        positions: mesh.positions().as_flattened().into(),
-        triangles: mesh.triangles().as_flattened().into(),
-        colors: floats(mesh.colors()),
-        uvs: floats(mesh.uvs()),
-    })?)
+    Ok(to_value(&MeshOutput::new(mesh))?)
+}
+
+impl MeshOutput {
+    fn new(mesh: &Mesh) -> Self {
+        MeshOutput {
+            positions: mesh.positions().as_flattened().into(),
+            triangles: mesh.triangles().as_flattened().into(),
+            colors: floats(mesh.colors()),
+            uvs: floats(mesh.uvs()),
+            texture_of: (mesh.textures()).map_or(JsValue::UNDEFINED, |numbers| {
+                Int32Array::from(numbers).into()
+            }),
+            textures: JsValue::UNDEFINED,
+            missing: Vec::new(),
+        }
+    }
 }
 
 /// What is seen of a mesh.
@@ -138,6 +182,7 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         frame: (*samples.frame()).into(),
         colors: floats(colors.as_deref()),
         uvs: floats(uvs.as_deref()),
+        texture_of: samples.textures(&mesh)?.as_slice().into(),
     })?)
 }
 
@@ -173,6 +218,11 @@ impl MeshInput {
         }
         if let Some(uvs) = groups(&self.uvs)? {
             mesh = mesh.with_uvs(uvs)?;
+        }
+        if let Some(numbers) = self.texture_of.dyn_ref::<Int32Array>() {
+            let mut own = try_filled("mesh", numbers.length() as usize, 0)?;
+            numbers.copy_to(&mut own);
+            mesh = mesh.with_textures(own)?;
         }
         Ok(mesh)
     }

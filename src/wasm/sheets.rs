@@ -1,6 +1,6 @@
 //! Surfaces measured, laid flat, and photos of them made flat.
 
-use js_sys::{Float32Array, Float64Array, Int32Array, Uint8Array, Uint8ClampedArray, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};
 use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use super::Result;
 use super::bytes::copied;
 use super::options::{entries, option, unknown};
+use super::photo::{PhotoInput, extent_from};
 use super::scene::{Scene, Settings, check_spacing, is_image};
 use crate::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
 use crate::dewarp::{DewarpOptions, Extent, Photo, Verdict, WarpMap};
@@ -128,15 +129,6 @@ pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-/// `Photo` of `types.d.ts`.
-#[derive(Deserialize)]
-struct PhotoInput {
-    width: usize,
-    height: usize,
-    #[serde(with = "preserve")]
-    data: Uint8Array,
-}
-
 /// `Dewarped` of `types.d.ts`.
 #[derive(Serialize)]
 struct DewarpedOutput {
@@ -162,17 +154,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         match name.as_str() {
             "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
             "trim" => wanted = wanted.trim(option("trim", value, "must be true or false")?),
-            "extent" => {
-                let [left, bottom, right, top] = option(
-                    "extent",
-                    value,
-                    "must be four numbers: left, bottom, right, top",
-                )?;
-                extent = Some(Extent {
-                    min: [left, bottom],
-                    max: [right, top],
-                });
-            }
+            "extent" => extent = Some(extent_from(value)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
                 let known = "dots, trim, extent, tolerance, maxIterations and spacing";

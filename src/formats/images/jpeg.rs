@@ -1,4 +1,4 @@
-//! Grey JPEG pictures, by the `zune-jpeg` crate; which way up, by `kamadak-exif`.
+//! JPEG pictures, by the `zune-jpeg` crate; which way up, by `kamadak-exif`.
 
 use exif::{In, Tag};
 use zune_core::bytestream::ZCursor;
@@ -7,7 +7,7 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
 use super::tiff_tags::oriented;
-use super::{Decoded, Format, check_length, damaged, picture, unsupported};
+use super::{Decoded, Format, PhotoFile, check_length, damaged, picture, rgba_of, unsupported};
 use crate::error::{Error, Result, checked_cells, try_filled};
 
 /// More samples than one byte can stand for: an even block of 64 takes a few
@@ -19,41 +19,13 @@ const END: [u8; 2] = [0xff, 0xd9];
 const SCAN: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let failed = |error| damaged(Format::Jpeg, format!("{error:?}"));
-    // The decoder makes up what is missing at the end.
-    if !ends(bytes) {
-        return Err(damaged(Format::Jpeg, "it is cut short"));
-    }
-    let options = DecoderOptions::default()
-        .set_strict_mode(true)
-        .set_max_width(usize::from(u16::MAX))
-        .set_max_height(usize::from(u16::MAX));
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-    decoder.decode_headers().map_err(failed)?;
-    let info = decoder
-        .info()
-        .ok_or_else(|| damaged(Format::Jpeg, "it has no header"))?;
-    let size = (usize::from(info.width), usize::from(info.height));
-    let len = checked_cells("JPEG image", size.1, size.0)?;
-    if len == 0 {
-        return Err(Error::Empty { what: "JPEG image" });
-    }
-    let (stride, colours) = match info.components {
-        1 => (1, ColorSpace::Luma),
-        3 => (3, ColorSpace::RGB),
-        other => {
-            return Err(unsupported(
-                Format::Jpeg,
-                format!("pixels of {other} components; grey images are read"),
-            ));
-        }
-    };
-    check_length(Format::Jpeg, bytes, stride * len, RATIO)?;
-    decoder.set_options(options.jpeg_set_out_colorspace(colours));
-    let mut samples = try_filled("JPEG image", stride * len, 0u8)?;
-    decoder.decode_into(&mut samples).map_err(failed)?;
+    let Pixels {
+        samples,
+        stride,
+        size,
+        orientation,
+    } = Pixels::decode(bytes)?;
     let stored = picture(Format::Jpeg, size, &samples, stride)?;
-    let orientation = decoder.exif().map_or(1, |exif| orientation(exif));
     let (values, (width, height)) = oriented(stored.values, size, orientation)?;
     Ok(Decoded {
         width,
@@ -61,6 +33,65 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         values,
         ..stored
     })
+}
+
+pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    let pixels = Pixels::decode(bytes)?;
+    let rgba = rgba_of(Format::Jpeg, &pixels.samples, pixels.stride)?;
+    let (rgba, size) = oriented(rgba, pixels.size, pixels.orientation)?;
+    Ok(PhotoFile::new(size, rgba))
+}
+
+/// The samples as they are stored, `stride` for each pixel.
+struct Pixels {
+    samples: Vec<u8>,
+    stride: usize,
+    size: (usize, usize),
+    orientation: u16,
+}
+
+impl Pixels {
+    fn decode(bytes: &[u8]) -> Result<Self> {
+        let failed = |error| damaged(Format::Jpeg, format!("{error:?}"));
+        // The decoder makes up what is missing at the end.
+        if !ends(bytes) {
+            return Err(damaged(Format::Jpeg, "it is cut short"));
+        }
+        let options = DecoderOptions::default()
+            .set_strict_mode(true)
+            .set_max_width(usize::from(u16::MAX))
+            .set_max_height(usize::from(u16::MAX));
+        let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+        decoder.decode_headers().map_err(failed)?;
+        let info = decoder
+            .info()
+            .ok_or_else(|| damaged(Format::Jpeg, "it has no header"))?;
+        let size = (usize::from(info.width), usize::from(info.height));
+        let len = checked_cells("JPEG image", size.1, size.0)?;
+        if len == 0 {
+            return Err(Error::Empty { what: "JPEG image" });
+        }
+        let (stride, colours) = match info.components {
+            1 => (1, ColorSpace::Luma),
+            3 => (3, ColorSpace::RGB),
+            other => {
+                return Err(unsupported(
+                    Format::Jpeg,
+                    format!("pixels of {other} components; grey and RGB are read"),
+                ));
+            }
+        };
+        check_length(Format::Jpeg, bytes, stride * len, RATIO)?;
+        decoder.set_options(options.jpeg_set_out_colorspace(colours));
+        let mut samples = try_filled("JPEG image", stride * len, 0u8)?;
+        decoder.decode_into(&mut samples).map_err(failed)?;
+        Ok(Pixels {
+            samples,
+            stride,
+            size,
+            orientation: decoder.exif().map_or(1, |exif| orientation(exif)),
+        })
+    }
 }
 
 /// Which way up the camera was, as TIFF numbers it. What is no sound number is as good as none: it

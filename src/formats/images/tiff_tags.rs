@@ -169,11 +169,11 @@ fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
 }
 
 /// The image as it is to be seen, and its width and height.
-pub(super) fn oriented(
-    values: Vec<f64>,
+pub(super) fn oriented<T: Copy + Default>(
+    values: Vec<T>,
     (width, height): (usize, usize),
     orientation: u16,
-) -> Result<(Vec<f64>, (usize, usize))> {
+) -> Result<(Vec<T>, (usize, usize))> {
     if orientation == 1 {
         return Ok((values, (width, height)));
     }
@@ -184,8 +184,8 @@ pub(super) fn oriented(
     } else {
         (width, height)
     };
-    let mut seen = try_filled("turned image", values.len(), 0.0)?;
-    for (i, z) in seen.iter_mut().enumerate() {
+    let mut seen = try_filled("turned image", values.len(), T::default())?;
+    for (i, out) in seen.iter_mut().enumerate() {
         let (row, col) = (i / cols, i % cols);
         let (x, y) = (col, row);
         let (across, down) = (cols - 1 - col, rows - 1 - row);
@@ -198,7 +198,7 @@ pub(super) fn oriented(
             7 => (across, down),
             _ => (x, down),
         };
-        *z = values[from_row * width + from_col];
+        *out = values[from_row * width + from_col];
     }
     Ok((seen, (cols, rows)))
 }

@@ -1,16 +1,30 @@
-//! Grey WebP pictures, by the `image-webp` crate.
+//! WebP pictures, by the `image-webp` crate.
 
 use std::io::Cursor;
 
 use image_webp::{DecodingError, WebPDecoder};
 
-use super::{Decoded, Format, damaged, picture, unsupported};
+use super::{Decoded, Format, PhotoFile, damaged, picture, rgba_of, unsupported};
 use crate::error::{Result, checked_cells, try_filled};
 
 /// What the decoder may allocate for metadata.
 const DECODER_BYTES: usize = 1 << 24;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let (samples, stride, size) = pixels(bytes)?;
+    picture(Format::WebP, size, &samples, stride)
+}
+
+pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    let (samples, stride, size) = pixels(bytes)?;
+    Ok(PhotoFile::new(
+        size,
+        rgba_of(Format::WebP, &samples, stride)?,
+    ))
+}
+
+/// The samples, how many there are for each pixel, and width and height.
+fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
     // The decoder makes up what is missing at the end; the length is in the header.
     let length = bytes.get(4..8).map_or(0, |length| {
         u32::from_le_bytes([length[0], length[1], length[2], length[3]])
@@ -32,7 +46,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let stride = if decoder.has_alpha() { 4 } else { 3 };
     let mut samples = try_filled("WebP image", stride * len, 0u8)?;
     decoder.read_image(&mut samples).map_err(failed)?;
-    picture(Format::WebP, (width, height), &samples, stride)
+    Ok((samples, stride, (width, height)))
 }
 
 fn failed(error: DecodingError) -> crate::error::Error {

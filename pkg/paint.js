@@ -1,0 +1,84 @@
+/** Colours at the vertices of a lattice, from the pictures that their texture coordinates are about. */
+import { asOptions } from './control.js';
+import { DevelopableError } from './errors.js';
+import { isImage } from './formats.js';
+import { asLattice } from './input.js';
+import { files, images } from './instances.js';
+import { asPicture } from './mesh-input.js';
+import { dewarpOptions } from './sheet-input.js';
+
+/**
+ * @typedef {import('./types.js').SampledMesh} SampledMesh
+ * @typedef {Uint8Array | import('./sheet-input.js').Pixels} Given a picture as `asPicture` gives it
+ */
+
+/** @type {typeof import('./direct.js').readPhoto} */
+export function readPhoto(bytes) {
+  const file = /** @type {Uint8Array} */ (asPicture(bytes));
+  return isImage(file) ? images.call((wasm) => wasm.readPhoto(file)) : files.call((wasm) => wasm.readPhoto(file));
+}
+
+/**
+ * What `paint` adds to a field.
+ * @param {import('./types.js').Heightfield} input
+ * @param {import('./types.js').Picture} picture
+ * @param {import('./types.js').PaintOptions} [given]
+ */
+export function paintOf(input, picture, given) {
+  const { extent, ...others } = asOptions(given);
+  const [unknown] = Object.keys(others);
+  if (unknown !== undefined) throw new DevelopableError('OPTION', `there is no option \`${unknown}\`, only extent`);
+  const lattice = asLattice(input);
+  const { uvs: own, colors, heights = new Float64Array() } = lattice;
+  const place = () => dewarpOptions(input, { extent }).extent;
+  const uvs = own && extent === undefined ? own : files.call((wasm) => wasm.planeUvs(lattice, place()));
+  const found = asPicture(picture);
+  const start = colors ?? blank(heights);
+  return { uvs, colors: painted(start, uvs, found), texture: fileOf(found) };
+}
+
+/**
+ * What is seen of a mesh, in the colours of its textures.
+ * @param {SampledMesh} seen
+ * @param {Int32Array} textureOf the texture at each vertex
+ * @param {Given[]} [textures]
+ * @returns {SampledMesh}
+ */
+export function inColour(seen, textureOf, textures = []) {
+  const { uvs, heights } = seen;
+  if (!uvs) return seen;
+  const used = textures.map((picture, number) => ({ picture, number })).filter(({ number }) => textureOf.includes(number));
+  if (used.length === 0) return seen;
+  const colors = used.reduce(
+    (colors, { picture, number }) => painted(colors, uvs, picture, textureOf, number),
+    seen.colors ?? blank(heights),
+  );
+  // One picture for all of it can go on as it is.
+  const whole = used.length === 1 && textureOf.every((number, i) => number === used[0].number || Number.isNaN(heights[i]));
+  const texture = whole ? fileOf(used[0].picture) : undefined;
+  return { ...seen, colors, ...(texture && { texture }) };
+}
+
+/**
+ * @param {Float32Array} colors
+ * @param {Float32Array} uvs
+ * @param {Given} picture
+ * @param {Int32Array} [textureOf]
+ * @param {number} [number]
+ */
+function painted(colors, uvs, picture, textureOf, number = 0) {
+  const { width, height, data } = picture instanceof Uint8Array ? readPhoto(picture) : picture;
+  const photo = { width, height, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
+  return files.call((wasm) => wasm.paint(colors, uvs, photo, textureOf, number));
+}
+
+/** White where there is something. @param {ArrayLike<number>} heights */
+function blank(heights) {
+  return Float32Array.from({ length: 3 * heights.length }, (_, i) => (Number.isNaN(heights[Math.floor(i / 3)]) ? NaN : 1));
+}
+
+/** The file, if it is one that meshes can have as their texture. @param {Given} picture */
+function fileOf(picture) {
+  if (!(picture instanceof Uint8Array)) return undefined;
+  return picture[0] === 0x89 || (picture[0] === 0xff && picture[1] === 0xd8) ? picture : undefined;
+}

@@ -1,0 +1,258 @@
+/** Textures and photos as colours of the surface: of meshes, of depths and of images; directly, in a worker and by the command. */
+import assert from 'node:assert/strict';
+import { copyFile, mkdir, readFile, symlink, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+
+after(() => developable.dispose());
+await Promise.all([direct.init(), direct.initFiles(), direct.initImages(), direct.initMeshes()]);
+
+/** @param {string} name */
+const place = (name) => new URL(`../data/meshes/${name}`, import.meta.url);
+/** @param {string} name */
+const file = async (name) => new Uint8Array(await readFile(place(name)));
+
+const [obj, mtl, png, glb] = await Promise.all(['textured.obj', 'textured.mtl', 'sheet.png', 'textured.glb'].map(file));
+const files = new Map([['textured.mtl', mtl], ['sheet.png', png]]);
+
+/**
+ * The colour of the sheet above a place, from what make-textured.py says.
+ * @param {number} x @param {number} y
+ */
+const shade = (x, y) => [(32 * (8 * (x / 5 + 0.2) - 0.5)) / 255, (32 * (8 * (0.8 - y / 5) - 0.5)) / 255, 128 / 255];
+
+/**
+ * Every coloured vertex has the colour of the sheet.
+ * @param {import('../../pkg/index.js').Heightfield} field
+ */
+function checkShades({ rows, cols, spacing, origin = [0, 0], heights = [], colors = new Float32Array() }, tolerance = 1e-4) {
+  assert.equal(colors.length, 3 * rows * cols);
+  let count = 0;
+  heights.forEach((z, i) => {
+    if (Number.isNaN(z)) return;
+    const row = Math.floor(i / cols);
+    const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;
+    shade(x, origin[1] - row * spacing * Math.sqrt(0.75)).forEach((value, k) => {
+      assert.ok(Math.abs(colors[3 * i + k] - value) < tolerance, `vertex ${i}: ${colors[3 * i + k]}, not ${value}`);
+    });
+    count += 1;
+  });
+  assert.ok(count > 300);
+}
+
+/**
+ * Whether these are the bytes of the sheet: trimesh fills them up to a multiple of four.
+ * @param {unknown} bytes
+ */
+function isSheet(bytes) {
+  assert.ok(bytes instanceof Uint8Array && bytes.length - png.length < 4);
+  assert.deepEqual(bytes.subarray(0, png.length), png);
+}
+
+/** @param {string} code @param {RegExp} [message] */
+const error = (code, message = /./) => (/** @type {any} */ thrown) => {
+  assert.equal(thrown.code, code, String(thrown));
+  assert.match(thrown.message, message);
+  return true;
+};
+
+test('the colours of a textured mesh, through a solve and into files', async () => {
+  for (const mesh of [direct.readMesh(obj, { files }), direct.readMesh(glb)]) {
+    assert.deepEqual([mesh.textures?.length, mesh.missing], [1, undefined]);
+    isSheet(mesh.textures?.[0]);
+    const seen = direct.sampleMesh(mesh, { resolution: 40 });
+    checkShades(seen);
+    assert.deepEqual(await developable.sampleMesh(mesh, { resolution: 40 }), seen);
+    const surface = await developable.fit(seen, { lambda: 'big' });
+    assert.deepEqual([surface.colors, surface.uvs, surface.texture], [seen.colors, seen.uvs, seen.texture]);
+    isSheet(surface.texture);
+    // The picture comes along; without it, the colours.
+    const back = direct.readMesh(direct.writeGlb(surface));
+    assert.deepEqual([back.textures, back.colors], [[seen.texture], undefined]);
+    checkShades(direct.sampleMesh(back, { resolution: 40 }), 0.03);
+    const colored = direct.readMesh(await developable.writeGlb(surface, { texture: null }));
+    assert.deepEqual([colored.textures, colored.colors?.length], [undefined, colored.positions.length]);
+    const ply = direct.readMesh(direct.writePly(surface));
+    assert.equal(ply.colors?.length, ply.positions.length);
+  }
+  const object = { 'textured.mtl': mtl, 'sheet.png': png };
+  assert.deepEqual(await developable.readMesh(new Blob([obj]), { files: object }), direct.readMesh(obj, { files }));
+});
+
+test('several textures, pixels in the place of files, and what has none', async () => {
+  const mesh = direct.readMesh(await file('half-textured.glb'));
+  assert.deepEqual([...new Set(mesh.textureOf)].sort(), [-1, 0]);
+  const seen = direct.sampleMesh(mesh, { resolution: 60 });
+  assert.equal(seen.texture, undefined, 'not of all of it');
+  const red = (seen.heights ?? []).map((_, i) => i).filter((i) => seen.colors?.[3 * i] === 1);
+  assert.ok(red.length > 20 && red.every((i) => seen.colors?.[3 * i + 2] === 0));
+  // The same picture as pixels, and twice.
+  const pixels = direct.readPhoto(png);
+  const twice = { ...direct.readMesh(glb), textures: [pixels, png], textureOf: new Int32Array([0, 1, 0]) };
+  checkShades(direct.sampleMesh(twice, { resolution: 40 }));
+  checkShades(await developable.sampleMesh(twice, { resolution: 40 }));
+});
+
+test('what is missing or damaged', async () => {
+  assert.deepEqual(direct.readMesh(obj).missing, ['textured.mtl']);
+  assert.deepEqual(direct.readMesh(obj, { files: { 'textured.mtl': mtl } }).missing, ['sheet.png']);
+  assert.throws(() => direct.readMesh(obj, { files: { 'textured.mtl': new TextEncoder().encode('newmtl a\nKd 1 1') } }), error('FORMAT', /MTL/));
+  const damaged = { ...direct.readMesh(glb), textures: [png.subarray(0, 40)] };
+  assert.throws(() => direct.sampleMesh(damaged), error('FORMAT', /PNG/));
+  await assert.rejects(developable.sampleMesh(damaged), error('FORMAT', /PNG/));
+  assert.throws(() => direct.readMesh(obj, { files: /** @type {any} */ ({ a: 'text' }) }), error('INPUT'));
+  assert.throws(() => direct.sampleMesh({ ...damaged, textures: /** @type {any} */ (['a.png']) }), error('INPUT', /photo/));
+  assert.throws(() => direct.sampleMesh({ ...direct.readMesh(glb), textureOf: new Int32Array(1) }), error('SHAPE'));
+  const bare = { rows: 3, cols: 3, spacing: 1, heights: new Float64Array(9) };
+  assert.throws(() => direct.paint(bare, png, /** @type {any} */ ({ place: 1 })), error('OPTION', /place/));
+  assert.throws(() => direct.paint(bare, png, { extent: [0, 0, 0, 1] }), error('EMPTY'));
+  assert.throws(() => direct.writeObj(bare, { materials: 'a.mtl' }), error('UNSUPPORTED', /texture coordinates/));
+  assert.throws(() => direct.writeMtl('two\nlines'), error('OPTION'));
+});
+
+test('a photo gives an image its colours', async () => {
+  // Heights of 12 × 9 pixels of half a unit; a photo of four times as many, redder to the right, greener downwards.
+  const [width, height, pixelSize] = [12, 9, 0.5];
+  const image = { width, height, pixelSize, data: Float64Array.from({ length: width * height }, (_, i) => (i % width) / 20) };
+  const data = Uint8Array.from({ length: 4 * 24 * 18 }, (_, i) => [10 * (Math.floor(i / 4) % 24), 10 * Math.floor(i / 96), 0, 255][i % 4]);
+  const photo = { width: 24, height: 18, data };
+  const surface = await developable.fit(image, { lambda: 'big' });
+  const painted = direct.paint(surface, photo);
+  assert.equal(painted.texture, undefined, 'pixels are no file');
+  const { rows, cols, spacing, origin, heights, colors } = painted;
+  for (let i = 0; i < rows * cols; i++) {
+    if (Number.isNaN(heights[i])) continue;
+    const row = Math.floor(i / cols);
+    // In pixels of the photo, four to a unit, the centre of the first at 0; it ends as it is there.
+    const x = 4 * (origin[0] + ((i % cols) - (row % 2) / 2) * spacing) - 0.5;
+    const y = 17.5 - 4 * (origin[1] - row * spacing * Math.sqrt(0.75));
+    const expected = [Math.min(Math.max(x, 0), 23), Math.min(Math.max(y, 0), 17)].map((v) => (10 * v) / 255);
+    expected.forEach((value, k) => assert.ok(Math.abs(colors[3 * i + k] - value) < 1e-4, `${i}: ${colors[3 * i + k]} ${value}`));
+  }
+  const png = direct.writePhoto(photo);
+  const again = await developable.paint(surface, new Blob([png]));
+  assert.deepEqual([again.colors, again.uvs, again.texture, again.report], [colors, painted.uvs, png, surface.report]);
+  // A part of it only.
+  const part = direct.paint(surface, photo, { extent: [0, 0, 3, 4.5] });
+  assert.ok(Math.max(...part.colors.filter((_, i) => i % 3 === 0)) > 230 / 255 - 1e-6);
+  assert.deepEqual((await developable.paint(surface, photo, { extent: [0, 0, 3, 4.5] })).colors, part.colors);
+});
+
+test('colours of a depth camera, from files of other programs', async () => {
+  const [depth, colour, jpeg] = await Promise.all(['depth-tum.png', 'colour-tum.png', 'colour-tum.jpg'].map(file));
+  const camera = { fx: 60, fy: 62, cx: 39.5, cy: 29.5, depthScale: 1 / 5000 };
+  const mesh = direct.backProject(direct.read(depth), camera);
+  const seen = direct.sampleMesh({ ...mesh, textures: [colour] }, { resolution: 50 });
+  const { rows, cols, spacing, origin, heights, colors = [] } = seen;
+  let count = 0;
+  for (let i = 0; i < rows * cols; i++) {
+    const z = heights[i];
+    if (Number.isNaN(z)) continue;
+    const row = Math.floor(i / cols);
+    const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;
+    const y = origin[1] - row * spacing * Math.sqrt(0.75);
+    // The plane of the script, whose y counts down and z ahead, to a level of the depths; and the pixel that saw it.
+    assert.ok(Math.abs(0.36 * x - 0.48 * y - 0.8 * z - 2) < 2e-4, `vertex ${i}`);
+    const [u, v] = [39.5 - (60 * x) / z, 29.5 + (62 * y) / z];
+    assert.ok(Math.abs(colors[3 * i] - (3 * u) / 255) < 0.004 && Math.abs(colors[3 * i + 1] - (4 * v) / 255) < 0.004, `vertex ${i}`);
+    count += 1;
+  }
+  assert.ok(count > 800);
+  const lossy = direct.paint(await developable.fit(seen, { lambda: 'big' }), jpeg);
+  assert.ok(lossy.colors.every((value, i) => Number.isNaN(value) || Math.abs(value - colors[i]) < 0.03));
+  assert.deepEqual(lossy.texture, jpeg);
+});
+
+test('point clouds of other programs', async () => {
+  const near = direct.readMesh(await file('cloud.ply'));
+  const far = direct.readMesh(await file('cloud-far.ply'));
+  for (const [mesh, [dx, dy, dz]] of /** @type {const} */ ([[near, [0, 0, 0]], [far, [512000, 5413000, 300]]])) {
+    assert.deepEqual([mesh.triangles.length, mesh.positions.length], [0, 3 * 600]);
+    const surface = direct.fit(direct.sampleMesh(mesh), { lambda: 'big' });
+    const { positions } = direct.readMesh(direct.writeGlb(surface));
+    assert.ok(positions.length > 300);
+    for (let i = 0; i < positions.length; i += 3) {
+      const [x, y, z] = [positions[i] - dx, positions[i + 1] - dy, positions[i + 2] - dz];
+      assert.ok(Math.abs(0.5 * x - 0.25 * y + 1 - z) < 1e-3, `${x} ${y} ${z}`);
+    }
+  }
+  const { colors = [], positions } = near;
+  for (let i = 0; i < positions.length; i++) {
+    const share = i % 3 === 2 ? 0 : positions[i] / (i % 3 === 0 ? 3 : 2);
+    assert.ok(Math.abs(colors[i] - Math.min(Math.max(share, 0), 1)) < 0.5 / 255 + 1e-6);
+  }
+});
+
+test('the command reads what lies beside a mesh, and nothing else', async () => {
+  const folder = await temporaryFolder();
+  const inner = join(folder, 'scan');
+  await mkdir(inner);
+  for (const name of ['textured.obj', 'textured.mtl', 'sheet.png']) await copyFile(place(name), join(inner, name));
+  const silent = { status: 0, stdout: '', stderr: '' };
+  /** @param {string} args */
+  const command = (args) => run(folder, args.split(' '));
+  assert.deepEqual(await command('fit scan/textured.obj --resolution 40 --lambda big -o out.ply'), silent);
+  const { colors = [], positions } = direct.readMesh(await readFile(join(folder, 'out.ply')));
+  for (let i = 0; i < positions.length; i += 3) {
+    shade(positions[i], positions[i + 1]).forEach((value, k) => assert.ok(Math.abs(colors[i + k] - value) < 0.003));
+  }
+  assert.deepEqual(await command('fit scan/textured.obj --resolution 40 -o out.glb'), silent);
+  assert.deepEqual(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures, [png]);
+  assert.match((await command('info scan/textured.obj')).stdout, /^texture: +has coordinates, 1 picture$/m);
+  // A path on another machine, and two that lead out of the folder.
+  await writeFile(join(folder, 'secret.png'), png);
+  await symlink(join(folder, 'secret.png'), join(inner, 'link.png'));
+  for (const [name, found] of /** @type {const} */ ([['C:\\Users\\me\\sheet.png', true], ['../secret.png', false], ['link.png', false]])) {
+    await writeFile(join(inner, 'textured.mtl'), `newmtl sheet\nmap_Kd ${name}\n`);
+    const { status, stderr } = await command('fit scan/textured.obj --resolution 40 -o out.ply');
+    assert.equal(status, 0);
+    if (found) assert.equal(stderr, '');
+    else assert.match(stderr, new RegExp(`warning: scan/textured\\.obj names ".*${name.slice(-8)}", which is not there`));
+    const info = (await command('info scan/textured.obj')).stdout;
+    assert.equal(/^missing: /m.test(info), !found, info);
+  }
+  for (const name of ['parts.gltf', ...[0, 1, 2, 3].map((i) => `gltf_buffer_${i}.bin`)]) await copyFile(place(name), join(inner, name));
+  assert.deepEqual(await command('fit scan/parts.gltf --resolution 40 -o parts.glb'), silent);
+  isSheet(direct.readMesh(await readFile(join(folder, 'parts.glb'))).textures?.[0]);
+});
+
+test('the command paints with a photo', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'scan.npy'), direct.writeNpy({ width: 20, height: 16, data: new Float64Array(320).map((_, i) => (i % 20) / 9) }));
+  for (const name of ['colour-tum.png', 'colour-tum.jpg', 'depth-tum.png']) await copyFile(place(name), join(folder, name));
+  const silent = { status: 0, stdout: '', stderr: '' };
+  /** @param {string} args */
+  const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
+  assert.deepEqual(await fit('scan.npy --texture colour-tum.png -o out.ply'), silent);
+  const { colors = [], positions } = direct.readMesh(await readFile(join(folder, 'out.ply')));
+  for (let i = 0; i < positions.length; i += 3) {
+    // 80 by 60 pixels on 20 by 16.
+    const [u, v] = [4 * positions[i] - 0.5, 59.5 - (60 / 16) * positions[i + 1]];
+    assert.ok(Math.abs(colors[i] - (3 * Math.max(u, 0)) / 255) < 0.01 && Math.abs(colors[i + 1] - (4 * v) / 255) < 0.01);
+  }
+  assert.deepEqual(await fit('depth-tum.png --intrinsics 60,62,39.5,29.5,0.0002 --texture colour-tum.jpg -o out.glb'), silent);
+  assert.equal(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures?.length, 1);
+  // An OBJ with the picture by way of an MTL, which is what this reads again.
+  await mkdir(join(folder, 'sub'));
+  assert.deepEqual(await fit('scan.npy --texture colour-tum.png -o out.obj --mtl sub/out.mtl'), silent);
+  assert.equal(await readFile(join(folder, 'sub/out.mtl'), 'utf8'), 'newmtl surface\nKd 1 1 1\nmap_Kd ../colour-tum.png\n');
+  const text = await readFile(join(folder, 'out.obj'), 'utf8');
+  assert.match(text, /^mtllib sub\/out\.mtl\nusemtl surface\nv \S+ \S+ \S+\n/);
+  assert.match((await run(folder, ['info', 'out.obj'])).stdout, /1 picture$/m);
+  /** @type {[string, number, RegExp][]} */
+  const wrong = [
+    ['scan.npy --texture colour-tum.png -o out.stl', 2, /--texture/],
+    ['scan.npy --texture colour-tum.png -o out.ply --mtl a.mtl', 2, /--mtl/],
+    ['scan.npy -o out.obj --mtl a.mtl', 2, /--mtl/],
+    ['scan.npy --texture colour-tum.png -o out.obj --mtl a.txt', 2, /mtl must end/],
+    ['scan.npy --texture scan.npy -o out.obj', 3, /scan\.npy.*photos/],
+  ];
+  for (const [args, status, message] of wrong) {
+    const result = await fit(args);
+    assert.equal(result.status, status, `${args}: ${result.stderr}`);
+    assert.match(result.stderr, message);
+  }
+});

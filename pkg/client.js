@@ -194,9 +194,9 @@ export class DevelopableWorker {
   async paint(input, picture, options) {
     const isBlob = typeof Blob === 'function' && picture instanceof Blob;
     const given = asPicture(isBlob ? await ownBytes(picture) : /** @type {import('./types.js').Picture} */ (picture));
-    const { extent = dewarpOptions(input).extent, ...others } = asOptions(options);
-    const place = { ...others, extent: input.uvs && options?.extent === undefined ? undefined : extent };
     const { field, buffers } = detached(asLattice(input));
+    const { extent = dewarpOptions(input).extent, ...others } = asOptions(options);
+    const place = { ...others, extent: field.uvs && options?.extent === undefined ? undefined : extent };
     return { ...input, ...await this.#request((remote) => remote.paint(transfer(field, buffers), given, place)) };
   }
 

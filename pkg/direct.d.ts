@@ -13,12 +13,15 @@ export function init(input?: InitInput): Promise<void>;
 /** The same, synchronously, from bytes or a compiled module. */
 export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the wasm file that `read` and the `write…` functions need for PNG, NPY and OBJ; otherwise like `init`. */
+/**
+ * Loads the wasm file that `read` and the `write…` functions need for PNG, NPY and OBJ, and that photos,
+ * `paint` and `sampleMesh` of a mesh with textures need; otherwise like `init`.
+ */
 export function initFiles(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
-/** Loads the wasm file that they need for all other formats; otherwise like `init`. */
+/** Loads the wasm file for all other height images, and for photos in JPEG and WebP; otherwise like `init`. */
 export function initImages(input?: InitInput): Promise<void>;
 /** The same, synchronously. */
 export function initImagesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
@@ -129,7 +132,8 @@ export function backProject(image: HeightImage, camera: Intrinsics): Mesh;
 /**
  * Gives a surface the colours of a picture of it, and texture coordinates where it has none: the
  * picture shows what the heights show, with as many pixels as it likes. Of a file, `texture` is set,
- * too. Where the picture is transparent, colours stay as they are.
+ * too. Where the picture is transparent, colours stay as they are. Takes `initFiles()`, and for JPEG and
+ * WebP `initImages()`.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
@@ -156,7 +160,10 @@ export function writePdf(drawing: Drawing, options?: WritePdfOptions): Uint8Arra
 export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
-/** Decodes a PNG file of any kind, as RGBA bytes. */
+/**
+ * Decodes a PNG, JPEG (the way up that its Exif data state) or WebP file as RGBA bytes; all but PNG
+ * take `initImages()`.
+ */
 export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
 /** 8-bit RGBA PNG. */
 export function writePhoto(photo: Photo): Uint8Array<ArrayBuffer>;

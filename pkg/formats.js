@@ -1,4 +1,4 @@
-/** Which of the two wasm files knows a file, by its format's name or its first bytes. */
+/** Which of the two wasm files for images knows a file, by its format's name or its first bytes. */
 
 /** The formats that the wasm of the images reads; it is not loaded for any other. */
 const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'];

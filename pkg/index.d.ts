@@ -13,9 +13,12 @@ export interface WorkerOptions {
   workerUrl?: string | URL;
   /** Where the solver's wasm is; default: beside the worker. */
   wasm?: InitInput;
-  /** Where the wasm is that reads and writes PNG, NPY and OBJ, loaded when it is needed; default: beside the worker. */
+  /**
+   * Where the wasm is that reads and writes PNG, NPY, OBJ and photos, and paints, loaded when it is needed;
+   * default: beside the worker.
+   */
   filesWasm?: InitInput;
-  /** Where the wasm is for all other file formats, likewise. */
+  /** Where the wasm is for all other height images and photos, likewise. */
   imagesWasm?: InitInput;
   /** Where the wasm is that reads, samples and writes meshes (but for OBJ out), likewise. */
   meshesWasm?: InitInput;

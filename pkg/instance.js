@@ -3,7 +3,7 @@ import { DevelopableError, messageOf } from './errors.js';
 import { compile } from './wasm-source.js';
 
 /**
- * What wasm-bindgen makes of either wasm file, as far as it is the same for both.
+ * What wasm-bindgen makes of each wasm file, as far as it is the same for all.
  * @typedef {{
  *   default: (input: { module_or_path: WebAssembly.Module }) => Promise<unknown>,
  *   initSync: (input: { module: WebAssembly.Module }) => unknown,

@@ -50,7 +50,15 @@ export function inColour(seen, textureOf, textures = []) {
   const used = textures.map((picture, number) => ({ picture, number })).filter(({ number }) => textureOf.includes(number));
   if (used.length === 0) return seen;
   const colors = used.reduce(
-    (colors, { picture, number }) => painted(colors, uvs, picture, textureOf, number),
+    (colors, { picture, number }) => {
+      try {
+        return painted(colors, uvs, picture, textureOf, number);
+      } catch (error) {
+        // A picture of another kind, as TGA, is as good as none.
+        if (error instanceof DevelopableError && error.code === 'UNSUPPORTED') return colors;
+        throw error;
+      }
+    },
     seen.colors ?? blank(heights),
   );
   // One picture for all of it can go on as it is.

@@ -357,8 +357,11 @@ fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> 
         own.map(|line| line.length).fold(0.0, |a, b| a + b)
     };
     let around = |cut: &Vec<[f64; 2]>| -> f64 {
-        let closing = [cut[cut.len() - 1], cut[0]];
-        length(cut) + length(&closing)
+        let closing = match (cut.last(), cut.first()) {
+            (Some(last), Some(first)) => distance(*last, *first),
+            _ => 0.0,
+        };
+        length(cut) + closing
     };
     Summary {
         sheets: drawn.len(),

@@ -2,7 +2,7 @@
 //!
 //! Reads PNG and NPY ([`decode`]) and photos ([`decode_photo`]); writes NPY,
 //! 16-bit PNG, photos and OBJ. With the cargo feature `images` also reads TIFF,
-//! EXR, PFM, NPZ, JPEG and WebP, and writes TIFF and EXR. Nothing here touches a
+//! EXR, PFM, NPZ, JPEG and WebP (these two as photos, too), and writes TIFF and EXR. Nothing here touches a
 //! file system, so that all of it works in a browser too.
 //!
 //! Damaged files are errors, never panics, and no more memory is asked for than

@@ -34,9 +34,9 @@
 //!
 //! [`HeightImage`] (square pixels) → [`HeightImage::to_lattice`] → [`Heightfield`] (on a
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
-//! [`Heightfield::to_image`], or [`formats`] for files; [`analysis`] for figures,
-//! [`unroll`](mod@unroll) for the surface laid flat, and [`pattern`], [`drawing`] and [`patterns`]
-//! for sheets to cut out and fold.
+//! [`Heightfield::to_image`], or [`formats`] and [`meshes`] for files; [`analysis`], [`patches`] and
+//! [`rulings`] for what it is like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
+//! laid flat, and [`pattern`], [`drawing`] and [`patterns`] for sheets to cut out and fold.
 //!
 //! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
 //! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a

@@ -12,6 +12,7 @@ import { commandOf, split, usage } from './flags.js';
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
+ * @property {string[]} written all files that are to be written
  * @property {string} output
  * @property {Extension} extension the output's
  * @property {string} [array] of an NPZ file
@@ -97,6 +98,7 @@ export function parse(args) {
   const about = {
     input,
     output,
+    written: [output, report, map, mtl].filter((path) => path !== undefined),
     extension: extension('output', output, extensions[command]),
     array,
     mask,

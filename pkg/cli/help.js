@@ -72,8 +72,9 @@ How to read the heights
 Colours of OUTPUT
   --texture FILE         PNG, JPEG or WebP picture with the outline of INPUT, or
                          that its texture coordinates are about: the colours of
-                         an .obj or .ply, the texture of a .glb. A mesh with
-                         textures of its own does not need it
+                         an .obj or .ply, the texture of a .glb (of a WebP its
+                         colours alone). A mesh with textures of its own does
+                         not need it
   --mtl FILE             .mtl file to be written, too, through which an .obj has
                          that picture as its texture
 
@@ -123,7 +124,7 @@ Flat sheets and images
   --threshold K          Gaussian curvature that counts for "analyze"
                          (default 1)
 
-  --report FILE          JSON file for the figures of the solve, or of the sheet
+  --report FILE          JSON file for the figures of the solve, sheet or pattern
   -h, --help             this text
   --version              the version
 

@@ -46,7 +46,7 @@ function meshInWords({ positions, triangles, colors, uvs, textures = [], missing
     ...ranges,
     ['colours', colors ? 'yes' : 'no'],
     ['texture', uvs ? `has coordinates, ${textures.length || 'no'} picture${textures.length === 1 ? '' : 's'}` : 'no coordinates'],
-    ...missing.map((name) => ['missing', name]),
+    ...missing.map((name) => ['missing', JSON.stringify(name)]),
   ];
 }
 

@@ -62,9 +62,9 @@ async function readSampled(task) {
  * The mesh itself, or what a depth camera has seen.
  * @param {InputTask} task
  */
-async function readMesh({ input, array, camera, mask, noData }) {
+async function readMesh({ input, array, camera, mask, noData, written }) {
   if (!camera) {
-    const mesh = await readMeshFile(input);
+    const mesh = await readMeshFile(input, written);
     for (const name of mesh.missing ?? []) {
       process.stderr.write(`developable: warning: ${input} names ${JSON.stringify(name)}, which is not there\n`);
     }
@@ -84,16 +84,23 @@ async function readMesh({ input, array, camera, mask, noData }) {
 /**
  * A mesh with the files that it names: those of them that there are, in its own folder or below.
  * @param {string} input
+ * @param {string[]} [written] what is going to be written, which must be none of them
  */
-export async function readMeshFile(input) {
+export async function readMeshFile(input, written = []) {
   const bytes = await readBytes(input);
   /** @type {Map<string, Uint8Array>} */
   const files = new Map();
   const names = gltfNames(bytes);
   for (;;) {
     for (const name of names) {
-      const file = await neighbour(dirname(input), name);
-      if (file) files.set(name, file);
+      const path = await neighbour(dirname(input), name);
+      if (path === undefined) continue;
+      for (const output of written) {
+        if ((await realpath(output).catch(() => undefined)) === path) {
+          throw new Problem(status.usage, `${output} is a file that ${input} is read with, and would be overwritten`);
+        }
+      }
+      files.set(name, await readBytes(path));
     }
     const mesh = await about(input, () => developable.readMesh(bytes, { files }));
     // The materials that were found name textures in turn.
@@ -113,14 +120,23 @@ function gltfNames(bytes) {
   try {
     /** @type {{ buffers?: { uri?: string }[] }} */
     const { buffers = [] } = JSON.parse(new TextDecoder().decode(bytes));
-    return buffers.flatMap(({ uri }) => (uri === undefined || uri.startsWith('data:') ? [] : [decodeURIComponent(uri)]));
+    return buffers.flatMap(({ uri }) => (uri === undefined || uri.startsWith('data:') ? [] : [plain(uri)]));
   } catch {
     return []; // what is wrong with it is said by who reads it
   }
 }
 
+/** A name as it is on disk, if its escapes are sound. @param {string} uri */
+function plain(uri) {
+  try {
+    return decodeURIComponent(uri);
+  } catch {
+    return uri;
+  }
+}
+
 /**
- * The file of a name that another file gives: in the same folder or below, else, where the name is a
+ * Where the file is of a name that another file gives: in the same folder or below, else, where the name is a
  * path on another machine, beside it.
  * @param {string} folder
  * @param {string} name
@@ -130,7 +146,7 @@ async function neighbour(folder, name) {
   const plain = name.replaceAll('\\', '/');
   for (const path of [join(home, plain), join(home, plain.split('/').at(-1) ?? '')]) {
     const found = await realpath(path).catch(() => undefined);
-    if (found?.startsWith(home.endsWith(sep) ? home : home + sep) && (await stat(found)).isFile()) return readBytes(found);
+    if (found?.startsWith(home.endsWith(sep) ? home : home + sep) && (await stat(found)).isFile()) return found;
   }
   return undefined;
 }

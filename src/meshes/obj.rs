@@ -70,13 +70,21 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<(
 }
 
 /// The lines of a material file that tell its materials' names, colours and pictures, if each colour
-/// has three numbers: `tobj` panics where there are more or less. It refuses what is odd in others.
+/// has three numbers, or one for all three: `tobj` panics where there are more or less. It refuses what
+/// is odd in others.
 fn looks(bytes: &[u8]) -> Option<String> {
     let mut kept = String::new();
     for line in lines(bytes) {
         let line = String::from_utf8_lossy(line);
         let words = line.split_whitespace().count();
+        let second = line.split_whitespace().nth(1);
         match line.split_whitespace().next() {
+            // By a spectrum, or by its place in a colour space: no colour that is known here.
+            Some("Kd") if matches!(second, Some("spectral" | "xyz")) => {}
+            Some("Kd") if words == 2 => {
+                let grey = second.unwrap_or_default();
+                kept.push_str(&format!("Kd {grey} {grey} {grey}\n"));
+            }
             Some("Kd") if words != 4 => return None,
             Some("Kd" | "map_Kd" | "newmtl") => {
                 kept.push_str(line.trim());

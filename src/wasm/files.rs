@@ -1,4 +1,4 @@
-//! PNG, NPY and OBJ from and to bytes.
+//! PNG, NPY, OBJ and photos from and to bytes, and colours from photos.
 
 use js_sys::{Float32Array, Int32Array, Uint8Array};
 use serde_wasm_bindgen::from_value;

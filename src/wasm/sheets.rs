@@ -1,7 +1,7 @@
 //! Surfaces measured, laid flat, and photos of them made flat.
 
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
@@ -11,7 +11,7 @@ use super::options::{entries, option, unknown};
 use super::photo::{PhotoInput, extent_from};
 use super::scene::{Scene, Settings, check_spacing, is_image};
 use crate::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
-use crate::dewarp::{DewarpOptions, Extent, Photo, Verdict, WarpMap};
+use crate::dewarp::{DewarpOptions, Photo, Verdict, WarpMap};
 use crate::error::try_filled;
 use crate::patches::{Crease, Patch, PatchOptions, Patches};
 use crate::rulings::{Ruling, Rulings, TraceOptions};

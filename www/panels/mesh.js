@@ -82,10 +82,14 @@ export function meshPanel(session) {
     canvas.hidden = turned.hidden = view === null;
     missing.hidden = view !== null;
     if (session.input?.seen !== seen || !view) return;
-    if (shown !== mesh) view.show(mesh);
-    shown = mesh;
-    const { towards } = lattice.frame;
-    if (typeof options.view === 'string') view.look([-towards[0], -towards[1], -towards[2]]);
+    try {
+      if (shown !== mesh) view.show(mesh);
+      shown = mesh;
+      const { towards } = lattice.frame;
+      if (typeof options.view === 'string') view.look([-towards[0], -towards[1], -towards[2]]);
+    } catch (error) {
+      session.fail('The mesh could not be shown', error);
+    }
   });
 
   return {
@@ -105,7 +109,7 @@ export function meshPanel(session) {
 }
 
 /** @param {Mesh} mesh */
-function spanInWords({ positions, triangles }) {
+function spanInWords({ positions, triangles, missing = [] }) {
   const sides = [0, 1, 2].map((k) => {
     let [low, high] = [Infinity, -Infinity];
     for (let i = k; i < positions.length; i += 3) {
@@ -115,5 +119,6 @@ function spanInWords({ positions, triangles }) {
     return number(high - low);
   });
   const what = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
-  return `${what}; x, y and z span ${sides.join(', ')}.`;
+  const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which the page does not read.` : '';
+  return `${what}; x, y and z span ${sides.join(', ')}.${without}`;
 }

@@ -188,6 +188,10 @@ fn damaged_materials_and_textures_are_errors() {
     for length in 0..MTL.len() {
         let _ = with(&MTL.as_bytes()[..length]);
     }
+    // One number is a grey, and colours by other means are none.
+    let grey = with(b"newmtl red\nKd 0.5\n").unwrap().mesh;
+    assert_eq!(grey.colors().unwrap()[0], [0.5; 3]);
+    assert!(with(b"newmtl red\nKd spectral red.rfl\n").is_ok());
     // What does not matter here may be odd.
     assert!(with(b"\xff\xfe\0\nnewmtl red\nillum 2.0\nKs 1\nNs\n").is_ok());
     // The same bytes under a hundred names do not become a hundred pictures.

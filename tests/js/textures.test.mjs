@@ -103,6 +103,9 @@ test('what is missing or damaged', async () => {
   const damaged = { ...direct.readMesh(glb), textures: [png.subarray(0, 40)] };
   assert.throws(() => direct.sampleMesh(damaged), error('FORMAT', /PNG/));
   await assert.rejects(developable.sampleMesh(damaged), error('FORMAT', /PNG/));
+  // A kind of picture that is not read gives no colours.
+  const foreign = { ...direct.readMesh(glb), textures: [new TextEncoder().encode('a picture of another kind')] };
+  assert.deepEqual(direct.sampleMesh(foreign, { resolution: 20 }).heights, direct.sampleMesh(direct.readMesh(glb), { resolution: 20 }).heights);
   assert.throws(() => direct.readMesh(obj, { files: /** @type {any} */ ({ a: 'text' }) }), error('INPUT'));
   assert.throws(() => direct.sampleMesh({ ...damaged, textures: /** @type {any} */ (['a.png']) }), error('INPUT', /photo/));
   assert.throws(() => direct.sampleMesh({ ...direct.readMesh(glb), textureOf: new Int32Array(1) }), error('SHAPE'));
@@ -202,6 +205,11 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   assert.deepEqual(await command('fit scan/textured.obj --resolution 40 -o out.glb'), silent);
   assert.deepEqual(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures, [png]);
   assert.match((await command('info scan/textured.obj')).stdout, /^texture: +has coordinates, 1 picture$/m);
+  // What the mesh is read with is not overwritten.
+  const over = await command('fit scan/textured.obj --resolution 40 --texture scan/sheet.png --mtl scan/textured.mtl -o out.obj');
+  assert.equal(over.status, 2);
+  assert.match(over.stderr, /scan\/textured\.mtl is a file that scan\/textured\.obj is read with/);
+  assert.deepEqual(await readFile(join(inner, 'textured.mtl')), mtl);
   // A path on another machine, and two that lead out of the folder.
   await writeFile(join(folder, 'secret.png'), png);
   await symlink(join(folder, 'secret.png'), join(inner, 'link.png'));

@@ -209,7 +209,7 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   const over = await command('fit scan/textured.obj --resolution 40 --texture scan/sheet.png --mtl scan/textured.mtl -o out.obj');
   assert.equal(over.status, 2);
   assert.match(over.stderr, /scan\/textured\.mtl is a file that scan\/textured\.obj is read with/);
-  assert.deepEqual(await readFile(join(inner, 'textured.mtl')), mtl);
+  assert.deepEqual(new Uint8Array(await readFile(join(inner, 'textured.mtl'))), new Uint8Array(mtl));
   // A path on another machine, and two that lead out of the folder.
   await writeFile(join(folder, 'secret.png'), png);
   await symlink(join(folder, 'secret.png'), join(inner, 'link.png'));

@@ -124,8 +124,8 @@ Flat sheets and images
   --threshold K          Gaussian curvature that counts for "analyze"
                          (default 1)
 
-  --report FILE          JSON file for the figures of the solve, the sheet or the
-                         pattern
+  --report FILE          JSON file for the figures of the solve, the sheet or
+                         the pattern
   -h, --help             this text
   --version              the version
 

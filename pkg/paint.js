@@ -15,7 +15,7 @@ import { dewarpOptions } from './sheet-input.js';
 /** @type {typeof import('./direct.js').readPhoto} */
 export function readPhoto(bytes) {
   const file = /** @type {Uint8Array} */ (asPicture(bytes));
-  return isImage(file) ? images.call((wasm) => wasm.readPhoto(file)) : files.call((wasm) => wasm.readPhoto(file));
+  return isImage(file) ? images.call((wasm) => wasm.readImagePhoto(file)) : files.call((wasm) => wasm.readPhoto(file));
 }
 
 /**

@@ -29,8 +29,8 @@ pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
 }
 
 /// Decodes a JPEG or WebP file with colours.
-#[wasm_bindgen(js_name = readPhoto)]
-pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
+#[wasm_bindgen(js_name = readImagePhoto)]
+pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
     let file = copied(bytes)?;
     photo_output(&decode_image_photo(&file, announced(&file, None)?)?)
 }

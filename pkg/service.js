@@ -135,42 +135,15 @@ export const service = {
   writePng: written(withFiles, direct.writePng),
   writeTiff: written(withImages, direct.writeTiff),
   writeExr: written(withImages, direct.writeExr),
+  writeObj: written(withFiles, direct.writeObj),
   writeMtl: written(withFiles, direct.writeMtl),
   writePly: written(withMeshes, direct.writePly),
   writeStl: written(withMeshes, direct.writeStl),
+  writeGlb: written(withMeshes, direct.writeGlb),
   writePhoto: written(withFiles, direct.writePhoto),
   writeSvg: written(withPatterns, direct.writeSvg),
+  writePdf: written(withPatterns, direct.writePdf),
   writeDxf: written(withPatterns, direct.writeDxf),
-
-  /**
-   * @param {Parameters<typeof direct.writePdf>[0]} drawing
-   * @param {Parameters<typeof direct.writePdf>[1]} [options]
-   */
-  async writePdf(drawing, options) {
-    await withPatterns();
-    const bytes = direct.writePdf(drawing, options);
-    return transfer(bytes, buffersOf(bytes));
-  },
-
-  /**
-   * @param {Parameters<typeof direct.writeObj>[0]} input
-   * @param {Parameters<typeof direct.writeObj>[1]} [options]
-   */
-  async writeObj(input, options) {
-    await withFiles();
-    const bytes = direct.writeObj(input, options);
-    return transfer(bytes, buffersOf(bytes));
-  },
-
-  /**
-   * @param {Parameters<typeof direct.writeGlb>[0]} input
-   * @param {Parameters<typeof direct.writeGlb>[1]} [options]
-   */
-  async writeGlb(input, options) {
-    await withMeshes();
-    const bytes = direct.writeGlb(input, options);
-    return transfer(bytes, buffersOf(bytes));
-  },
 
   /** @param {Parameters<typeof direct.readPhoto>[0]} bytes */
   async readPhoto(bytes) {
@@ -310,15 +283,18 @@ function withPatterns() {
 }
 
 /**
- * @template T
+ * @template T, O
  * @param {() => Promise<void>} loaded
- * @param {(input: T) => Uint8Array<ArrayBuffer>} write
+ * @param {(input: T, options?: O) => Uint8Array<ArrayBuffer>} write
  */
 function written(loaded, write) {
-  /** @param {T} input */
-  return async (input) => {
+  /**
+   * @param {T} input
+   * @param {O} [options]
+   */
+  return async (input, options) => {
     await loaded();
-    const bytes = write(input);
+    const bytes = write(input, options);
     return transfer(bytes, buffersOf(bytes));
   };
 }

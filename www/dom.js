@@ -27,6 +27,22 @@ export function elements(selector, type) {
 }
 
 /**
+ * Lets a button open the file dialog.
+ * @param {HTMLButtonElement} button
+ * @param {HTMLInputElement} input
+ * @param {(file: File) => unknown} take
+ */
+export function choosesFile(button, input, take) {
+  button.addEventListener('click', () => input.click());
+  input.addEventListener('change', () => {
+    const file = input.files?.[0];
+    // So that choosing the same file again, perhaps mended, is a change.
+    input.value = '';
+    if (file) take(file);
+  });
+}
+
+/**
  * At most one call per frame, however often it is asked for.
  * @param {() => void} draw
  * @returns {() => void}

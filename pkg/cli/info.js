@@ -10,7 +10,7 @@ import { about, readMeshFile } from './inputs.js';
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
   const lines = await about(input, async () => {
-    if (isMesh(input)) return meshInWords(await readMeshFile(input));
+    if (isMesh(input)) return meshInWords(await readMeshFile(input, bytes));
     if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
     return imageInWords(await developable.read(bytes, { array }));
   });

@@ -64,7 +64,7 @@ async function readSampled(task) {
  */
 async function readMesh({ input, array, camera, mask, noData, written }) {
   if (!camera) {
-    const mesh = await readMeshFile(input, written);
+    const mesh = await readMeshFile(input, await readBytes(input), written);
     for (const name of mesh.missing ?? []) {
       process.stderr.write(`developable: warning: ${input} names ${JSON.stringify(name)}, which is not there\n`);
     }
@@ -84,15 +84,18 @@ async function readMesh({ input, array, camera, mask, noData, written }) {
 /**
  * A mesh with the files that it names: those of them that there are, in its own folder or below.
  * @param {string} input
+ * @param {Uint8Array} bytes
  * @param {string[]} [written] what is going to be written, which must be none of them
  */
-export async function readMeshFile(input, written = []) {
-  const bytes = await readBytes(input);
+export async function readMeshFile(input, bytes, written = []) {
   /** @type {Map<string, Uint8Array>} */
   const files = new Map();
-  const names = gltfNames(bytes);
+  /** @type {Set<string>} */
+  const tried = new Set();
+  let names = gltfNames(bytes);
   for (;;) {
     for (const name of names) {
+      tried.add(name);
       const path = await neighbour(dirname(input), name);
       if (path === undefined) continue;
       for (const output of written) {
@@ -104,9 +107,8 @@ export async function readMeshFile(input, written = []) {
     }
     const mesh = await about(input, () => developable.readMesh(bytes, { files }));
     // The materials that were found name textures in turn.
-    const others = (mesh.missing ?? []).filter((name) => !names.includes(name));
-    if (others.length === 0) return mesh;
-    names.push(...others);
+    names = (mesh.missing ?? []).filter((name) => !tried.has(name));
+    if (names.length === 0) return mesh;
   }
 }
 
@@ -120,14 +122,14 @@ function gltfNames(bytes) {
   try {
     /** @type {{ buffers?: { uri?: string }[] }} */
     const { buffers = [] } = JSON.parse(new TextDecoder().decode(bytes));
-    return buffers.flatMap(({ uri }) => (uri === undefined || uri.startsWith('data:') ? [] : [plain(uri)]));
+    return buffers.flatMap(({ uri }) => (uri === undefined || uri.startsWith('data:') ? [] : [unescaped(uri)]));
   } catch {
     return []; // what is wrong with it is said by who reads it
   }
 }
 
 /** A name as it is on disk, if its escapes are sound. @param {string} uri */
-function plain(uri) {
+function unescaped(uri) {
   try {
     return decodeURIComponent(uri);
   } catch {

@@ -10,7 +10,7 @@ use super::bytes::copied;
 use super::fields::{ImageInput, LatticeInput};
 use super::file::{ReadOptions, output, photo_output};
 use super::options::{entries, option, unknown};
-use super::photo::{PhotoInput, extent_from};
+use super::photo::{Pixels, extent_from};
 use super::triangulation::mesh_of;
 use crate::dewarp::{self, Extent, Photo};
 use crate::error::check_count;
@@ -99,13 +99,8 @@ pub fn paint(
     texture_of: Option<Int32Array>,
     number: i32,
 ) -> Result<Float32Array> {
-    let PhotoInput {
-        width,
-        height,
-        data,
-    } = from_value(photo)?;
-    let rgba = copied(&data)?;
-    let photo = Photo::new(width, height, &rgba)?;
+    let pixels = Pixels::new(photo)?;
+    let photo = pixels.photo()?;
     let mut painted = filled(colors.length(), 0.0f32)?;
     colors.copy_to(painted.as_flattened_mut());
     let mut places = filled(uvs.length(), 0.0f32)?;

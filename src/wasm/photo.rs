@@ -2,20 +2,47 @@
 
 use js_sys::Uint8Array;
 use serde::Deserialize;
-use serde_wasm_bindgen::preserve;
+use serde_wasm_bindgen::{from_value, preserve};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::bytes::copied;
 use super::options::option;
-use crate::dewarp::Extent;
+use crate::dewarp::{Extent, Photo};
 
 /// `Photo` of `types.d.ts`, as `asPhoto` makes it.
 #[derive(Deserialize)]
-pub(super) struct PhotoInput {
-    pub(super) width: usize,
-    pub(super) height: usize,
+struct PhotoInput {
+    width: usize,
+    height: usize,
     #[serde(with = "preserve")]
-    pub(super) data: Uint8Array,
+    data: Uint8Array,
+}
+
+/// A photo's pixels, in wasm's own memory.
+pub(super) struct Pixels {
+    width: usize,
+    height: usize,
+    rgba: Vec<u8>,
+}
+
+impl Pixels {
+    pub(super) fn new(photo: JsValue) -> Result<Self> {
+        let PhotoInput {
+            width,
+            height,
+            data,
+        } = from_value(photo)?;
+        Ok(Pixels {
+            width,
+            height,
+            rgba: copied(&data)?,
+        })
+    }
+
+    pub(super) fn photo(&self) -> Result<Photo<'_>> {
+        Ok(Photo::new(self.width, self.height, &self.rgba)?)
+    }
 }
 
 /// The option `extent`.

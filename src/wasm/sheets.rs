@@ -2,16 +2,15 @@
 
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};
 use serde::Serialize;
-use serde_wasm_bindgen::{from_value, preserve, to_value};
+use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
-use super::bytes::copied;
 use super::options::{entries, option, unknown};
-use super::photo::{PhotoInput, extent_from};
+use super::photo::{Pixels, extent_from};
 use super::scene::{Scene, Settings, check_spacing, is_image};
 use crate::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
-use crate::dewarp::{DewarpOptions, Photo, Verdict, WarpMap};
+use crate::dewarp::{DewarpOptions, Verdict, WarpMap};
 use crate::error::try_filled;
 use crate::patches::{Crease, Patch, PatchOptions, Patches};
 use crate::rulings::{Ruling, Rulings, TraceOptions};
@@ -164,16 +163,11 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     }
     check_spacing(settings.spacing, is_image(&field)?)?;
     let scene = Scene::new(field, settings.spacing)?;
-    let PhotoInput {
-        width,
-        height,
-        data,
-    } = from_value(photo)?;
-    let rgba = copied(&data)?;
-    let photo = Photo::new(width, height, &rgba)?;
+    let pixels = Pixels::new(photo)?;
+    let photo = pixels.photo()?;
     let sheet: Unrolling = unroll(&scene.surface, &settings.unrolling)?;
     let extent = extent.unwrap_or(scene.extent);
-    let map = WarpMap::new(&sheet, extent, [width, height], &wanted)?;
+    let map = WarpMap::new(&sheet, extent, [photo.width(), photo.height()], &wanted)?;
     let flat = map.image(&photo)?;
     Ok(to_value(&DewarpedOutput {
         width: map.width(),

@@ -1,5 +1,5 @@
 /** Images of what is known besides the heights: how far they are to be trusted, and what must be met. */
-import { element } from '../dom.js';
+import { choosesFile, element } from '../dom.js';
 
 /** @import {Input, Session} from '../session.js' */
 /** @typedef {Awaited<ReturnType<Session['api']['read']>>} Image */
@@ -32,17 +32,13 @@ function imageRow(session, what, take) {
   const hint = name.textContent;
   let opened = '';
 
-  open.addEventListener('click', () => file.click());
   drop.addEventListener('click', () => {
     session.amend({ [what]: undefined });
     open.focus();
   });
-  file.addEventListener('change', async () => {
+  choosesFile(open, file, async (chosen) => {
     const { input } = session;
-    const chosen = file.files?.[0];
-    // So that choosing the same file again, perhaps mended, is a change.
-    file.value = '';
-    if (!chosen || !input) return;
+    if (!input) return;
     try {
       const image = await session.api.read(chosen);
       if (session.input !== input) return;

@@ -1,5 +1,5 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
-import { download, element } from '../dom.js';
+import { choosesFile, download, element } from '../dom.js';
 import { photographed } from '../views/print.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -34,13 +34,9 @@ export function photoPanel(session, analyses, changed) {
   };
   session.on('cleared', forget);
 
-  open.addEventListener('click', () => file.click());
-  file.addEventListener('change', async () => {
+  choosesFile(open, file, async (chosen) => {
     const { result } = session;
-    const chosen = file.files?.[0];
-    // So that choosing the same file again, perhaps mended, is a change.
-    file.value = '';
-    if (!chosen || !result) return;
+    if (!result) return;
     try {
       const read = await pixelsOf(chosen);
       if (session.input !== result.input) return;

@@ -1,6 +1,6 @@
 /** Where the heights come from: an example, or a file with its scale. */
 import { designInput } from '../design.js';
-import { element, elements } from '../dom.js';
+import { choosesFile, element, elements } from '../dom.js';
 import { number } from '../format.js';
 import { cameraPanel } from './camera.js';
 import { watchDrops } from './drop.js';
@@ -90,13 +90,7 @@ export function sourcePanel(session) {
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
   zero.addEventListener('change', dropZeros);
   design.addEventListener('change', () => session.amend({ design: design.checked }));
-  element('open', HTMLButtonElement).addEventListener('click', () => file.click());
-  file.addEventListener('change', () => {
-    const chosen = file.files?.[0];
-    if (chosen) void openFile(chosen);
-    // So that choosing the same file again, perhaps mended, is a change.
-    file.value = '';
-  });
+  choosesFile(element('open', HTMLButtonElement), file, (chosen) => openFile(chosen));
   watchDrops((dropped) => void openFile(dropped));
   array.addEventListener('change', () => {
     const several = session.input?.array;

@@ -95,6 +95,7 @@ pub mod patches;
 pub mod pattern;
 #[cfg(feature = "patterns")]
 pub mod patterns;
+mod real;
 mod resample;
 mod restore;
 pub mod rulings;

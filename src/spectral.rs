@@ -1,5 +1,7 @@
 //! Symmetric 2×2 matrices and their spectral functions, all in closed form.
 
+use crate::real::Real;
+
 /// A symmetric 2×2 matrix, held as `[[mean + diff, off], [off, mean − diff]]`.
 ///
 /// In these coordinates the eigenvalues are `mean ± √(diff² + off²)`, the
@@ -60,16 +62,8 @@ impl Sym2 {
     /// Projection onto the matrices whose eigenvalues lie in `[−limit, limit]`.
     #[inline(always)]
     pub fn clamp(self, limit: f64) -> Sym2 {
-        let r = self.radius();
-        let high = smaller(larger(self.mean + r, -limit), limit);
-        let low = smaller(larger(self.mean - r, -limit), limit);
-        // Without a branch, so that loops over it vectorise; at r = 0 both numerators vanish.
-        let factor = if r > 0.0 { 0.5 * (high - low) / r } else { 0.0 };
-        Sym2 {
-            mean: 0.5 * (high + low),
-            diff: factor * self.diff,
-            off: factor * self.off,
-        }
+        let [mean, diff, off] = clamp([self.mean, self.diff, self.off], limit);
+        Sym2 { mean, diff, off }
     }
 
     /// Soft threshold of the eigenvalues: the minimiser of
@@ -115,14 +109,30 @@ impl std::ops::Sub for Sym2 {
     }
 }
 
+/// [`Sym2::clamp`], by coordinates, in any precision.
+#[inline(always)]
+pub(crate) fn clamp<T: Real>([mean, diff, off]: [T; 3], limit: T) -> [T; 3] {
+    let r = (diff * diff + off * off).sqrt();
+    let high = smaller(larger(mean + r, -limit), limit);
+    let low = smaller(larger(mean - r, -limit), limit);
+    // Without a branch, so that loops over it vectorise; at r = 0 both numerators vanish.
+    let zero = T::default();
+    let factor = if r > zero {
+        T::HALF * (high - low) / r
+    } else {
+        zero
+    };
+    [T::HALF * (high + low), factor * diff, factor * off]
+}
+
 // `f64::max` treats NaN in a way that costs wasm several instructions; these are one each.
 #[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
+fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
 #[inline(always)]
-fn smaller(a: f64, b: f64) -> f64 {
+fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 

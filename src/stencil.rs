@@ -17,9 +17,8 @@
 //! in the coordinates of [`Sym2`]. So `C` is three second differences and a
 //! 3×3 map, and `Cᵀ` is the transposed map and three second differences again.
 
-use std::ops::{Add, Mul, Sub};
-
 use crate::domain::{Domain, Run};
+use crate::real::Real;
 use crate::spectral::Sym2;
 
 /// The quadratic `c + g·x + ½ xᵀHx` about a vertex.
@@ -65,9 +64,41 @@ impl Quadratic {
 
 /// The map from the three second differences to the Hessian, and its adjoint.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct HessianMap {
-    third: f64,
-    root_third: f64,
+pub(crate) struct HessianMap<T = f64> {
+    third: T,
+    root_third: T,
+}
+
+impl<T: Real> HessianMap<T> {
+    /// The coordinates of the Hessian, in the order of [`Sym2`].
+    #[inline(always)]
+    pub(crate) fn coordinates(&self, [d1, d2, d3]: [T; 3]) -> [T; 3] {
+        let side = d2 + d3;
+        [
+            self.third * (d1 + side),
+            self.third * (d1 + d1 - side),
+            self.root_third * (d3 - d2),
+        ]
+    }
+
+    /// The adjoint of that with respect to the Frobenius inner product.
+    #[inline(always)]
+    pub(crate) fn adjoint_of(&self, [mean, diff, off]: [T; 3]) -> [T; 3] {
+        let twice = self.third + self.third;
+        let (mean, diff) = (twice * mean, twice * diff);
+        let off = (self.root_third + self.root_third) * off;
+        [mean + (diff + diff), mean - diff - off, mean - diff + off]
+    }
+}
+
+impl HessianMap<f32> {
+    /// On a lattice of spacing 1.
+    pub(crate) fn unit() -> Self {
+        HessianMap {
+            third: 1.0 / 3.0,
+            root_third: 1.0 / 3f32.sqrt(),
+        }
+    }
 }
 
 impl HessianMap {
@@ -80,22 +111,15 @@ impl HessianMap {
     }
 
     #[inline(always)]
-    pub(crate) fn hessian(&self, [d1, d2, d3]: [f64; 3]) -> Sym2 {
-        let side = d2 + d3;
-        Sym2 {
-            mean: self.third * (d1 + side),
-            diff: self.third * (2.0 * d1 - side),
-            off: self.root_third * (d3 - d2),
-        }
+    pub(crate) fn hessian(&self, differences: [f64; 3]) -> Sym2 {
+        let [mean, diff, off] = self.coordinates(differences);
+        Sym2 { mean, diff, off }
     }
 
     /// The adjoint with respect to the Frobenius inner product.
     #[inline(always)]
     pub(crate) fn adjoint(&self, y: Sym2) -> [f64; 3] {
-        let mean = 2.0 * self.third * y.mean;
-        let diff = 2.0 * self.third * y.diff;
-        let off = 2.0 * self.root_third * y.off;
-        [mean + 2.0 * diff, mean - diff - off, mean - diff + off]
+        self.adjoint_of([y.mean, y.diff, y.off])
     }
 
     /// The two composed: `adjoint(hessian(d))`.
@@ -107,15 +131,6 @@ impl HessianMap {
         [six * d1 - sum, six * d2 - sum, six * d3 - sum]
     }
 }
-
-/// `f64`, or `f32` where a correction is computed that need not be exact.
-pub(crate) trait Real:
-    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
-}
-
-impl Real for f64 {}
-impl Real for f32 {}
 
 /// The seven values about each cell of a run, as slices of the run's length.
 pub(crate) struct Ring<'a, T> {

@@ -102,6 +102,7 @@ impl Component {
             state,
             plan.on_level(!finer.is_empty(), 0),
             &domains[finer.len()..],
+            0,
         )?;
         let mut component = Component {
             level,
@@ -140,7 +141,15 @@ impl Component {
             let plan = self.plan.on_level(!self.finer.is_empty(), done);
             let rho = self.plan.finer_rho(self.level.state.rho, &fine);
             let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
-            let (level, stop) = Level::new(fine, state, plan, &self.domains[self.finer.len()..])?;
+            // Levels take about as many iterations as the one before.
+            let next_climb = 2 * self.level.report().iterations / 3;
+            let (level, stop) = Level::new(
+                fine,
+                state,
+                plan,
+                &self.domains[self.finer.len()..],
+                next_climb,
+            )?;
             self.level = level;
             match stop {
                 Some(next) => reason = next,

@@ -1,4 +1,4 @@
-//! Sums that vectorise: the additions run in a fixed number of lanes, so that
+//! Sums, and changes of precision, that vectorise: the additions run in a fixed number of lanes, so that
 //! the result depends neither on the machine nor on its vector width.
 //!
 //! They take slices, not closures: a closure that is called in a loop and again
@@ -56,6 +56,23 @@ pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
     lanes.iter().map(|lane| f64::from(*lane)).sum()
 }
 
+/// `f32` from `f64`. These two are loops of their own: V8's optimising compiler (Node 20) gets some
+/// vectorised conversions within larger ones wrong.
+#[inline(never)]
+pub(crate) fn narrow(from: &[f64], to: &mut [f32]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from as f32;
+    }
+}
+
+/// `f64` from `f32`.
+#[inline(never)]
+pub(crate) fn widen(from: &[f32], to: &mut [f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = f64::from(*from);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,6 +88,21 @@ mod tests {
             assert_eq!(sum(&double), first as f64);
             assert_eq!(dot(&single, &twos), 2.0 * first as f64);
             assert_eq!(weighted_square(&single, &twos), 2.0 * second as f64);
+        }
+    }
+
+    #[test]
+    fn precision_changes_for_every_value() {
+        for n in [0usize, 1, 3, 4, 9, 31] {
+            let single: Vec<f32> = (0..n).map(|i| 0.1 * i as f32).collect();
+            let mut double = vec![f64::NAN; n];
+            widen(&single, &mut double);
+            assert!(double.iter().zip(&single).all(|(d, s)| *d == f64::from(*s)));
+            // Less than half of the last place away.
+            let nearby: Vec<f64> = double.iter().map(|d| d * (1.0 + 1e-9)).collect();
+            let mut back = vec![f32::NAN; n];
+            narrow(&nearby, &mut back);
+            assert_eq!(back, single);
         }
     }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Level {
     plan: Plan,
     cg: ConjugateGradients,
     ascent: Option<Ascent>,
+    /// The iteration from which on it is worth it again.
+    next_climb: usize,
     /// Conjugate-gradient iterations of the z-step under way, and of its current round.
     z_step: usize,
     round: usize,
@@ -94,12 +96,14 @@ impl Best {
 }
 
 impl Level {
-    /// Starts from `state`; a reason to stop at once comes with it.
+    /// Starts from `state`, and looks for better bounds from the iteration `next_climb` on; a reason
+    /// to stop at once comes with it.
     pub(crate) fn new(
         problem: Problem,
         mut state: State,
         plan: Plan,
         domains: &[Arc<Domain>],
+        next_climb: usize,
     ) -> Result<(Self, Option<StopReason>)> {
         let start = Instant::now();
         let mut cg = ConjugateGradients::new(&problem, domains, state.rho)?;
@@ -116,6 +120,7 @@ impl Level {
             first_energy: cg.energy(),
             cg,
             ascent: None,
+            next_climb,
             z_step: 0,
             round: 0,
             iteration: 0,
@@ -176,8 +181,8 @@ impl Level {
             {
                 return true;
             }
-            // Single precision carries a round only so far.
-            let goal = if tight { 1e-6 * self.first_energy } else { 0.0 };
+            let reduction = self.plan.cg_reduction(&self.problem, self.iteration);
+            let goal = reduction * self.first_energy;
             while self.z_step < limit && self.cg.energy() > goal {
                 if *left == 0 {
                     return false;
@@ -274,17 +279,19 @@ impl Level {
 
     /// Looks for a better bound with this iterate, if that is worth it.
     fn climb(&mut self) -> Result<()> {
-        if !self.plan.climbs(&self.problem, self.best.gap()) {
+        let worth = self.plan.climbs(&self.problem, self.best.gap());
+        let due = self.iteration >= self.next_climb || self.plan.is_last(self.iteration);
+        if !worth || !due {
             return Ok(());
         }
-        let (objective, bound) = (self.best.objective(), self.best.dual_bound);
-        let goal = self.plan.bound_wanted(objective);
+        let bound = self.best.dual_bound;
+        let goal = self.plan.bound_wanted(self.best.objective());
         let ascent = match &mut self.ascent {
             Some(ascent) => ascent,
             none => none.insert(Ascent::new(&self.problem)?),
         };
-        let marks = [bound, goal, objective];
-        self.best.dual_bound = ascent.climb(&mut self.state, &self.problem, marks);
+        self.best.dual_bound = ascent.climb(&mut self.state, &self.problem, bound, goal)?;
+        self.next_climb = self.plan.next_climb(self.iteration, self.best.gap());
         Ok(())
     }
 
@@ -297,6 +304,7 @@ impl Level {
         self.state.update(&self.problem, 0.0, &mut self.cg);
         self.first_energy = self.cg.energy();
         self.z_step = 0;
+        self.next_climb = 0;
         Ok(self.plan.stop(
             &self.problem,
             self.iteration,

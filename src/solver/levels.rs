@@ -135,6 +135,8 @@ impl Input {
 /// that are too small for the coarse lattice, it starts from the input.
 pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) -> Result<State> {
     let mut state = State::new(fine, rho)?;
+    // At the same ρ, `V` is linear in `Y` and `H`.
+    let v = from.v_at(coarse, rho)?;
     let active = |vertex| cell(&coarse.domain, vertex, Role::is_active);
     let interior = |vertex| cell(&coarse.domain, vertex, |role| role == Role::Interior);
     for i in fine.domain.active().cells() {
@@ -144,18 +146,15 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
             state.z[i] = 0.5 * (from.z[a] + from.z[b]);
         }
         if fine.domain.roles()[i] == Role::Interior {
-            let (mut dual, mut hessian, mut total) = (Sym2::default(), Sym2::default(), 0.0);
+            let (mut sum, mut total) = (Sym2::default(), 0.0);
             for (vertex, weight) in loop_weights(a, b) {
-                let Some(cell) = interior(vertex) else {
-                    continue;
-                };
-                let (y, h) = from.matrices(coarse, cell);
-                dual = dual + y.scale(weight);
-                hessian = hessian + h.scale(weight);
-                total += weight;
+                if let Some(cell) = interior(vertex) {
+                    sum = sum + v.get(cell).scale(weight);
+                    total += weight;
+                }
             }
             if total > 0.0 {
-                state.set_matrices(i, dual.scale(1.0 / total), hessian.scale(1.0 / total));
+                state.v.set(i, sum.scale(1.0 / total));
             }
         }
     }

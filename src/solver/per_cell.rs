@@ -1,6 +1,8 @@
 //! A number for each cell, which mostly is the same for all.
 
+use super::lanes::narrow;
 use crate::domain::{Domain, Run};
+use crate::error::{Result, try_filled};
 
 /// Kernels see a slice for each run either way; where all cells have the same
 /// value it is one row that stays in the cache.
@@ -32,5 +34,24 @@ impl<T: Copy> PerCell<T> {
             PerCell::Same(values) => values[0],
             PerCell::Each(values) => values[cell],
         }
+    }
+}
+
+impl PerCell<f64> {
+    /// Writes the values to `to`, in single precision.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn narrow_into(&self, domain: &Domain, to: &mut PerCell<f32>) -> Result<()> {
+        match (self, &mut *to) {
+            (PerCell::Each(from), PerCell::Each(to)) => narrow(from, to),
+            (PerCell::Each(from), PerCell::Same(_)) => {
+                let mut each = try_filled("weights", domain.cells(), 0.0)?;
+                narrow(from, &mut each);
+                *to = PerCell::Each(each);
+            }
+            (PerCell::Same(from), _) => *to = PerCell::same(domain, from[0] as f32),
+        }
+        Ok(())
     }
 }

@@ -44,36 +44,43 @@ const COARSEST: usize = 500;
 
 /// Relative residuals are balanced at primal = BALANCE · dual: the dual residual is
 /// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound
-/// least, since `ascent` takes them away. Over three λ on a scan, 0.15 took 460, 210 and 90
-/// iterations to a gap of 0.1 %, 0.08 400, 150 and 90, this 270, 160 and 100.
-const BALANCE: f64 = 0.05;
+/// least, since `ascent` takes them away. Over three λ on a scan, 0.15 took 530, 190 and 90
+/// iterations to a gap of 0.1 %, 0.05 290, 150 and 80, this 210, 150 and 90.
+const BALANCE: f64 = 0.025;
 
 /// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
-/// the former is less than this share of it: from 860, 2630, 540 and 600 iterations to a gap of 0.1 %
-/// over four inputs to 560, 1000, 320 and 340.
-const SMALL_SHARE: f64 = 0.1;
+/// the former is less than this share of it: without, one of four inputs takes a third more iterations.
+const SMALL_SHARE: f64 = 0.2;
 
 /// The same where vertices are free, and the dual residual is the change of the
 /// Hessians: fewest iterations over four sets of constraints; 1 took four times as many.
 const FREE_BALANCE: f64 = 10.0;
 
-/// Above this gap a second conjugate-gradient iteration per z-step pays: from 150, 60 and 30
-/// ADMM iterations over three λ to 80, 40 and 20. Below, it only doubles the work.
-const ROUGH: f64 = 0.01;
+/// Above this gap a second conjugate-gradient iteration per z-step pays: without, from 15, 15 and 15
+/// ADMM iterations over three λ to 25, 20 and 20. Below, it saves hardly more iterations than it costs.
+const ROUGH: f64 = 0.03;
 
-/// From one level to the next; 0.5 and 1 take as many iterations, 0.35 half as many again.
-const FINER: f64 = 0.7;
+/// It is not needed where the first one has come this close, by the residual's squares: a seventh of
+/// them all on a page of a million vertices.
+const CLOSE: f64 = 0.005;
+
+/// The squares of a residual that single precision carries on from, relative to its first.
+const SINGLE: f64 = 1e-6;
+
+/// From one level to the next: with 0.7 the finest takes 15, 15 and 20 iterations, with 0.35 15, 20
+/// and 15, with this 15 each.
+const FINER: f64 = 0.5;
 
 /// Longest screening length of the z-step, in sizes of the domain.
 const SCREENING: f64 = 0.1;
 
 /// The same in cells: its fourth power is the condition number. Longer ones move the surface
-/// faster and its bound more slowly: to a gap of 1 %, a noisy page of a million vertices takes 20
-/// iterations on its finest lattice at 10, 25 at 12 and 30 at 16; at λ = 1e5 8 takes half as many again.
+/// faster and its bound more slowly. 8 takes a third more iterations at λ = 1e5, or with a million
+/// vertices; up to 16 there is no difference.
 const CELLS: f64 = 10.0;
 
 /// Most of what a search for a better bound divides the gap by.
-const CLIMBABLE: f64 = 50.0;
+const CLIMBABLE: f64 = 100.0;
 
 /// Iterations without over-relaxation on a new lattice.
 const SETTLING: usize = 5;
@@ -177,6 +184,16 @@ impl Plan {
         }
     }
 
+    /// The squares of the residual at which a z-step, or a round of it, ends early, relative to its
+    /// first ones.
+    pub(crate) fn cg_reduction(&self, problem: &Problem, iteration: usize) -> f64 {
+        match self.schedule {
+            Schedule::Paper => SINGLE,
+            Schedule::Default if iteration == 0 || !problem.free.is_empty() => 0.0,
+            Schedule::Default => CLOSE,
+        }
+    }
+
     /// Whether [`Plan::stop`] and [`Plan::next_rho`] ask for the change of the Hessians.
     pub(crate) fn measures_change(&self, problem: &Problem) -> bool {
         self.schedule == Schedule::Paper || !problem.free.is_empty()
@@ -212,6 +229,12 @@ impl Plan {
             && gap < CLIMBABLE * self.gap
     }
 
+    /// When the search is worth it again that after so many iterations came to such a gap: gaps
+    /// hardly fall faster than with the square of the iterations.
+    pub(crate) fn next_climb(&self, iteration: usize, gap: f64) -> usize {
+        (iteration as f64 * (gap / self.gap).sqrt()) as usize
+    }
+
     /// The bound that would end the iterations.
     pub(crate) fn bound_wanted(&self, objective: f64) -> f64 {
         (1.0 - self.gap) * objective
@@ -229,7 +252,8 @@ impl Plan {
         self.schedule == Schedule::Paper || iteration >= last + last / 4
     }
 
-    fn is_last(&self, iteration: usize) -> bool {
+    /// Whether there may be no further iteration.
+    pub(crate) fn is_last(&self, iteration: usize) -> bool {
         iteration >= self.max_iterations
     }
 

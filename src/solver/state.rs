@@ -70,6 +70,36 @@ impl MatrixField {
         })
     }
 
+    pub(super) fn get(&self, cell: usize) -> Sym2 {
+        Sym2 {
+            mean: self.mean[cell],
+            diff: self.diff[cell],
+            off: self.off[cell],
+        }
+    }
+
+    pub(super) fn set(&mut self, cell: usize, value: Sym2) {
+        self.mean[cell] = value.mean;
+        self.diff[cell] = value.diff;
+        self.off[cell] = value.off;
+    }
+
+    /// From `V = Y + ρH` to `Y + factor · ρH`.
+    fn rescale(&mut self, problem: &Problem, law: impl Law, factor: f64) {
+        let domain = &problem.domain;
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let weight = problem.weight.run(domain, row, *run);
+                let mut v = self.run(*run);
+                for (i, weight) in weight.iter().enumerate() {
+                    let value = v.get(i);
+                    let dual = law.dual(value, *weight);
+                    v.set(i, dual + (value - dual).scale(factor));
+                }
+            }
+        }
+    }
+
     #[inline(always)]
     pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
         let n = run.end - run.start;
@@ -144,30 +174,27 @@ impl State {
 
     /// Changes ρ, leaving `H` and `Y` as they are.
     pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
-        let law = self.law(problem);
-        let factor = rho / self.rho;
+        self.v.rescale(problem, self.law(problem), rho / self.rho);
         self.rho = rho;
-        let domain = &problem.domain;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let weight = problem.weight.run(domain, row, *run);
-                let mut v = self.v.run(*run);
-                for (i, weight) in weight.iter().enumerate() {
-                    let value = v.get(i);
-                    let dual = law.dual(value, *weight);
-                    v.set(i, dual + (value - dual).scale(factor));
-                }
-            }
+    }
+
+    /// `V` of the same `H` and `Y` at another ρ.
+    pub(super) fn v_at(&self, problem: &Problem, rho: f64) -> Result<MatrixField> {
+        let mut v = MatrixField::new(problem)?;
+        for (to, from) in [
+            (&mut v.mean, &self.v.mean),
+            (&mut v.diff, &self.v.diff),
+            (&mut v.off, &self.v.off),
+        ] {
+            to.copy_from_slice(from);
         }
+        v.rescale(problem, self.law(problem), rho / self.rho);
+        Ok(v)
     }
 
     /// `Y` and `H` at an interior cell.
     pub(crate) fn matrices(&self, problem: &Problem, cell: usize) -> (Sym2, Sym2) {
-        let v = Sym2 {
-            mean: self.v.mean[cell],
-            diff: self.v.diff[cell],
-            off: self.v.off[cell],
-        };
+        let v = self.v.get(cell);
         let weight = problem.weight.at(cell);
         let dual = self.law(problem).dual(v, weight);
         (dual, (v - dual).scale(1.0 / self.rho))
@@ -175,10 +202,7 @@ impl State {
 
     /// Sets both at an interior cell.
     pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
-        let v = dual + hessian.scale(self.rho);
-        self.v.mean[cell] = v.mean;
-        self.v.diff[cell] = v.diff;
-        self.v.off[cell] = v.off;
+        self.v.set(cell, dual + hessian.scale(self.rho));
     }
 
     /// H-step and dual update with the given over-relaxation, then the residual

@@ -15,7 +15,7 @@ import { run } from '../util/process.mjs';
  * is the most bytes that a server may have to send, gzipped.
  */
 const files = [
-  { name: 'solver', feature: 'js-solver', limit: 160_000 },
+  { name: 'solver', feature: 'js-solver', limit: 165_000 },
   { name: 'files', feature: 'js-files', limit: 250_000 },
   { name: 'images', feature: 'js-images', limit: 560_000 },
   { name: 'meshes', feature: 'meshes', limit: 285_000 },

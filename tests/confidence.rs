@@ -71,6 +71,30 @@ fn the_same_weight_everywhere_is_a_factor_of_lambda() {
     }
 }
 
+/// One over such a weight, or its product with a square, is infinite: nothing may be certified from it.
+#[test]
+fn weights_of_next_to_nothing_certify_nothing_false() {
+    let field = noisy(&unit_square(80, bumps), 0.02, 7);
+    let options = Options::default().lambda(1e5).gap(1e-3);
+    let optimum = fit(&field, &options).unwrap().report().objective;
+    for weight in [1e-300, 1e-310] {
+        let mut confidence = vec![1.0; field.lattice().len()];
+        for weak in confidence.iter_mut().step_by(7) {
+            *weak = weight;
+        }
+        let input = Input::new(field.clone())
+            .with_confidence(confidence)
+            .unwrap();
+        let surface = fit(input, &options.max_iterations(200)).unwrap();
+        let report = surface.report();
+        // With less to be true to, the optimum is lower.
+        assert!(report.dual_bound <= optimum, "{report:?}");
+        assert!(report.dual_bound <= report.objective, "{report:?}");
+        let gap = 1.0 - report.dual_bound / report.objective;
+        assert!((report.gap - gap).abs() < 1e-9, "{report:?}");
+    }
+}
+
 #[test]
 fn where_nothing_is_trusted_the_surface_goes_on_from_around() {
     let truth = unit_square(60, |x, y| (1.0 - (0.8 * x + 0.6 * y - 0.7).powi(2)).sqrt());

@@ -23,8 +23,9 @@ pub(crate) struct Level {
     plan: Plan,
     cg: ConjugateGradients,
     ascent: Option<Ascent>,
-    /// The iteration from which on it is worth it again.
+    /// The iteration from which on it is worth it again, and the first one of this pass.
     next_climb: usize,
+    pass_start: usize,
     /// Conjugate-gradient iterations of the z-step under way, and of its current round.
     z_step: usize,
     round: usize,
@@ -121,6 +122,7 @@ impl Level {
             cg,
             ascent: None,
             next_climb,
+            pass_start: 0,
             z_step: 0,
             round: 0,
             iteration: 0,
@@ -281,6 +283,8 @@ impl Level {
     fn climb(&mut self) -> Result<()> {
         let worth = self.plan.climbs(&self.problem, self.best.gap());
         let due = self.iteration >= self.next_climb || self.plan.is_last(self.iteration);
+        // Of another energy at each check, no bound is kept.
+        let due = due || self.plan.follows_normals;
         if !worth || !due {
             return Ok(());
         }
@@ -291,7 +295,8 @@ impl Level {
             none => none.insert(Ascent::new(&self.problem)?),
         };
         self.best.dual_bound = ascent.climb(&mut self.state, &self.problem, bound, goal)?;
-        self.next_climb = self.plan.next_climb(self.iteration, self.best.gap());
+        let iterations = self.iteration - self.pass_start;
+        self.next_climb = self.pass_start + self.plan.next_climb(iterations, self.best.gap());
         Ok(())
     }
 
@@ -304,7 +309,8 @@ impl Level {
         self.state.update(&self.problem, 0.0, &mut self.cg);
         self.first_energy = self.cg.energy();
         self.z_step = 0;
-        self.next_climb = 0;
+        self.pass_start = self.iteration;
+        self.next_climb = self.iteration;
         Ok(self.plan.stop(
             &self.problem,
             self.iteration,

@@ -401,7 +401,8 @@ impl State {
 }
 
 /// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
-/// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic.
+/// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where they overflow,
+/// as for a confidence of 1e-300, what is left is `t = 0`.
 pub(super) fn dual_bound(
     problem: &Problem,
     inner: f64,
@@ -410,7 +411,9 @@ pub(super) fn dual_bound(
     largest: f64,
 ) -> f64 {
     let square = quadratic / (4.0 * problem.lambda) + conjugate;
-    if square > 0.0 {
+    if !(square.is_finite() && inner.is_finite()) {
+        0.0
+    } else if square > 0.0 {
         let t = (inner / (2.0 * square)).clamp(0.0, largest);
         t * inner - t * t * square
     } else if largest < f64::INFINITY {

@@ -117,6 +117,7 @@ test('progress comes several times a second, and at the end', async () => {
   /** @type {{ at: number, progress: developable.Progress }[]} */
   const told = [];
   const { input, options } = endless();
+  const start = performance.now();
   const surface = await developable.fit(input, {
     ...options,
     maxIterations: 400,
@@ -128,9 +129,10 @@ test('progress comes several times a second, and at the end', async () => {
   for (let i = 1; i < told.length; i += 1) {
     assert.ok(told[i].progress.cgIterations >= told[i - 1].progress.cgIterations);
   }
-  // All but the last are spaced; timers are not exact.
-  const spaces = told.slice(1, -1).map(({ at }, i) => at - told[i].at);
-  assert.ok(spaces.every((space) => space > 40), String(spaces));
+  // All but the last are spaced. A busy machine may deliver one late, and the next at once; none comes
+  // early, but for timers, which are not exact.
+  const times = told.slice(0, -1).map(({ at }) => at - start);
+  assert.ok(times.length > 1 && times.every((time, i) => time > 40 * i), String(times));
 });
 
 test('an error in onProgress ends the solve and comes out', async () => {

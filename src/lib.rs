@@ -34,9 +34,9 @@
 //!
 //! [`HeightImage`] (square pixels) → [`HeightImage::to_lattice`] → [`Heightfield`] (on a
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
-//! [`Heightfield::to_image`], or [`formats`] and [`meshes`] for files; [`analysis`], [`patches`] and
+//! [`Heightfield::to_image`], or [`files`]; [`analysis`], [`patches`] and
 //! [`rulings`] for what it is like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
-//! laid flat, and [`pattern`], [`drawing`] and [`patterns`] for sheets to cut out and fold.
+//! laid flat, and [`pattern`] and [`drawing`] for sheets to cut out and fold.
 //!
 //! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
 //! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a
@@ -72,65 +72,41 @@
 
 #![warn(missing_docs)]
 
-pub mod analysis;
-#[cfg(any(feature = "formats", feature = "meshes", feature = "patterns"))]
-mod buffer;
-mod camera;
-pub mod dewarp;
-mod domain;
-pub mod drawing;
 mod error;
 mod examples;
-#[cfg(feature = "formats")]
-pub mod formats;
-mod heightfield;
-mod hessian;
-mod input;
+pub mod files;
+mod fit;
+mod flat;
+mod heights;
 mod lattice;
-mod mesh;
-#[cfg(feature = "meshes")]
-pub mod meshes;
-mod occlusions;
-pub mod patches;
-pub mod pattern;
-#[cfg(feature = "patterns")]
-pub mod patterns;
-mod real;
-mod resample;
-mod restore;
-pub mod rulings;
-mod sampling;
-mod solver;
-mod spectral;
-mod splats;
-mod stencil;
-mod surface;
-mod triangulation;
-pub mod unroll;
-mod view;
+mod math;
+mod scene;
+mod shape;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
-pub use camera::{Depth, Intrinsics};
-pub use domain::{Domain, Role};
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
-pub use heightfield::{HeightImage, Heightfield};
-pub use hessian::HessianOperator;
-pub use input::Input;
-pub use lattice::Lattice;
-pub use mesh::Mesh;
-pub use occlusions::{OCCLUSION_THRESHOLD, Occlusions};
-pub use sampling::{Hit, Resolution, Samples, sample};
-pub use solver::{
-    Energy, Lambda, LevelReport, Normalization, Options, Progress, Report, Schedule, Seconds,
-    Solver, Status, StopReason, fit, fit_with,
-};
-pub use spectral::Sym2;
-pub use stencil::Quadratic;
-pub use surface::Surface;
-pub use triangulation::Triangulation;
-pub use view::{Frame, View};
+pub use fit::input::Input;
+pub use fit::options::{Energy, Lambda, Options, Schedule};
+pub use fit::report::{LevelReport, Progress, Report, Seconds, StopReason};
+pub use fit::solver::{Solver, Status, fit, fit_with};
+pub use fit::surface::Surface;
+pub use flat::{dewarp, drawing, pattern, unroll};
+pub use heights::heightfield::{HeightImage, Heightfield};
+pub use heights::normalization::Normalization;
+pub use heights::occlusions::{OCCLUSION_THRESHOLD, Occlusions};
+pub use lattice::domain::{Domain, Role};
+pub use lattice::hessian::HessianOperator;
+pub use lattice::hexagonal::Lattice;
+pub use lattice::stencil::Quadratic;
+pub use math::sym2::Sym2;
+pub use scene::camera::{Depth, Intrinsics};
+pub use scene::mesh::Mesh;
+pub use scene::sampling::{Hit, Resolution, Samples, sample};
+pub use scene::triangulation::Triangulation;
+pub use scene::view::{Frame, View};
+pub use shape::{analysis, patches, rulings};
 
 /// The README's example.
 #[cfg(doctest)]

@@ -181,7 +181,7 @@ fn degenerate_clouds() {
 
 #[cfg(feature = "meshes")]
 mod files {
-    use developable::meshes::{read_mesh, write_ply};
+    use developable::files::meshes::{read_mesh, write_ply};
 
     #[test]
     fn files_without_faces_are_clouds() {

@@ -7,9 +7,9 @@ mod common;
 use common::unit_square;
 use developable::Heightfield;
 use developable::drawing::{Drawing, DrawingOptions, LabelKind, Pages, Paper};
+use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, Sheet, pattern};
-use developable::patterns::{write_dxf, write_pdf, write_svg};
 
 fn sheets(surface: &Heightfield) -> Vec<Sheet> {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();

@@ -2,9 +2,10 @@
 #![cfg(all(feature = "formats", not(target_arch = "wasm32")))]
 
 use developable::dewarp::Photo;
-use developable::formats::{
-    Decoded, Format, decode, decode_photo, write_npy, write_obj, write_photo, write_png,
+use developable::files::images::{
+    Decoded, Format, decode, decode_photo, write_npy, write_photo, write_png,
 };
+use developable::files::wavefront::write_obj;
 use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Height and depth images: those of other programs, exact round trips, damage.
 #![cfg(all(feature = "images", not(target_arch = "wasm32")))]
 
-use developable::formats::{
+use developable::files::images::{
     Decoded, Format, Unit, decode, decode_npz, decode_photo, npz_arrays, write_exr, write_tiff,
 };
 use developable::{Error, HeightImage};

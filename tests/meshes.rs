@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use developable::meshes::{MeshFormat, read_mesh};
+use developable::files::meshes::{MeshFormat, read_mesh};
 use developable::{Error, Mesh};
 
 const FILES: [&str; 15] = [

@@ -1,8 +1,8 @@
 //! Surfaces as files of meshes, taken apart by hand: every number against the lattice's definition.
 #![cfg(all(feature = "formats", feature = "meshes", not(target_arch = "wasm32")))]
 
-use developable::formats::write_obj_mesh;
-use developable::meshes::{read_mesh, write_glb, write_ply, write_stl};
+use developable::files::meshes::{read_mesh, write_glb, write_ply, write_stl};
+use developable::files::wavefront::write_obj_mesh;
 use developable::{Frame, Heightfield, Lattice, Mesh, Result, Triangulation};
 use serde_json::Value;
 

@@ -2,8 +2,8 @@
 #![cfg(all(feature = "formats", feature = "meshes", not(target_arch = "wasm32")))]
 
 use developable::dewarp::{Extent, Photo, paint};
-use developable::formats::decode_photo;
-use developable::meshes::{MeshFile, read_mesh, read_mesh_beside, write_glb};
+use developable::files::images::decode_photo;
+use developable::files::meshes::{MeshFile, read_mesh, read_mesh_beside, write_glb};
 use developable::{HeightImage, Mesh, Resolution, Samples, View, sample};
 
 fn file(name: &str) -> Vec<u8> {

@@ -3,10 +3,10 @@
 
 pub use libfuzzer_sys::fuzz_target;
 
-pub use developable::formats::Format;
-use developable::formats::{decode, decode_npz, decode_photo, npz_arrays};
-pub use developable::meshes::MeshFormat;
-use developable::meshes::read_mesh_beside;
+pub use developable::files::images::Format;
+use developable::files::images::{decode, decode_npz, decode_photo, npz_arrays};
+pub use developable::files::meshes::MeshFormat;
+use developable::files::meshes::read_mesh_beside;
 use developable::{Resolution, View, sample};
 
 /// The fuzz target of a format of height images.

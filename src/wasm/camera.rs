@@ -7,8 +7,8 @@ use super::fields::{ImageInput, values};
 use super::meshes::mesh_output;
 use super::options::{entries, option, unknown};
 use super::{Failure, Result};
-use crate::camera::{Depth, Intrinsics};
 use crate::error::Error;
+use crate::{Depth, Intrinsics};
 
 /// What a depth camera has seen, as a mesh.
 #[wasm_bindgen(js_name = backProject)]

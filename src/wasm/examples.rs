@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use super::Result;
 use super::options::{entries, option, unknown};
 use super::results::ImageOutput;
-use crate::examples::{Example, ExampleOptions};
+use crate::{Example, ExampleOptions};
 
 /// `Example` of `types.d.ts`.
 #[derive(Serialize)]

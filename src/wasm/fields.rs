@@ -6,24 +6,24 @@ use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use crate::HeightImage;
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-patterns",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
+use crate::Heightfield;
+#[cfg(any(
+    feature = "js-files",
+    feature = "js-patterns",
+    feature = "js-solver",
+    feature = "js-unroll",
+    feature = "meshes"
+))]
+use crate::Lattice;
 use crate::error::{Error, check_shape, try_filled};
-use crate::heightfield::HeightImage;
-#[cfg(any(
-    feature = "js-files",
-    feature = "js-patterns",
-    feature = "js-solver",
-    feature = "js-unroll",
-    feature = "meshes"
-))]
-use crate::heightfield::Heightfield;
-#[cfg(any(
-    feature = "js-files",
-    feature = "js-patterns",
-    feature = "js-solver",
-    feature = "js-unroll",
-    feature = "meshes"
-))]
-use crate::lattice::Lattice;
 
 /// `HeightImage` of `types.d.ts`, without what only a solve wants to know.
 #[derive(Deserialize)]

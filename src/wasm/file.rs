@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::*;
 
 use super::options::{entries, option, unknown};
 use super::{Failure, Result};
-use crate::formats::{Decoded, FORMAT_NAMES, Format, PhotoFile};
+use crate::files::images::{Decoded, FORMAT_NAMES, Format, PhotoFile};
 
 /// `ReadOptions` of `types.d.ts`.
 #[derive(Default)]

@@ -14,9 +14,8 @@ use super::photo::{Pixels, extent_from};
 use super::triangulation::mesh_of;
 use crate::dewarp::{self, Extent, Photo};
 use crate::error::check_count;
-use crate::formats::{
-    decode, decode_photo, write_mtl, write_npy, write_obj_textured, write_photo, write_png,
-};
+use crate::files::images::{decode, decode_photo, write_npy, write_photo, write_png};
+use crate::files::wavefront::{write_mtl, write_obj_textured};
 
 /// Decodes a PNG or NPY file.
 #[wasm_bindgen]

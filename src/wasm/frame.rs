@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::view::Frame;
+use crate::Frame;
 
 /// `Frame` of `types.d.ts`.
 #[derive(Clone, Copy, Serialize, Deserialize)]

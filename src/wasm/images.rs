@@ -9,7 +9,7 @@ use super::Result;
 use super::bytes::copied;
 use super::fields::ImageInput;
 use super::file::{ReadOptions, output, photo_output};
-use crate::formats::{
+use crate::files::images::{
     Format, announced, decode_image, decode_image_photo, decode_npz, npz_arrays, write_exr,
     write_tiff,
 };

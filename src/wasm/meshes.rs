@@ -10,11 +10,11 @@ use super::arrays::{filled, groups};
 use super::bytes::copied;
 use super::frame::FrameFields;
 use super::options::{entries, option, unknown};
+use crate::Mesh;
+use crate::View;
 use crate::error::{Error, try_filled};
-use crate::mesh::Mesh;
-use crate::meshes::{MeshFormat, read_mesh_beside};
-use crate::sampling::{Resolution, sample};
-use crate::view::View;
+use crate::files::meshes::{MeshFormat, read_mesh_beside};
+use crate::{Resolution, sample};
 
 /// `Mesh` of `types.d.ts`, on its way in; checked by `input.js` to have arrays of these types.
 #[derive(Deserialize)]

@@ -8,7 +8,7 @@ use super::results::OcclusionsOutput;
 use super::settings::Settings;
 use super::source::Source;
 use crate::error::Error;
-use crate::occlusions::{OCCLUSION_THRESHOLD, Occlusions};
+use crate::{OCCLUSION_THRESHOLD, Occlusions};
 
 /// The occlusions in an image's heights, resampled to the lattice.
 #[wasm_bindgen(js_name = occlusionsOfImage)]

@@ -8,9 +8,9 @@ use super::options::{entries, option, unknown};
 use super::scene::{Scene, Settings, check_spacing, is_image};
 use super::{Failure, Result};
 use crate::drawing::{Drawing, DrawingOptions, Paper};
+use crate::files::drawings::{write_dxf, write_pdf, write_svg};
 use crate::patches::{PatchOptions, Patches};
 use crate::pattern::{PatternOptions, pattern};
-use crate::patterns::{write_dxf, write_pdf, write_svg};
 
 /// The drawing of a surface's pattern.
 #[wasm_bindgen(js_name = pattern)]

@@ -4,8 +4,8 @@ use js_sys::{Float64Array, Uint8Array};
 use serde::{Serialize, Serializer};
 use serde_wasm_bindgen::preserve;
 
-use crate::heightfield::HeightImage;
-use crate::solver::Report;
+use crate::HeightImage;
+use crate::Report;
 
 /// `Surface` of `types.d.ts`.
 #[derive(Serialize)]

@@ -7,9 +7,9 @@ use wasm_bindgen::prelude::*;
 use super::Result;
 use super::fields::{ImageInput, LatticeInput};
 use super::options::option;
+use crate::Heightfield;
 use crate::dewarp::Extent;
 use crate::error::Error;
-use crate::heightfield::Heightfield;
 use crate::unroll::UnrollOptions;
 
 /// Heights to be looked at, and what a photo of them shows.

@@ -4,7 +4,7 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use super::options::{entries, option, unknown};
-use crate::solver::{Energy, Lambda, Normalization, Options, Schedule};
+use crate::{Energy, Lambda, Normalization, Options, Schedule};
 
 /// `SolverOptions` of `types.d.ts`; the last two are none of the solver's.
 #[derive(Clone, Copy)]

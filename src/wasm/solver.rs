@@ -7,7 +7,7 @@ use super::Result;
 use super::results::{ImageOutput, SurfaceOutput};
 use super::settings::Settings;
 use super::source::Source;
-use crate::solver::Status;
+use crate::Status;
 
 /// A solver and what it is about, for other options and for the way back to an image.
 #[wasm_bindgen]

@@ -8,10 +8,11 @@ use wasm_bindgen::prelude::*;
 use super::fields::{ImageInput, LatticeInput, bytes, values};
 use super::settings::Settings;
 use super::{Failure, Result};
+use crate::Input;
+use crate::Occlusions;
 use crate::error::try_filled;
-use crate::heightfield::{HeightImage, Heightfield};
-use crate::input::{Input, check_confidence};
-use crate::occlusions::Occlusions;
+use crate::fit::input::check_confidence;
+use crate::{HeightImage, Heightfield};
 
 /// What may be known besides the heights: the rest of `HeightImage` and
 /// `Heightfield` of `types.d.ts`.

@@ -8,7 +8,7 @@ use super::bytes::copied;
 use super::options::{entries, unknown};
 use super::triangulation::mesh_of;
 use crate::error::Error;
-use crate::meshes::{write_glb, write_ply, write_stl};
+use crate::files::meshes::{write_glb, write_ply, write_stl};
 
 /// PLY file of lattice heights, in the axes of their frame.
 #[wasm_bindgen(js_name = writePly)]

@@ -8,8 +8,8 @@ use super::Result;
 use super::arrays::groups;
 use super::fields::LatticeInput;
 use super::frame::FrameFields;
-use crate::mesh::Mesh;
-use crate::triangulation::Triangulation;
+use crate::Mesh;
+use crate::Triangulation;
 
 /// What a `Heightfield` of `types.d.ts` may have for its mesh.
 #[derive(Deserialize)]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use developable::formats::{Decoded, decode};
+use developable::files::images::{Decoded, decode};
 
 pub fn file(name: &str) -> Vec<u8> {
     let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests", "data", name]

@@ -1,0 +1,118 @@
+//! Patterns in files: SVG, PDF and DXF of a [`Drawing`], in true size.
+//!
+//! | | cut | mountain fold | valley fold | fold of a tab | text |
+//! |---|---|---|---|---|---|
+//! | SVG and PDF | black | red, dash-dot | blue, dashed | as folds, thin | grey |
+//! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `label` |
+//! | layers of DXF | `CUT` | `MOUNTAIN` | `VALLEY` | `TAB` | `LABEL` |
+//!
+//! ```
+//! use developable::drawing::{Drawing, DrawingOptions};
+//! use developable::files::drawings::write_svg;
+//! # use developable::patches::{PatchOptions, Patches};
+//! # use developable::pattern::{PatternOptions, pattern};
+//! # use developable::{Heightfield, Lattice};
+//! # fn main() -> developable::Result<()> {
+//! # let card = Heightfield::from_fn(Lattice::new(40, 40, 2.5)?, |x, _| -0.5 * (x - 52.0).abs())?;
+//! # let patches = Patches::new(&card, &PatchOptions::default())?;
+//! # let sheets = pattern(&card, &patches, &PatternOptions::default())?;
+//! let drawing = Drawing::new(&sheets, &DrawingOptions::default())?;
+//! let file = write_svg(&drawing)?;
+//! assert!(String::from_utf8_lossy(&file).contains("id=\"mountain\""));
+//! # Ok(())
+//! # }
+//! ```
+
+mod dxf;
+mod pdf;
+mod svg;
+
+use crate::flat::drawing::{Drawing, DrawnSheet, Line};
+use crate::flat::pattern::Direction;
+pub use dxf::write_dxf;
+pub use pdf::write_pdf;
+pub use svg::write_svg;
+
+/// What a line is for, in the order in which they are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Mountain,
+    Valley,
+    Tab,
+    Cut,
+}
+
+impl Kind {
+    const ALL: [Kind; 4] = [Kind::Mountain, Kind::Valley, Kind::Tab, Kind::Cut];
+
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Mountain => "mountain",
+            Kind::Valley => "valley",
+            Kind::Tab => "tab",
+            Kind::Cut => "cut",
+        }
+    }
+
+    fn of(direction: Direction) -> Kind {
+        match direction {
+            Direction::Mountain => Kind::Mountain,
+            Direction::Valley => Kind::Valley,
+        }
+    }
+
+    /// Red, green and blue.
+    fn color(self) -> [u8; 3] {
+        match self {
+            Kind::Mountain => [200, 0, 0],
+            Kind::Valley => [0, 60, 200],
+            Kind::Tab | Kind::Cut => [0, 0, 0],
+        }
+    }
+
+    /// Lengths of dashes and gaps, in millimetres.
+    fn dashes(self) -> &'static [f32] {
+        match self {
+            Kind::Mountain => &[4.0, 1.2, 0.6, 1.2],
+            Kind::Valley => &[2.5, 1.5],
+            Kind::Tab => &[1.0, 1.0],
+            Kind::Cut => &[],
+        }
+    }
+
+    /// The lines of this kind on a sheet, and whether they are closed.
+    fn lines(self, sheet: &DrawnSheet) -> (Vec<&[[f64; 2]]>, bool) {
+        let course = |line: &'_ &Line| Kind::of(line.direction) == self;
+        match self {
+            Kind::Cut => (sheet.cuts.iter().map(Vec::as_slice).collect(), true),
+            Kind::Tab => (sheet.tabs.iter().map(|l| &l.points[..]).collect(), false),
+            _ => {
+                let own = sheet.folds.iter().filter(course);
+                (own.map(|line| &line.points[..]).collect(), false)
+            }
+        }
+    }
+}
+
+/// Width of all lines, in millimetres.
+const WIDTH: f64 = 0.2;
+
+/// Grey of all text, of 255.
+const GREY: u8 = 90;
+
+/// From the middle of a line of text down to where its letters stand, in sizes of the font.
+const DROP: f64 = 0.35;
+
+/// A line's points, and whether it is closed.
+type Drawn<'a> = (&'a [[f64; 2]], bool);
+
+/// Of each kind the lines, sheet by sheet.
+fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
+    Kind::ALL.into_iter().map(|kind| {
+        let lines = drawing.sheets.iter().flat_map(move |sheet| {
+            let (lines, closed) = kind.lines(sheet);
+            lines.into_iter().map(move |points| (points, closed))
+        });
+        (kind, lines.collect())
+    })
+}

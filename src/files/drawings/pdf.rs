@@ -1,0 +1,191 @@
+//! Portable Document Format: one page of the drawing's size, or pages of paper to be put together.
+
+use pdf_writer::types::LineJoinStyle;
+use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
+
+use super::{DROP, GREY, WIDTH, layers};
+use crate::error::{Error, Result};
+use crate::flat::drawing::{Drawing, Label, Pages, Paper};
+
+/// Points in a millimetre.
+const POINTS: f64 = 72.0 / 25.4;
+
+/// Largest side of a page, in points.
+const LARGEST: f64 = 14_400.0;
+
+/// Length of each arm of a registration mark, in millimetres.
+const ARM: f64 = 4.0;
+
+const FONT: Name = Name(b"F");
+const DRAWING: Name = Name(b"D");
+
+/// A PDF file of a drawing in true size, on one page as large as it is or on pages of paper
+/// ([`Pages`]), each with its name, and with crosses where it is laid on its neighbours. To be
+/// printed at 100 %.
+///
+/// # Errors
+/// [`Error::Unsupported`] for a drawing that is not finite, one of more than
+/// [`MAX_PAGES`](crate::flat::drawing::MAX_PAGES) pages, or one of more than 5.08 m, the format's limit,
+/// without a paper.
+pub fn write_pdf(drawing: &Drawing, paper: Option<Paper>) -> Result<Vec<u8>> {
+    drawing.check()?;
+    // Numbers of the objects: the first pages and their contents come after these.
+    let [catalog, tree, font, form, info] = [1, 2, 3, 4, 5].map(Ref::new);
+    let page = |i: usize| Ref::new(6 + 2 * i as i32);
+    let content = |i: usize| Ref::new(7 + 2 * i as i32);
+    let sheets = match paper {
+        Some(paper) => spread(drawing, paper)?,
+        None => vec![whole(drawing)?],
+    };
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(tree);
+    pdf.document_info(info).title(TextStr("Pattern"));
+    let ids = (0..sheets.len()).map(page);
+    pdf.pages(tree).kids(ids).count(sheets.len() as i32);
+    pdf.type1_font(font)
+        .base_font(Name(b"Helvetica"))
+        .encoding_predefined(Name(b"WinAnsiEncoding"));
+    let figure = figure(drawing);
+    let mut object = pdf.form_xobject(form, &figure);
+    object.bbox(rect([drawing.width, drawing.height]));
+    object.resources().fonts().pair(FONT, font);
+    object.finish();
+    for (i, (size, marks)) in sheets.into_iter().enumerate() {
+        let mut entry = pdf.page(page(i));
+        entry
+            .parent(tree)
+            .media_box(rect(size))
+            .contents(content(i));
+        let mut resources = entry.resources();
+        resources.fonts().pair(FONT, font);
+        resources.x_objects().pair(DRAWING, form);
+        resources.finish();
+        entry.finish();
+        pdf.stream(content(i), &marks);
+    }
+    Ok(pdf.finish())
+}
+
+/// The size of a page in millimetres, and what is on it.
+type Sheet = ([f64; 2], Vec<u8>);
+
+fn whole(drawing: &Drawing) -> Result<Sheet> {
+    let size = [drawing.width, drawing.height];
+    if size.iter().any(|side| side * POINTS > LARGEST) {
+        return Err(Error::Unsupported {
+            format: "PDF",
+            reason: "a page has at most 5.08 metres; choose a smaller scale, or a paper".into(),
+        });
+    }
+    let mut page = Content::new();
+    page.x_object(DRAWING);
+    Ok((size, page.finish().into_vec()))
+}
+
+fn spread(drawing: &Drawing, paper: Paper) -> Result<Vec<Sheet>> {
+    let pages = Pages::new(drawing, paper)?;
+    let [width, height] = pages.part;
+    let sheet = |page: &crate::flat::drawing::Page| {
+        let [x, y] = page.corner;
+        let mut out = Content::new();
+        let shift = [pages.blank - x, pages.blank - y];
+        out.save_state();
+        let [left, low, right, up] = [pages.blank, pages.blank, width, height].map(points);
+        out.rect(left, low, right, up).clip_nonzero().end_path();
+        out.transform([1.0, 0.0, 0.0, 1.0, points(shift[0]), points(shift[1])]);
+        out.x_object(DRAWING).restore_state();
+        grey(&mut out);
+        out.set_line_width(points(0.5 * WIDTH));
+        for [mx, my] in &pages.marks {
+            let inside = (x..=x + width).contains(mx) && (y..=y + height).contains(my);
+            if inside {
+                let [mx, my] = [mx + shift[0], my + shift[1]];
+                for [dx, dy] in [[ARM, 0.0], [0.0, ARM]] {
+                    out.move_to(points(mx - dx), points(my - dy));
+                    out.line_to(points(mx + dx), points(my + dy)).stroke();
+                }
+            }
+        }
+        let name = Label::note(&page.name, [0.5 * pages.paper[0], 0.5 * pages.blank]);
+        text(&mut out, &name);
+        (pages.paper, out.finish().into_vec())
+    };
+    Ok(pages.pages.iter().map(sheet).collect())
+}
+
+/// The drawing itself, which the pages show parts of.
+fn figure(drawing: &Drawing) -> Vec<u8> {
+    let mut out = Content::new();
+    out.set_line_width(points(WIDTH))
+        .set_line_join(LineJoinStyle::RoundJoin);
+    for (kind, lines) in layers(drawing) {
+        let [r, g, b] = kind.color().map(|v| f32::from(v) / 255.0);
+        out.set_stroke_rgb(r, g, b);
+        let dashes = kind.dashes().iter().map(|d| d * POINTS as f32);
+        out.set_dash_pattern(dashes, 0.0);
+        for (line, closed) in lines {
+            for (i, [x, y]) in line.iter().enumerate() {
+                match i {
+                    0 => out.move_to(points(*x), points(*y)),
+                    _ => out.line_to(points(*x), points(*y)),
+                };
+            }
+            match closed {
+                true => out.close_and_stroke(),
+                false => out.stroke(),
+            };
+        }
+    }
+    grey(&mut out);
+    for label in drawing.sheets.iter().flat_map(|sheet| &sheet.labels) {
+        text(&mut out, label);
+    }
+    out.finish().into_vec()
+}
+
+fn grey(out: &mut Content) {
+    let grey = f32::from(GREY) / 255.0;
+    out.set_fill_gray(grey).set_stroke_gray(grey);
+}
+
+fn text(out: &mut Content, label: &Label) {
+    // In Windows' encoding; what it lacks is not written here.
+    let bytes: Vec<u8> = (label.text.chars())
+        .map(|c| u8::try_from(c).unwrap_or(b'?'))
+        .collect();
+    // A letter of Helvetica is about half as wide as the font is large.
+    let half = 0.5 * label.size * bytes.iter().map(|c| width(*c)).sum::<f64>();
+    let (sin, cos) = label.turn.to_radians().sin_cos();
+    let (x, y) = (-half, -DROP * label.size);
+    let start = [
+        label.place[0] + cos * x - sin * y,
+        label.place[1] + sin * x + cos * y,
+    ];
+    let [c, s] = [cos as f32, sin as f32];
+    out.begin_text().set_font(FONT, points(label.size));
+    out.set_text_matrix([c, s, -s, c, points(start[0]), points(start[1])]);
+    out.show(Str(&bytes)).end_text();
+}
+
+/// Width of a character of Helvetica, in sizes of the font: of those that labels are made of.
+fn width(character: u8) -> f64 {
+    match character {
+        b'i' | b'j' | b'l' => 0.222,
+        b' ' | b'f' | b't' | b'I' => 0.278,
+        b'r' => 0.333,
+        0xb0 => 0.4,
+        b'c' | b'k' | b's' | b'v' | b'x' | b'y' | b'z' => 0.5,
+        b'w' => 0.722,
+        b'm' => 0.833,
+        b'A'..=b'Z' => 0.667,
+        _ => 0.556,
+    }
+}
+
+fn rect([width, height]: [f64; 2]) -> Rect {
+    Rect::new(0.0, 0.0, points(width), points(height))
+}
+
+fn points(millimetres: f64) -> f32 {
+    (millimetres * POINTS) as f32
+}

@@ -1,0 +1,129 @@
+//! Scalable Vector Graphics: a layer for each kind of line.
+
+use std::fmt::Write as _;
+
+use ::svg::node::element::{Group, Path, Text, Title};
+use ::svg::{Document, Node};
+
+use super::{DROP, GREY, Kind, WIDTH};
+use crate::error::Result;
+use crate::flat::drawing::{Drawing, LabelKind};
+
+/// An SVG file of a drawing: its unit is the millimetre, its layers are groups with the ids `cut`,
+/// `mountain`, `valley`, `tab` and `label`, and what belongs to a sheet has its number as
+/// `data-sheet`, what belongs to a crease the crease's as `data-crease`.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite or larger
+/// than [`MAX_SIZE`](crate::flat::drawing::MAX_SIZE).
+pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
+    drawing.check()?;
+    let (width, height) = (number(drawing.width), number(drawing.height));
+    let mut document = Document::new()
+        .set("width", format!("{width}mm"))
+        .set("height", format!("{height}mm"))
+        .set("viewBox", format!("0 0 {width} {height}"))
+        .set(
+            "xmlns:inkscape",
+            "http://www.inkscape.org/namespaces/inkscape",
+        )
+        .add(Title::new("Pattern"));
+    // Rows count down in SVG.
+    let place = |[x, y]: [f64; 2]| [number(x), number(drawing.height - y)];
+    for kind in Kind::ALL {
+        let mut layer = layer(kind.name())
+            .set("fill", "none")
+            .set("stroke", rgb(kind.color()))
+            .set("stroke-width", WIDTH);
+        if !kind.dashes().is_empty() {
+            let dashes: Vec<String> = kind.dashes().iter().map(f32::to_string).collect();
+            layer = layer.set("stroke-dasharray", dashes.join(" "));
+        }
+        for (number, sheet) in drawing.sheets.iter().enumerate() {
+            let path = |points: &[[f64; 2]], closed: bool| {
+                let mut data = String::new();
+                for (i, point) in points.iter().enumerate() {
+                    let [x, y] = place(*point);
+                    // Writing into a string cannot fail.
+                    let _ = write!(data, "{}{x} {y}", if i == 0 { "M" } else { "L" });
+                }
+                if closed {
+                    data.push('Z');
+                }
+                Path::new().set("d", data).set("data-sheet", number + 1)
+            };
+            let folds = match kind {
+                Kind::Cut => {
+                    for cut in &sheet.cuts {
+                        layer = layer.add(path(cut, true));
+                    }
+                    continue;
+                }
+                Kind::Tab => &sheet.tabs,
+                _ => &sheet.folds,
+            };
+            for fold in folds {
+                if kind == Kind::Tab || Kind::of(fold.direction) == kind {
+                    let path = path(&fold.points, false)
+                        .set("data-crease", fold.crease)
+                        .set("data-angle", self::number(fold.angle));
+                    layer = layer.add(match kind {
+                        Kind::Tab => path.set("data-direction", Kind::of(fold.direction).name()),
+                        _ => path,
+                    });
+                }
+            }
+        }
+        document = document.add(layer);
+    }
+    let mut texts = layer("label")
+        .set("fill", rgb([GREY; 3]))
+        .set("font-family", "Helvetica, Arial, sans-serif")
+        .set("text-anchor", "middle");
+    for (number, sheet) in drawing.sheets.iter().enumerate() {
+        for label in &sheet.labels {
+            let [x, y] = place(label.place);
+            let class = match label.kind {
+                LabelKind::Patch => "patch",
+                LabelKind::Seam => "seam",
+                LabelKind::Fold => "fold",
+                LabelKind::Sheet => "sheet",
+            };
+            let mut text = Text::new(label.text.as_str())
+                .set("class", class)
+                .set("data-sheet", number + 1)
+                .set("x", x.as_str())
+                .set("y", y.as_str())
+                .set("dy", self::number(DROP * label.size))
+                .set("font-size", self::number(label.size));
+            if label.turn != 0.0 {
+                let turn = self::number(-label.turn);
+                text.assign("transform", format!("rotate({turn} {x} {y})"));
+            }
+            texts = texts.add(text);
+        }
+    }
+    Ok(document.add(texts).to_string().into_bytes())
+}
+
+/// A group that editors know as a layer.
+fn layer(name: &str) -> Group {
+    Group::new()
+        .set("id", name)
+        .set("inkscape:groupmode", "layer")
+        .set("inkscape:label", name)
+}
+
+fn rgb([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// To a tenth of a micrometre, without what says nothing.
+fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    match text {
+        "-0" => "0".into(),
+        text => text.into(),
+    }
+}

@@ -1,0 +1,252 @@
+//! One channel of OpenEXR images, by the `exr` crate.
+
+use std::io::Cursor;
+
+use ::exr::block::UncompressedBlock;
+use ::exr::block::reader::ChunksReader;
+use ::exr::error::Error as ExrError;
+use ::exr::meta::attribute::{AttributeValue, ChannelDescription, SampleType, Text};
+use ::exr::meta::header::{Header, LayerAttributes};
+use ::exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Vec2, WritableImage,
+};
+use npyz::half::f16;
+
+use super::{
+    Channels, Decoded, Format, check_length, damaged, default_scale, grey, narrowed, room,
+    unsupported,
+};
+use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::heights::heightfield::HeightImage;
+
+/// More than any of its compressions can shrink.
+const RATIO: usize = 4096;
+
+/// The attribute that our own files have besides.
+const PIXEL_SIZE: &str = "developable:pixelSize";
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let reader = ::exr::block::read(Cursor::new(bytes), false).map_err(failed)?;
+    let (layer, header, chosen) = choose(reader.headers())?;
+    let Vec2(width, height) = header.layer_size;
+    let len = checked_cells("EXR image", height, width)?;
+    if len == 0 {
+        return Err(Error::Empty { what: "EXR image" });
+    }
+    let pixel_bytes = header.channels.bytes_per_pixel;
+    check_length(Format::Exr, bytes, len.saturating_mul(pixel_bytes), RATIO)?;
+    let data_type = type_name(header.channels.list[chosen.heights[0]].sample_type);
+    let pixel_size = match header.own_attributes.other.get(&Text::from(PIXEL_SIZE)) {
+        Some(AttributeValue::F64(size)) if size.is_finite() && *size > 0.0 => *size,
+        _ => 1.0,
+    };
+
+    let channels = header.channels.clone();
+    let wanted: Vec<usize> = chosen
+        .heights
+        .iter()
+        .chain(&chosen.alpha)
+        .copied()
+        .collect();
+    let mut planes = Vec::new();
+    for _ in &wanted {
+        planes.push(try_filled("EXR image", len, f32::NAN)?);
+    }
+    // Large unsigned integers would lose digits in the planes of floats.
+    let mut whole = match data_type {
+        "u32" => try_filled("EXR image", len, 0u32)?,
+        _ => Vec::new(),
+    };
+    let mut missing = wanted.len() * len;
+    let mut blocks = reader
+        .filter_chunks(false, |_, tile, block| {
+            block.layer == layer && tile.is_largest_resolution_level()
+        })
+        .map_err(failed)?
+        .sequential_decompressor(false);
+    while let Some(block) = blocks.decompress_next_block() {
+        let block: UncompressedBlock = block.map_err(failed)?;
+        if block.index.layer != layer || block.index.level != Vec2(0, 0) {
+            return Err(damaged(Format::Exr, "a block is not where it should be"));
+        }
+        for line in block.lines(&channels) {
+            let Some(plane) = wanted.iter().position(|k| *k == line.location.channel) else {
+                continue;
+            };
+            let Vec2(x, y) = line.location.position;
+            let start = y * width + x;
+            let row = start..start + line.location.sample_count;
+            let outside = || damaged(Format::Exr, "a block lies outside of the image");
+            let out = planes[plane].get_mut(row.clone()).ok_or_else(outside)?;
+            missing = missing.saturating_sub(out.len());
+            let kind = channels.list[wanted[plane]].sample_type;
+            match kind {
+                SampleType::F32 => line.read_samples_into_slice(out).map_err(failed)?,
+                SampleType::F16 => {
+                    for (z, sample) in out.iter_mut().zip(line.read_samples::<f16>()) {
+                        *z = sample.map_err(failed)?.to_f32();
+                    }
+                }
+                SampleType::U32 if plane == 0 => {
+                    line.read_samples_into_slice(&mut whole[row])
+                        .map_err(failed)?;
+                }
+                SampleType::U32 => {
+                    for (z, sample) in out.iter_mut().zip(line.read_samples::<u32>()) {
+                        *z = sample.map_err(failed)? as f32;
+                    }
+                }
+            }
+        }
+    }
+    if missing > 0 {
+        return Err(damaged(Format::Exr, "a part of the image is missing"));
+    }
+    let size = (width, height);
+    let layout = Channels {
+        colours: chosen.heights.len(),
+        alpha: chosen.alpha.map(|_| chosen.heights.len()),
+    };
+    let values = grey(Format::Exr, size, &layout, |i, k| match k {
+        0 if !whole.is_empty() => whole[i].into(),
+        _ => planes[k][i].into(),
+    })?;
+    Ok(Decoded {
+        format: Format::Exr,
+        width,
+        height,
+        values,
+        pixel_size,
+        unit: None,
+        height_scale: default_scale(size, pixel_size, data_type),
+        data_type,
+    })
+}
+
+/// The channels of a layer that are read, by their places in its list.
+struct Chosen {
+    heights: Vec<usize>,
+    alpha: Option<usize>,
+}
+
+/// The first layer with heights in it.
+fn choose(layers: &[Header]) -> Result<(usize, &Header, Chosen)> {
+    let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
+    let found = flat().find_map(|(i, header)| {
+        heights_among(&header.channels.list).map(|chosen| (i, header, chosen))
+    });
+    let Some((i, header, chosen)) = found else {
+        let names: Vec<String> = flat()
+            .flat_map(|(_, header)| &header.channels.list)
+            .map(|channel| format!("`{}`", channel.name))
+            .collect();
+        return Err(unsupported(
+            Format::Exr,
+            if names.is_empty() {
+                "deep data; only flat images are read".into()
+            } else {
+                format!(
+                    "its channels are {}; `Z`, `depth` or `Y` is read, grey `R`, `G`, `B`, or the \
+                     only one there is",
+                    names.join(", ")
+                )
+            },
+        ));
+    };
+    // The decoder takes the lines of subsampled channels for longer than they are.
+    if header
+        .channels
+        .list
+        .iter()
+        .any(|c| c.sampling != Vec2(1, 1))
+    {
+        return Err(unsupported(
+            Format::Exr,
+            "subsampled channels; write it with one sample for each pixel",
+        ));
+    }
+    Ok((i, header, chosen))
+}
+
+fn heights_among(channels: &[ChannelDescription]) -> Option<Chosen> {
+    // In one layer of several the names begin with the layer's own.
+    let names: Vec<(String, String)> = channels
+        .iter()
+        .map(|channel| {
+            let name = channel.name.to_string().to_lowercase();
+            match name.rsplit_once('.') {
+                Some((group, last)) => (group.to_owned(), last.to_owned()),
+                None => (String::new(), name),
+            }
+        })
+        .collect();
+    let place = |group: &str, name: &str| {
+        names
+            .iter()
+            .position(|(its_group, its_name)| its_group == group && its_name == name)
+    };
+    let single = ["z", "depth", "y"]
+        .into_iter()
+        .find_map(|wanted| names.iter().position(|(_, name)| name == wanted));
+    let grey = || {
+        names.iter().find_map(|(group, _)| {
+            ["r", "g", "b"]
+                .into_iter()
+                .map(|name| place(group, name))
+                .collect::<Option<Vec<usize>>>()
+        })
+    };
+    let only = || (channels.len() == 1).then(|| vec![0]);
+    let heights = single.map(|k| vec![k]).or_else(grey).or_else(only)?;
+    let alpha = place(&names[heights[0]].0, "a").filter(|k| !heights.contains(k));
+    Some(Chosen { heights, alpha })
+}
+
+fn type_name(kind: SampleType) -> &'static str {
+    match kind {
+        SampleType::U32 => "u32",
+        SampleType::F16 => "f16",
+        SampleType::F32 => "f32",
+    }
+}
+
+fn failed(error: ExrError) -> Error {
+    match error {
+        ExrError::NotSupported(what) => unsupported(Format::Exr, what),
+        other => damaged(Format::Exr, other),
+    }
+}
+
+/// An EXR file of the image's heights: one channel `Z` of 32-bit floats, NaN
+/// where there is no data, compressed without loss. Exact for heights that are
+/// 32-bit floats; others are rounded to the nearest one.
+///
+/// An attribute records the pixel size, so that
+/// [`decode`](crate::files::images::decode) gives it back.
+///
+/// # Errors
+/// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].
+pub fn write_exr(image: &HeightImage) -> Result<Vec<u8>> {
+    let heights = narrowed("EXR image", image)?;
+    // Blocks that do not shrink are stored as they are, each with a few bytes of its own.
+    let enough = 4 * heights.len() + 32 * image.height() + 4096;
+    let mut file = Cursor::new(room("EXR file", enough)?);
+    let mut attributes = LayerAttributes::default();
+    attributes.other.insert(
+        Text::from(PIXEL_SIZE),
+        AttributeValue::F64(image.pixel_size()),
+    );
+    let channel = AnyChannel::new("Z", FlatSamples::F32(heights));
+    let layer = Layer::new(
+        (image.width(), image.height()),
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort([channel].into_iter().collect()),
+    );
+    Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut file)
+        .map_err(failed)?;
+    Ok(file.into_inner())
+}

@@ -1,0 +1,151 @@
+//! NumPy's archives, by the `zip` crate: NPY files by name.
+
+use std::io::{Cursor, Read};
+
+use ::zip::ZipArchive;
+use ::zip::result::ZipError;
+
+use super::{Decoded, Format, check_length, damaged, unsupported};
+use crate::MAX_CELLS;
+use crate::error::{Error, Result};
+use crate::files::images::npy;
+
+/// The most that DEFLATE can shrink anything.
+const DEFLATE_RATIO: usize = 1032;
+
+/// The largest NPY file that is read: 64-bit numbers, and a header.
+const MAX_BYTES: usize = 8 * MAX_CELLS + 16_384;
+
+/// What is read of an array to know its shape.
+const HEAD: u64 = 16_384;
+
+/// The most arrays that an archive may have.
+const MAX_ARRAYS: usize = 1024;
+
+/// One array of an NPZ file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NpzArray {
+    /// Its name, without `.npy`.
+    pub name: String,
+    /// Its extents; a height image has two, rows and columns.
+    pub shape: Vec<u64>,
+    /// The type of its elements: `"f32"` and the like, or NumPy's own name for
+    /// what is no number.
+    pub data_type: String,
+}
+
+/// The arrays of an NPZ file, in the order of the file.
+///
+/// # Errors
+/// [`Error::Format`] for a damaged file, [`Error::Unsupported`] for arrays
+/// whose header cannot be read, and for more than 1024 of them.
+pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
+    let mut archive = open(bytes)?;
+    names(&archive)?
+        .into_iter()
+        .map(|name| {
+            let mut head = Vec::new();
+            let entry = archive.by_name(&member(&name)).map_err(failed)?;
+            let whole = entry.take(HEAD).read_to_end(&mut head);
+            whole.map_err(|e| damaged(Format::Npz, e))?;
+            let (shape, data_type) = npy::describe(&head).map_err(|e| within(&name, e))?;
+            Ok(NpzArray {
+                name,
+                shape,
+                data_type,
+            })
+        })
+        .collect()
+}
+
+/// Decodes one array of an NPZ file as [`decode`](crate::files::images::decode) does an
+/// NPY file: the one of this name, or the only one there is.
+///
+/// # Errors
+/// As `decode`, and [`Error::Unsupported`] if there is no such array, or none is
+/// named and there are several: the message lists them.
+pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
+    let mut archive = open(bytes)?;
+    let names = names(&archive)?;
+    let name = match (array, names.as_slice()) {
+        (_, []) => return Err(unsupported(Format::Npz, "there are no arrays in it")),
+        (Some(wanted), names) if names.iter().any(|name| name == wanted) => wanted,
+        (None, [only]) => only,
+        (Some(wanted), names) => {
+            let reason = format!("it has no array `{wanted}`, only {}", listed(names));
+            return Err(unsupported(Format::Npz, reason));
+        }
+        (None, names) => {
+            let reason = format!(
+                "it holds {}; choose one by the option `array`",
+                listed(names)
+            );
+            return Err(unsupported(Format::Npz, reason));
+        }
+    };
+    let entry = archive.by_name(&member(name)).map_err(failed)?;
+    let size = usize::try_from(entry.size()).unwrap_or(usize::MAX);
+    if size > MAX_BYTES {
+        return Err(Error::TooLarge {
+            what: "NPZ array",
+            requested: size / 8,
+            limit: MAX_CELLS,
+        });
+    }
+    check_length(Format::Npz, bytes, size, DEFLATE_RATIO)?;
+    let mut file = super::room("NPZ array", size)?;
+    // Never more than was announced, and the archive's checksum says whether it is that.
+    let read = entry.take(size as u64 + 1).read_to_end(&mut file);
+    read.map_err(|e| damaged(Format::Npz, e))?;
+    let decoded = crate::files::images::announced(&file, Some(Format::Npy))
+        .and_then(|_| npy::decode(&file))
+        .map_err(|e| within(name, e))?;
+    Ok(Decoded {
+        format: Format::Npz,
+        ..decoded
+    })
+}
+
+fn open(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>> {
+    ZipArchive::new(Cursor::new(bytes)).map_err(failed)
+}
+
+fn names(archive: &ZipArchive<Cursor<&[u8]>>) -> Result<Vec<String>> {
+    if archive.len() > MAX_ARRAYS {
+        return Err(unsupported(
+            Format::Npz,
+            format!("{} files in it; {MAX_ARRAYS} are the most", archive.len()),
+        ));
+    }
+    Ok(archive
+        .file_names()
+        .filter_map(|name| name.strip_suffix(".npy"))
+        .map(str::to_owned)
+        .collect())
+}
+
+fn member(name: &str) -> String {
+    format!("{name}.npy")
+}
+
+fn listed(names: &[String]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+/// The same error, about an array of the archive.
+fn within(name: &str, mut error: Error) -> Error {
+    if let Error::Format { format, reason } | Error::Unsupported { format, reason } = &mut error {
+        *format = Format::Npz.title();
+        *reason = format!("array `{name}`: {reason}");
+    }
+    error
+}
+
+fn failed(error: ZipError) -> Error {
+    match error {
+        ZipError::UnsupportedArchive(what) => unsupported(Format::Npz, what),
+        other => damaged(Format::Npz, other),
+    }
+}

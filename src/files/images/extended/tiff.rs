@@ -1,0 +1,200 @@
+//! One channel of TIFF images, by the `tiff` crate.
+
+use std::io::Cursor;
+
+use ::tiff::decoder::{Decoder, DecodingSampleType, Limits};
+use ::tiff::encoder::{TiffEncoder, colortype};
+use ::tiff::tags::Tag;
+use ::tiff::{ColorType, TiffError};
+use npyz::half::f16;
+
+use super::tiff_tags::{self, oriented};
+use super::{
+    Channels, Decoded, Format, check_length, damaged, default_scale, grey, narrowed, room,
+    unsupported,
+};
+use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::heights::heightfield::HeightImage;
+
+pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// More than any of its compressions can shrink.
+const RATIO: usize = 4096;
+
+/// What the decoder itself may allocate: a compressed strip, and the values of a tag.
+const DECODER_BYTES: usize = 1 << 28;
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = DECODER_BYTES;
+    limits.intermediate_buffer_size = DECODER_BYTES;
+    let mut file = Decoder::new(Cursor::new(bytes))
+        .map_err(failed)?
+        .with_limits(limits);
+    let (width, height) = file.dimensions().map_err(failed)?;
+    let stored = (width as usize, height as usize);
+    let len = checked_cells("TIFF image", stored.1, stored.0)?;
+    if len == 0 {
+        return Err(Error::Empty { what: "TIFF image" });
+    }
+
+    let color = file.colortype().map_err(failed)?;
+    let (samples, bits, channels) = channels(&mut file, color)?;
+    let layout = file.image_buffer_layout().map_err(failed)?;
+    let kind = layout.sample_type.filter(|kind| size_of(*kind) * 8 == bits);
+    let Some(kind) = kind else {
+        return Err(unsupported(
+            Format::Tiff,
+            format!(
+                "samples of {bits} bits; integers of 8 to 64 bits and floats of 16 to 64 are read"
+            ),
+        ));
+    };
+    let size = size_of(kind);
+    if layout.planes > 1 {
+        return Err(unsupported(
+            Format::Tiff,
+            "channels stored one after the other; write them pixel by pixel",
+        ));
+    }
+    let needed = len.saturating_mul(samples * size);
+    if layout.len != needed {
+        return Err(damaged(Format::Tiff, "its sizes contradict each other"));
+    }
+    check_length(Format::Tiff, bytes, needed, RATIO)?;
+    let about = tiff_tags::read(&mut file, type_name(kind))?;
+
+    let mut raw = try_filled("TIFF image", needed, 0u8)?;
+    file.read_image_bytes(&mut raw).map_err(failed)?;
+    let values = grey(Format::Tiff, stored, &channels, |i, k| {
+        number(kind, &raw[size * (samples * i + k)..][..size])
+    })?;
+    let (mut values, (width, height)) = oriented(values, stored, about.orientation)?;
+    if let Some(level) = about.no_data {
+        values
+            .iter_mut()
+            .filter(|z| **z == level)
+            .for_each(|z| *z = f64::NAN);
+    }
+    Ok(Decoded {
+        format: Format::Tiff,
+        width,
+        height,
+        values,
+        pixel_size: about.pixel_size,
+        unit: about.unit,
+        height_scale: default_scale((width, height), about.pixel_size, type_name(kind)),
+        data_type: type_name(kind),
+    })
+}
+
+/// Samples for each pixel, bits for each sample, and what they are.
+fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels)> {
+    let plain = |colours, alpha| Channels { colours, alpha };
+    let (samples, bits, channels) = match color {
+        ColorType::Gray(bits) => (1, bits, plain(1, None)),
+        ColorType::GrayA(bits) => (2, bits, plain(1, Some(1))),
+        ColorType::RGB(bits) => (3, bits, plain(3, None)),
+        ColorType::RGBA(bits) => (4, bits, plain(3, Some(3))),
+        ColorType::Multiband {
+            bit_depth,
+            num_samples: 2,
+        } if tiff_tags::has_alpha(file)? => (2, bit_depth, plain(1, Some(1))),
+        other => {
+            return Err(unsupported(
+                Format::Tiff,
+                format!("pixels of kind {other:?}; one grey channel is read, or grey RGB"),
+            ));
+        }
+    };
+    Ok((samples, usize::from(bits), channels))
+}
+
+fn number(kind: DecodingSampleType, bytes: &[u8]) -> f64 {
+    /// The number that these bytes are in the machine's own order.
+    macro_rules! ne {
+        ($type:ty) => {{
+            let mut own = [0; std::mem::size_of::<$type>()];
+            own.copy_from_slice(bytes);
+            <$type>::from_ne_bytes(own)
+        }};
+    }
+    match kind {
+        DecodingSampleType::U8 => ne!(u8).into(),
+        DecodingSampleType::U16 => ne!(u16).into(),
+        DecodingSampleType::U32 => ne!(u32).into(),
+        DecodingSampleType::U64 => ne!(u64) as f64,
+        DecodingSampleType::I8 => ne!(i8).into(),
+        DecodingSampleType::I16 => ne!(i16).into(),
+        DecodingSampleType::I32 => ne!(i32).into(),
+        DecodingSampleType::I64 => ne!(i64) as f64,
+        DecodingSampleType::F16 => ne!(f16).into(),
+        DecodingSampleType::F32 => ne!(f32).into(),
+        DecodingSampleType::F64 => ne!(f64),
+    }
+}
+
+fn type_name(kind: DecodingSampleType) -> &'static str {
+    match kind {
+        DecodingSampleType::U8 => "u8",
+        DecodingSampleType::U16 => "u16",
+        DecodingSampleType::U32 => "u32",
+        DecodingSampleType::U64 => "u64",
+        DecodingSampleType::I8 => "i8",
+        DecodingSampleType::I16 => "i16",
+        DecodingSampleType::I32 => "i32",
+        DecodingSampleType::I64 => "i64",
+        DecodingSampleType::F16 => "f16",
+        DecodingSampleType::F32 => "f32",
+        DecodingSampleType::F64 => "f64",
+    }
+}
+
+fn size_of(kind: DecodingSampleType) -> usize {
+    match kind {
+        DecodingSampleType::U8 | DecodingSampleType::I8 => 1,
+        DecodingSampleType::U16 | DecodingSampleType::I16 | DecodingSampleType::F16 => 2,
+        DecodingSampleType::U32 | DecodingSampleType::I32 | DecodingSampleType::F32 => 4,
+        DecodingSampleType::U64 | DecodingSampleType::I64 | DecodingSampleType::F64 => 8,
+    }
+}
+
+pub(super) fn failed(error: TiffError) -> Error {
+    match error {
+        TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
+        other => damaged(Format::Tiff, other),
+    }
+}
+
+/// A TIFF file of the image's heights: 32-bit floats, uncompressed, NaN where
+/// there is no data (which `GDAL_NODATA` says too). Exact for heights that are
+/// 32-bit floats; others are rounded to the nearest one.
+///
+/// The tag `ModelPixelScale` records the pixel size, so that
+/// [`decode`](crate::files::images::decode) gives it back.
+///
+/// # Errors
+/// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].
+pub fn write_tiff(image: &HeightImage) -> Result<Vec<u8>> {
+    let heights = narrowed("TIFF image", image)?;
+    // A strip has at least one row, and takes two numbers.
+    let enough = 4 * heights.len() + 16 * image.height() + 4096;
+    let mut file = Cursor::new(room("TIFF file", enough)?);
+    write(&mut file, image, &heights).map_err(failed)?;
+    Ok(file.into_inner())
+}
+
+fn write(
+    file: &mut Cursor<Vec<u8>>,
+    image: &HeightImage,
+    heights: &[f32],
+) -> std::result::Result<(), TiffError> {
+    let mut encoder = TiffEncoder::new(file)?;
+    let mut picture =
+        encoder.new_image::<colortype::Gray32Float>(image.width() as u32, image.height() as u32)?;
+    let side = image.pixel_size();
+    let tags = picture.encoder();
+    tags.write_tag(Tag::ModelPixelScaleTag, &[side, side, 0.0][..])?;
+    tags.write_tag(Tag::GdalNodata, "nan")?;
+    picture.write_data(heights)
+}

@@ -1,0 +1,204 @@
+//! What a TIFF's tags say about its pixels: size, unit, no data, orientation.
+
+use ::tiff::decoder::ifd::Value;
+use ::tiff::tags::Tag;
+
+use super::tiff::{File, failed};
+use super::{Format, damaged, unsupported};
+use crate::error::{Result, try_filled};
+use crate::files::images::Unit;
+
+/// Millimetres in an inch and in a centimetre.
+const INCH: f64 = 25.4;
+const CENTIMETRE: f64 = 10.0;
+
+/// Values of `ResolutionUnit`.
+const NO_UNIT: u16 = 1;
+const PER_INCH: u16 = 2;
+const PER_CENTIMETRE: u16 = 3;
+
+/// GeoTIFF keys, and the values of them that matter.
+const MODEL_TYPE: u16 = 1024;
+const GEOGRAPHIC: u16 = 2;
+const LINEAR_UNIT: u16 = 3076;
+const METRE: u16 = 9001;
+
+/// Relative difference up to which two sides of a pixel are the same.
+const SAME: f64 = 1e-6;
+
+pub(super) struct About {
+    pub(super) pixel_size: f64,
+    pub(super) unit: Option<Unit>,
+    pub(super) no_data: Option<f64>,
+    /// 1 to 8, as the tag numbers them.
+    pub(super) orientation: u16,
+}
+
+pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
+    let (pixel_size, unit) = pixel_size(file)?;
+    let no_data = no_data(file, data_type)?;
+    let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
+    if inverted && (no_data.is_some() || !data_type.starts_with('u')) {
+        return Err(unsupported(
+            Format::Tiff,
+            "heights that count from white (WhiteIsZero); write them as BlackIsZero",
+        ));
+    }
+    let orientation = unsigned(file, Tag::Orientation)?.unwrap_or(1);
+    if !(1..=8).contains(&orientation) {
+        return Err(damaged(
+            Format::Tiff,
+            format!("its orientation is {orientation}, where 1 to 8 are known"),
+        ));
+    }
+    Ok(About {
+        pixel_size,
+        unit,
+        no_data,
+        orientation,
+    })
+}
+
+/// Whether the one extra sample is an alpha.
+pub(super) fn has_alpha(file: &mut File) -> Result<bool> {
+    Ok(matches!(unsigned(file, Tag::ExtraSamples)?, Some(1 | 2)))
+}
+
+fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
+    if let Some(scale) = file.find_tag(Tag::ModelPixelScaleTag).map_err(failed)? {
+        let sides = scale.into_f64_vec().map_err(failed)?;
+        let [x, y, ..] = sides[..] else {
+            return Err(damaged(Format::Tiff, "its pixel scale lacks a number"));
+        };
+        return Ok((square(x, y)?, geographic_unit(file)?));
+    }
+    let (Some(x), Some(y)) = (
+        resolution(file, Tag::XResolution)?,
+        resolution(file, Tag::YResolution)?,
+    ) else {
+        return Ok((1.0, None));
+    };
+    let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
+        // Then it tells the proportions of a pixel only.
+        NO_UNIT => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
+        PER_INCH => INCH,
+        PER_CENTIMETRE => CENTIMETRE,
+        other => {
+            return Err(damaged(
+                Format::Tiff,
+                format!("its unit of resolution is {other}, where 1 to 3 are known"),
+            ));
+        }
+    };
+    Ok((square(per / x, per / y)?, Some(Unit::Millimetre)))
+}
+
+/// The side of pixels that are this wide and high.
+fn square(x: f64, y: f64) -> Result<f64> {
+    if !(x.is_finite() && x > 0.0 && y.is_finite() && y > 0.0) {
+        return Err(damaged(
+            Format::Tiff,
+            format!("its pixels are {x} wide and {y} high, no sound numbers"),
+        ));
+    }
+    if (x - y).abs() > SAME * x.max(y) {
+        return Err(unsupported(
+            Format::Tiff,
+            format!("its pixels are {x} wide and {y} high; only square ones are read: resample it"),
+        ));
+    }
+    Ok(x)
+}
+
+/// Pixels for a unit of length; 0 is what some write who do not know it.
+fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
+    let Some(value) = file.find_tag(tag).map_err(failed)? else {
+        return Ok(None);
+    };
+    let ratio = match value {
+        Value::Rational(pixels, lengths) => f64::from(pixels) / f64::from(lengths),
+        other => other.into_f64().map_err(failed)?,
+    };
+    Ok(Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0))
+}
+
+fn geographic_unit(file: &mut File) -> Result<Option<Unit>> {
+    let Some(directory) = file.find_tag(Tag::GeoKeyDirectoryTag).map_err(failed)? else {
+        return Ok(None);
+    };
+    let numbers = directory.into_u16_vec().map_err(failed)?;
+    // Four numbers each: key, where its value is (0: here), how many there are, the value.
+    let key = |wanted| {
+        numbers
+            .chunks_exact(4)
+            .skip(1)
+            .find(|entry| entry[0] == wanted && entry[1] == 0)
+            .map(|entry| entry[3])
+    };
+    if key(MODEL_TYPE) == Some(GEOGRAPHIC) {
+        return Err(unsupported(
+            Format::Tiff,
+            "its pixels are degrees of longitude and latitude, which are no lengths: project it \
+             to a map first",
+        ));
+    }
+    Ok((key(LINEAR_UNIT) == Some(METRE)).then_some(Unit::Metre))
+}
+
+fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {
+    let Some(text) = file.find_tag(Tag::GdalNodata).map_err(failed)? else {
+        return Ok(None);
+    };
+    let text = text.into_string().map_err(failed)?;
+    let text = text.trim_matches(['\0', ' ']);
+    let value: f64 = text.parse().map_err(|_| {
+        damaged(
+            Format::Tiff,
+            format!("its tag GDAL_NODATA is `{text}`, no number"),
+        )
+    })?;
+    // As the file can store it: -9999.9 is another number in 32 bits.
+    Ok(Some(match data_type {
+        "f32" => f64::from(value as f32),
+        _ => value,
+    }))
+}
+
+fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
+    file.find_tag_unsigned(tag).map_err(failed)
+}
+
+/// The image as it is to be seen, and its width and height.
+pub(super) fn oriented<T: Copy + Default>(
+    values: Vec<T>,
+    (width, height): (usize, usize),
+    orientation: u16,
+) -> Result<(Vec<T>, (usize, usize))> {
+    if orientation == 1 {
+        return Ok((values, (width, height)));
+    }
+    // From 5 on, what is stored as a row is seen as a column.
+    let turned = orientation >= 5;
+    let (cols, rows) = if turned {
+        (height, width)
+    } else {
+        (width, height)
+    };
+    let mut seen = try_filled("turned image", values.len(), T::default())?;
+    for (i, out) in seen.iter_mut().enumerate() {
+        let (row, col) = (i / cols, i % cols);
+        let (x, y) = (col, row);
+        let (across, down) = (cols - 1 - col, rows - 1 - row);
+        let (from_row, from_col) = match orientation {
+            2 => (y, across),
+            3 => (down, across),
+            4 => (down, x),
+            5 => (x, y),
+            6 => (across, y),
+            7 => (across, down),
+            _ => (x, down),
+        };
+        *out = values[from_row * width + from_col];
+    }
+    Ok((seen, (cols, rows)))
+}

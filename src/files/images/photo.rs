@@ -1,0 +1,98 @@
+//! Colour images: photos, and what is made of them.
+
+use ::png::{BitDepth, ColorType, Encoder, EncodingError, Transformations};
+
+use super::png::Pixels;
+use super::{Buffer, Format, announced};
+use crate::error::{Result, try_filled};
+use crate::flat::dewarp::Photo;
+
+/// A decoded photo.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PhotoFile {
+    /// Number of columns.
+    pub width: usize,
+    /// Number of rows.
+    pub height: usize,
+    /// Red, green, blue and alpha of each pixel, row by row, top row first.
+    pub rgba: Vec<u8>,
+}
+
+impl PhotoFile {
+    #[cfg(feature = "images")]
+    pub(super) fn new((width, height): (usize, usize), rgba: Vec<[u8; 4]>) -> Self {
+        PhotoFile {
+            width,
+            height,
+            rgba: rgba.into_flattened(),
+        }
+    }
+}
+
+/// Decodes a PNG file of any kind to RGBA bytes, 16 bits cut to 8; with the cargo feature `images`
+/// also JPEG (the way up that its Exif data state) and WebP files.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) for other files,
+/// [`Error::Format`](crate::Error::Format), [`Error::TooLarge`](crate::Error::TooLarge),
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    match announced(bytes, None)? {
+        Format::Png => decode_png(bytes),
+        #[cfg(feature = "images")]
+        other => super::extended::decode_photo(bytes, other),
+        #[cfg(not(feature = "images"))]
+        other => Err(crate::Error::Unsupported {
+            format: other.title(),
+            reason: "this build reads photos from PNG files only; the cargo feature `images` adds \
+                     JPEG and WebP"
+                .into(),
+        }),
+    }
+}
+
+fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
+    let transformations = Transformations::normalize_to_color8() | Transformations::ALPHA;
+    let Pixels {
+        reader,
+        samples,
+        width,
+        height,
+    } = Pixels::decode(bytes, transformations)?;
+    let rgba = match reader.output_color_type().0 {
+        ColorType::GrayscaleAlpha => {
+            let mut rgba = try_filled("PNG image", 4 * width * height, 0)?;
+            for (out, pixel) in rgba.chunks_exact_mut(4).zip(samples.chunks_exact(2)) {
+                out.copy_from_slice(&[pixel[0], pixel[0], pixel[0], pixel[1]]);
+            }
+            rgba
+        }
+        // The transformations leave nothing but these two.
+        _ => samples,
+    };
+    Ok(PhotoFile {
+        width,
+        height,
+        rgba,
+    })
+}
+
+/// An 8-bit RGBA PNG file.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub fn write_photo(photo: &Photo<'_>) -> Result<Vec<u8>> {
+    let mut file = Buffer::default();
+    let written = write(&mut file, photo);
+    file.finish("PNG file", written.map_err(Into::into))
+}
+
+fn write(file: &mut Buffer, photo: &Photo<'_>) -> std::result::Result<(), EncodingError> {
+    let mut encoder = Encoder::new(file, photo.width() as u32, photo.height() as u32);
+    encoder.set_color(ColorType::Rgba);
+    encoder.set_depth(BitDepth::Eight);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(photo.rgba())?;
+    writer.finish()
+}

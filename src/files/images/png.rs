@@ -1,0 +1,255 @@
+//! Grey PNG files, by the `png` crate.
+
+use std::io::Cursor;
+
+use ::png::{
+    BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Reader,
+    Transformations, text_metadata::TEXtChunk,
+};
+
+use super::{Buffer, Decoded, Format, coloured, suggested_scale};
+use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::heights::heightfield::HeightImage;
+
+/// What the decoder itself may allocate: two rows of the widest image and metadata.
+const DECODER_BYTES: usize = 1 << 28;
+
+/// The most that DEFLATE can shrink anything.
+const DEFLATE_RATIO: usize = 1032;
+
+/// Keywords of our own text chunks:
+/// `height = HEIGHT_SCALE · level + HEIGHT_OFFSET`, `NO_DATA` is the level that means none.
+const HEIGHT_SCALE: &str = "developable:heightScale";
+const HEIGHT_OFFSET: &str = "developable:heightOffset";
+const PIXEL_SIZE: &str = "developable:pixelSize";
+const NO_DATA: &str = "developable:noData";
+
+/// Levels that [`write_png`] uses for heights; 0 is no data.
+const LOWEST: f64 = 1.0;
+const HIGHEST: f64 = 65535.0;
+
+/// The pixels of a PNG file, and the reader that holds its metadata.
+pub(super) struct Pixels<'a> {
+    pub reader: Reader<Cursor<&'a [u8]>>,
+    pub samples: Vec<u8>,
+    pub width: usize,
+    pub height: usize,
+}
+
+impl<'a> Pixels<'a> {
+    pub(super) fn decode(bytes: &'a [u8], transformations: Transformations) -> Result<Self> {
+        let limits = Limits {
+            bytes: DECODER_BYTES,
+        };
+        let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+        decoder.set_transformations(transformations);
+        decoder.set_ignore_iccp_chunk(true);
+
+        let info = decoder.read_header_info().map_err(damaged)?;
+        let (width, height) = (info.width as usize, info.height as usize);
+        checked_cells("PNG image", height, width)?;
+        if info.raw_bytes() / DEFLATE_RATIO > bytes.len() {
+            return Err(Error::Format {
+                format: "PNG",
+                reason: format!(
+                    "{} bytes cannot hold {width} × {height} pixels",
+                    bytes.len()
+                ),
+            });
+        }
+
+        let mut reader = decoder.read_info().map_err(damaged)?;
+        let size = reader
+            .output_buffer_size()
+            .ok_or_else(|| damaged(DecodingError::LimitsExceeded))?;
+        let mut samples = try_filled("PNG image", size, 0u8)?;
+        reader.next_frame(&mut samples).map_err(damaged)?;
+        // Text may follow the pixels; and a file without its end has been cut short.
+        reader.finish().map_err(damaged)?;
+        Ok(Pixels {
+            reader,
+            samples,
+            width,
+            height,
+        })
+    }
+}
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
+    let Pixels {
+        reader,
+        samples,
+        width,
+        height,
+    } = Pixels::decode(bytes, Transformations::EXPAND)?;
+    let (color, depth) = reader.output_color_type();
+    let (data_type, full, sample_bytes) = match depth {
+        BitDepth::Sixteen => ("u16", 65535.0, 2),
+        _ => ("u8", 255.0, 1),
+    };
+    let stride = color.samples() * sample_bytes;
+    let mut values = try_filled("PNG image", width * height, f64::NAN)?;
+    for (i, (z, pixel)) in values
+        .iter_mut()
+        .zip(samples.chunks_exact(stride))
+        .enumerate()
+    {
+        let sample = |k: usize| match sample_bytes {
+            2 => u16::from_be_bytes([pixel[2 * k], pixel[2 * k + 1]]),
+            _ => u16::from(pixel[k]),
+        };
+        let alpha = match color {
+            ColorType::GrayscaleAlpha => sample(1),
+            ColorType::Rgba => sample(3),
+            _ => 1,
+        };
+        if alpha == 0 {
+            continue;
+        }
+        if matches!(color, ColorType::Rgb | ColorType::Rgba)
+            && (sample(0) != sample(1) || sample(0) != sample(2))
+        {
+            return Err(coloured("PNG", i, width));
+        }
+        *z = f64::from(sample(0));
+    }
+
+    let recorded = Recorded::read(&reader.info().uncompressed_latin1_text)?;
+    if let Some(level) = recorded.no_data {
+        values
+            .iter_mut()
+            .filter(|z| **z == level)
+            .for_each(|z| *z = f64::NAN);
+    }
+    let height_scale = recorded
+        .scale
+        .unwrap_or(suggested_scale(width, height, full));
+    if let Some(offset) = recorded.offset {
+        values.iter_mut().for_each(|z| *z += offset / height_scale);
+    }
+    Ok(Decoded {
+        format: Format::Png,
+        width,
+        height,
+        values,
+        pixel_size: recorded.pixel_size.unwrap_or(1.0),
+        unit: None,
+        height_scale,
+        data_type,
+    })
+}
+
+/// What our own text chunks say.
+#[derive(Default)]
+struct Recorded {
+    scale: Option<f64>,
+    offset: Option<f64>,
+    pixel_size: Option<f64>,
+    no_data: Option<f64>,
+}
+
+impl Recorded {
+    fn read(chunks: &[TEXtChunk]) -> Result<Self> {
+        let mut recorded = Recorded::default();
+        for chunk in chunks {
+            let (place, positive) = match chunk.keyword.as_str() {
+                HEIGHT_SCALE => (&mut recorded.scale, true),
+                PIXEL_SIZE => (&mut recorded.pixel_size, true),
+                HEIGHT_OFFSET => (&mut recorded.offset, false),
+                NO_DATA => (&mut recorded.no_data, false),
+                _ => continue,
+            };
+            let number = chunk.text.trim().parse().ok();
+            *place = number.filter(|v: &f64| v.is_finite() && (*v > 0.0 || !positive));
+            if place.is_none() {
+                return Err(Error::Format {
+                    format: "PNG",
+                    reason: format!(
+                        "its text `{}` is `{}`, no sound number",
+                        chunk.keyword, chunk.text
+                    ),
+                });
+            }
+        }
+        Ok(recorded)
+    }
+}
+
+fn damaged(error: DecodingError) -> Error {
+    Error::Format {
+        format: "PNG",
+        reason: error.to_string(),
+    }
+}
+
+/// A 16-bit grey PNG file of the image: heights evenly on the levels 1 to
+/// 65535, from the lowest to the highest; level 0 is no data.
+///
+/// Text chunks record scale, offset, pixel size and the no-data level, so that
+/// [`decode`](super::decode) gives back every height to half a level, which is
+/// 1/131068 of the height range (and to the rounding of 64-bit floats, where
+/// the range is tiny beside the heights). Other programs see plain grey levels.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn write_png(image: &HeightImage) -> Result<Vec<u8>> {
+    let (scale, offset) = quantisation(image.values());
+    let mut samples = try_filled("PNG image", 2 * image.values().len(), 0u8)?;
+    for (sample, z) in samples.chunks_exact_mut(2).zip(image.values()) {
+        if z.is_finite() {
+            // Halved, so that the difference of two finite numbers is finite.
+            let level = (0.5 * z - 0.5 * offset) / (0.5 * scale);
+            let level = level.round().clamp(LOWEST, HIGHEST);
+            sample.copy_from_slice(&(level as u16).to_be_bytes());
+        }
+    }
+    let mut file = Buffer::default();
+    let written = write(&mut file, image, &samples, scale, offset);
+    file.finish("PNG file", written.map_err(Into::into))
+}
+
+fn write(
+    file: &mut Buffer,
+    image: &HeightImage,
+    samples: &[u8],
+    scale: f64,
+    offset: f64,
+) -> std::result::Result<(), EncodingError> {
+    let mut encoder = Encoder::new(file, image.width() as u32, image.height() as u32);
+    encoder.set_color(ColorType::Grayscale);
+    encoder.set_depth(BitDepth::Sixteen);
+    for (keyword, value) in [
+        (HEIGHT_SCALE, scale),
+        (HEIGHT_OFFSET, offset),
+        (PIXEL_SIZE, image.pixel_size()),
+        (NO_DATA, 0.0),
+    ] {
+        // Debug formatting: the shortest digits that read back as the same number.
+        encoder.add_text_chunk(keyword.into(), format!("{value:?}"))?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(samples)?;
+    writer.finish()
+}
+
+/// Scale and offset that put the lowest height on level 1 and the highest on level 65535.
+fn quantisation(values: &[f64]) -> (f64, f64) {
+    let (low, high) = values
+        .iter()
+        .filter(|z| z.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
+            (low.min(*z), high.max(*z))
+        });
+    if low > high || (low == high && low == 0.0) {
+        return (1.0, -LOWEST); // no heights at all, or all 0
+    }
+    let scale = if low < high {
+        // Divided first, because the difference of two finite numbers may not be finite.
+        let steps = HIGHEST - LOWEST;
+        high / steps - low / steps
+    } else {
+        low.abs() / HIGHEST
+    };
+    let scale = scale.max(f64::MIN_POSITIVE);
+    (scale, (low - scale * LOWEST).max(f64::MIN))
+}

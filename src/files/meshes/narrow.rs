@@ -1,0 +1,93 @@
+//! A mesh's numbers in fewer bits, as most formats have them.
+
+use crate::error::{Error, Result, try_filled};
+use crate::scene::mesh::Mesh;
+
+/// The positions, as seen from an origin, in 32 bits.
+pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Result<Vec<[f32; 3]>> {
+    let mut positions = try_filled(what, mesh.positions().len(), [0f32; 3])?;
+    for (row, (narrow, wide)) in positions.iter_mut().zip(mesh.positions()).enumerate() {
+        *narrow = std::array::from_fn(|k| (wide[k] - origin[k]) as f32);
+        if let Some(col) = narrow.iter().position(|v| !v.is_finite()) {
+            return Err(Error::NotFinite {
+                what,
+                value: f64::from(narrow[col]),
+                row,
+                col,
+                advice: "coordinates beyond 3.4e38 do not fit into its 32-bit floats; scale them \
+                         down or write PLY",
+            });
+        }
+    }
+    Ok(positions)
+}
+
+/// How many times its own size a mesh may be away from the origin: up to there 32 bits hold
+/// positions to a thousandth of the spacing, were it 4096 vertices across.
+const NEAR: f64 = 8.0;
+
+/// An origin near a mesh, in each coordinate in which its own is far away: 32 bits hold the
+/// differences from there, but not the fine detail of, say, coordinates on a map.
+///
+/// It is a number that 32-bit floats and a few decimal digits both hold exactly, so that all
+/// readers agree on it.
+pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
+    let ends = |k: usize| {
+        let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+        mesh.positions().iter().fold((low, high), |(low, high), p| {
+            (low.min(p[k]), high.max(p[k]))
+        })
+    };
+    let ends = [0, 1, 2].map(ends);
+    let size = ends
+        .iter()
+        .map(|(low, high)| high - low)
+        .fold(0.0, f64::max);
+    ends.map(|(low, high)| {
+        let middle = low / 2.0 + high / 2.0;
+        let far = middle.abs() > NEAR * size && middle.abs() < f64::from(f32::MAX);
+        if far { rounded(middle) } else { 0.0 }
+    })
+}
+
+/// A whole number near this one, of 24 bits at most: multiples of 10ᵏ up to 2²⁴⁺ᵏ.
+fn rounded(value: f64) -> f64 {
+    let (mut unit, mut limit) = (1.0, f64::from(1 << 24));
+    while value.abs() >= limit {
+        unit *= 10.0;
+        limit *= 2.0;
+    }
+    (value / unit).round() * unit
+}
+
+/// A colour from 0 to 1 as a byte.
+pub(super) fn byte(color: f32) -> u8 {
+    // Casts saturate, and make 0 of NaN.
+    (color * 255.0).round() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn origins_are_exact_in_32_bits_and_as_they_are_printed() {
+        for value in [
+            0.4,
+            -3.5,
+            512_345.678,
+            -5_412_345.1,
+            16_777_215.4,
+            2.5e7,
+            1.3e8,
+            7e12,
+            3e38,
+        ] {
+            let origin = rounded(value);
+            assert_eq!(f64::from(origin as f32), origin, "{value}");
+            assert_eq!((origin as f32).to_string().parse(), Ok(origin), "{value}");
+        }
+        assert_eq!(rounded(512_345.678), 512_346.0);
+        assert_eq!(rounded(123_456_789.0), 123_457_000.0);
+    }
+}

@@ -1,0 +1,12 @@
+//! Files as bytes in memory: height images and photos, meshes, drawings to cut out.
+
+#[cfg(any(feature = "formats", feature = "meshes", feature = "patterns"))]
+mod buffer;
+#[cfg(feature = "patterns")]
+pub mod drawings;
+#[cfg(feature = "formats")]
+pub mod images;
+#[cfg(feature = "meshes")]
+pub mod meshes;
+#[cfg(feature = "formats")]
+pub mod wavefront;

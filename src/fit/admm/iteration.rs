@@ -1,0 +1,323 @@
+//! ADMM on one lattice, as a machine that runs in steps.
+
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::ascent::Ascent;
+use super::balance::balanced_bound;
+use super::schedule::Plan;
+use super::state::{Certificate, State};
+use crate::error::Result;
+use crate::fit::energy::problem::Problem;
+use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::report::{LevelReport, Seconds, StopReason};
+use crate::lattice::domain::Domain;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Level {
+    pub problem: Problem,
+    pub state: State,
+    pub best: Best,
+    pub seconds: Seconds,
+    plan: Plan,
+    cg: ConjugateGradients,
+    ascent: Option<Ascent>,
+    /// The iteration from which on it is worth it again, and the first one of this pass.
+    next_climb: usize,
+    pass_start: usize,
+    /// Conjugate-gradient iterations of the z-step under way, and of its current round.
+    z_step: usize,
+    round: usize,
+    /// Right-hand side energy at the start of the round.
+    first_energy: f64,
+    iteration: usize,
+    /// When the certificate was last balanced, and when ρ last changed.
+    balanced: usize,
+    tuned: usize,
+    cg_iterations: usize,
+}
+
+/// The best iterate so far and the best bound so far; they need not belong together.
+#[derive(Debug, Clone)]
+pub(crate) struct Best {
+    pub z: Vec<f64>,
+    pub fidelity: f64,
+    pub nuclear_norm: f64,
+    pub dual_bound: f64,
+}
+
+/// By how much an objective may miss the optimum, relative to itself.
+pub(crate) fn relative_gap(objective: f64, dual_bound: f64) -> f64 {
+    if objective > 0.0 {
+        ((objective - dual_bound) / objective).max(0.0)
+    } else {
+        0.0
+    }
+}
+
+impl Best {
+    pub(crate) fn new(z: &[f64], certificate: &Certificate) -> Self {
+        Best {
+            z: z.to_vec(),
+            fidelity: certificate.fidelity,
+            nuclear_norm: certificate.nuclear_norm,
+            dual_bound: certificate.dual_bound,
+        }
+    }
+
+    pub(crate) fn objective(&self) -> f64 {
+        self.fidelity + self.nuclear_norm
+    }
+
+    pub(crate) fn gap(&self) -> f64 {
+        relative_gap(self.objective(), self.dual_bound)
+    }
+
+    pub(crate) fn take(&mut self, z: &[f64], certificate: &Certificate) {
+        if certificate.objective() < self.objective() {
+            self.z.copy_from_slice(z);
+            self.fidelity = certificate.fidelity;
+            self.nuclear_norm = certificate.nuclear_norm;
+        }
+        self.dual_bound = self.dual_bound.max(certificate.dual_bound);
+    }
+}
+
+impl Best {
+    /// The input itself, if it is better: a start from a coarser level need not be.
+    pub(crate) fn take_input(&mut self, problem: &Problem) {
+        let objective = problem.smoothness(&problem.target);
+        if objective < self.objective() {
+            self.z.copy_from_slice(&problem.target);
+            self.fidelity = 0.0;
+            self.nuclear_norm = objective;
+        }
+    }
+}
+
+impl Level {
+    /// Starts from `state`, and looks for better bounds from the iteration `next_climb` on; a reason
+    /// to stop at once comes with it.
+    pub(crate) fn new(
+        problem: Problem,
+        mut state: State,
+        plan: Plan,
+        domains: &[Arc<Domain>],
+        next_climb: usize,
+    ) -> Result<(Self, Option<StopReason>)> {
+        let start = Instant::now();
+        let mut cg = ConjugateGradients::new(&problem, domains, state.rho)?;
+        let certificate = state.certify(&problem);
+        state.update(&problem, 0.0, &mut cg);
+        let mut best = Best::new(&state.z, &certificate);
+        best.take_input(&problem);
+        let mut level = Level {
+            problem,
+            state,
+            best,
+            seconds: Seconds::default(),
+            plan,
+            first_energy: cg.energy(),
+            cg,
+            ascent: None,
+            next_climb,
+            pass_start: 0,
+            z_step: 0,
+            round: 0,
+            iteration: 0,
+            balanced: 0,
+            tuned: 0,
+            cg_iterations: 0,
+        };
+        level.climb()?;
+        let (objective, gap) = (level.best.objective(), level.best.gap());
+        let reason = level
+            .plan
+            .stop(&level.problem, 0, &certificate, 0.0, objective, gap);
+        level.seconds.setup = start.elapsed().as_secs_f64();
+        Ok((level, reason))
+    }
+
+    pub(crate) fn report(&self) -> LevelReport {
+        LevelReport {
+            spacing: self.problem.spacing,
+            interior: self.problem.domain.interior_len(),
+            iterations: self.iteration,
+            cg_iterations: self.cg_iterations,
+        }
+    }
+
+    /// Runs until `left` conjugate-gradient iterations are used up or there is a
+    /// reason to stop.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
+        while *left > 0 {
+            let start = Instant::now();
+            let done = self.run_z_step(left);
+            self.seconds.z_step += start.elapsed().as_secs_f64();
+            if done {
+                // The update costs about as much; so a solve without work for CG ends as well.
+                *left = left.saturating_sub(1);
+                let reason = self.finish_iteration()?;
+                if reason.is_some() {
+                    return Ok(reason);
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// Goes on with the z-step under way; tells whether it is complete.
+    fn run_z_step(&mut self, left: &mut usize) -> bool {
+        let limit = self
+            .plan
+            .cg_limit(&self.problem, self.iteration, self.best.gap());
+        loop {
+            let tight = self.plan.cg_tolerance > 0.0;
+            if tight
+                && self.round == 0
+                && self.cg.relative_residual(&self.problem) <= self.plan.cg_tolerance
+            {
+                return true;
+            }
+            let reduction = self.plan.cg_reduction(&self.problem, self.iteration);
+            let goal = reduction * self.first_energy;
+            while self.z_step < limit && self.cg.energy() > goal {
+                if *left == 0 {
+                    return false;
+                }
+                *left -= 1;
+                if !self.cg.step(&self.problem.domain) {
+                    break;
+                }
+                self.z_step += 1;
+                self.round += 1;
+                self.cg_iterations += 1;
+            }
+            let moved = self.round > 0;
+            self.round = 0;
+            self.cg.correct(&self.problem.domain, &mut self.state.z);
+            if !tight || !moved || self.z_step >= limit {
+                return true;
+            }
+            self.state.update(&self.problem, 0.0, &mut self.cg);
+            self.first_energy = self.cg.energy();
+        }
+    }
+
+    /// H-step, dual update and, when one is due, the certificate.
+    fn finish_iteration(&mut self) -> Result<Option<StopReason>> {
+        let start = Instant::now();
+        self.z_step = 0;
+        self.iteration += 1;
+        if self.plan.follows_normals {
+            self.problem.take_normals(&self.state.z)?;
+        }
+        let check = self.plan.is_check(self.iteration);
+        let relaxation = self.plan.relaxation(self.iteration);
+        let state = &mut self.state;
+        let change = if check && self.plan.measures_change(&self.problem) {
+            state.update_and_measure(&self.problem, relaxation, &mut self.cg)
+        } else {
+            state.update(&self.problem, relaxation, &mut self.cg);
+            0.0
+        };
+        self.first_energy = self.cg.energy();
+        self.seconds.h_step += start.elapsed().as_secs_f64();
+        if !check {
+            return Ok(None);
+        }
+        let start = Instant::now();
+        let reason = self.check(change)?;
+        self.seconds.certificate += start.elapsed().as_secs_f64();
+        Ok(reason)
+    }
+
+    fn check(&mut self, change: f64) -> Result<Option<StopReason>> {
+        let mut certificate = self.state.certify(&self.problem);
+        let balance =
+            !self.problem.free.is_empty() && self.plan.is_balance(self.iteration, self.balanced);
+        if balance {
+            self.balanced = self.iteration;
+            let bound = balanced_bound(
+                &mut self.state,
+                &self.problem,
+                &mut self.cg,
+                &mut self.cg_iterations,
+            )?;
+            certificate.dual_bound = certificate.dual_bound.max(bound);
+        }
+        if self.plan.follows_normals {
+            // Another energy than at the last check.
+            self.best = Best::new(&self.state.z, &certificate);
+        } else {
+            self.best.take(&self.state.z, &certificate);
+        }
+        self.climb()?;
+        let reason = self.plan.stop(
+            &self.problem,
+            self.iteration,
+            &certificate,
+            change,
+            self.best.objective(),
+            self.best.gap(),
+        );
+        let rho = self
+            .plan
+            .next_rho(&self.problem, self.state.rho, &certificate, change);
+        let due = self.plan.may_tune(self.iteration, self.tuned);
+        if reason.is_none() && due && rho != self.state.rho {
+            self.tuned = self.iteration;
+            self.state.set_rho(&self.problem, rho);
+            self.cg.set_rho(rho);
+            self.state.update(&self.problem, 0.0, &mut self.cg);
+            self.first_energy = self.cg.energy();
+        }
+        Ok(reason)
+    }
+
+    /// Looks for a better bound with this iterate, if that is worth it.
+    fn climb(&mut self) -> Result<()> {
+        let worth = self.plan.climbs(&self.problem, self.best.gap());
+        let due = self.iteration >= self.next_climb || self.plan.is_last(self.iteration);
+        // Of another energy at each check, no bound is kept.
+        let due = due || self.plan.follows_normals;
+        if !worth || !due {
+            return Ok(());
+        }
+        let bound = self.best.dual_bound;
+        let goal = self.plan.bound_wanted(self.best.objective());
+        let ascent = match &mut self.ascent {
+            Some(ascent) => ascent,
+            none => none.insert(Ascent::new(&self.problem)?),
+        };
+        self.best.dual_bound = ascent.climb(&mut self.state, &self.problem, bound, goal)?;
+        let iterations = self.iteration - self.pass_start;
+        self.next_climb = self.pass_start + self.plan.next_climb(iterations, self.best.gap());
+        Ok(())
+    }
+
+    /// Another pass, in which every vertex's norm is weighted by one over its
+    /// size in the best surface so far. A reason to stop at once comes with it.
+    pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
+        self.problem.reweight(&self.best.z)?;
+        let certificate = self.state.certify(&self.problem);
+        self.best = Best::new(&self.state.z, &certificate);
+        self.state.update(&self.problem, 0.0, &mut self.cg);
+        self.first_energy = self.cg.energy();
+        self.z_step = 0;
+        self.pass_start = self.iteration;
+        self.next_climb = self.iteration;
+        Ok(self.plan.stop(
+            &self.problem,
+            self.iteration,
+            &certificate,
+            f64::INFINITY,
+            self.best.objective(),
+            self.best.gap(),
+        ))
+    }
+}

@@ -1,0 +1,7 @@
+//! ADMM (paper, Eq. 17 to 19): its iterate, its schedule and its certificate.
+
+mod ascent;
+mod balance;
+pub(crate) mod iteration;
+pub(crate) mod schedule;
+pub(crate) mod state;

@@ -1,0 +1,327 @@
+//! The two ways to run the iterations: on how many levels, how exactly each
+//! z-step is solved, how ρ follows the residuals, and when to stop.
+
+use super::state::Certificate;
+use crate::fit::energy::law::Kind;
+use crate::fit::energy::problem::Problem;
+use crate::fit::options::{Energy, Options, Schedule};
+use crate::fit::report::StopReason;
+
+/// The numbers of a [`Schedule`] on one level.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plan {
+    schedule: Schedule,
+    /// Over-relaxation of `Cz` in the H-step and the dual update.
+    relaxation: f64,
+    /// Conjugate-gradient iterations in a z-step, at most; while the gap is above [`ROUGH`]; in
+    /// the first one of a level; and where vertices are free, for there one V-cycle does less.
+    cg_iterations: usize,
+    cg_rough: usize,
+    cg_first: usize,
+    cg_free: usize,
+    /// Residual, relative to `2λ z̃`, at which a z-step is solved; 0 if it need not be.
+    pub cg_tolerance: f64,
+    /// Iterations from one certificate to the next, and at the beginning.
+    check_every: usize,
+    check_first: usize,
+    /// ρ changes when one relative residual exceeds the other by this factor.
+    imbalance: f64,
+    gap: f64,
+    max_iterations: usize,
+    /// Whether the weights are those of the surface itself.
+    pub follows_normals: bool,
+}
+
+/// Absolute and relative residuals at which `Schedule::Paper` stops: those of
+/// the authors' own code, which measures both among the Hessians, the dual one
+/// without the `Cᵀ` that the criterion of Boyd et al. has. With it the factors
+/// 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
+const ABSOLUTE: f64 = 1e-4;
+const RELATIVE: f64 = 1e-3;
+
+/// A coarse level has at least so many interior vertices: below that nothing is saved.
+const COARSEST: usize = 500;
+
+/// Relative residuals are balanced at primal = BALANCE · dual: the dual residual is
+/// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound
+/// least, since `ascent` takes them away. Over three λ on a scan, 0.15 took 530, 190 and 90
+/// iterations to a gap of 0.1 %, 0.05 290, 150 and 80, this 210, 150 and 90.
+const BALANCE: f64 = 0.025;
+
+/// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
+/// the former is less than this share of it: without, one of four inputs takes a third more iterations.
+const SMALL_SHARE: f64 = 0.2;
+
+/// The same where vertices are free, and the dual residual is the change of the
+/// Hessians: fewest iterations over four sets of constraints; 1 took four times as many.
+const FREE_BALANCE: f64 = 10.0;
+
+/// Above this gap a second conjugate-gradient iteration per z-step pays: without, from 15, 15 and 15
+/// ADMM iterations over three λ to 25, 20 and 20. Below, it saves hardly more iterations than it costs.
+const ROUGH: f64 = 0.03;
+
+/// It is not needed where the first one has come this close, by the residual's squares: a seventh of
+/// them all on a page of a million vertices.
+const CLOSE: f64 = 0.005;
+
+/// The squares of a residual that single precision carries on from, relative to its first.
+const SINGLE: f64 = 1e-6;
+
+/// From one level to the next: with 0.7 the finest takes 15, 15 and 20 iterations, with 0.35 15, 20
+/// and 15, with this 15 each.
+const FINER: f64 = 0.5;
+
+/// Longest screening length of the z-step, in sizes of the domain.
+const SCREENING: f64 = 0.1;
+
+/// The same in cells: its fourth power is the condition number. Longer ones move the surface
+/// faster and its bound more slowly. 8 takes a third more iterations at λ = 1e5, or with a million
+/// vertices; up to 16 there is no difference.
+const CELLS: f64 = 10.0;
+
+/// Most of what a search for a better bound divides the gap by.
+const CLIMBABLE: f64 = 100.0;
+
+/// Iterations without over-relaxation on a new lattice.
+const SETTLING: usize = 5;
+
+/// Iterations in which certificates are taken more often.
+const BEGINNING: usize = 30;
+
+/// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
+const COARSE_GAP: f64 = 0.01;
+
+impl Plan {
+    /// The plan for the finest level.
+    pub(crate) fn new(options: &Options) -> Self {
+        let common = Plan {
+            schedule: options.schedule,
+            relaxation: 1.8,
+            cg_iterations: 1,
+            cg_rough: 2,
+            cg_free: 4,
+            cg_first: 3,
+            cg_tolerance: 0.0,
+            check_every: 10,
+            check_first: 5,
+            imbalance: 3.0,
+            gap: options.gap,
+            max_iterations: options.max_iterations,
+            follows_normals: options.energy == Energy::SecondForm,
+        };
+        match options.schedule {
+            Schedule::Default => common,
+            Schedule::Paper => Plan {
+                relaxation: 1.0,
+                cg_iterations: 5000,
+                cg_rough: 5000,
+                cg_free: 5000,
+                cg_first: 5000,
+                cg_tolerance: 1e-8,
+                check_first: 10,
+                imbalance: 5000.0,
+                ..common
+            },
+        }
+    }
+
+    /// The same for a coarse level, or for one with fewer iterations left.
+    pub(crate) fn on_level(&self, coarse: bool, iterations_done: usize) -> Self {
+        Plan {
+            gap: if coarse {
+                self.gap.max(COARSE_GAP)
+            } else {
+                self.gap
+            },
+            max_iterations: self.max_iterations.saturating_sub(iterations_done),
+            ..*self
+        }
+    }
+
+    /// Whether a lattice with so many interior vertices is worth a level of its own.
+    pub(crate) fn wants_level(&self, interior: usize) -> bool {
+        self.schedule == Schedule::Default && interior >= COARSEST
+    }
+
+    /// The penalty to start from.
+    pub(crate) fn first_rho(&self, problem: &Problem) -> f64 {
+        match self.schedule {
+            // Creases have Hessians of order 1/h, which makes h the natural unit of ρ.
+            Schedule::Default => self.within_bounds(problem.spacing, problem),
+            Schedule::Paper => 1e-6,
+        }
+    }
+
+    /// The penalty to go on with on the lattice of half the spacing.
+    pub(crate) fn finer_rho(&self, rho: f64, fine: &Problem) -> f64 {
+        self.within_bounds(FINER * rho, fine)
+    }
+
+    /// Where the optimum is nearly affine the relative primal residual stays at 1, and
+    /// balancing alone would let ρ grow without end. There is no use for a screening
+    /// length (ρ/2λ)^¼ beyond a part of the domain's size.
+    fn within_bounds(&self, rho: f64, problem: &Problem) -> f64 {
+        let domain = &problem.domain;
+        let size = problem.spacing * domain.rows().max(domain.stride()) as f64;
+        if !problem.free.is_empty() {
+            // No screening length, but the ratio of dual and Hessian of a surface as large as this.
+            return rho.min(10.0 * size);
+        }
+        let length = (SCREENING * size).min(CELLS * problem.spacing);
+        rho.min(2.0 * problem.lambda * length.powi(4))
+    }
+
+    /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.
+    pub(crate) fn cg_limit(&self, problem: &Problem, iteration: usize, gap: f64) -> usize {
+        if !problem.free.is_empty() {
+            self.cg_free
+        } else if iteration == 0 {
+            self.cg_first
+        } else if gap > ROUGH {
+            self.cg_rough
+        } else {
+            self.cg_iterations
+        }
+    }
+
+    /// The squares of the residual at which a z-step, or a round of it, ends early, relative to its
+    /// first ones.
+    pub(crate) fn cg_reduction(&self, problem: &Problem, iteration: usize) -> f64 {
+        match self.schedule {
+            Schedule::Paper => SINGLE,
+            Schedule::Default if iteration == 0 || !problem.free.is_empty() => 0.0,
+            Schedule::Default => CLOSE,
+        }
+    }
+
+    /// Whether [`Plan::stop`] and [`Plan::next_rho`] ask for the change of the Hessians.
+    pub(crate) fn measures_change(&self, problem: &Problem) -> bool {
+        self.schedule == Schedule::Paper || !problem.free.is_empty()
+    }
+
+    /// Whether a certificate is due.
+    pub(crate) fn is_check(&self, iteration: usize) -> bool {
+        let every = if iteration <= BEGINNING {
+            self.check_first
+        } else {
+            self.check_every
+        };
+        iteration.is_multiple_of(every) || self.is_last(iteration)
+    }
+
+    /// Over-relaxation leaves nearly all of the highest frequencies of a residual, with the opposite
+    /// sign. Iterations without take them away, where the start is full of them and where the
+    /// bound is to be taken.
+    pub(crate) fn relaxation(&self, iteration: usize) -> f64 {
+        if iteration <= SETTLING || self.is_check(iteration) {
+            1.0
+        } else {
+            self.relaxation
+        }
+    }
+
+    /// Whether an iterate of such a gap is worth the search for a better bound.
+    pub(crate) fn climbs(&self, problem: &Problem, gap: f64) -> bool {
+        self.schedule == Schedule::Default
+            && problem.kind == Kind::Nuclear
+            && problem.free.is_empty()
+            && gap > self.gap
+            && gap < CLIMBABLE * self.gap
+    }
+
+    /// When the search is worth it again that after so many iterations came to such a gap: gaps
+    /// hardly fall faster than with the square of the iterations.
+    pub(crate) fn next_climb(&self, iteration: usize, gap: f64) -> usize {
+        (iteration as f64 * (gap / self.gap).sqrt()) as usize
+    }
+
+    /// The bound that would end the iterations.
+    pub(crate) fn bound_wanted(&self, objective: f64) -> f64 {
+        (1.0 - self.gap) * objective
+    }
+
+    /// Whether the certificate is to be balanced, which costs as much as some tens of iterations:
+    /// a quarter more of them than the `last` time.
+    pub(crate) fn is_balance(&self, iteration: usize, last: usize) -> bool {
+        iteration >= last + last / 4 + 2 * self.check_every || self.is_last(iteration)
+    }
+
+    /// Whether ρ may change: a quarter more iterations after the `last` time, so that it settles in the
+    /// end, without which ADMM need not converge.
+    pub(crate) fn may_tune(&self, iteration: usize, last: usize) -> bool {
+        self.schedule == Schedule::Paper || iteration >= last + last / 4
+    }
+
+    /// Whether there may be no further iteration.
+    pub(crate) fn is_last(&self, iteration: usize) -> bool {
+        iteration >= self.max_iterations
+    }
+
+    /// Residual balancing (Boyd et al., Sec. 3.4.1), by what the residuals cost: the penalty to go on
+    /// with.
+    pub(crate) fn next_rho(
+        &self,
+        problem: &Problem,
+        rho: f64,
+        certificate: &Certificate,
+        change: f64,
+    ) -> f64 {
+        let (primal, dual) = match self.schedule {
+            // At free vertices `CᵀY` itself is to vanish: no measure of anything.
+            Schedule::Default if !problem.free.is_empty() => (
+                certificate.primal_residual / certificate.primal_size,
+                FREE_BALANCE * change / certificate.dual_norm,
+            ),
+            Schedule::Default => (
+                certificate.primal_residual / certificate.primal_size,
+                BALANCE * certificate.dual_residual / certificate.dual_size,
+            ),
+            Schedule::Paper => (certificate.primal_residual, change),
+        };
+        let mut up = primal > self.imbalance * dual;
+        let down = dual > self.imbalance * primal;
+        if self.schedule == Schedule::Default && problem.free.is_empty() {
+            let gap = certificate.objective() - certificate.dual_bound;
+            up |= certificate.dual_cost < SMALL_SHARE * gap;
+        }
+        let next = match (up, down) {
+            (_, true) => rho / 2.0,
+            (true, false) => rho * 2.0,
+            (false, false) => rho,
+        };
+        match self.schedule {
+            Schedule::Default => self.within_bounds(next, problem),
+            Schedule::Paper => next,
+        }
+    }
+
+    /// Whether to stop after `iteration` iterations, the last of which moved the
+    /// Hessians by `change = ρ‖ΔH‖`, and why.
+    pub(crate) fn stop(
+        &self,
+        problem: &Problem,
+        iteration: usize,
+        certificate: &Certificate,
+        change: f64,
+        objective: f64,
+        gap: f64,
+    ) -> Option<StopReason> {
+        if objective <= problem.rounding {
+            return Some(StopReason::Rounding);
+        }
+        let done = match self.schedule {
+            Schedule::Default => (gap <= self.gap).then_some(StopReason::Gap),
+            Schedule::Paper => {
+                // Four entries of a Hessian, as in the paper.
+                let entries = 4.0 * problem.domain.interior_len() as f64;
+                let absolute = entries.sqrt() * ABSOLUTE;
+                // Before the first iteration both residuals vanish without meaning anything.
+                let met = iteration > 0
+                    && certificate.primal_residual <= absolute + RELATIVE * certificate.primal_size
+                    && change <= absolute + RELATIVE * certificate.dual_norm;
+                met.then_some(StopReason::Residuals)
+            }
+        };
+        done.or(self.is_last(iteration).then_some(StopReason::MaxIterations))
+    }
+}

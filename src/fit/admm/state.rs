@@ -1,0 +1,424 @@
+//! The ADMM iterate and the two passes over it: the update of Hessians and
+//! dual, and the certificate.
+//!
+//! Paper, Eq. 18 and 19, in the form of one matrix `V = Y + ρH` per interior
+//! vertex, from which both follow: for the nuclear norm, the dual `Y = ρU` is the
+//! projection of `V` onto the dual ball, and `ρH = V − Y` its soft threshold
+//! (`law` has the other energies). So `Y` is feasible by construction, and
+//! nothing else has to be stored.
+
+use crate::error::{Result, try_filled};
+use crate::fit::energy::law::{Any, Kind, Law, Nuclear};
+use crate::fit::energy::problem::Problem;
+use crate::fit::linear::cg::ConjugateGradients;
+use crate::lattice::domain::Run;
+use crate::lattice::stencil::{Ring, Rolling, weights_of};
+use crate::math::lanes;
+use crate::math::sym2::Sym2;
+
+/// `z` and `V` on the padded box.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
+    pub z: Vec<f64>,
+    pub(crate) v: MatrixField,
+    pub rho: f64,
+    pub(super) rolling: Rolling<f64>,
+    /// A row of what the certificate sums, over matrices and over heights.
+    pub(super) terms: [Terms; 2],
+}
+
+type Terms = [Vec<f64>; SUMS];
+
+/// Sums over matrices, and as many over heights, that a certificate takes.
+const SUMS: usize = 6;
+
+/// The first `n` terms of each sum.
+#[inline(always)]
+fn terms_of(terms: &mut Terms, n: usize) -> [&mut [f64]; SUMS] {
+    terms.each_mut().map(|row| &mut row[..n])
+}
+
+fn add_sums<const N: usize>(sums: &mut [f64; SUMS], terms: [&mut [f64]; N]) {
+    for (sum, terms) in sums.iter_mut().zip(terms) {
+        *sum += lanes::sum(terms);
+    }
+}
+
+/// A symmetric matrix per cell, each coordinate of [`Sym2`] contiguous.
+#[derive(Debug, Clone)]
+pub(crate) struct MatrixField {
+    mean: Vec<f64>,
+    diff: Vec<f64>,
+    off: Vec<f64>,
+}
+
+/// One run of a [`MatrixField`].
+pub(super) struct MatrixRun<'a> {
+    mean: &'a mut [f64],
+    diff: &'a mut [f64],
+    off: &'a mut [f64],
+}
+
+impl MatrixField {
+    /// Zeros.
+    pub(super) fn new(problem: &Problem) -> Result<Self> {
+        let zeros = || try_filled("Hessians and dual", problem.domain.cells(), 0.0);
+        Ok(MatrixField {
+            mean: zeros()?,
+            diff: zeros()?,
+            off: zeros()?,
+        })
+    }
+
+    pub(crate) fn get(&self, cell: usize) -> Sym2 {
+        Sym2 {
+            mean: self.mean[cell],
+            diff: self.diff[cell],
+            off: self.off[cell],
+        }
+    }
+
+    pub(crate) fn set(&mut self, cell: usize, value: Sym2) {
+        self.mean[cell] = value.mean;
+        self.diff[cell] = value.diff;
+        self.off[cell] = value.off;
+    }
+
+    /// From `V = Y + ρH` to `Y + factor · ρH`.
+    fn rescale(&mut self, problem: &Problem, law: impl Law, factor: f64) {
+        let domain = &problem.domain;
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let weight = problem.weight.run(domain, row, *run);
+                let mut v = self.run(*run);
+                for (i, weight) in weight.iter().enumerate() {
+                    let value = v.get(i);
+                    let dual = law.dual(value, *weight);
+                    v.set(i, dual + (value - dual).scale(factor));
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
+        let n = run.end - run.start;
+        MatrixRun {
+            mean: &mut self.mean[run.start..][..n],
+            diff: &mut self.diff[run.start..][..n],
+            off: &mut self.off[run.start..][..n],
+        }
+    }
+}
+
+impl MatrixRun<'_> {
+    #[inline(always)]
+    pub(super) fn get(&self, i: usize) -> Sym2 {
+        Sym2 {
+            mean: self.mean[i],
+            diff: self.diff[i],
+            off: self.off[i],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, value: Sym2) {
+        self.mean[i] = value.mean;
+        self.diff[i] = value.diff;
+        self.off[i] = value.off;
+    }
+}
+
+/// What one pass over an iterate finds out about it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Certificate {
+    /// `λ Σ w (z − z̃)²`.
+    pub fidelity: f64,
+    /// `Σ ω f(Cz)`.
+    pub nuclear_norm: f64,
+    /// `D(tY)` with the best `t`: a lower bound of the optimum.
+    pub dual_bound: f64,
+    /// `‖Cz − H‖`, and the larger of `‖Cz‖` and `‖H‖`.
+    pub primal_residual: f64,
+    pub primal_size: f64,
+    /// `‖2λ(z − z̃) + CᵀY‖`, which is `ρ‖CᵀΔH‖` for exact z-steps, and `‖CᵀY‖`.
+    pub dual_residual: f64,
+    pub dual_size: f64,
+    /// `‖Y‖`.
+    pub dual_norm: f64,
+    /// `Σ (2λw(z − z̃) + CᵀY)² / 4λw`: what the dual residual contributes to the gap.
+    pub dual_cost: f64,
+}
+
+impl Certificate {
+    pub(crate) fn objective(&self) -> f64 {
+        self.fidelity + self.nuclear_norm
+    }
+}
+
+impl State {
+    /// `z = z̃`, `H = U = 0`.
+    pub(crate) fn new(problem: &Problem, rho: f64) -> Result<Self> {
+        let mut z = try_filled("heights", problem.domain.cells(), 0.0)?;
+        z.copy_from_slice(&problem.target);
+        Ok(State {
+            z,
+            v: MatrixField::new(problem)?,
+            rho,
+            rolling: Rolling::new(&problem.domain),
+            terms: std::array::from_fn(|_| {
+                std::array::from_fn(|_| vec![0.0; problem.domain.stride()])
+            }),
+        })
+    }
+
+    /// Changes ρ, leaving `H` and `Y` as they are.
+    pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
+        self.v.rescale(problem, self.law(problem), rho / self.rho);
+        self.rho = rho;
+    }
+
+    /// `V` of the same `H` and `Y` at another ρ.
+    pub(crate) fn v_at(&self, problem: &Problem, rho: f64) -> Result<MatrixField> {
+        let mut v = MatrixField::new(problem)?;
+        for (to, from) in [
+            (&mut v.mean, &self.v.mean),
+            (&mut v.diff, &self.v.diff),
+            (&mut v.off, &self.v.off),
+        ] {
+            to.copy_from_slice(from);
+        }
+        v.rescale(problem, self.law(problem), rho / self.rho);
+        Ok(v)
+    }
+
+    /// `Y` and `H` at an interior cell.
+    pub(crate) fn matrices(&self, problem: &Problem, cell: usize) -> (Sym2, Sym2) {
+        let v = self.v.get(cell);
+        let weight = problem.weight.at(cell);
+        let dual = self.law(problem).dual(v, weight);
+        (dual, (v - dual).scale(1.0 / self.rho))
+    }
+
+    /// Sets both at an interior cell.
+    pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
+        self.v.set(cell, dual + hessian.scale(self.rho));
+    }
+
+    /// H-step and dual update with the given over-relaxation, then the residual
+    /// `b − A z = 2λ(z̃ − z) + Cᵀ(ρH − Y − ρCz)` that the next z-step starts
+    /// from, in one pass. Relaxation 0 leaves `H` and `Y` as they are.
+    pub(crate) fn update(
+        &mut self,
+        problem: &Problem,
+        relaxation: f64,
+        cg: &mut ConjugateGradients,
+    ) {
+        match problem.kind {
+            Kind::Nuclear => self.update_of::<false>(Nuclear, problem, relaxation, cg),
+            // One kernel for all the others: less code, and measuring costs little.
+            _ => self.update_and_measure(problem, relaxation, cg),
+        };
+    }
+
+    /// The same; returns `ρ‖ΔH‖`, the change of the Hessians.
+    pub(crate) fn update_and_measure(
+        &mut self,
+        problem: &Problem,
+        relaxation: f64,
+        cg: &mut ConjugateGradients,
+    ) -> f64 {
+        self.update_of::<true>(self.law(problem), problem, relaxation, cg)
+    }
+
+    pub(super) fn law(&self, problem: &Problem) -> Any {
+        Any {
+            kind: problem.kind,
+            rho: self.rho,
+        }
+    }
+
+    fn update_of<const MEASURE: bool>(
+        &mut self,
+        law: impl Law,
+        problem: &Problem,
+        relaxation: f64,
+        cg: &mut ConjugateGradients,
+    ) -> f64 {
+        let State {
+            z,
+            v,
+            rho,
+            rolling,
+            terms,
+        } = self;
+        let [squares, ..] = &mut terms[0];
+        let mut change = 0.0;
+        let (z, rho) = (z.as_slice(), *rho);
+        let domain = &problem.domain;
+        let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
+        let scale = cg.residual_scale();
+        let residual = &mut cg.residual;
+        rolling.sweep(
+            domain,
+            v,
+            |v, row, weights| {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(z, domain, row, *run);
+                    let mut v = v.run(*run);
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let weight = problem.weight.run(domain, row, *run);
+                    let n = w1.len();
+                    for i in 0..n {
+                        let hessian = map.hessian(ring.differences(i)).scale(rho);
+                        let old = v.get(i);
+                        let old_dual = law.dual(old, weight[i]);
+                        let step = hessian - old + old_dual;
+                        let new = old + step.scale(relaxation);
+                        v.set(i, new);
+                        let dual = law.dual(new, weight[i]);
+                        if MEASURE {
+                            let moved = new - dual - old + old_dual;
+                            squares[i] = moved.dot(moved);
+                        }
+                        (w1[i], w2[i], w3[i]) = map.adjoint(new - dual - dual - hessian).into();
+                    }
+                    if MEASURE {
+                        change += lanes::sum(&squares[..n]);
+                    }
+                }
+            },
+            |_, row, sums| {
+                for run in domain.active().row(row) {
+                    let sum = sums.run(*run);
+                    let n = run.end - run.start;
+                    let z = &z[run.start..][..n];
+                    let target = &problem.target[run.start..][..n];
+                    let residual = &mut residual[run.start..][..n];
+                    let weight = problem.fidelity.run(domain, row, *run);
+                    for i in 0..n {
+                        let value = fidelity * (weight[i] * (target[i] - z[i])) + sum.at(i);
+                        residual[i] = (scale * value) as f32;
+                    }
+                }
+            },
+        );
+        cg.restart(domain);
+        change.sqrt()
+    }
+
+    /// Objective, dual bound and residuals, in one pass.
+    pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
+        match problem.kind {
+            Kind::Nuclear => self.certify_of(Nuclear, problem),
+            _ => self.certify_of(self.law(problem), problem),
+        }
+    }
+
+    fn certify_of(&mut self, law: impl Law, problem: &Problem) -> Certificate {
+        let State {
+            z,
+            v,
+            rho,
+            rolling,
+            terms,
+        } = self;
+        let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
+        let domain = &problem.domain;
+        let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
+        let (mut matrices, mut heights) = ([0.0; SUMS], [0.0; SUMS]);
+        let [matrix_terms, height_terms] = terms;
+        rolling.sweep(
+            domain,
+            v,
+            |v, row, weights| {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(z, domain, row, *run);
+                    let v = v.run(*run);
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let weight = problem.weight.run(domain, row, *run);
+                    let n = w1.len();
+                    let [t1, t2, t3, t4, t5, t6] = terms_of(matrix_terms, n);
+                    for i in 0..n {
+                        let hessian = map.hessian(ring.differences(i));
+                        let value = v.get(i);
+                        let y = law.dual(value, weight[i]);
+                        (w1[i], w2[i], w3[i]) = map.adjoint(y).into();
+                        let h = (value - y).scale(inverse_rho);
+                        let gap = hessian - h;
+                        t1[i] = law.value(hessian, weight[i]);
+                        t2[i] = gap.dot(gap);
+                        t3[i] = hessian.dot(hessian);
+                        t4[i] = h.dot(h);
+                        t5[i] = y.dot(y);
+                        t6[i] = law.conjugate(y, weight[i]);
+                    }
+                    add_sums(&mut matrices, [t1, t2, t3, t4, t5, t6]);
+                }
+            },
+            |_, row, sums| {
+                for run in domain.active().row(row) {
+                    let sum = sums.run(*run);
+                    let n = run.end - run.start;
+                    let z = &z[run.start..][..n];
+                    let target = &problem.target[run.start..][..n];
+                    let weight = problem.fidelity.run(domain, row, *run);
+                    let inverse = problem.inverse_fidelity.run(domain, row, *run);
+                    let [t1, t2, t3, t4, t5, t6] = terms_of(height_terms, n);
+                    for i in 0..n {
+                        let offset = z[i] - target[i];
+                        let adjoint = sum.at(i);
+                        let gradient = fidelity * (weight[i] * offset) + adjoint;
+                        let square = adjoint * adjoint;
+                        // Nothing is asked of the gradient at constrained cells.
+                        let asked = inverse[i] > 0.0;
+                        t1[i] = weight[i] * (offset * offset);
+                        t2[i] = adjoint * target[i];
+                        t3[i] = square * inverse[i];
+                        t4[i] = if asked { gradient * gradient } else { 0.0 };
+                        t5[i] = if asked { square } else { 0.0 };
+                        t6[i] = gradient * gradient * inverse[i];
+                    }
+                    add_sums(&mut heights, [t1, t2, t3, t4, t5, t6]);
+                }
+            },
+        );
+        let [nuclear, primal, image, split, dual_norm, conjugate] = matrices;
+        let [distance, inner, quadratic, dual, dual_size, cost] = heights;
+        let bound = dual_bound(problem, inner, quadratic, conjugate, law.largest());
+        Certificate {
+            fidelity: problem.lambda * distance,
+            nuclear_norm: nuclear,
+            dual_bound: bound,
+            primal_residual: primal.sqrt(),
+            primal_size: image.sqrt().max(split.sqrt()),
+            dual_residual: dual.sqrt(),
+            dual_size: dual_size.sqrt(),
+            dual_norm: dual_norm.sqrt(),
+            dual_cost: cost / (4.0 * problem.lambda),
+        }
+    }
+}
+
+/// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
+/// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where they overflow,
+/// as for a confidence of 1e-300, what is left is `t = 0`.
+pub(super) fn dual_bound(
+    problem: &Problem,
+    inner: f64,
+    quadratic: f64,
+    conjugate: f64,
+    largest: f64,
+) -> f64 {
+    let square = quadratic / (4.0 * problem.lambda) + conjugate;
+    if !(square.is_finite() && inner.is_finite()) {
+        0.0
+    } else if square > 0.0 {
+        let t = (inner / (2.0 * square)).clamp(0.0, largest);
+        t * inner - t * t * square
+    } else if largest < f64::INFINITY {
+        largest * inner.max(0.0)
+    } else {
+        0.0
+    }
+}

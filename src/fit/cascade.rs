@@ -1,0 +1,288 @@
+//! One connected part: from its coarsest lattice to its finest, and through the
+//! reweighted passes there.
+
+use std::sync::Arc;
+
+use super::admm::iteration::{Best, Level};
+use super::admm::schedule::Plan;
+use super::admm::state::State;
+use super::coarse_to_fine::{coarsen, prolong};
+use super::coordinates::Coordinates;
+use super::energy::problem::{Problem, position};
+use super::input::Input;
+use super::options::Options;
+use super::plate;
+use super::report::{LevelReport, Seconds, StopReason};
+use crate::error::{Error, Result};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::domain::Domain;
+
+/// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
+const COARSEST_GRID: usize = 20;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Cascade {
+    /// The level under way; the finest one at the end.
+    level: Level,
+    /// The problems of the finer levels, the finest first.
+    finer: Vec<Problem>,
+    /// The domains of all lattices, the finest first.
+    domains: Vec<Arc<Domain>>,
+    /// The levels done, the coarsest first.
+    coarser: Vec<LevelReport>,
+    plan: Plan,
+    /// Reweighted passes done and still to come.
+    passes: usize,
+    passes_left: usize,
+    seconds: Seconds,
+    reason: Option<StopReason>,
+}
+
+/// What is kept of a component that is done: its surface, and where to go on from.
+#[derive(Debug, Clone)]
+pub(crate) struct Answer {
+    pub problem: Problem,
+    pub state: State,
+    pub best: Best,
+    pub reason: StopReason,
+    pub levels: Vec<LevelReport>,
+    pub passes: usize,
+    pub seconds: Seconds,
+}
+
+impl Cascade {
+    /// `warm` gives the state to start from on the finest lattice, if there is one.
+    pub(crate) fn new(
+        mut input: Input,
+        domain: Arc<Domain>,
+        coordinates: &Coordinates,
+        options: &Options,
+        warm: impl FnOnce(&Problem) -> Result<Option<State>>,
+    ) -> Result<Self> {
+        let plan = Plan::new(options);
+        let mut problem = Problem::new(&input, domain.clone(), coordinates, options)?;
+        let mut domains = vec![domain];
+        let mut finer = Vec::new();
+        let objective = problem.smoothness(&problem.target);
+        if !objective.is_finite() {
+            return Err(Error::Overflow {
+                spacing: problem.domain.lattice().spacing(),
+            });
+        }
+        let trivial = objective <= problem.rounding && problem.free.is_empty();
+        let warm = warm(&problem)?;
+        let mut coarse = Vec::new();
+        if !trivial {
+            // The lattices for multigrid come first: free heights are found with their help.
+            let found = coarser(&input)?;
+            domains.extend(found.iter().map(|(_, domain)| domain.clone()));
+            coarse = found;
+            if !problem.free.is_empty() {
+                plate::fill(&mut problem, &domains, &plan)?;
+                problem.take_first_normals(options.energy)?;
+                give_back(&mut input, &problem, coordinates)?;
+                coarse = coarser(&input)?;
+            }
+        }
+        let state = match warm {
+            Some(state) => state,
+            None => {
+                finer.push(problem);
+                for (input, domain) in &coarse {
+                    if plan.wants_level(domain.interior_len()) {
+                        finer.push(Problem::new(input, domain.clone(), coordinates, options)?);
+                    }
+                }
+                problem = finer.remove(finer.len() - 1);
+                State::new(&problem, plan.first_rho(&problem))?
+            }
+        };
+        let (level, reason) = Level::new(
+            problem,
+            state,
+            plan.on_level(!finer.is_empty(), 0),
+            &domains[finer.len()..],
+            0,
+        )?;
+        let mut component = Cascade {
+            level,
+            finer,
+            domains,
+            coarser: Vec::new(),
+            plan,
+            passes: 0,
+            passes_left: options.reweighting,
+            seconds: Seconds::default(),
+            reason: None,
+        };
+        if let Some(reason) = reason {
+            component.finish_level(reason)?;
+        }
+        Ok(component)
+    }
+
+    /// Runs until `left` conjugate-gradient iterations are used up or it is
+    /// done; then tells why.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
+        while *left > 0 && self.reason.is_none() {
+            if let Some(reason) = self.level.advance(left)? {
+                self.finish_level(reason)?;
+            }
+        }
+        Ok(self.reason)
+    }
+
+    /// Goes on to finer levels, and further passes, as long as they have nothing to do.
+    fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
+        while let Some(fine) = self.finer.pop() {
+            self.coarser.push(self.level.report());
+            self.seconds = self.seconds + self.level.seconds;
+            let done = self.coarser.iter().map(|level| level.iterations).sum();
+            let plan = self.plan.on_level(!self.finer.is_empty(), done);
+            let rho = self.plan.finer_rho(self.level.state.rho, &fine);
+            let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
+            // Levels take about as many iterations as the one before.
+            let next_climb = 2 * self.level.report().iterations / 3;
+            let (level, stop) = Level::new(
+                fine,
+                state,
+                plan,
+                &self.domains[self.finer.len()..],
+                next_climb,
+            )?;
+            self.level = level;
+            match stop {
+                Some(next) => reason = next,
+                None => return Ok(()),
+            }
+        }
+        while self.passes_left > 0 && matches!(reason, StopReason::Gap | StopReason::Residuals) {
+            self.passes_left -= 1;
+            self.passes += 1;
+            match self.level.reweight()? {
+                Some(next) => reason = next,
+                None => return Ok(()),
+            }
+        }
+        self.reason = Some(reason);
+        Ok(())
+    }
+
+    /// Why it stopped, if it has.
+    pub(crate) fn reason(&self) -> Option<StopReason> {
+        self.reason
+    }
+
+    /// How many finer levels are still to come.
+    pub(crate) fn levels_left(&self) -> usize {
+        self.finer.len()
+    }
+
+    /// The level under way.
+    pub(crate) fn level(&self) -> &Level {
+        &self.level
+    }
+
+    /// The problem on the finest lattice.
+    pub(crate) fn problem(&self) -> &Problem {
+        self.finer.first().unwrap_or(&self.level.problem)
+    }
+
+    /// The levels that were worked on, the coarsest first.
+    pub(crate) fn levels(&self) -> Vec<LevelReport> {
+        let mut levels = self.coarser.clone();
+        levels.push(self.level.report());
+        levels
+    }
+
+    /// What is there, whether it is done or not. From a coarse level it is
+    /// carried to the finest lattice and certified there.
+    pub(crate) fn answer(&self) -> Result<Answer> {
+        let carried = self.carry_to_finest()?;
+        let (state, best) = carried.unwrap_or((self.level.state.clone(), self.level.best.clone()));
+        Ok(Answer {
+            problem: self.problem().clone(),
+            state,
+            best,
+            reason: self.reason.unwrap_or(StopReason::Cancelled),
+            levels: self.levels(),
+            passes: self.passes,
+            seconds: self.seconds + self.level.seconds,
+        })
+    }
+
+    /// The same, of one that is done.
+    pub(crate) fn into_answer(self, reason: StopReason) -> Answer {
+        let levels = self.levels();
+        Answer {
+            seconds: self.seconds + self.level.seconds,
+            problem: self.level.problem,
+            state: self.level.state,
+            best: self.level.best,
+            reason,
+            levels,
+            passes: self.passes,
+        }
+    }
+
+    /// A coarse level's iterate on the finest lattice, or the input if that is better.
+    fn carry_to_finest(&self) -> Result<Option<(State, Best)>> {
+        let mut state: Option<State> = None;
+        let mut coarse = &self.level.problem;
+        for fine in self.finer.iter().rev() {
+            let from = state.as_ref().unwrap_or(&self.level.state);
+            let rho = self.plan.finer_rho(from.rho, fine);
+            state = Some(prolong(coarse, from, fine, rho)?);
+            coarse = fine;
+        }
+        let Some(mut state) = state else {
+            return Ok(None);
+        };
+        let certificate = state.certify(coarse);
+        let mut best = Best::new(&state.z, &certificate);
+        best.take_input(coarse);
+        Ok(Some((state, best)))
+    }
+}
+
+impl Answer {
+    /// Objective and optimum are the same but for rounding errors.
+    pub(crate) fn dual_bound(&self) -> f64 {
+        match self.reason {
+            StopReason::Rounding => self.best.objective(),
+            _ => self.best.dual_bound,
+        }
+    }
+}
+
+pub(crate) fn domain_of(input: &Input) -> Result<Domain> {
+    Domain::with_occlusions(&input.field, |vertex| input.is_occluded(vertex))
+}
+
+/// The input on all coarser lattices that are of use, the finest first.
+fn coarser(input: &Input) -> Result<Vec<(Input, Arc<Domain>)>> {
+    let mut found: Vec<(Input, Arc<Domain>)> = Vec::new();
+    loop {
+        let next = coarsen(found.last().map_or(input, |(last, _)| last))?;
+        match domain_of(&next) {
+            Ok(domain) if domain.interior_len() >= COARSEST_GRID => {
+                found.push((next, Arc::new(domain)));
+            }
+            _ => return Ok(found),
+        }
+    }
+}
+
+/// Puts the heights that were found for free vertices where the given ones are.
+fn give_back(input: &mut Input, problem: &Problem, coordinates: &Coordinates) -> Result<()> {
+    let domain = &problem.domain;
+    let lattice = *input.field.lattice();
+    let mut heights = input.field.heights().to_vec();
+    for cell in &problem.free {
+        let cell = *cell as usize;
+        heights[domain.lattice_index(cell)] =
+            coordinates.outward(position(domain, cell), problem.target[cell]);
+    }
+    input.field = Heightfield::new(lattice, heights)?;
+    Ok(())
+}

@@ -1,0 +1,266 @@
+//! Coarse to fine: the sublattice of twice the spacing is the same kind of
+//! lattice, and its solution a good start.
+//!
+//! Coarse vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`, and every other
+//! fine vertex is the midpoint of a coarse edge. Since both terms of the energy
+//! are plain sums over vertices, λ stays; the dual is bounded by 1 whatever the
+//! resolution, so `Y` and `H` carry over as they are. `z` is interpolated linearly, which
+//! keeps creases; `Y` more smoothly, by the rules of Loop's subdivision surfaces, for every kink of it
+//! is a residual.
+
+use super::admm::state::State;
+use super::energy::problem::Problem;
+use super::input::Input;
+use super::linear::transfer::parents;
+use crate::error::Result;
+use crate::heights::heightfield::Heightfield;
+use crate::heights::occlusions::Occlusions;
+use crate::lattice::domain::{Domain, Role};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, Towards};
+use crate::math::sym2::Sym2;
+
+/// The input on the lattice of twice the spacing. A coarse vertex is valid where
+/// its fine vertex is; its height is the mean, by confidence, over the opposite
+/// neighbours that are both there, which leaves planes alone and halves the
+/// noise. It is constrained if its fine vertex is, or else to the mean of its
+/// constrained neighbours; torn if its own or a neighbour's surroundings are.
+pub(crate) fn coarsen(input: &Input) -> Result<Input> {
+    let fine = input.field.lattice();
+    let lattice = Lattice::new(
+        fine.rows().div_ceil(2),
+        fine.cols() / 2 + 1,
+        2.0 * fine.spacing(),
+    )?
+    .with_origin(fine.origin())?;
+    let vertex = |(row, col): (isize, isize)| {
+        let inside = fine.contains(row, col);
+        inside.then(|| fine.index(row as usize, col as usize))
+    };
+    const OPPOSITE: [(Towards, Towards); 3] = [
+        (Towards::West, Towards::East),
+        (Towards::NorthWest, Towards::SouthEast),
+        (Towards::NorthEast, Towards::SouthWest),
+    ];
+    let heights = input.field.heights();
+    let mut coarse = Input::new(Heightfield::new(lattice, vec![f64::NAN; lattice.len()])?);
+    let mut field = Vec::with_capacity(lattice.len());
+    let mut torn = Vec::new();
+    for row in 0..lattice.rows() {
+        for col in 0..lattice.cols() {
+            let (r, c) = (2 * row as isize, 2 * col as isize - (row % 2) as isize);
+            let centre = vertex((r, c)).filter(|v| !heights[*v].is_nan());
+            let ring = NEIGHBOURS.map(|t| vertex(t.step(r, c)));
+            let Some(centre) = centre else {
+                field.push(f64::NAN);
+                input.push_rest(&mut coarse, &mut torn, 0.0, false, false);
+                continue;
+            };
+            let pairs = || {
+                let pair = |(a, b): (Towards, Towards)| {
+                    let (a, b) = (vertex(a.step(r, c))?, vertex(b.step(r, c))?);
+                    let sum = heights[a] + heights[b];
+                    (!sum.is_nan()).then(|| (sum, input.weight(a).min(input.weight(b))))
+                };
+                OPPOSITE.into_iter().filter_map(pair)
+            };
+            // Weights 2 and 1: those of linear interpolation, transposed.
+            let own = input.weight(centre);
+            let (mut sum, mut weight) = (2.0 * own * heights[centre], 2.0 * own);
+            let mut count = 2.0;
+            for (pair, share) in pairs() {
+                sum += share * pair;
+                weight += 2.0 * share;
+                count += 2.0;
+            }
+            let held = ring
+                .into_iter()
+                .flatten()
+                .filter(|v| input.is_constrained(*v));
+            let (mut height, mut constrained) = if weight > 0.0 {
+                (sum / weight, false)
+            } else {
+                (heights[centre], false)
+            };
+            if input.is_constrained(centre) {
+                (height, constrained) = (heights[centre], true);
+            } else {
+                let (sum, n) = held.fold((0.0, 0.0), |(sum, n), v| (sum + heights[v], n + 1.0));
+                if n > 0.0 {
+                    (height, constrained) = (sum / n, true);
+                }
+            }
+            let occluded = input.is_occluded(centre)
+                || ring.into_iter().flatten().any(|v| input.is_occluded(v));
+            field.push(height);
+            input.push_rest(
+                &mut coarse,
+                &mut torn,
+                weight / count,
+                constrained,
+                occluded,
+            );
+        }
+    }
+    coarse.field = Heightfield::new(lattice, field)?;
+    if input.occlusions.is_some() {
+        coarse = coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)?;
+    }
+    Ok(coarse)
+}
+
+impl Input {
+    /// Appends what goes with a vertex to the arrays that are there at all.
+    fn push_rest(
+        &self,
+        coarse: &mut Input,
+        torn: &mut Vec<u8>,
+        weight: f64,
+        constrained: bool,
+        occluded: bool,
+    ) {
+        if !self.confidence.is_empty() {
+            coarse.confidence.push(weight);
+        }
+        if !self.constrained.is_empty() {
+            coarse.constrained.push(constrained);
+        }
+        if self.occlusions.is_some() {
+            torn.push(u8::from(occluded));
+        }
+    }
+}
+
+/// An iterate on the fine lattice from one on the coarse lattice. Where a fine
+/// vertex has no coarse vertex to take from, as on islands and between holes
+/// that are too small for the coarse lattice, it starts from the input.
+pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) -> Result<State> {
+    let mut state = State::new(fine, rho)?;
+    // At the same ρ, `V` is linear in `Y` and `H`.
+    let v = from.v_at(coarse, rho)?;
+    let active = |vertex| cell(&coarse.domain, vertex, Role::is_active);
+    let interior = |vertex| cell(&coarse.domain, vertex, |role| role == Role::Interior);
+    for i in fine.domain.active().cells() {
+        let (row, col) = fine.domain.lattice_vertex(i);
+        let [a, b] = parents(row, col);
+        if let (Some(a), Some(b)) = (active(a), active(b)) {
+            state.z[i] = 0.5 * (from.z[a] + from.z[b]);
+        }
+        if fine.domain.roles()[i] == Role::Interior {
+            let (mut sum, mut total) = (Sym2::default(), 0.0);
+            for (vertex, weight) in loop_weights(a, b) {
+                if let Some(cell) = interior(vertex) {
+                    sum = sum + v.get(cell).scale(weight);
+                    total += weight;
+                }
+            }
+            if total > 0.0 {
+                state.v.set(i, sum.scale(1.0 / total));
+            }
+        }
+    }
+    for cell in &fine.constrained {
+        state.z[*cell as usize] = fine.target[*cell as usize];
+    }
+    Ok(state)
+}
+
+/// Coarse vertices that a fine one between `a` and `b` takes from, and their weights (Loop 1987):
+/// of a coarse vertex itself and its neighbours, or of an edge's ends and the vertices opposite.
+fn loop_weights(
+    a: (isize, isize),
+    b: (isize, isize),
+) -> impl Iterator<Item = ((isize, isize), f64)> {
+    let around = |(row, col)| NEIGHBOURS.map(|t: Towards| t.step(row, col));
+    let end = if a == b { 5.0 } else { 3.0 };
+    let shared = around(b);
+    let far = around(a).into_iter().filter(move |v| shared.contains(v));
+    [(a, end), (b, end)]
+        .into_iter()
+        .chain(far.map(|vertex| (vertex, 1.0)))
+}
+
+/// The padded box's cell of a lattice vertex, if its role is wanted.
+fn cell(domain: &Domain, vertex: (isize, isize), wanted: impl Fn(Role) -> bool) -> Option<usize> {
+    let cell = domain.cell(vertex)?;
+    wanted(domain.roles()[cell]).then_some(cell)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::fit::coordinates::Coordinates;
+    use crate::{Normalization, Options, Sym2};
+
+    #[test]
+    fn a_constant_dual_and_a_plane_carry_over_unchanged() {
+        let lattice = Lattice::new(17, 18, 0.1).unwrap();
+        // Bent, so that the best-fit plane that is taken away is not everything.
+        let field = Heightfield::from_fn(lattice, |x, y| x * x + 0.3 * y).unwrap();
+        let field = Input::new(field);
+        let coarse_field = coarsen(&field).unwrap();
+        let domains = [&field, &coarse_field].map(|f| Arc::new(Domain::new(&f.field).unwrap()));
+        let coordinates = Coordinates::new(&field, &domains[0], Normalization::Off);
+        let options = Options::default().lambda(1e3);
+        let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
+            .map(|(f, d)| Problem::new(f, d.clone(), &coordinates, &options).unwrap());
+        let mut state = State::new(&coarse, 0.4).unwrap();
+        let (dual, hessian) = (Sym2::new(1.0, 0.0, 0.3), Sym2::new(2.0, 0.0, 0.0));
+        let plane = |domain: &Domain, cell: usize| {
+            let (row, col) = domain.lattice_vertex(cell);
+            let [x, y] = domain.lattice().position(row, col);
+            5.0 * x - 3.0 * y + 1.0
+        };
+        for cell in coarse.domain.active().cells() {
+            state.z[cell] = plane(&coarse.domain, cell);
+        }
+        for cell in coarse.domain.interior().cells() {
+            state.set_matrices(cell, dual, hessian);
+        }
+        let carried = prolong(&coarse, &state, &fine, 0.2).unwrap();
+        let mut checked = 0;
+        for cell in fine.domain.interior().cells() {
+            let (row, col) = fine.domain.lattice_vertex(cell);
+            if (3..14).contains(&row) && (3..14).contains(&col) {
+                let (y, h) = carried.matrices(&fine, cell);
+                assert!((y - dual).dot(y - dual) < 1e-24, "{row} {col}: {y:?}");
+                assert!((h - hessian).dot(h - hessian) < 1e-24, "{row} {col}: {h:?}");
+                assert!((carried.z[cell] - plane(&fine.domain, cell)).abs() < 1e-12);
+                checked += 1;
+            }
+        }
+        assert_eq!(checked, 121);
+    }
+
+    #[test]
+    fn coarsening_keeps_planes_and_holes() {
+        let lattice = Lattice::new(15, 16, 0.1)
+            .unwrap()
+            .with_origin([3.0, 1.0])
+            .unwrap();
+        let hole = |x: f64, y: f64| (x - 3.8f64).hypot(y - 0.5) < 0.25;
+        let plane = |x: f64, y: f64| {
+            if hole(x, y) {
+                f64::NAN
+            } else {
+                2.0 * x - y + 1.0
+            }
+        };
+        let coarse = coarsen(&Heightfield::from_fn(lattice, plane).unwrap().into())
+            .unwrap()
+            .field;
+        let mut counts = [0, 0];
+        for row in 0..coarse.lattice().rows() {
+            for col in 0..coarse.lattice().cols() {
+                let [x, y] = coarse.lattice().position(row, col);
+                let z = coarse.height(row, col);
+                let outside = !(3.0 - 1e-9..=4.5 + 1e-9).contains(&x);
+                assert_eq!(z.is_nan(), hole(x, y) || outside, "{x} {y}");
+                counts[usize::from(z.is_nan())] += 1;
+                assert!(z.is_nan() || (z - (2.0 * x - y + 1.0)).abs() < 1e-12);
+            }
+        }
+        assert!(counts[0] > 40 && counts[1] > 3);
+    }
+}

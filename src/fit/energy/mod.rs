@@ -1,0 +1,4 @@
+//! The energy on one lattice, and its norm's proximal map, value and conjugate.
+
+pub(crate) mod law;
+pub(crate) mod problem;

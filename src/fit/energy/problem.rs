@@ -1,0 +1,261 @@
+//! The energy on one lattice, in normalised coordinates.
+
+use std::sync::Arc;
+
+use super::law::{Any, Kind, Law};
+use crate::error::{Result, try_filled};
+use crate::fit::coordinates::Coordinates;
+use crate::fit::input::Input;
+use crate::fit::options::{Energy, Options};
+use crate::lattice::domain::{Domain, Role, Run};
+use crate::lattice::per_cell::PerCell;
+use crate::lattice::stencil::{HessianMap, Ring};
+
+/// Norms up to this share of their mean count as none when an energy is reweighted.
+const REWEIGHTING: f64 = 0.3;
+
+/// How often norms are averaged with their neighbours' before that.
+const SPREADING: usize = 30;
+
+/// `P(z) = λ Σ w (z − z̃)² + Σ ω f(H(z))` over a domain (paper, Eq. 15), subject
+/// to `z = z̃` at constrained vertices.
+#[derive(Debug, Clone)]
+pub(crate) struct Problem {
+    pub domain: Arc<Domain>,
+    pub lambda: f64,
+    /// `z̃` on the padded box, zero outside `I ∪ ∂I`.
+    pub target: Vec<f64>,
+    /// `w`, and one over it; the latter is 0 at constrained cells.
+    pub fidelity: PerCell<f64>,
+    pub inverse_fidelity: PerCell<f64>,
+    /// Cells whose height is given.
+    pub constrained: Vec<u32>,
+    /// Cells with neither constraint nor fidelity, where `λw` is the tie break.
+    pub free: Vec<u32>,
+    pub kind: Kind,
+    /// `ω`, and what it was before any reweighting.
+    pub weight: PerCell<f64>,
+    first_weight: PerCell<f64>,
+    pub map: HessianMap,
+    /// Lattice spacing in normalised coordinates.
+    pub spacing: f64,
+    /// Objectives up to this are rounding errors of zero.
+    pub rounding: f64,
+    /// Slope of the plane that the coordinates take away.
+    slope: [f64; 2],
+}
+
+impl Problem {
+    pub(crate) fn new(
+        input: &Input,
+        domain: Arc<Domain>,
+        coordinates: &Coordinates,
+        options: &Options,
+    ) -> Result<Self> {
+        let lambda = options.lambda.value();
+        let mut target = try_filled("input heights", domain.cells(), 0.0)?;
+        let (mut constrained, mut free) = (Vec::new(), Vec::new());
+        let mut largest = 0.0f64;
+        let mut alike = true;
+        for cell in domain.active().cells() {
+            let vertex = domain.lattice_index(cell);
+            let height = input.field().heights()[vertex];
+            target[cell] = coordinates.inward(position(&domain, cell), height);
+            largest = largest.max((coordinates.scale * height).abs());
+            alike &= input.weight(vertex) == 1.0;
+            if input.is_constrained(vertex) {
+                constrained.push(cell as u32);
+            } else if input.weight(vertex) == 0.0 {
+                free.push(cell as u32);
+            }
+        }
+        let spacing = coordinates.scale * domain.lattice().spacing();
+        // Each Hessian is a handful of heights over h², each with its own rounding error.
+        let rounding =
+            16.0 * f64::EPSILON * largest / (spacing * spacing) * domain.interior_len() as f64;
+        let mut problem = Problem {
+            lambda,
+            target,
+            fidelity: PerCell::same(&domain, 1.0),
+            inverse_fidelity: PerCell::same(&domain, 1.0),
+            constrained,
+            free,
+            kind: options.energy.kind(),
+            weight: PerCell::same(&domain, 1.0),
+            first_weight: PerCell::same(&domain, 1.0),
+            map: HessianMap::new(spacing),
+            spacing,
+            rounding,
+            slope: coordinates.slope,
+            domain,
+        };
+        if !alike || !problem.constrained.is_empty() {
+            problem.set_fidelity(input, options.tie_break / lambda)?;
+        }
+        problem.take_first_normals(options.energy)?;
+        Ok(problem)
+    }
+
+    fn set_fidelity(&mut self, input: &Input, tie_break: f64) -> Result<()> {
+        let domain = &self.domain;
+        let values = || try_filled("fidelity", domain.cells(), 0.0);
+        let (mut fidelity, mut inverse) = (values()?, values()?);
+        for cell in domain.active().cells() {
+            let vertex = domain.lattice_index(cell);
+            let weight = match input.weight(vertex) {
+                0.0 => tie_break,
+                weight => weight,
+            };
+            let constrained = input.is_constrained(vertex);
+            fidelity[cell] = if constrained { 1.0 } else { weight };
+            inverse[cell] = if constrained { 0.0 } else { 1.0 / weight };
+        }
+        self.fidelity = PerCell::Each(fidelity);
+        self.inverse_fidelity = PerCell::Each(inverse);
+        Ok(())
+    }
+
+    /// The weights of an energy that has those of its input. Once more where that has
+    /// been given heights for free vertices.
+    pub(crate) fn take_first_normals(&mut self, energy: Energy) -> Result<()> {
+        if matches!(energy, Energy::SecondFormOfInput | Energy::SecondForm) {
+            let target = std::mem::take(&mut self.target);
+            self.take_normals(&target)?;
+            self.target = target;
+            self.first_weight = self.weight.clone();
+        }
+        Ok(())
+    }
+
+    /// `ω = n₃`, the upward part of the unit normal of the surface `z`: what
+    /// turns its Hessian into the second fundamental form (paper, Eq. 24).
+    pub(crate) fn take_normals(&mut self, z: &[f64]) -> Result<()> {
+        let domain = &self.domain;
+        let mut factors = match std::mem::replace(&mut self.weight, PerCell::Same(Vec::new())) {
+            PerCell::Each(factors) => factors,
+            PerCell::Same(_) => try_filled("normals", domain.cells(), 0.0)?,
+        };
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let ring = Ring::new(z, domain, row, *run);
+                for (i, factor) in factors[run.start..run.end].iter_mut().enumerate() {
+                    let [gx, gy] = ring.gradient(i, self.spacing);
+                    let (gx, gy) = (gx + self.slope[0], gy + self.slope[1]);
+                    *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
+                }
+            }
+        }
+        self.weight = PerCell::Each(factors);
+        Ok(())
+    }
+
+    /// `ω ← ω ε/(σ + ε)`, where `σ` is `‖H(z)‖_*` as a mean over some cells around
+    /// and `ε` a share of its mean over all: where the surface bends, bending
+    /// becomes cheap (Candès, Wakin and Boyd, Enhancing Sparsity by Reweighted
+    /// ℓ₁ Minimization, 2008). Without the local mean, what bends a little more
+    /// than its surroundings by chance would become a crease.
+    pub(crate) fn reweight(&mut self, z: &[f64]) -> Result<()> {
+        let domain = &self.domain;
+        let mut norms = try_filled("weights", domain.cells(), 0.0)?;
+        let mut sum = 0.0;
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let ring = Ring::new(z, domain, row, *run);
+                for (i, norm) in norms[run.start..run.end].iter_mut().enumerate() {
+                    *norm = self.map.hessian(ring.differences(i)).nuclear_norm();
+                    sum += *norm;
+                }
+            }
+        }
+        for _ in 0..SPREADING {
+            spread(domain, &mut norms);
+        }
+        let epsilon = REWEIGHTING * sum / domain.interior_len() as f64;
+        for cell in domain.interior().cells() {
+            let factor = if epsilon > 0.0 {
+                epsilon / (norms[cell] + epsilon)
+            } else {
+                1.0
+            };
+            norms[cell] = factor * self.first_weight.at(cell);
+        }
+        self.weight = PerCell::Each(norms);
+        Ok(())
+    }
+
+    /// `Σ ω f(H(z))`.
+    pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
+        let law = self.law();
+        let domain = &self.domain;
+        let mut sum = 0.0;
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let ring = Ring::new(z, domain, row, *run);
+                let weight = self.weight.run(domain, row, *run);
+                for (i, weight) in weight.iter().enumerate() {
+                    sum += law.value(self.map.hessian(ring.differences(i)), *weight);
+                }
+            }
+        }
+        sum
+    }
+
+    /// For values, which do not depend on ρ.
+    fn law(&self) -> Any {
+        Any {
+            kind: self.kind,
+            rho: f64::NAN,
+        }
+    }
+
+    /// The same for the input, by the parts that cells belong to.
+    pub(crate) fn smoothness_by(&self, parts: usize, part: impl Fn(usize) -> usize) -> Vec<f64> {
+        let mut sums = vec![0.0; parts];
+        for cell in self.domain.interior().cells() {
+            let row = cell / self.domain.stride();
+            let run = Run {
+                start: cell,
+                end: cell + 1,
+            };
+            let ring = Ring::new(&self.target, &self.domain, row, run);
+            let hessian = self.map.hessian(ring.differences(0));
+            let weight = self.weight.at(cell);
+            sums[part(cell)] += self.law().value(hessian, weight);
+        }
+        sums
+    }
+
+    /// Calls `write` with each vertex of `I ∪ ∂I` and its height in the user's units.
+    pub(crate) fn write_heights(
+        &self,
+        coordinates: &Coordinates,
+        z: &[f64],
+        mut write: impl FnMut((usize, usize), f64),
+    ) {
+        for cell in self.domain.active().cells() {
+            let height = coordinates.outward(position(&self.domain, cell), z[cell]);
+            write(self.domain.lattice_vertex(cell), height);
+        }
+    }
+}
+
+/// The mean over each interior cell (weight 2) and its interior neighbours (weight 1).
+fn spread(domain: &Domain, values: &mut [f64]) {
+    let old = values.to_vec();
+    for cell in domain.interior().cells() {
+        let around = domain
+            .neighbour_offsets(cell / domain.stride())
+            .map(|o| cell.wrapping_add_signed(o))
+            .into_iter()
+            .filter(|n| domain.roles()[*n] == Role::Interior);
+        let (sum, weight) = around.fold((2.0 * old[cell], 2.0), |(sum, weight), n| {
+            (sum + old[n], weight + 1.0)
+        });
+        values[cell] = sum / weight;
+    }
+}
+
+pub(crate) fn position(domain: &Domain, cell: usize) -> [f64; 2] {
+    let (row, col) = domain.lattice_vertex(cell);
+    domain.lattice().position(row, col)
+}

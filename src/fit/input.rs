@@ -1,0 +1,185 @@
+//! What a solve is about: heights, and what is known about them.
+
+use crate::error::{Error, Result, check_shape};
+use crate::heights::heightfield::Heightfield;
+use crate::heights::occlusions::Occlusions;
+
+/// A heightfield with all that a solve may know besides: how far each height
+/// is to be trusted, which heights must be met exactly, where the surface is
+/// torn. A plain [`Heightfield`] is an input as well.
+///
+/// ```
+/// use developable::{Heightfield, Input, Lattice, Options, fit};
+/// # fn main() -> developable::Result<()> {
+/// // A roof through five points: free everywhere else.
+/// let lattice = Lattice::new(40, 40, 1.0)?;
+/// let mut points = vec![f64::NAN; lattice.len()];
+/// for (row, col, height) in [(2, 2, 0.0), (2, 37, 0.0), (37, 2, 0.0), (37, 37, 0.0), (20, 20, 9.0)] {
+///     points[row * 40 + col] = height;
+/// }
+/// let input = Input::design(Heightfield::new(lattice, points)?, None)?;
+/// let surface = fit(input, &Options::default())?;
+/// assert_eq!(surface.heightfield().height(20, 20), 9.0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    pub(crate) field: Heightfield,
+    /// Weights of the fidelity term; empty: 1 everywhere.
+    pub(crate) confidence: Vec<f64>,
+    /// Whether a vertex must keep its height; empty: none.
+    pub(crate) constrained: Vec<bool>,
+    pub(crate) occlusions: Option<Occlusions>,
+}
+
+impl Input {
+    /// Heights to stay close to, the same everywhere.
+    pub fn new(field: Heightfield) -> Self {
+        Input {
+            field,
+            confidence: Vec::new(),
+            constrained: Vec::new(),
+            occlusions: None,
+        }
+    }
+
+    /// Nothing but hard constraints (paper, Sec. 5.3): the surface passes
+    /// through every height of `constraints` and is free where that is NaN. Its
+    /// outline is the whole lattice, or the vertices where `shape` is not 0.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if `shape` is not one value for each vertex.
+    pub fn design(constraints: Heightfield, shape: Option<&[u8]>) -> Result<Self> {
+        let lattice = *constraints.lattice();
+        let mut field = Heightfield::new(lattice, vec![0.0; lattice.len()])?;
+        if let Some(shape) = shape {
+            field = field.masked(shape)?;
+        }
+        Input::new(field)
+            .with_confidence(vec![0.0; lattice.len()])?
+            .with_constraints(constraints.into_heights())
+    }
+
+    /// How far each height is to be trusted: factors of its fidelity term, 1
+    /// being the default and 0 no fidelity at all.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one for each vertex,
+    /// [`Error::NotFinite`] or [`Error::Option`] if one is not finite or below
+    /// 0 where there is a height.
+    pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
+        self.check_length("confidence", confidence.len())?;
+        check_confidence(
+            &confidence,
+            self.field.heights(),
+            self.field.lattice().cols(),
+        )?;
+        self.confidence = confidence;
+        Ok(self)
+    }
+
+    /// Heights that must be met exactly (paper, Sec. 5.3); NaN is no constraint.
+    /// A constraint takes the place of the height that is there. Where there is
+    /// none, the vertex is outside of the surface and its constraint is ignored.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if there is not one value for each vertex,
+    /// [`Error::NotFinite`] if one is infinite.
+    pub fn with_constraints(mut self, constraints: Vec<f64>) -> Result<Self> {
+        self.check_length("constraints", constraints.len())?;
+        let lattice = *self.field.lattice();
+        let mut heights = self.field.into_heights();
+        for (height, constraint) in heights.iter_mut().zip(&constraints) {
+            if !height.is_nan() && !constraint.is_nan() {
+                *height = *constraint;
+            }
+        }
+        self.field = Heightfield::new(lattice, heights)?;
+        let both = self.field.heights().iter().zip(&constraints);
+        self.constrained = both
+            .map(|(height, z)| !height.is_nan() && !z.is_nan())
+            .collect();
+        Ok(self)
+    }
+
+    /// Where the surface is torn: no Hessian is taken there.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if they are not of the same lattice.
+    pub fn with_occlusions(mut self, occlusions: Occlusions) -> Result<Self> {
+        self.check_length("occlusions", occlusions.vertices().len())?;
+        self.occlusions = Some(occlusions);
+        Ok(self)
+    }
+
+    /// The heights; those of constraints among them.
+    pub fn field(&self) -> &Heightfield {
+        &self.field
+    }
+
+    fn check_length(&self, what: &'static str, found: usize) -> Result<()> {
+        let lattice = self.field.lattice();
+        check_shape(what, lattice.rows(), lattice.cols(), found)
+    }
+
+    /// Whether the height of a vertex is given for good.
+    pub(crate) fn is_constrained(&self, vertex: usize) -> bool {
+        self.constrained.get(vertex) == Some(&true)
+    }
+
+    /// The weight of a vertex's fidelity term, relative to λ.
+    pub(crate) fn weight(&self, vertex: usize) -> f64 {
+        self.confidence.get(vertex).copied().unwrap_or(1.0)
+    }
+
+    /// Whether the height of a vertex means anything.
+    pub(crate) fn is_given(&self, vertex: usize) -> bool {
+        self.weight(vertex) > 0.0 || self.is_constrained(vertex)
+    }
+
+    /// Whether no Hessian is taken at a vertex though there could be one.
+    pub(crate) fn is_occluded(&self, vertex: usize) -> bool {
+        self.occlusions
+            .as_ref()
+            .is_some_and(|occlusions| occlusions.vertices()[vertex] != 0)
+    }
+}
+
+/// Makes sure that every height, in rows of `cols`, has a confidence that is finite and not below 0.
+pub(crate) fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
+    for (i, (weight, height)) in confidence.iter().zip(heights).enumerate() {
+        if height.is_nan() {
+            continue;
+        }
+        if !weight.is_finite() {
+            return Err(Error::NotFinite {
+                what: "confidence",
+                value: *weight,
+                row: i / cols,
+                col: i % cols,
+                advice: "0 means that a height is not to be trusted at all",
+            });
+        }
+        if *weight < 0.0 {
+            return Err(Error::option(
+                "confidence",
+                format!("{weight} at row {}, column {}", i / cols, i % cols),
+                "must not be below 0",
+            ));
+        }
+    }
+    Ok(())
+}
+
+impl From<Heightfield> for Input {
+    fn from(field: Heightfield) -> Self {
+        Input::new(field)
+    }
+}
+
+impl From<&Heightfield> for Input {
+    fn from(field: &Heightfield) -> Self {
+        Input::new(field.clone())
+    }
+}

@@ -1,0 +1,276 @@
+//! What multigrid does where a lattice ends.
+//!
+//! There, too, both factors of the prolongation leave planes alone. A correction
+//! that tilts an edge would otherwise get a kink, whose energy is many times
+//! that of the correction itself: the cycle would overshoot there, 4 to 10 times
+//! on straight edges, and a step of conjugate gradients would be too short
+//! everywhere else.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::transfer::parents;
+use crate::error::{Result, try_filled};
+use crate::lattice::domain::{Domain, Role};
+use crate::lattice::hexagonal::NEIGHBOURS;
+use crate::lattice::per_cell::PerCell;
+
+/// Weight of a neighbour in an average.
+const SHARE: f32 = 0.125;
+
+/// `A` at the boundary vertices: the average with those pairs of opposite
+/// neighbours that are both there.
+#[derive(Debug, Clone)]
+pub(super) struct Averages {
+    of: Vec<Average>,
+}
+
+/// At a cell, directions as bits in the order of [`NEIGHBOURS`].
+#[derive(Debug, Clone, Copy)]
+struct Average {
+    cell: u32,
+    /// Neighbours that are averaged with.
+    pairs: u8,
+    /// Neighbours that are interior, and so average with this cell.
+    interior: u8,
+}
+
+/// Of a direction in [`NEIGHBOURS`].
+const OPPOSITE: [usize; 6] = [1, 0, 5, 4, 3, 2];
+
+impl Averages {
+    pub(super) fn new(domain: &Domain) -> Self {
+        let boundary = |cell: &usize| domain.roles()[*cell] == Role::Boundary;
+        let average = |cell: usize| {
+            let around = domain
+                .neighbour_offsets(cell / domain.stride())
+                .map(|o| domain.roles()[cell.wrapping_add_signed(o)]);
+            let bits = |wanted: &dyn Fn(usize) -> bool| {
+                (0..6).fold(0, |bits, k| bits | u8::from(wanted(k)) << k)
+            };
+            Average {
+                cell: cell as u32,
+                pairs: bits(&|k| around[k].is_active() && around[OPPOSITE[k]].is_active()),
+                interior: bits(&|k| around[k] == Role::Interior),
+            }
+        };
+        Averages {
+            of: domain
+                .active()
+                .cells()
+                .filter(boundary)
+                .map(average)
+                .collect(),
+        }
+    }
+
+    pub(super) fn cells(&self) -> impl Iterator<Item = usize> + '_ {
+        self.of.iter().map(|average| average.cell as usize)
+    }
+
+    /// Adds to `A from`, which has the vertices themselves at boundary cells,
+    /// what is missing there.
+    pub(super) fn complete(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
+        for average in &self.of {
+            let cell = average.cell as usize;
+            for (k, n) in neighbours(domain, cell) {
+                if average.pairs & 1 << k != 0 {
+                    to[cell] += SHARE * (from[n] - from[cell]);
+                }
+            }
+        }
+    }
+
+    /// The same for `Aᵀ from`, which has at interior cells what a symmetric
+    /// matrix would give.
+    pub(super) fn complete_transposed(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
+        for average in &self.of {
+            let cell = average.cell as usize;
+            for (k, n) in neighbours(domain, cell) {
+                let pair = average.pairs & 1 << k != 0;
+                let interior = average.interior & 1 << k != 0;
+                if pair {
+                    to[cell] -= SHARE * from[cell];
+                }
+                match (interior, pair) {
+                    (true, true) => to[cell] += SHARE * from[n],
+                    (true, false) => {
+                        to[cell] += SHARE * from[n];
+                        to[n] -= SHARE * from[cell];
+                    }
+                    (false, true) => to[n] += SHARE * from[cell],
+                    (false, false) => (),
+                }
+            }
+        }
+    }
+}
+
+fn neighbours(domain: &Domain, cell: usize) -> impl Iterator<Item = (usize, usize)> {
+    let offsets = domain.neighbour_offsets(cell / domain.stride());
+    offsets
+        .into_iter()
+        .map(move |o| cell.wrapping_add_signed(o))
+        .enumerate()
+}
+
+/// `L` at fine vertices that do not lie between two coarse vertices: the plane
+/// through those nearby, by least squares.
+#[derive(Debug, Clone)]
+pub(super) struct Extension {
+    terms: Vec<Term>,
+    /// Fine vertices beside one coarse vertex, and that one.
+    single: Vec<(u32, u32)>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Term {
+    fine: u32,
+    coarse: u32,
+    weight: f32,
+}
+
+impl Extension {
+    pub(super) fn new(fine: &Domain, coarse: &Domain) -> Self {
+        let active = |vertex| {
+            let cell = coarse.cell(vertex)?;
+            coarse.roles()[cell].is_active().then_some(cell)
+        };
+        let (mut terms, mut single) = (Vec::new(), Vec::new());
+        for cell in fine.active().cells() {
+            let (row, col) = fine.lattice_vertex(cell);
+            let parents = parents(row, col);
+            match parents.map(active) {
+                [Some(_), Some(_)] => continue,
+                [Some(a), None] | [None, Some(a)] => single.push((cell as u32, a as u32)),
+                [None, None] => (),
+            }
+            let near = nearby(parents).into_iter().filter_map(active);
+            let near: Vec<_> = near
+                .map(|other| (other, offset(fine, cell, coarse, other)))
+                .collect();
+            for ((coarse, _), weight) in near.iter().zip(affine_weights(&near)) {
+                terms.push(Term {
+                    fine: cell as u32,
+                    coarse: *coarse as u32,
+                    weight: weight as f32,
+                });
+            }
+        }
+        Extension { terms, single }
+    }
+
+    /// `L from` at those vertices.
+    pub(super) fn extend(&self, from: &[f32], to: &mut [f32]) {
+        for (fine, _) in &self.single {
+            to[*fine as usize] = 0.0;
+        }
+        for term in &self.terms {
+            to[term.fine as usize] += term.weight * from[term.coarse as usize];
+        }
+    }
+
+    /// Adds to `scale Lᵀ from`, which has half of `from` at each parent, what is missing.
+    pub(super) fn extend_transposed(&self, from: &[f32], to: &mut [f32], scale: f32) {
+        for (fine, parent) in &self.single {
+            to[*parent as usize] -= 0.5 * scale * from[*fine as usize];
+        }
+        for term in &self.terms {
+            to[term.coarse as usize] += scale * term.weight * from[term.fine as usize];
+        }
+    }
+}
+
+/// The vertices up to two steps from the parents, each once.
+fn nearby(parents: [(isize, isize); 2]) -> Vec<(isize, isize)> {
+    let mut found = vec![parents[0]];
+    if parents[1] != parents[0] {
+        found.push(parents[1]);
+    }
+    let mut first = 0;
+    for _ in 0..2 {
+        let last = found.len();
+        for i in first..last {
+            let (row, col) = found[i];
+            for next in NEIGHBOURS.map(|towards| towards.step(row, col)) {
+                if !found.contains(&next) {
+                    found.push(next);
+                }
+            }
+        }
+        first = last;
+    }
+    found
+}
+
+/// Weights of values at offsets that give the value at 0 of their best-fit
+/// plane; the nearest count most.
+fn affine_weights(near: &[(usize, [f64; 2])]) -> Vec<f64> {
+    /// Where they do not determine a plane, the one with the least slope.
+    const LEAST_SLOPE: f64 = 1e-6;
+    let influence = |[x, y]: [f64; 2]| (x * x + y * y).powi(-2);
+    let mut normal = Matrix3::from_diagonal(&Vector3::new(0.0, LEAST_SLOPE, LEAST_SLOPE));
+    for (_, offset) in near {
+        let row = Vector3::new(1.0, offset[0], offset[1]);
+        normal += influence(*offset) * row * row.transpose();
+    }
+    let Some(inverse) = normal.try_inverse() else {
+        return Vec::new();
+    };
+    let plane = inverse.column(0);
+    let weight = |offset: [f64; 2]| {
+        influence(offset) * (plane[0] + plane[1] * offset[0] + plane[2] * offset[1])
+    };
+    near.iter().map(|(_, offset)| weight(*offset)).collect()
+}
+
+/// For how many stencils of the finest lattice each coarse one stands, as a share of those that a
+/// vertex inside stands for. Near a border it is more, since the coarse stencils end further inside:
+/// without it bending there would be too cheap, and the correction up to three times too large.
+pub(super) fn coarser_counts(
+    counts: &PerCell<f32>,
+    fine: &Domain,
+    coarse: &Domain,
+) -> Result<PerCell<f32>> {
+    let mut sums = try_filled("multigrid", coarse.cells(), 0.0)?;
+    let interior = |vertex| {
+        let cell = coarse.cell(vertex)?;
+        (coarse.roles()[cell] == Role::Interior).then_some(cell)
+    };
+    for cell in fine.interior().cells() {
+        let (row, col) = fine.lattice_vertex(cell);
+        let share = 0.25 * counts.at(cell);
+        let parents = parents(row, col);
+        match parents.map(interior) {
+            [Some(a), Some(b)] => {
+                sums[a] += 0.5 * share;
+                sums[b] += 0.5 * share;
+            }
+            [Some(only), None] | [None, Some(only)] => sums[only] += share,
+            [None, None] => {
+                let nearest = nearby(parents).into_iter().filter_map(interior);
+                let distance = |c: &usize| squared_distance(fine, cell, coarse, *c);
+                let nearest = nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+                if let Some(nearest) = nearest {
+                    sums[nearest] += share;
+                }
+            }
+        }
+    }
+    Ok(PerCell::Each(sums))
+}
+
+fn squared_distance(fine: &Domain, cell: usize, coarse: &Domain, other: usize) -> f64 {
+    let [x, y] = offset(fine, cell, coarse, other);
+    x * x + y * y
+}
+
+/// From a fine vertex to a coarse one, in coarse spacings.
+fn offset(fine: &Domain, cell: usize, coarse: &Domain, other: usize) -> [f64; 2] {
+    let place = |domain: &Domain, cell: usize| {
+        let (row, col) = domain.lattice_vertex(cell);
+        domain.lattice().position(row, col)
+    };
+    let ([x, y], [u, v]) = (place(fine, cell), place(coarse, other));
+    let unit = coarse.lattice().spacing();
+    [(u - x) / unit, (v - y) / unit]
+}

@@ -1,0 +1,367 @@
+//! The z-step's matrix on one lattice, and the passes that multigrid and
+//! conjugate gradients make with it:
+//!
+//! ```text
+//! A = 2λ + ρ CᵀC
+//! ```
+//!
+//! in single precision and scaled to a unit diagonal away from the boundary, so
+//! that no λ, ρ or spacing leaves the range of `f32`.
+
+use std::sync::Arc;
+
+use crate::error::{Result, try_filled};
+use crate::lattice::domain::{Domain, Role, Run};
+use crate::lattice::per_cell::PerCell;
+use crate::lattice::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
+use crate::math::lanes;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Grid {
+    pub domain: Arc<Domain>,
+    map: HessianMap,
+    /// The diagonal away from the boundary that everything is divided by.
+    pub diagonal: f64,
+    /// `2λw`, and what holds coarse cells in place of constrained ones.
+    fidelity: PerCell<f32>,
+    /// Constrained cells: not unknowns of the system.
+    constrained: Vec<u32>,
+    /// The weights of `d_k` and of `d₁ + d₂ + d₃` in `ρ CᵀC`.
+    own: f32,
+    sum: f32,
+    /// How much each interior cell's stencil counts: 1 on the finest lattice, more at a
+    /// coarse one's border.
+    pub stencils: PerCell<f32>,
+    /// Jacobi's preconditioner: one over the scaled diagonal.
+    pub inverse_diagonal: Vec<f32>,
+    rolling: Rolling<f32>,
+}
+
+/// An upper bound of the eigenvalues of `diag(A)⁻¹A` on every domain: that of a
+/// single stencil, since `A` and its diagonal are sums over stencils. (A
+/// stencil has 36 on the diagonal at its centre and 5 at each neighbour in
+/// units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
+pub(crate) const LARGEST_EIGENVALUE: f32 = 2.4;
+
+impl Grid {
+    /// With a fidelity that may differ from cell to cell, or the same for all.
+    pub(crate) fn new(
+        domain: Arc<Domain>,
+        spacing: f64,
+        constrained: Vec<u32>,
+        varied: bool,
+    ) -> Result<Self> {
+        Ok(Grid {
+            map: HessianMap::new(spacing),
+            diagonal: 1.0,
+            fidelity: if varied {
+                PerCell::Each(try_filled("multigrid", domain.cells(), 0.0)?)
+            } else {
+                PerCell::same(&domain, 0.0)
+            },
+            constrained,
+            own: 0.0,
+            sum: 0.0,
+            stencils: PerCell::same(&domain, 1.0),
+            inverse_diagonal: try_filled("diagonal", domain.cells(), 0.0)?,
+            rolling: Rolling::new(&domain),
+            domain,
+        })
+    }
+
+    /// The diagonal of `ρ CᵀC` away from the boundary.
+    pub(crate) fn stiffness(&self, rho: f64) -> f64 {
+        let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
+        4.0 * (3.0 * own + 6.0 * other) + 6.0 * own
+    }
+
+    /// Changes the matrix: ρ, a typical `2λw`, and that of each cell.
+    pub(crate) fn set(&mut self, rho: f64, typical: f64, each: impl Fn(usize) -> f64) {
+        let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
+        let as_centre = 4.0 * (3.0 * own + 6.0 * other);
+        self.diagonal = typical + self.stiffness(rho);
+        self.own = ((own - other) / self.diagonal) as f32;
+        self.sum = (other / self.diagonal) as f32;
+        match &mut self.fidelity {
+            PerCell::Same(row) => row.fill((typical / self.diagonal) as f32),
+            PerCell::Each(values) => {
+                for cell in self.domain.active().cells() {
+                    values[cell] = (each(cell) / self.diagonal) as f32;
+                }
+            }
+        }
+        let interior = |cell: usize| self.domain.roles()[cell] == Role::Interior;
+        for row in 1..=self.domain.rows() {
+            let offsets = self.domain.neighbour_offsets(row);
+            for &Run { start, end } in self.domain.active().row(row) {
+                for cell in start..end {
+                    let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
+                    let count = |cell: usize| f64::from(self.stencils.at(cell));
+                    let others: f64 = around.filter(|n| interior(*n)).map(count).sum();
+                    let centre = if interior(cell) {
+                        count(cell) * as_centre
+                    } else {
+                        0.0
+                    };
+                    let entry = each(cell) + centre + others * own;
+                    self.inverse_diagonal[cell] = (self.diagonal / entry) as f32;
+                }
+            }
+        }
+        // With 0 in its place, smoothing leaves a constrained cell alone.
+        for cell in &self.constrained {
+            self.inverse_diagonal[*cell as usize] = 0.0;
+        }
+    }
+
+    /// Makes `x` 0 at constrained cells.
+    pub(crate) fn pin(&self, x: &mut [f32]) {
+        for cell in &self.constrained {
+            x[*cell as usize] = 0.0;
+        }
+    }
+
+    /// Cells that are not unknowns.
+    pub(crate) fn constrained(&self) -> &[u32] {
+        &self.constrained
+    }
+
+    /// An upper bound of the condition number of `diag(A)⁻¹A`.
+    pub(crate) fn condition(&self) -> f32 {
+        let least = match &self.fidelity {
+            PerCell::Same(values) => values[0],
+            PerCell::Each(values) => {
+                let cells = self.domain.active().cells();
+                cells.fold(f32::INFINITY, |least, cell| least.min(values[cell]))
+            }
+        };
+        LARGEST_EIGENVALUE / least.max(f32::MIN_POSITIVE)
+    }
+
+    /// The matrix itself, scaled, as columns of unknowns in the order of the
+    /// domain's active cells: for few of them.
+    pub(crate) fn dense(&mut self) -> Vec<Vec<f32>> {
+        let cells: Vec<usize> = self.domain.active().cells().collect();
+        let mut unit = vec![0.0; self.domain.cells()];
+        let mut image = vec![0.0; self.domain.cells()];
+        let mut columns = Vec::with_capacity(cells.len());
+        for cell in &cells {
+            unit[*cell] = 1.0;
+            self.apply(&mut unit, &mut image);
+            unit[*cell] = 0.0;
+            columns.push(cells.iter().map(|c| image[*c]).collect());
+        }
+        columns
+    }
+
+    /// One pass down `x`: `after(x, row, run, sums)` sees `ρCᵀCx` in each run of a
+    /// row, and may write `x` there, since no later row reads it.
+    #[inline(always)]
+    fn pass(
+        &mut self,
+        x: &mut [f32],
+        mut after: impl FnMut(&mut [f32], usize, Run, &Gather<'_, f32>),
+    ) {
+        let Grid {
+            domain,
+            own,
+            sum,
+            rolling,
+            stencils,
+            ..
+        } = self;
+        let (domain, own, sum) = (&**domain, *own, *sum);
+        rolling.sweep(
+            domain,
+            x,
+            |x, row, weights| {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(x, domain, row, *run);
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    let count = stencils.run(domain, row, *run);
+                    for i in 0..w1.len() {
+                        let [d1, d2, d3] = ring.differences(i);
+                        let common = sum * (d1 + d2 + d3);
+                        w1[i] = count[i] * (own * d1 + common);
+                        w2[i] = count[i] * (own * d2 + common);
+                        w3[i] = count[i] * (own * d3 + common);
+                    }
+                }
+            },
+            |x, row, sums| {
+                for run in domain.active().row(row) {
+                    after(x, row, *run, sums);
+                }
+            },
+        );
+    }
+
+    /// `image = A x`. Returns `x·Ax`. (`x` is not changed.)
+    pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
+        let domain = self.domain.clone();
+        let fidelity = self.take_fidelity();
+        let mut product = 0.0;
+        self.pass(x, |x, row, run, sums| {
+            let sum = sums.run(run);
+            let fidelity = fidelity.run(&domain, row, run);
+            let x = part(x, run);
+            let image = part_mut(image, run);
+            for i in 0..x.len() {
+                image[i] = fidelity[i] * x[i] + sum.at(i);
+            }
+            product += lanes::dot(x, image);
+        });
+        self.fidelity = fidelity;
+        product
+    }
+
+    /// `residual = b − A x`. (`x` is not changed.)
+    pub(crate) fn residual(&mut self, x: &mut [f32], b: &[f32], residual: &mut [f32]) {
+        let domain = self.domain.clone();
+        let fidelity = self.take_fidelity();
+        self.pass(x, |x, row, run, sums| {
+            let sum = sums.run(run);
+            let fidelity = fidelity.run(&domain, row, run);
+            let x = part(x, run);
+            let b = part(b, run);
+            let residual = part_mut(residual, run);
+            for i in 0..x.len() {
+                residual[i] = b[i] - (fidelity[i] * x[i] + sum.at(i));
+            }
+        });
+        self.fidelity = fidelity;
+    }
+
+    /// One step of Chebyshev's iteration with Jacobi's preconditioner:
+    /// `d ← momentum · d + weight · M(b − A x)`, `x ← x + d`.
+    pub(crate) fn smooth(
+        &mut self,
+        x: &mut [f32],
+        b: &[f32],
+        d: &mut [f32],
+        momentum: f32,
+        weight: f32,
+    ) {
+        let domain = self.domain.clone();
+        let fidelity = self.take_fidelity();
+        let inverse = std::mem::take(&mut self.inverse_diagonal);
+        self.pass(x, |x, row, run, sums| {
+            let sum = sums.run(run);
+            let fidelity = fidelity.run(&domain, row, run);
+            let x = part_mut(x, run);
+            let b = part(b, run);
+            let d = part_mut(d, run);
+            let m = part(&inverse, run);
+            for i in 0..x.len() {
+                let residual = b[i] - (fidelity[i] * x[i] + sum.at(i));
+                let step = momentum * d[i] + weight * (m[i] * residual);
+                d[i] = step;
+                x[i] += step;
+            }
+        });
+        self.inverse_diagonal = inverse;
+        self.fidelity = fidelity;
+    }
+
+    /// For the length of a pass, which borrows the rest.
+    fn take_fidelity(&mut self) -> PerCell<f32> {
+        std::mem::replace(&mut self.fidelity, PerCell::Same(Vec::new()))
+    }
+}
+
+#[inline(always)]
+pub(crate) fn part<T>(values: &[T], run: Run) -> &[T] {
+    &values[run.start..run.end]
+}
+
+#[inline(always)]
+pub(crate) fn part_mut<T>(values: &mut [T], run: Run) -> &mut [T] {
+    &mut values[run.start..run.end]
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+mod tests {
+    use super::*;
+    use crate::HessianOperator;
+    use crate::lattice::domain::tests::{arbitrary_field, single_ring};
+    use proptest::prelude::*;
+
+    fn values(domain: &Domain) -> Vec<f32> {
+        let mut x = 0.37;
+        let mut values = vec![0.0; domain.cells()];
+        for cell in domain.active().cells() {
+            x = 3.9 * x * (1.0 - x);
+            values[cell] = x - 0.5;
+        }
+        values
+    }
+
+    /// Against `C` and `Cᵀ` themselves, in double precision.
+    fn check(domain: Domain, lambda: f64, rho: f64) {
+        let domain = Arc::new(domain);
+        let spacing = domain.lattice().spacing();
+        let mut grid = Grid::new(domain.clone(), spacing, Vec::new(), false).unwrap();
+        grid.set(rho, 2.0 * lambda, |_| 2.0 * lambda);
+        let mut x = values(&domain);
+        let mut heights = vec![0.0; domain.lattice().len()];
+        for cell in domain.active().cells() {
+            heights[domain.lattice_index(cell)] = f64::from(x[cell]);
+        }
+        let c = HessianOperator::new(&domain);
+        let normal = c.adjoint(&c.apply(&heights));
+        let mut image = vec![0.0; domain.cells()];
+        let product = grid.apply(&mut x, &mut image);
+        let mut expected_product = 0.0;
+        for cell in domain.active().cells() {
+            let i = domain.lattice_index(cell);
+            let expected = (2.0 * lambda * heights[i] + rho * normal[i]) / grid.diagonal;
+            assert!((f64::from(image[cell]) - expected).abs() < 1e-5);
+            expected_product += expected * heights[i];
+        }
+        assert!((product - expected_product).abs() < 1e-4 * domain.active().len() as f64);
+
+        // The diagonal, by unit vectors; the eigenvalues, by Rayleigh quotients of a power iteration.
+        for cell in domain.active().cells().take(10) {
+            let mut unit = vec![0.0; domain.cells()];
+            unit[cell] = 1.0;
+            let entry = grid.apply(&mut unit, &mut image) as f32;
+            assert!((entry * grid.inverse_diagonal[cell] - 1.0).abs() < 1e-5);
+        }
+        for _ in 0..30 {
+            grid.apply(&mut x, &mut image);
+            let mut size = 0.0f32;
+            for cell in domain.active().cells() {
+                x[cell] = grid.inverse_diagonal[cell] * image[cell];
+                size = size.max(x[cell].abs());
+            }
+            x.iter_mut().for_each(|v| *v /= size);
+        }
+        let curvature = grid.apply(&mut x, &mut image);
+        let cells = domain.active().cells();
+        let square: f64 = cells
+            .map(|c| f64::from(x[c] * x[c] / grid.inverse_diagonal[c]))
+            .sum();
+        let largest = curvature / square;
+        assert!(
+            largest <= f64::from(LARGEST_EIGENVALUE) * 1.0001,
+            "{largest}"
+        );
+    }
+
+    #[test]
+    fn one_interior_vertex() {
+        check(Domain::new(&single_ring()).unwrap(), 1e-3, 1.0);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn the_matrix_is_the_one_it_says(
+            field in arbitrary_field(), lambda in 1e-3..1e3f64, rho in 1e-3..1e1f64,
+        ) {
+            if let Ok(domain) = Domain::new(&field) {
+                check(domain, lambda, rho);
+            }
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The z-step's linear system: conjugate gradients, preconditioned by multigrid.
+
+mod border;
+pub(crate) mod cg;
+pub(crate) mod grid;
+pub(crate) mod multigrid;
+pub(crate) mod precise;
+pub(crate) mod transfer;

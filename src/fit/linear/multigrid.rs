@@ -1,0 +1,321 @@
+//! One multigrid V-cycle: the preconditioner of the z-step.
+//!
+//! The same energy on the lattices of spacing 2h, 4h, … gives the coarse
+//! matrices (a coarse vertex stands for four fine ones, hence the factor ¼ in
+//! the restriction; at a border a coarse stencil may stand for more), Chebyshev's polynomial of Jacobi's preconditioner smooths,
+//! and the cycle ends where the fidelity term makes the system well conditioned,
+//! two to five lattices down. Symmetric and positive definite, so conjugate
+//! gradients may use it.
+
+use std::sync::Arc;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::border::coarser_counts;
+use super::grid::{Grid, LARGEST_EIGENVALUE, part, part_mut};
+use super::transfer::Transfer;
+use crate::error::{Result, try_filled};
+use crate::fit::energy::problem::Problem;
+use crate::lattice::domain::Domain;
+use crate::lattice::per_cell::PerCell;
+
+/// Smoothing steps before and after the coarse correction.
+const STEPS: usize = 2;
+
+/// The smoother works on eigenvalues down to the largest over this; the rest is for the coarse lattice.
+const RANGE: f32 = 5.0;
+
+/// A lattice with no larger condition number than this needs no coarser one.
+const WELL_CONDITIONED: f32 = 8.0;
+
+/// Most smoothing steps on the coarsest lattice.
+const BOTTOM_STEPS: f32 = 40.0;
+
+/// A lattice that needs more steps than that, and has no more unknowns than
+/// this, is solved directly.
+const DIRECT: usize = 300;
+
+/// Added to its diagonal, relative: keeps a matrix that is singular but for rounding positive.
+const SHIFT: f32 = 1e-5;
+
+/// How stiff the springs of [`Shares`] are, relative to the finest lattice: fewest iterations on drawn
+/// curves; 1 and 0.001 took half as many again.
+const SPRING: f64 = 0.03;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Multigrid {
+    /// The finest first.
+    floors: Vec<Floor>,
+    /// From each floor to the next.
+    transfers: Vec<Transfer>,
+    /// How many of them a cycle visits.
+    depth: usize,
+    lambda: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Floor {
+    grid: Grid,
+    /// What differs from cell to cell, if anything does.
+    shares: Option<Shares>,
+    /// On the last floor of a cycle, if Chebyshev's iteration would take too long.
+    direct: Option<Cholesky<f32, Dyn>>,
+    /// Right-hand side, solution, last step of the smoother, residual.
+    b: Vec<f32>,
+    x: Vec<f32>,
+    step: Vec<f32>,
+    residual: Vec<f32>,
+}
+
+/// Fidelity and constraints, as the mean of those of the finest vertices that a
+/// vertex stands for. A constrained vertex is out of the finest system; on
+/// coarser lattices a spring stands for it.
+#[derive(Debug, Clone)]
+struct Shares {
+    fidelity: Vec<f32>,
+    constrained: Vec<f32>,
+}
+
+impl Multigrid {
+    /// For a problem on the first of `domains`, each of which has twice the
+    /// spacing of the one before.
+    pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
+        let transfers: Vec<Transfer> = domains
+            .windows(2)
+            .map(|pair| Transfer::new(&pair[0], &pair[1]))
+            .collect();
+        let mut floors: Vec<Floor> = Vec::with_capacity(domains.len());
+        let mut spacing = problem.spacing;
+        let varied = matches!(problem.fidelity, PerCell::Each(_));
+        for (i, domain) in domains.iter().enumerate() {
+            let zeros = || try_filled("multigrid", domain.cells(), 0.0);
+            let constrained = if i == 0 {
+                problem.constrained.clone()
+            } else {
+                Vec::new()
+            };
+            let mut floor = Floor {
+                grid: Grid::new(domain.clone(), spacing, constrained, varied)?,
+                shares: None,
+                direct: None,
+                b: zeros()?,
+                x: zeros()?,
+                step: zeros()?,
+                residual: zeros()?,
+            };
+            if let Some(finer) = floors.last() {
+                let counts = &finer.grid.stencils;
+                floor.grid.stencils = coarser_counts(counts, &finer.grid.domain, domain)?;
+            }
+            floor.shares = match floors.last_mut() {
+                None => Shares::of(problem)?,
+                Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
+            };
+            floors.push(floor);
+            spacing *= 2.0;
+        }
+        let mut multigrid = Multigrid {
+            floors,
+            transfers,
+            depth: 1,
+            lambda: problem.lambda,
+        };
+        multigrid.set(rho);
+        Ok(multigrid)
+    }
+
+    /// Changes the matrix.
+    pub(crate) fn set(&mut self, rho: f64) {
+        let typical = 2.0 * self.lambda;
+        let spring = SPRING * self.floors[0].grid.stiffness(rho);
+        for floor in &mut self.floors {
+            match &floor.shares {
+                None => floor.grid.set(rho, typical, |_| typical),
+                Some(Shares {
+                    fidelity,
+                    constrained,
+                }) => {
+                    let each = |cell: usize| {
+                        typical * f64::from(fidelity[cell]) + spring * f64::from(constrained[cell])
+                    };
+                    floor.grid.set(rho, typical, each);
+                }
+            }
+        }
+        let good = |floor: &Floor| floor.grid.condition() <= WELL_CONDITIONED;
+        let last = self.floors.len() - 1;
+        self.depth = self.floors.iter().position(good).unwrap_or(last) + 1;
+        self.floors[self.depth - 1].prepare();
+    }
+
+    /// The matrix itself.
+    pub(crate) fn matrix(&self) -> &Grid {
+        &self.floors[0].grid
+    }
+
+    /// The matrix itself.
+    pub(crate) fn matrix_mut(&mut self) -> &mut Grid {
+        &mut self.floors[0].grid
+    }
+
+    /// An approximation of `A⁻¹ b`. `b` comes back as it was.
+    pub(crate) fn precondition(&mut self, b: &mut Vec<f32>) -> &[f32] {
+        std::mem::swap(b, &mut self.floors[0].b);
+        cycle(&mut self.floors[..self.depth], &self.transfers);
+        std::mem::swap(b, &mut self.floors[0].b);
+        &self.floors[0].x
+    }
+}
+
+/// Solves `A x = b` roughly on the first floor with the help of the others.
+fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
+    let Some((fine, below)) = floors.split_first_mut() else {
+        return;
+    };
+    let (Some(coarse), Some((transfer, further))) = (below.first_mut(), transfers.split_first())
+    else {
+        return fine.solve();
+    };
+    let low = LARGEST_EIGENVALUE / RANGE;
+    fine.start(low);
+    fine.smooth(STEPS - 1, low, true);
+    fine.grid.residual(&mut fine.x, &fine.b, &mut fine.residual);
+    fine.grid.pin(&mut fine.residual);
+    let scale = 0.25 * fine.grid.diagonal / coarse.grid.diagonal;
+    transfer.restrict(
+        (&fine.grid.domain, &fine.residual, &mut fine.step),
+        (&coarse.grid.domain, &mut coarse.b),
+        scale as f32,
+    );
+    cycle(below, further);
+    let coarse = &below[0];
+    transfer.prolong(
+        (&coarse.grid.domain, &coarse.x),
+        (&fine.grid.domain, &mut fine.x, &mut fine.residual),
+    );
+    fine.grid.pin(&mut fine.x);
+    fine.smooth(STEPS, low, false);
+}
+
+impl Shares {
+    fn of(problem: &Problem) -> Result<Option<Self>> {
+        let PerCell::Each(weights) = &problem.fidelity else {
+            return Ok(None);
+        };
+        let domain = &problem.domain;
+        let zeros = || try_filled("multigrid", domain.cells(), 0.0);
+        let (mut fidelity, mut constrained) = (zeros()?, zeros()?);
+        for cell in domain.active().cells() {
+            fidelity[cell] = weights[cell] as f32;
+        }
+        for cell in &problem.constrained {
+            fidelity[*cell as usize] = 0.0;
+            constrained[*cell as usize] = 1.0;
+        }
+        Ok(Some(Shares {
+            fidelity,
+            constrained,
+        }))
+    }
+}
+
+impl Floor {
+    /// The means on the next floor; leaves the work space as clean as it was.
+    fn coarser_shares(
+        &mut self,
+        transfer: &Transfer,
+        coarse: &mut Floor,
+    ) -> Result<Option<Shares>> {
+        let Some(shares) = &self.shares else {
+            return Ok(None);
+        };
+        let mean = |fine: &[f32], work: &mut [f32]| {
+            let mut means = try_filled("multigrid", coarse.grid.domain.cells(), 0.0)?;
+            transfer.restrict(
+                (&self.grid.domain, fine, work),
+                (&coarse.grid.domain, &mut means),
+                0.25,
+            );
+            // A plane through vertices beside gives some of them negative weights.
+            means
+                .iter_mut()
+                .for_each(|mean: &mut f32| *mean = mean.max(0.0));
+            Ok(means)
+        };
+        Ok(Some(Shares {
+            fidelity: mean(&shares.fidelity, &mut self.step)?,
+            constrained: mean(&shares.constrained, &mut self.step)?,
+        }))
+    }
+
+    /// Factors the matrix if this is the last floor and iterating would take too long.
+    fn prepare(&mut self) {
+        let steps = 1.5 * self.grid.condition().sqrt();
+        let unknowns = self.grid.domain.active().len();
+        let slow = steps > BOTTOM_STEPS && unknowns <= DIRECT && self.grid.constrained().is_empty();
+        self.direct = None;
+        if slow {
+            let columns = self.grid.dense();
+            let mut matrix = DMatrix::from_fn(unknowns, unknowns, |i, j| columns[j][i]);
+            for i in 0..unknowns {
+                matrix[(i, i)] *= 1.0 + SHIFT;
+            }
+            self.direct = matrix.cholesky();
+        }
+    }
+
+    /// On the last floor of a cycle: directly, or by Chebyshev's iteration on the whole spectrum.
+    fn solve(&mut self) {
+        if let Some(direct) = &self.direct {
+            let cells = || self.grid.domain.active().cells();
+            let mut solution =
+                DVector::from_iterator(self.grid.domain.active().len(), cells().map(|c| self.b[c]));
+            direct.solve_mut(&mut solution);
+            for (cell, value) in cells().zip(solution.iter()) {
+                self.x[cell] = *value;
+            }
+            return;
+        }
+        let condition = self.grid.condition();
+        let steps = (1.5 * condition.sqrt()).ceil().clamp(2.0, BOTTOM_STEPS);
+        let low = LARGEST_EIGENVALUE / condition;
+        self.start(low);
+        self.smooth(steps as usize - 1, low, true);
+    }
+
+    /// The first step of Chebyshev's iteration from zero, which needs no matrix.
+    fn start(&mut self, low: f32) {
+        let weight = 2.0 / (LARGEST_EIGENVALUE + low);
+        for run in self.grid.domain.active().all() {
+            let x = part_mut(&mut self.x, *run);
+            let step = part_mut(&mut self.step, *run);
+            let b = part(&self.b, *run);
+            let m = part(&self.grid.inverse_diagonal, *run);
+            for i in 0..x.len() {
+                let first = weight * (m[i] * b[i]);
+                step[i] = first;
+                x[i] = first;
+            }
+        }
+    }
+
+    /// Steps of Chebyshev's iteration for eigenvalues from `low` to the largest,
+    /// going on after the first one or starting with it.
+    fn smooth(&mut self, steps: usize, low: f32, started: bool) {
+        let middle = 0.5 * (LARGEST_EIGENVALUE + low);
+        let half = 0.5 * (LARGEST_EIGENVALUE - low);
+        let sigma = middle / half;
+        let mut ratio = 1.0 / sigma;
+        for k in 0..steps {
+            let (momentum, weight) = if k == 0 && !started {
+                (0.0, 1.0 / middle)
+            } else {
+                let last = ratio;
+                ratio = 1.0 / (2.0 * sigma - last);
+                (ratio * last, 2.0 * ratio / half)
+            };
+            self.grid
+                .smooth(&mut self.x, &self.b, &mut self.step, momentum, weight);
+        }
+    }
+}

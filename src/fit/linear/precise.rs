@@ -1,0 +1,140 @@
+//! The z-step's system in double precision.
+//!
+//! Without a fidelity term everywhere its condition number grows with the fourth
+//! power of the domain's size in cells, and single precision no longer resolves
+//! the smooth part of what is left. A V-cycle in single precision still is a
+//! good preconditioner.
+
+use super::multigrid::Multigrid;
+use crate::error::{Result, try_filled};
+use crate::fit::energy::problem::Problem;
+use crate::lattice::stencil::{Ring, Rolling, weights_of};
+
+/// Conjugate gradients for `A x = b`, `A = 2λw + ρCᵀC`, over the cells that are
+/// not constrained.
+pub(crate) struct Precise {
+    /// `b − A x`: to be written before a solve, 0 outside `I ∪ ∂I`.
+    pub residual: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+    single: Vec<f32>,
+    rolling: Rolling<f64>,
+}
+
+impl Precise {
+    pub(crate) fn new(problem: &Problem) -> Result<Self> {
+        let cells = problem.domain.cells();
+        let zeros = || try_filled("conjugate gradients", cells, 0.0);
+        Ok(Precise {
+            residual: zeros()?,
+            direction: zeros()?,
+            image: zeros()?,
+            single: try_filled("conjugate gradients", cells, 0.0)?,
+            rolling: Rolling::new(&problem.domain),
+        })
+    }
+
+    /// The residual `2λw z̃ − A z` of the z-step about `H = Y = 0`.
+    pub(crate) fn start(&mut self, problem: &Problem, rho: f64, z: &[f64]) {
+        self.direction.copy_from_slice(z);
+        self.apply(problem, rho);
+        let fidelity = 2.0 * problem.lambda;
+        for cell in problem.domain.active().cells() {
+            let given = fidelity * problem.fidelity.at(cell) * problem.target[cell];
+            self.residual[cell] = given - self.image[cell];
+        }
+    }
+
+    /// Adds to `x` until the residual is `tolerance` of what it was, or after
+    /// so many `steps`. Returns how many there were.
+    pub(crate) fn solve(
+        &mut self,
+        problem: &Problem,
+        rho: f64,
+        multigrid: &mut Multigrid,
+        x: &mut [f64],
+        (tolerance, steps): (f64, usize),
+    ) -> usize {
+        for cell in &problem.constrained {
+            self.residual[*cell as usize] = 0.0;
+        }
+        let cells = || problem.domain.active().cells();
+        let goal = tolerance * largest(&self.residual);
+        let mut previous = 0.0;
+        for step in 0..steps {
+            let size = largest(&self.residual);
+            if size <= goal {
+                return step;
+            }
+            // Of unit size, so that nothing leaves the range of single precision.
+            for cell in cells() {
+                self.single[cell] = (self.residual[cell] / size) as f32;
+            }
+            let unit = size / multigrid.matrix().diagonal;
+            let preconditioned = multigrid.precondition(&mut self.single);
+            let value = |cell: usize| unit * f64::from(preconditioned[cell]);
+            let product: f64 = cells().map(|c| self.residual[c] * value(c)).sum();
+            let beta = if step > 0 { product / previous } else { 0.0 };
+            for cell in cells() {
+                self.direction[cell] = value(cell) + beta * self.direction[cell];
+            }
+            let curvature = self.apply(problem, rho);
+            if !(product > 0.0 && curvature > 0.0) {
+                return step;
+            }
+            let alpha = product / curvature;
+            for cell in cells() {
+                x[cell] += alpha * self.direction[cell];
+                self.residual[cell] -= alpha * self.image[cell];
+            }
+            for cell in &problem.constrained {
+                self.residual[*cell as usize] = 0.0;
+            }
+            previous = product;
+        }
+        steps
+    }
+
+    /// `image = A direction`. Returns their product.
+    fn apply(&mut self, problem: &Problem, rho: f64) -> f64 {
+        let Precise {
+            direction,
+            image,
+            rolling,
+            ..
+        } = self;
+        let (domain, map) = (&problem.domain, problem.map);
+        let fidelity = 2.0 * problem.lambda;
+        let mut product = 0.0;
+        rolling.sweep(
+            domain,
+            image,
+            |_, row, weights| {
+                for run in domain.interior().row(row) {
+                    let ring = Ring::new(direction, domain, row, *run);
+                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
+                    for i in 0..w1.len() {
+                        let [d1, d2, d3] = map.normal(ring.differences(i));
+                        (w1[i], w2[i], w3[i]) = (rho * d1, rho * d2, rho * d3);
+                    }
+                }
+            },
+            |image, row, sums| {
+                for run in domain.active().row(row) {
+                    let sum = sums.run(*run);
+                    let weight = problem.fidelity.run(domain, row, *run);
+                    for (i, cell) in (run.start..run.end).enumerate() {
+                        let value = fidelity * weight[i] * direction[cell] + sum.at(i);
+                        image[cell] = value;
+                        product += direction[cell] * value;
+                    }
+                }
+            },
+        );
+        product
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0f64, |m, v| m.max(v.abs()))
+}

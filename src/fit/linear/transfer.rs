@@ -1,0 +1,239 @@
+//! Between a lattice and the one of twice the spacing, for corrections.
+//!
+//! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from
+//! the coarse vertices, then the average `A` of each vertex (weight 2) with its
+//! neighbours (weight 1). Plain interpolation will not do for a fourth-order
+//! operator, since its kinks cost more energy than the correction saves. What
+//! both factors are where the lattice ends is in `border`. Restriction is `Pᵀ`.
+
+use super::border::{Averages, Extension};
+use crate::lattice::domain::{Domain, Run};
+use crate::lattice::hexagonal::{NEIGHBOURS, Towards};
+use crate::lattice::stencil::Ring;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Transfer {
+    averages: Averages,
+    extension: Extension,
+    /// Fine row (box) of coarse row 0, and fine column of coarse column 0 on even
+    /// and odd coarse lattice rows.
+    row: isize,
+    col: [isize; 2],
+}
+
+/// The one or two coarse vertices that a fine vertex lies on or between.
+pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
+    let (r, c) = (row as isize, col as isize);
+    let coarse = |(r, c): (isize, isize)| {
+        let half = r.div_euclid(2);
+        let odd = half.rem_euclid(2);
+        (r % 2 == 0 && (c + odd) % 2 == 0).then(|| (half, (c + odd).div_euclid(2)))
+    };
+    if let Some(vertex) = coarse((r, c)) {
+        return [vertex, vertex];
+    }
+    let at = |towards: Towards| coarse(towards.step(r, c));
+    let [w, e, nw, ne, sw, se] = NEIGHBOURS.map(at);
+    // Exactly one pair of opposite neighbours is coarse.
+    match (w.zip(e), nw.zip(se), ne.zip(sw)) {
+        (Some((a, b)), _, _) | (_, Some((a, b)), _) | (_, _, Some((a, b))) => [a, b],
+        _ => [(-1, -1); 2],
+    }
+}
+
+impl Transfer {
+    pub(crate) fn new(fine: &Domain, coarse: &Domain) -> Self {
+        // Box row 1 and column 1 are the corner; coarse vertex (r, c) is fine (2r, 2c − (r odd)).
+        let (frow, fcol) = fine.corner();
+        let (crow, ccol) = coarse.corner();
+        let first = |coarse: usize, fine: usize| 2 * (coarse as isize - 1) - fine as isize + 1;
+        Transfer {
+            averages: Averages::new(fine),
+            extension: Extension::new(fine, coarse),
+            row: first(crow, frow),
+            col: [first(ccol, fcol), first(ccol, fcol) - 1],
+        }
+    }
+
+    /// `to += scale · Pᵀ from`; `work` is zero outside the fine domain and stays so.
+    pub(crate) fn restrict(
+        &self,
+        (fine, from, work): (&Domain, &[f32], &mut [f32]),
+        (coarse, to): (&Domain, &mut [f32]),
+        scale: f32,
+    ) {
+        self.average(fine, from, work, |to, average| *to = average);
+        self.averages.complete_transposed(fine, from, work);
+        for row in 1..=coarse.rows() {
+            let Some((middle, first)) = self.fine_row(fine, coarse, row) else {
+                continue;
+            };
+            let stride = fine.stride();
+            for &Run { start, end } in coarse.active().row(row) {
+                let at = (2 * (start - row * coarse.stride()) as isize + first) as usize;
+                let n = end - start;
+                let span = |row: usize| &work[row * stride + at - 1..][..2 * n + 1];
+                let (up, mid, down) = (span(middle - 1), span(middle), span(middle + 1));
+                for (i, to) in to[start..end].iter_mut().enumerate() {
+                    let j = 2 * i + 1;
+                    let ring =
+                        (mid[j - 1] + mid[j + 1]) + (up[j] + up[j + 1]) + (down[j] + down[j + 1]);
+                    *to = scale * (mid[j] + 0.5 * ring);
+                }
+            }
+        }
+        self.extension.extend_transposed(work, to, scale);
+    }
+
+    /// `to += P from`, where `from` is zero outside the coarse domain. `work` is overwritten.
+    pub(crate) fn prolong(
+        &self,
+        (coarse, from): (&Domain, &[f32]),
+        (fine, to, work): (&Domain, &mut [f32], &mut [f32]),
+    ) {
+        work.fill(0.0);
+        let stride = fine.stride() as isize;
+        for row in 0..=coarse.rows() {
+            let parity = usize::from(row.is_multiple_of(2));
+            let first = self.col[parity];
+            let top = &from[row * coarse.stride()..][..coarse.stride()];
+            let below = &from[(row + 1) * coarse.stride()..][..coarse.stride()];
+            // Columns whose two fine cells lie in the box and whose neighbours exist.
+            let low = (1 - first).div_euclid(2).max(1);
+            let high = ((stride - first).div_euclid(2)).min(coarse.stride() as isize - 1);
+            if high <= low {
+                continue;
+            }
+            let (low, n) = (low as usize, (high - low) as usize);
+            let at = (2 * low as isize + first) as usize;
+            let (a, b) = (&top[low..][..n], &top[low + 1..][..n]);
+            let (sw, se) = (&below[low - parity..][..n], &below[low + 1 - parity..][..n]);
+            let even = 2 * row as isize + self.row;
+            if (0..=fine.rows() as isize).contains(&even) {
+                let out = &mut work[even as usize * fine.stride() + at..][..2 * n];
+                for (i, out) in out.chunks_exact_mut(2).enumerate() {
+                    out[0] = a[i];
+                    out[1] = 0.5 * (a[i] + b[i]);
+                }
+            }
+            if (0..=fine.rows() as isize).contains(&(even + 1)) {
+                let out = &mut work[(even + 1) as usize * fine.stride() + at..][..2 * n];
+                for (i, out) in out.chunks_exact_mut(2).enumerate() {
+                    out[0] = 0.5 * (a[i] + sw[i]);
+                    out[1] = 0.5 * (a[i] + se[i]);
+                }
+            }
+        }
+        self.extension.extend(from, work);
+        self.average(fine, work, to, |to, average| *to += average);
+        self.averages.complete(fine, work, to);
+    }
+
+    /// Fine row of a coarse row, and the fine column of its column 0.
+    fn fine_row(&self, fine: &Domain, coarse: &Domain, row: usize) -> Option<(usize, isize)> {
+        debug_assert!(row <= coarse.rows());
+        let at = 2 * row as isize + self.row;
+        let inside = (1..=fine.rows() as isize).contains(&at);
+        inside.then(|| (at as usize, self.col[usize::from(row.is_multiple_of(2))]))
+    }
+
+    /// `A from`, without what `averages` completes, at each vertex of the fine
+    /// domain, to be stored or added.
+    #[inline(always)]
+    fn average(
+        &self,
+        domain: &Domain,
+        from: &[f32],
+        to: &mut [f32],
+        store: impl Fn(&mut f32, f32),
+    ) {
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let ring = Ring::new(from, domain, row, *run);
+                let to = &mut to[run.start..run.end];
+                for (i, to) in to.iter_mut().enumerate() {
+                    store(to, 0.25 * ring.centre(i) + 0.125 * ring.sum(i));
+                }
+            }
+        }
+        for cell in self.averages.cells() {
+            store(&mut to[cell], from[cell]);
+        }
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+mod tests {
+    use super::*;
+    use crate::fit::coarse_to_fine::coarsen;
+    use crate::lattice::domain::tests::arbitrary_field;
+    use proptest::prelude::*;
+
+    fn fill(domain: &Domain, seed: f32) -> Vec<f32> {
+        let mut values = vec![0.0; domain.cells()];
+        let mut x = seed;
+        for cell in domain.active().cells() {
+            x = 3.9 * x * (1.0 - x);
+            values[cell] = x - 0.5;
+        }
+        values
+    }
+
+    fn dot(domain: &Domain, a: &[f32], b: &[f32]) -> f64 {
+        let cells = domain.active().cells();
+        cells.map(|c| f64::from(a[c]) * f64::from(b[c])).sum()
+    }
+
+    proptest! {
+        #[test]
+        fn restriction_is_the_transposed_prolongation(field in arbitrary_field()) {
+            let fine = Domain::new(&field);
+            let coarse = Domain::new(&coarsen(&field.clone().into()).unwrap().field);
+            if let (Ok(fine), Ok(coarse)) = (fine, coarse) {
+                let transfer = Transfer::new(&fine, &coarse);
+                let (x, y) = (fill(&coarse, 0.3), fill(&fine, 0.4));
+                let (mut px, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
+                transfer.prolong((&coarse, &x), (&fine, &mut px, &mut work));
+                let mut pty = vec![0.0; coarse.cells()];
+                let mut clean = vec![0.0; fine.cells()];
+                transfer.restrict((&fine, &y, &mut clean), (&coarse, &mut pty), 1.0);
+                let (left, right) = (dot(&fine, &px, &y), dot(&coarse, &x, &pty));
+                prop_assert!((left - right).abs() < 1e-5, "{left} {right}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plane_is_prolonged_to_the_same_plane() {
+        for (rows, cols) in [(17, 18), (18, 17), (20, 20)] {
+            let lattice = crate::Lattice::new(rows, cols, 1.0).unwrap();
+            let plane = |x: f64, y: f64| 0.25 * x - 0.5 * y + 1.0;
+            let holed = |x: f64, y: f64| {
+                if (x - 6.0).hypot(y + 7.0) < 2.5 {
+                    f64::NAN
+                } else {
+                    plane(x, y)
+                }
+            };
+            let field = crate::Heightfield::from_fn(lattice, holed).unwrap();
+            let coarse_field = coarsen(&field.clone().into()).unwrap().field;
+            let fine = Domain::new(&field).unwrap();
+            let coarse = Domain::new(&coarse_field).unwrap();
+            let mut x = vec![0.0; coarse.cells()];
+            for cell in coarse.active().cells() {
+                x[cell] = coarse_field.heights()[coarse.lattice_index(cell)] as f32;
+            }
+            let (mut to, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
+            Transfer::new(&fine, &coarse).prolong((&coarse, &x), (&fine, &mut to, &mut work));
+            for cell in fine.active().cells() {
+                let (row, col) = fine.lattice_vertex(cell);
+                let expected = field.height(row, col) as f32;
+                assert!(
+                    (to[cell] - expected).abs() < 1e-4,
+                    "{row} {col} {}",
+                    to[cell]
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! From heights to the surface that minimises the energy (paper, Sec. 4), with a certified
+//! duality gap.
+
+mod admm;
+mod cascade;
+mod coarse_to_fine;
+mod components;
+mod coordinates;
+mod energy;
+pub(crate) mod input;
+mod linear;
+pub(crate) mod options;
+mod plate;
+pub(crate) mod report;
+mod restore;
+pub(crate) mod solver;
+pub(crate) mod surface;
+mod totals;
+mod warm_start;

@@ -1,0 +1,306 @@
+//! What may be chosen about a solve, with its defaults.
+
+use std::str::FromStr;
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::error::{Error, Result};
+use crate::heights::normalization::Normalization;
+
+/// Beyond these even double precision sees only one of the energy's two terms.
+const LAMBDAS: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
+
+/// More passes change nothing any more.
+const MOST_PASSES: usize = 20;
+
+/// Weight λ of the fidelity term, stated for coordinates normalised to the
+/// unit square. The presets are the paper's (Sec. 5).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Lambda {
+    /// 10⁵: for heavy, widespread noise, or for few large patches.
+    Small,
+    /// 10⁶.
+    #[default]
+    Medium,
+    /// 10⁷: for input that is developable but for small artefacts.
+    Big,
+    /// Any number from 10⁻¹² to 10¹⁵.
+    Value(f64),
+}
+
+impl Lambda {
+    fn named(name: &str) -> Option<Self> {
+        match name {
+            "small" => Some(Lambda::Small),
+            "medium" => Some(Lambda::Medium),
+            "big" => Some(Lambda::Big),
+            _ => None,
+        }
+    }
+
+    /// The number that stands in the energy.
+    pub fn value(self) -> f64 {
+        match self {
+            Lambda::Small => 1e5,
+            Lambda::Medium => 1e6,
+            Lambda::Big => 1e7,
+            Lambda::Value(value) => value,
+        }
+    }
+}
+
+impl From<f64> for Lambda {
+    fn from(value: f64) -> Self {
+        Lambda::Value(value)
+    }
+}
+
+impl FromStr for Lambda {
+    type Err = Error;
+
+    /// Reads `small`, `medium`, `big` or a number.
+    fn from_str(text: &str) -> Result<Self> {
+        let number = || text.parse().ok().map(Lambda::Value);
+        Lambda::named(text).or_else(number).ok_or_else(|| {
+            Error::option(
+                "lambda",
+                text,
+                "must be small, medium, big or a number above zero",
+            )
+        })
+    }
+}
+
+impl<'de> Deserialize<'de> for Lambda {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Raw {
+            Number(f64),
+            Name(String),
+        }
+        match Raw::deserialize(deserializer)? {
+            Raw::Number(value) => Ok(Lambda::Value(value)),
+            // Numbers come as numbers: reading them from text would cost the wasm 15 kB.
+            Raw::Name(name) => Lambda::named(&name)
+                .ok_or_else(|| serde::de::Error::custom("must be small, medium or big")),
+        }
+    }
+}
+
+/// How the iterations are run and when they stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Schedule {
+    /// A fixed handful of conjugate-gradient iterations in each z-step,
+    /// over-relaxation, balancing of the relative residuals; stops at the
+    /// certified relative gap [`Options::gap`].
+    #[default]
+    Default,
+    /// The paper's (Sec. 4.1): z-steps solved tightly, residual balancing after
+    /// Boyd et al. with the loosened trigger, stops on the residuals. The gap
+    /// is reported all the same.
+    Paper,
+}
+
+/// What is minimised besides the fidelity term.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Energy {
+    /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15).
+    #[default]
+    Nuclear,
+    /// `Σ ‖H‖_F`: smooth where it should crease (Fig. 21).
+    Frobenius,
+    /// `Σ ‖H‖_*²`: likewise (Fig. 21).
+    SquaredNuclear,
+    /// `Σ n₃ ‖H‖_*`, the nuclear norm of the second fundamental form, with the factor
+    /// `n₃ = (1 + |∇z|²)^-½` taken from the input once: convex (Fig. 7, right).
+    SecondFormOfInput,
+    /// The same with the factor of the surface itself, updated in each iteration: not convex
+    /// (Fig. 7, centre right). What is certified is the energy with the last factor kept.
+    SecondForm,
+}
+
+impl FromStr for Energy {
+    type Err = Error;
+
+    /// Reads the names that JS has for them, as `squaredNuclear`.
+    fn from_str(text: &str) -> Result<Self> {
+        use serde::de::IntoDeserializer;
+        use serde::de::value::{Error as Unknown, StrDeserializer};
+        let name: StrDeserializer<'_, Unknown> = text.into_deserializer();
+        Energy::deserialize(name).map_err(|_| {
+            Error::option(
+                "energy",
+                text,
+                "must be nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm",
+            )
+        })
+    }
+}
+
+/// Options of a solve; `Options::default()` suits most inputs.
+///
+/// ```
+/// use developable::{Lambda, Options};
+/// let options = Options::default().lambda(Lambda::Big).gap(1e-3);
+/// assert!(options.validate().is_ok());
+/// assert!(options.gap(0.0).validate().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    pub(crate) lambda: Lambda,
+    pub(crate) schedule: Schedule,
+    pub(crate) gap: f64,
+    pub(crate) max_iterations: usize,
+    pub(crate) normalization: Normalization,
+    pub(crate) energy: Energy,
+    pub(crate) reweighting: usize,
+    pub(crate) tie_break: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            lambda: Lambda::Medium,
+            schedule: Schedule::Default,
+            gap: 0.01,
+            max_iterations: 20_000,
+            normalization: Normalization::UnitSquare,
+            energy: Energy::Nuclear,
+            reweighting: 0,
+            tie_break: 0.01,
+        }
+    }
+}
+
+impl Options {
+    /// Weight of the fidelity term; default [`Lambda::Medium`].
+    pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
+        self.lambda = lambda.into();
+        self
+    }
+
+    /// Default [`Schedule::Default`].
+    pub fn schedule(mut self, schedule: Schedule) -> Self {
+        self.schedule = schedule;
+        self
+    }
+
+    /// Certified relative duality gap at which [`Schedule::Default`] stops,
+    /// between 0 and 1; default 0.01.
+    pub fn gap(mut self, gap: f64) -> Self {
+        self.gap = gap;
+        self
+    }
+
+    /// Most ADMM iterations, at least 1; default 20 000.
+    pub fn max_iterations(mut self, max_iterations: usize) -> Self {
+        self.max_iterations = max_iterations;
+        self
+    }
+
+    /// Default [`Normalization::UnitSquare`].
+    pub fn normalization(mut self, normalization: Normalization) -> Self {
+        self.normalization = normalization;
+        self
+    }
+
+    /// Default [`Energy::Nuclear`].
+    pub fn energy(mut self, energy: Energy) -> Self {
+        self.energy = energy;
+        self
+    }
+
+    /// Passes after the first solve in which each vertex's norm is weighted by
+    /// one over its size around there in the solution before, which takes away a
+    /// part of the shrinkage that the energy does to large curvatures. It pays
+    /// where λ is small for the noise: at 10⁴ a noisy roof comes three times
+    /// closer to the truth, and a cylinder's curvature a fifth of the way; where
+    /// λ is large already, noise comes back. One pass does most of it. Default
+    /// 0, at most 20. The figures of the report are those of the last pass's
+    /// weighted energy.
+    pub fn reweighting(mut self, passes: usize) -> Self {
+        self.reweighting = passes;
+        self
+    }
+
+    /// Weight, in place of λ, of the squared distance from the thin plate
+    /// through the constraints, at vertices that have no fidelity term of their
+    /// own: without it minimisers need not be unique. Default 0.01.
+    pub fn tie_break(mut self, weight: f64) -> Self {
+        self.tie_break = weight;
+        self
+    }
+
+    /// Whether every option is within its range.
+    ///
+    /// # Errors
+    /// [`Error::Option`] with the name of the first that is not.
+    pub fn validate(&self) -> Result<()> {
+        if !LAMBDAS.contains(&self.lambda.value()) {
+            return Err(Error::option(
+                "lambda",
+                format!("{:e}", self.lambda.value()),
+                "must lie between 1e-12 and 1e15",
+            ));
+        }
+        if !(self.gap > 0.0 && self.gap < 1.0) {
+            return Err(Error::option(
+                "gap",
+                self.gap,
+                "must lie between 0 and 1, both excluded",
+            ));
+        }
+        if self.reweighting > MOST_PASSES {
+            return Err(Error::option(
+                "reweighting",
+                self.reweighting,
+                "must be at most 20",
+            ));
+        }
+        if !LAMBDAS.contains(&self.tie_break) {
+            return Err(Error::option(
+                "tieBreak",
+                format!("{:e}", self.tie_break),
+                "must lie between 1e-12 and 1e15",
+            ));
+        }
+        if self.max_iterations == 0 {
+            return Err(Error::option("maxIterations", 0, "must be at least 1"));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lambda_reads_names_and_numbers() {
+        assert_eq!("big".parse::<Lambda>().unwrap().value(), 1e7);
+        assert_eq!("3e5".parse::<Lambda>().unwrap(), Lambda::Value(3e5));
+        assert_eq!("huge".parse::<Lambda>().unwrap_err().code(), "OPTION");
+        let from_json = |text| serde_json::from_str::<Lambda>(text);
+        assert_eq!(from_json("\"small\"").unwrap(), Lambda::Small);
+        assert_eq!(from_json("12").unwrap(), Lambda::Value(12.0));
+        assert!(from_json("\"tiny\"").is_err());
+    }
+
+    #[test]
+    fn options_out_of_range_are_named() {
+        let name = |options: Options| match options.validate() {
+            Err(Error::Option { name, .. }) => name,
+            other => panic!("{other:?}"),
+        };
+        for bad in [0.0, -1.0, 1e16, f64::NAN, f64::INFINITY] {
+            assert_eq!(name(Options::default().lambda(bad)), "lambda");
+        }
+        for bad in [0.0, 1.0, f64::NAN] {
+            assert_eq!(name(Options::default().gap(bad)), "gap");
+        }
+        assert_eq!(name(Options::default().max_iterations(0)), "maxIterations");
+    }
+}

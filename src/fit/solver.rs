@@ -1,0 +1,389 @@
+//! ADMM for the nuclear norm of the Hessian (paper, Sec. 4.1), with a certified
+//! duality gap.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::admm::iteration::relative_gap;
+use super::cascade::{Answer, Cascade, domain_of};
+use super::components::{Components, check_held};
+use super::coordinates::Coordinates;
+use super::energy::problem::Problem;
+use super::input::Input;
+use super::options::Options;
+use super::report::{LevelReport, Progress, Report, Seconds, StopReason};
+use super::restore::restore_omitted;
+use super::surface::Surface;
+use super::totals::{Totals, add_levels};
+use super::warm_start::{WORTH_KEEPING, WarmStart};
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::domain::Domain;
+use crate::lattice::hexagonal::Lattice;
+
+/// Whether a [`Solver`] has more to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// [`Solver::advance`] should be called again.
+    Running,
+    /// Done; further calls change nothing.
+    Stopped(StopReason),
+}
+
+/// A solve that runs in steps, so that its caller can look at it, draw, or stop
+/// it in between.
+///
+/// ```
+/// use developable::{Heightfield, Lattice, Options, Solver, Status};
+/// # fn main() -> developable::Result<()> {
+/// let lattice = Lattice::new(30, 30, 1.0)?;
+/// let field = Heightfield::from_fn(lattice, |x, y| 0.01 * x * x + 0.1 * (7.0 * y).sin())?;
+/// let mut solver = Solver::new(&field, &Options::default())?;
+/// while solver.advance(100)? == Status::Running {
+///     println!("gap {:.3}", solver.progress().gap);
+/// }
+/// assert!(solver.surface()?.report().gap <= 0.01);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct Solver {
+    input: Input,
+    options: Options,
+    coordinates: Coordinates,
+    domain: Arc<Domain>,
+    components: Components,
+    /// Of the first parts.
+    answers: Vec<Answer>,
+    /// The part after those.
+    running: Option<Cascade>,
+    /// `P(z̃)` of each part, if there are several.
+    energies: Vec<f64>,
+    /// What the parts to come may start from.
+    memory: Option<WarmStart>,
+    status: Status,
+    started: Instant,
+    setup: f64,
+}
+
+impl Solver {
+    /// Sets up a solve. WarmStart: about 180 bytes for each vertex of the valid
+    /// vertices' bounding box.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for an option out of range, [`Error::NoInterior`] if
+    /// there is nothing to solve, [`Error::Underdetermined`] if a part of the
+    /// surface is not held in place, [`Error::Overflow`] if the heights are too
+    /// large for their energy to be computed, [`Error::OutOfMemory`].
+    pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
+        Solver::set_up(input.into(), options, None)
+    }
+
+    fn set_up(input: Input, options: &Options, memory: Option<WarmStart>) -> Result<Self> {
+        let started = Instant::now();
+        options.validate()?;
+        let domain = Arc::new(domain_of(&input)?);
+        check_held(&input, &domain)?;
+        let coordinates = Coordinates::new(&input, &domain, options.normalization);
+        let components = Components::new(&domain)?;
+        let energies = match components.list.len() {
+            1 => Vec::new(),
+            n => {
+                let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
+                problem.smoothness_by(n, |cell| components.of(cell))
+            }
+        };
+        if energies.iter().any(|energy| !energy.is_finite()) {
+            return Err(Error::Overflow {
+                spacing: input.field.lattice().spacing(),
+            });
+        }
+        let mut solver = Solver {
+            input,
+            options: *options,
+            coordinates,
+            domain,
+            components,
+            answers: Vec::new(),
+            running: None,
+            energies,
+            memory,
+            status: Status::Running,
+            started,
+            setup: 0.0,
+        };
+        solver.next_part()?;
+        solver.setup = started.elapsed().as_secs_f64();
+        Ok(solver)
+    }
+
+    /// Solves the same input again with other options, from where it stands:
+    /// for a slider. On an error nothing has changed.
+    ///
+    /// # Errors
+    /// As [`Solver::new`].
+    pub fn restart(&mut self, options: &Options) -> Result<()> {
+        self.restart_with(self.input.clone(), options)
+    }
+
+    /// Solves another input, on a lattice of the same shape, from where it
+    /// stands: slightly other heights, another mask. On a lattice of another
+    /// shape it starts from nothing. On an error nothing has changed.
+    ///
+    /// # Errors
+    /// As [`Solver::new`].
+    pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
+        let input = input.into();
+        let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
+        let same = shape(input.field.lattice()) == shape(self.input.field.lattice())
+            && options.energy.kind() == self.options.energy.kind();
+        let ratio = options.lambda.value() / self.options.lambda.value();
+        let memory = if same && WORTH_KEEPING.contains(&ratio) {
+            let mut answers = self.answers.clone();
+            if let Some(running) = self.running.as_ref().filter(|c| c.levels_left() == 0) {
+                answers.push(running.answer()?);
+            }
+            Some(WarmStart {
+                coordinates: self.coordinates,
+                domain: self.domain.clone(),
+                components: self.components.clone(),
+                answers,
+            })
+        } else {
+            None
+        };
+        *self = Solver::set_up(input, options, memory)?;
+        Ok(())
+    }
+
+    /// Starts parts until one has something to do.
+    fn next_part(&mut self) -> Result<()> {
+        while let Some(number) = self.next_number() {
+            let (input, domain) = match self.components.list.len() {
+                1 => (self.input.clone(), self.domain.clone()),
+                _ => {
+                    let input = self.components.crop(&self.input, &self.domain, number)?;
+                    let domain = Arc::new(domain_of(&input)?);
+                    (input, domain)
+                }
+            };
+            let corner = self.components.corner(number);
+            let warm = |problem: &Problem| match &self.memory {
+                Some(memory) => memory.state(problem, corner, &self.coordinates),
+                None => Ok(None),
+            };
+            let component = Cascade::new(input, domain, &self.coordinates, &self.options, warm)?;
+            match component.reason() {
+                Some(reason) => self.answers.push(component.into_answer(reason)),
+                None => {
+                    self.running = Some(component);
+                    return Ok(());
+                }
+            }
+        }
+        self.memory = None;
+        self.status = Status::Stopped(self.reason());
+        Ok(())
+    }
+
+    fn next_number(&self) -> Option<usize> {
+        let next = self.answers.len();
+        (next < self.components.list.len()).then_some(next)
+    }
+
+    /// The worst of the reasons why parts stopped.
+    fn reason(&self) -> StopReason {
+        let reasons = || self.answers.iter().map(|answer| answer.reason);
+        let any = |reason| reasons().any(|r| r == reason);
+        [
+            StopReason::Cancelled,
+            StopReason::MaxIterations,
+            StopReason::Residuals,
+            StopReason::Gap,
+        ]
+        .into_iter()
+        .find(|reason| any(*reason))
+        .unwrap_or(StopReason::Rounding)
+    }
+
+    /// Runs about `work` conjugate-gradient iterations, at least one. Results
+    /// do not depend on how the work is divided.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] on the way to a finer level.
+    pub fn advance(&mut self, work: usize) -> Result<Status> {
+        let mut left = work.max(1);
+        while left > 0 && self.status == Status::Running {
+            let Some(running) = &mut self.running else {
+                break;
+            };
+            if let Some(reason) = running.advance(&mut left)? {
+                let done = self.running.take();
+                self.answers.extend(done.map(|c| c.into_answer(reason)));
+                self.next_part()?;
+            }
+        }
+        Ok(self.status)
+    }
+
+    /// Figures of the last check. While a coarse level is under way, its
+    /// objective and bound are scaled by the number of vertices: estimates of
+    /// the finest level's, which alone certifies. Components of the surface that are
+    /// still to come count as they are in the input, with 0 as their bound.
+    pub fn progress(&self) -> Progress {
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.best, answer.dual_bound(), 1.0);
+            total.add_work(&answer.levels);
+        }
+        let mut pending = self.answers.len();
+        if let Some(running) = &self.running {
+            let level = running.level();
+            let share = running.problem().domain.interior_len() as f64
+                / level.problem.domain.interior_len() as f64;
+            total.add(&level.best, level.best.dual_bound, share);
+            total.add_work(&running.levels());
+            pending += 1;
+        }
+        let pending = self.energies.iter().skip(pending);
+        let objective = total.objective() + pending.sum::<f64>();
+        Progress {
+            level: self.running.as_ref().map_or(0, Cascade::levels_left),
+            iteration: total.iterations,
+            cg_iterations: total.cg_iterations,
+            objective,
+            dual_bound: total.dual_bound,
+            gap: relative_gap(objective, total.dual_bound),
+            rho: self.rho(),
+            elapsed: self.started.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Of the largest part.
+    fn rho(&self) -> f64 {
+        let running = || self.running.as_ref().map(|c| c.level().state.rho);
+        let first = self.answers.first().map(|answer| answer.state.rho);
+        first.or_else(running).unwrap_or(0.0)
+    }
+
+    /// Stops a running solve: its surface is then the best one so far, marked
+    /// [`StopReason::Cancelled`].
+    pub fn cancel(&mut self) {
+        if self.status == Status::Running {
+            self.status = Status::Stopped(StopReason::Cancelled);
+        }
+    }
+
+    /// The best surface so far, in the input's units, omitted vertices
+    /// restored. While the solve is running it is reported as cancelled; from a
+    /// coarse level it is carried to the finest one, and certified there; parts
+    /// that are still to come are as in the input, without the free vertices
+    /// that have no height there.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn surface(&self) -> Result<Surface> {
+        let unfinished = self.running.as_ref().map(Cascade::answer).transpose()?;
+        let answers = || self.answers.iter().chain(&unfinished);
+        let lattice = *self.input.field.lattice();
+        let mut heights = try_filled("surface", lattice.len(), f64::NAN)?;
+        let mut total = Totals::default();
+        let mut levels: Vec<LevelReport> = Vec::new();
+        let mut seconds = Seconds::default();
+        for (number, answer) in answers().enumerate() {
+            let (top, left) = self.components.corner(number);
+            answer
+                .problem
+                .write_heights(&self.coordinates, &answer.best.z, |(row, col), z| {
+                    heights[lattice.index(top + row, left + col)] = z;
+                });
+            total.add(&answer.best, answer.dual_bound(), 1.0);
+            total.add_work(&answer.levels);
+            add_levels(&mut levels, &answer.levels);
+            seconds = seconds + answer.seconds;
+        }
+        let pending = answers().count();
+        for cell in self.domain.active().cells() {
+            let vertex = self.domain.lattice_index(cell);
+            let given = self.input.weight(vertex) > 0.0;
+            if self.components.of(cell) >= pending && given {
+                heights[vertex] = self.input.field.heights()[vertex];
+            }
+        }
+        restore_omitted(&self.domain, &self.input, &mut heights);
+        let constrained = (0..lattice.len()).filter(|v| self.input.is_constrained(*v));
+        for vertex in constrained.clone() {
+            // To the last bit.
+            heights[vertex] = self.input.field.heights()[vertex];
+        }
+        total.nuclear_norm += self.energies.iter().skip(pending).sum::<f64>();
+        let objective = total.objective();
+        let report = Report {
+            interior: self.domain.interior_len(),
+            boundary: self.domain.boundary_len(),
+            omitted: self.domain.omitted_len(),
+            occluded: self.domain.occluded_len(),
+            constrained: constrained.count(),
+            free: answers().map(|answer| answer.problem.free.len()).sum(),
+            components: self.components.list.len(),
+            iterations: total.iterations,
+            cg_iterations: total.cg_iterations,
+            levels,
+            energy: self.options.energy,
+            reweighting: answers().map(|answer| answer.passes).max().unwrap_or(0),
+            objective,
+            fidelity: total.fidelity,
+            nuclear_norm: total.nuclear_norm,
+            dual_bound: total.dual_bound,
+            gap: relative_gap(objective, total.dual_bound),
+            lambda: self.options.lambda.value(),
+            rho: answers().next().map_or(0.0, |answer| answer.state.rho),
+            scale: self.coordinates.scale,
+            stop_reason: match self.status {
+                Status::Running => StopReason::Cancelled,
+                Status::Stopped(reason) => reason,
+            },
+            seconds: Seconds {
+                setup: self.setup,
+                total: self.started.elapsed().as_secs_f64(),
+                ..seconds
+            },
+        };
+        Ok(Surface {
+            heightfield: Heightfield::new(lattice, heights)?,
+            report,
+        })
+    }
+}
+
+/// Solves to the end.
+///
+/// # Errors
+/// As [`Solver::new`].
+pub fn fit(input: impl Into<Input>, options: &Options) -> Result<Surface> {
+    fit_with(input, options, |_| ControlFlow::Continue(()))
+}
+
+/// Solves to the end, unless `on_progress` breaks off: it is called every few
+/// conjugate-gradient iterations, and after a break the best surface so far
+/// comes back, marked [`StopReason::Cancelled`].
+///
+/// # Errors
+/// As [`Solver::new`].
+pub fn fit_with(
+    input: impl Into<Input>,
+    options: &Options,
+    mut on_progress: impl FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<Surface> {
+    /// About ten iterations of the default schedule.
+    const WORK: usize = 20;
+    let mut solver = Solver::new(input, options)?;
+    while solver.advance(WORK)? == Status::Running {
+        if on_progress(&solver.progress()).is_break() {
+            solver.cancel();
+        }
+    }
+    solver.surface()
+}

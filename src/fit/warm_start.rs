@@ -1,0 +1,78 @@
+//! What an earlier solve leaves to the next one.
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use super::admm::state::State;
+use super::cascade::Answer;
+use super::components::Components;
+use super::coordinates::Coordinates;
+use super::energy::problem::{Problem, position};
+use crate::error::Result;
+use crate::lattice::domain::{Domain, Role};
+
+/// Factors from one λ to the next within which the last answer is a better start
+/// than a coarse lattice: measured on four surfaces, three λ and two levels of noise.
+pub(super) const WORTH_KEEPING: RangeInclusive<f64> = 0.4..=3.0;
+
+/// What an earlier solve has found, to start from.
+#[derive(Debug, Clone)]
+pub(super) struct WarmStart {
+    pub coordinates: Coordinates,
+    pub domain: Arc<Domain>,
+    pub components: Components,
+    pub answers: Vec<Answer>,
+}
+
+impl WarmStart {
+    /// The state to start from, unless nothing of it is known. `corner` is the
+    /// vertex of the whole lattice that is `(0, 0)` of the problem's.
+    pub(super) fn state(
+        &self,
+        problem: &Problem,
+        corner: (usize, usize),
+        coordinates: &Coordinates,
+    ) -> Result<Option<State>> {
+        let Some(rho) = self.answers.first().map(|answer| answer.state.rho) else {
+            return Ok(None);
+        };
+        let mut state = State::new(problem, rho)?;
+        // Hessians scale as one over lengths.
+        let factor = self.coordinates.scale / coordinates.scale;
+        let mut found = 0;
+        for cell in problem.domain.active().cells() {
+            let (row, col) = problem.domain.lattice_vertex(cell);
+            let vertex = (row + corner.0, col + corner.1);
+            let Some((answer, old)) = self.find(vertex) else {
+                continue;
+            };
+            found += 1;
+            let z = self
+                .coordinates
+                .outward(position(&answer.problem.domain, old), answer.state.z[old]);
+            state.z[cell] = coordinates.inward(position(&problem.domain, cell), z);
+            let interior = |domain: &Domain, cell: usize| domain.roles()[cell] == Role::Interior;
+            if interior(&problem.domain, cell) && interior(&answer.problem.domain, old) {
+                let (dual, hessian) = answer.state.matrices(&answer.problem, old);
+                state.set_matrices(cell, dual, hessian.scale(factor));
+            }
+        }
+        for cell in &problem.constrained {
+            state.z[*cell as usize] = problem.target[*cell as usize];
+        }
+        Ok((found > 0).then_some(state))
+    }
+
+    /// The answer that has a vertex of the whole lattice, and its cell there.
+    fn find(&self, (row, col): (usize, usize)) -> Option<(&Answer, usize)> {
+        let cell = self.domain.cell((row as isize, col as isize))?;
+        if !self.domain.roles()[cell].is_active() {
+            return None;
+        }
+        let number = self.components.of(cell);
+        let answer = self.answers.get(number)?;
+        let (top, left) = self.components.corner(number);
+        let own = ((row - top) as isize, (col - left) as isize);
+        Some((answer, answer.problem.domain.cell(own)?))
+    }
+}

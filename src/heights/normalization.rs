@@ -1,0 +1,39 @@
+//! The scale at which λ and curvatures are stated (paper, Sec. 4.1).
+
+use super::heightfield::Heightfield;
+
+/// How the input's coordinates become the energy's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Normalization {
+    /// One factor for x, y and z that makes the longer side of the valid
+    /// vertices' bounding box 1; results come back in the user's units.
+    #[default]
+    UnitSquare,
+    /// None: the coordinates are taken as they are.
+    Off,
+}
+
+impl Normalization {
+    /// Factor from the field's units to normalised coordinates.
+    pub(crate) fn factor(self, field: &Heightfield) -> f64 {
+        match self {
+            Normalization::Off => 1.0,
+            Normalization::UnitSquare => 1.0 / longer_side(field),
+        }
+    }
+}
+
+/// Longer side of the bounding box of the valid vertices.
+fn longer_side(field: &Heightfield) -> f64 {
+    let lattice = field.lattice();
+    let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for row in 0..lattice.rows() {
+        for col in (0..lattice.cols()).filter(|col| !field.height(row, *col).is_nan()) {
+            for (k, x) in lattice.position(row, col).into_iter().enumerate() {
+                min[k] = min[k].min(x);
+                max[k] = max[k].max(x);
+            }
+        }
+    }
+    (max[0] - min[0]).max(max[1] - min[1])
+}

@@ -1,0 +1,323 @@
+//! From square pixels to the hexagonal lattice and back, without looking at
+//! pixels or vertices that have no data.
+
+mod nearest;
+
+use std::collections::VecDeque;
+
+use super::heightfield::{HeightImage, Heightfield};
+use crate::error::{Result, try_filled};
+use crate::lattice::hexagonal::{Lattice, Located};
+
+/// How close to a pixel's or vertex's row, in grid steps, a point lies on it:
+/// far above rounding, far below anything one could see.
+const ON_GRID: f64 = 1e-9;
+
+/// How far beyond the last vertex heights are extrapolated, in units of the
+/// coarser of lattice spacing and pixel size.
+const REACH: f64 = 3.0;
+
+/// Marks a pixel that no plane has reached.
+const NO_SOURCE: u32 = u32::MAX;
+
+impl HeightImage {
+    /// Samples the image at the vertices of a lattice of the given spacing
+    /// (`None`: the pixel size), whose vertex `(0, 0)` is the centre of the
+    /// top left pixel.
+    ///
+    /// Between four pixels with data the surface is bilinear. Between three it
+    /// is their plane, within their triangle. On the line between two, and on
+    /// a single pixel, it is the line's or pixel's own height. Everywhere else,
+    /// so also beyond the outermost pixel centres, the vertex has no height.
+    /// Pixels without data therefore never change a height, and a linear ramp
+    /// comes through exactly. Nothing is smoothed: on a spacing coarser than
+    /// the pixels the image is sampled, not averaged.
+    ///
+    /// Costs `O(vertices)`.
+    ///
+    /// # Errors
+    /// [`Error::Option`](crate::Error::Option) unless the spacing is positive and finite,
+    /// [`Error::TooLarge`](crate::Error::TooLarge) if the lattice would exceed
+    /// [`MAX_CELLS`](crate::MAX_CELLS).
+    pub fn to_lattice(&self, spacing: Option<f64>) -> Result<Heightfield> {
+        let lattice = Lattice::covering(
+            self.position(self.height() - 1, 0),
+            self.position(0, self.width() - 1),
+            spacing.unwrap_or(self.pixel_size()),
+        )?;
+        self.sampled_on(&lattice)
+    }
+
+    /// Samples the image at the vertices of any lattice, as [`HeightImage::to_lattice`] does on
+    /// its own: for another image of the same scene, such as one of confidences.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn sampled_on(&self, lattice: &Lattice) -> Result<Heightfield> {
+        let mut heights = try_filled("lattice heights", lattice.len(), f64::NAN)?;
+        for (i, z) in heights.iter_mut().enumerate() {
+            let p = lattice.position(i / lattice.cols(), i % lattice.cols());
+            *z = sample(&Cell::around(self, p));
+        }
+        Heightfield::new(*lattice, heights)
+    }
+}
+
+impl Heightfield {
+    /// The surface at the pixels of `like`: a height wherever `like` has one,
+    /// NaN elsewhere.
+    ///
+    /// Within a lattice triangle with three heights the surface is linear.
+    /// Pixels beyond (the lattice of an image ends up to one cell before its
+    /// border and its holes) continue the plane fitted around the nearest
+    /// vertex that can be reached through pixels with data, at most three
+    /// spacings (or pixels, if these are larger) away. A pixel that no plane
+    /// reaches, such as one of an island too small to hold a vertex, keeps the
+    /// value it has in `like`: rather the input's height than none.
+    /// A linear ramp comes through exactly.
+    ///
+    /// Costs `O(pixels + vertices)`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) if the image cannot be allocated.
+    pub fn to_image(&self, like: &HeightImage) -> Result<HeightImage> {
+        let (width, pixels) = (like.width(), like.values().len());
+        let reach = REACH * self.lattice().spacing().max(like.pixel_size());
+        let mut values = try_filled("height image", pixels, f64::NAN)?;
+        let mut sources = try_filled("height image", pixels, NO_SOURCE)?;
+        let mut queue = VecDeque::new();
+
+        for (i, own) in like.values().iter().enumerate() {
+            if own.is_nan() {
+                continue;
+            }
+            if let Some(triangle) = self.triangle_at(like.position(i / width, i % width)) {
+                values[i] = self.linear(&triangle);
+                if values[i].is_finite() {
+                    sources[i] = self.heaviest(&triangle);
+                    queue.push_back(i);
+                }
+            }
+        }
+
+        // Breadth first into the pixels without a height yet, each taking over its predecessor's
+        // vertex: never across a gap in `like`, and every pixel is visited once.
+        while let Some(i) = queue.pop_front() {
+            for k in neighbours(like, i) {
+                if sources[k] != NO_SOURCE || like.values()[k].is_nan() {
+                    continue;
+                }
+                let p = like.position(k / width, k % width);
+                if let Some(z) = self.continued(sources[i], p, reach) {
+                    values[k] = z;
+                    sources[k] = sources[i];
+                    queue.push_back(k);
+                }
+            }
+        }
+
+        for (i, own) in like.values().iter().enumerate() {
+            if own.is_nan() || sources[i] != NO_SOURCE {
+                continue;
+            }
+            // Not connected to a whole triangle: perhaps a corner of its own triangle has a plane.
+            let p = like.position(i / width, i % width);
+            values[i] = self
+                .triangle_at(p)
+                .and_then(|t| self.continued(self.heaviest(&t), p, reach))
+                .unwrap_or(*own);
+        }
+        HeightImage::new(width, like.height(), values)?.with_pixel_size(like.pixel_size())
+    }
+
+    /// The lattice triangle around `p`; `None` if `p` is far outside.
+    fn triangle_at(&self, p: [f64; 2]) -> Option<Located> {
+        let lattice = self.lattice();
+        let ([x0, y0], h) = (lattice.origin(), lattice.spacing());
+        // Keeps the vertices' indices within a cell of the lattice, whatever the positions.
+        let col = (p[0] - x0) / h;
+        let row = (y0 - p[1]) / lattice.row_spacing();
+        let near = (-1.0..=lattice.cols() as f64).contains(&col)
+            && (-1.0..=lattice.rows() as f64).contains(&row);
+        near.then(|| lattice.locate(p))
+    }
+
+    /// Height of a vertex that may lie outside of the lattice, where it is NaN.
+    fn height_or_nan(&self, (row, col): (isize, isize)) -> f64 {
+        if self.lattice().contains(row, col) {
+            self.height(row as usize, col as usize)
+        } else {
+            f64::NAN
+        }
+    }
+
+    /// Linear interpolation in a triangle; NaN if a vertex that counts has no height.
+    fn linear(&self, triangle: &Located) -> f64 {
+        let corners = triangle.vertices.map(|v| self.height_or_nan(v));
+        if corners.iter().all(|z| z.is_finite()) {
+            (corners.iter().zip(triangle.weights))
+                .map(|(z, w)| w * z)
+                .sum()
+        } else {
+            let weights = triangle.weights.map(snap);
+            (corners.iter().zip(weights))
+                .filter(|(_, w)| *w != 0.0)
+                .map(|(z, w)| w * z)
+                .sum()
+        }
+    }
+
+    /// The vertex with a height that lies nearest to the point the triangle was located for.
+    fn heaviest(&self, triangle: &Located) -> u32 {
+        (triangle.vertices.into_iter().zip(triangle.weights))
+            .filter(|(v, _)| self.height_or_nan(*v).is_finite())
+            .max_by(|(_, a), (_, b)| a.total_cmp(b))
+            .map_or(NO_SOURCE, |((row, col), _)| {
+                self.lattice().index(row as usize, col as usize) as u32
+            })
+    }
+
+    /// The plane around a vertex, evaluated at `p`; `None` beyond `reach` or without a plane.
+    fn continued(&self, vertex: u32, p: [f64; 2], reach: f64) -> Option<f64> {
+        if vertex == NO_SOURCE {
+            return None;
+        }
+        let cols = self.lattice().cols();
+        let (row, col) = (vertex as usize / cols, vertex as usize % cols);
+        let [x, y] = self.lattice().position(row, col);
+        let (dx, dy) = (p[0] - x, p[1] - y);
+        if dx.hypot(dy) > reach {
+            return None;
+        }
+        let [gx, gy] = self.gradient(row, col)?;
+        let z = self.height(row, col) + gx * dx + gy * dy;
+        z.is_finite().then_some(z)
+    }
+
+    /// Slope of the least-squares plane through a vertex and near its valid neighbours; `None`
+    /// where these lie on one line.
+    fn gradient(&self, row: usize, col: usize) -> Option<[f64; 2]> {
+        let lattice = self.lattice();
+        let ([x, y], h) = (lattice.position(row, col), lattice.spacing());
+        let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (r, c) in lattice.neighbours(row, col).into_iter().flatten() {
+            let dz = self.height(r, c) - self.height(row, col);
+            if dz.is_nan() {
+                continue;
+            }
+            let [nx, ny] = lattice.position(r, c);
+            let (dx, dy) = ((nx - x) / h, (ny - y) / h);
+            xx += dx * dx;
+            xy += dx * dy;
+            yy += dy * dy;
+            xz += dx * dz;
+            yz += dy * dz;
+        }
+        // Unit vectors at multiples of 60°: the determinant is 0 on a line, else at least 3/4.
+        let determinant = xx * yy - xy * xy;
+        (determinant > 0.5).then(|| {
+            let gx = (yy * xz - xy * yz) / determinant;
+            let gy = (xx * yz - xy * xz) / determinant;
+            [gx / h, gy / h]
+        })
+    }
+}
+
+/// The four pixels around a point.
+struct Cell {
+    /// Their heights, NaN outside of the image. Corner k lies to the right if bit 0 is set and
+    /// below if bit 1 is set.
+    corners: [f64; 4],
+    /// The point's place between them, from the upper left one.
+    fx: f64,
+    fy: f64,
+}
+
+impl Cell {
+    fn around(image: &HeightImage, p: [f64; 2]) -> Self {
+        let [u, v] = in_pixels(image, p);
+        let (left, top) = (u.floor(), v.floor());
+        let corners = std::array::from_fn(|k| {
+            pixel_at(image, top + (k >> 1) as f64, left + (k & 1) as f64)
+                .map_or(f64::NAN, |i| image.values()[i])
+        });
+        Cell {
+            corners,
+            fx: u - left,
+            fy: v - top,
+        }
+    }
+}
+
+/// A point in pixels to the right of and below the centre of the first one.
+fn in_pixels(image: &HeightImage, [x, y]: [f64; 2]) -> [f64; 2] {
+    [
+        x / image.pixel_size() - 0.5,
+        image.height() as f64 - 0.5 - y / image.pixel_size(),
+    ]
+}
+
+/// Index of the pixel in a whole-numbered row and column; `None` outside of the image.
+fn pixel_at(image: &HeightImage, row: f64, col: f64) -> Option<usize> {
+    let inside =
+        (0.0..image.height() as f64).contains(&row) && (0.0..image.width() as f64).contains(&col);
+    inside.then(|| row as usize * image.width() + col as usize)
+}
+
+fn bilinear_weights(fx: f64, fy: f64) -> [f64; 4] {
+    [
+        (1.0 - fx) * (1.0 - fy),
+        fx * (1.0 - fy),
+        (1.0 - fx) * fy,
+        fx * fy,
+    ]
+}
+
+/// The height within a cell; NaN where there is none. See [`HeightImage::to_lattice`].
+fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
+    let bilinear = |fx: f64, fy: f64| -> f64 {
+        (corners.iter().zip(bilinear_weights(fx, fy)))
+            .filter(|(_, w)| *w != 0.0)
+            .map(|(z, w)| w * z)
+            .sum()
+    };
+    let mut missing = (0..4).filter(|k| corners[*k].is_nan());
+    match (missing.next(), missing.next()) {
+        (None, _) => return bilinear(fx, fy),
+        (Some(k), None) => {
+            // Distances from the corner opposite the missing one, the triangle's right angle.
+            let dx = if k & 1 == 1 { fx } else { 1.0 - fx };
+            let dy = if k & 2 == 2 { fy } else { 1.0 - fy };
+            let rest = 1.0 - dx - dy;
+            if rest >= -ON_GRID {
+                return rest * corners[k ^ 3] + dx * corners[k ^ 2] + dy * corners[k ^ 1];
+            }
+        }
+        _ => {}
+    }
+    // On a line between two pixels or on a pixel the others do not count; elsewhere NaN results.
+    bilinear(snap(fx), snap(fy))
+}
+
+/// 0 or 1 if the value is that to rounding.
+fn snap(weight: f64) -> f64 {
+    if weight.abs() < ON_GRID {
+        0.0
+    } else if (1.0 - weight).abs() < ON_GRID {
+        1.0
+    } else {
+        weight
+    }
+}
+
+/// Indices of the up to eight pixels around pixel `i`.
+fn neighbours(image: &HeightImage, i: usize) -> impl Iterator<Item = usize> {
+    let (width, height) = (image.width(), image.height());
+    let (row, col) = (i / width, i % width);
+    let rows = row.saturating_sub(1)..=(row + 1).min(height - 1);
+    rows.flat_map(move |r| {
+        let cols = col.saturating_sub(1)..=(col + 1).min(width - 1);
+        cols.map(move |c| r * width + c)
+    })
+    .filter(move |k| *k != i)
+}

@@ -1,0 +1,419 @@
+//! Which vertices take part: interior, boundary, omitted; and the runs of
+//! consecutive vertices that the kernels sweep over.
+
+use super::hexagonal::{Lattice, NEIGHBOURS};
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::Heightfield;
+
+/// The part that a vertex plays (paper, Sec. 3.1 and Fig. 9).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Role {
+    /// It has no height.
+    #[default]
+    Empty,
+    /// It has a height, but no stencil touches it: left out of the solve, restored afterwards.
+    Omitted,
+    /// Touched by a stencil without having one of its own: the set `∂I`.
+    Boundary,
+    /// It and its six neighbours have heights, and no occlusion is there, so that the Hessian is
+    /// evaluated here: the set `I`.
+    Interior,
+}
+
+impl Role {
+    /// Whether the vertex is an unknown of the solve, in `I ∪ ∂I`.
+    pub fn is_active(self) -> bool {
+        self >= Role::Boundary
+    }
+}
+
+impl PartialOrd for Role {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        (*self as u8).partial_cmp(&(*other as u8))
+    }
+}
+
+/// The vertices of a heightfield by their [`Role`], over any shape: holes,
+/// islands, one-vertex interiors.
+///
+/// Fields over a domain are stored on the bounding box of the valid vertices
+/// with one cell of padding all around, so that every vertex of the box has six
+/// neighbours at offsets that are constant along a row.
+#[derive(Debug, Clone)]
+pub struct Domain {
+    lattice: Lattice,
+    /// First row (even, so that parities agree) and column of the box.
+    corner: (usize, usize),
+    rows: usize,
+    stride: usize,
+    roles: Vec<Role>,
+    interior: RowRuns,
+    active: RowRuns,
+    omitted: usize,
+    occluded: usize,
+}
+
+impl Domain {
+    /// Sorts the vertices of a heightfield; a vertex is valid where its height is not NaN.
+    ///
+    /// # Errors
+    /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
+    pub fn new(field: &Heightfield) -> Result<Self> {
+        Domain::with_occlusions(field, |_| false)
+    }
+
+    /// The same, where the vertices that are `occluded`, by their index in the
+    /// lattice, have no Hessian (paper, Fig. 9).
+    pub(crate) fn with_occlusions(
+        field: &Heightfield,
+        occluded: impl Fn(usize) -> bool,
+    ) -> Result<Self> {
+        let lattice = *field.lattice();
+        let valid = |row: usize, col: usize| !field.height(row, col).is_nan();
+        let no_interior = |valid| Error::NoInterior {
+            rows: lattice.rows(),
+            cols: lattice.cols(),
+            valid,
+        };
+        let (corner, last) = bounding_box(&lattice, valid).ok_or(no_interior(0))?;
+        let rows = last.0 - corner.0 + 1;
+        let cols = last.1 - corner.1 + 1;
+        let stride = cols + 2;
+        let mut roles = try_filled("domain", (rows + 2) * stride, Role::Empty)?;
+
+        for row in 0..rows {
+            for col in 0..cols {
+                if valid(corner.0 + row, corner.1 + col) {
+                    roles[(row + 1) * stride + col + 1] = Role::Omitted;
+                }
+            }
+        }
+        // Interior first, then what its stencils touch: neither step sees its own changes.
+        let valid = roles.clone();
+        let mut torn = 0;
+        let offsets = |row: usize| neighbour_offsets(row, stride);
+        for row in 1..=rows {
+            for i in row * stride + 1..(row + 1) * stride - 1 {
+                let all = |j: isize| valid[j as usize] == Role::Omitted;
+                if valid[i] == Role::Omitted && offsets(row).iter().all(|o| all(i as isize + o)) {
+                    let col = i - row * stride - 1 + corner.1;
+                    if occluded(lattice.index(row - 1 + corner.0, col)) {
+                        torn += 1;
+                    } else {
+                        roles[i] = Role::Interior;
+                    }
+                }
+            }
+        }
+        for row in 1..=rows {
+            for i in row * stride + 1..(row + 1) * stride - 1 {
+                if roles[i] == Role::Interior {
+                    for o in offsets(row) {
+                        let neighbour = &mut roles[(i as isize + o) as usize];
+                        if *neighbour == Role::Omitted {
+                            *neighbour = Role::Boundary;
+                        }
+                    }
+                }
+            }
+        }
+
+        let count = |role| roles.iter().filter(|r| **r == role).count();
+        let omitted = count(Role::Omitted);
+        let interior = RowRuns::new(&roles, stride, |r| r == Role::Interior);
+        let active = RowRuns::new(&roles, stride, Role::is_active);
+        if interior.len == 0 {
+            return Err(no_interior(omitted));
+        }
+        Ok(Domain {
+            lattice,
+            corner,
+            rows,
+            stride,
+            roles,
+            interior,
+            active,
+            omitted,
+            occluded: torn,
+        })
+    }
+
+    /// The whole lattice that the domain is a part of.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The role of lattice vertex `(row, col)`; empty beyond the lattice.
+    pub fn role(&self, row: usize, col: usize) -> Role {
+        self.cell((row as isize, col as isize))
+            .map_or(Role::Empty, |cell| self.roles[cell])
+    }
+
+    /// Number of interior vertices, `|I|`.
+    pub fn interior_len(&self) -> usize {
+        self.interior.len
+    }
+
+    /// Number of boundary vertices, `|∂I|`.
+    pub fn boundary_len(&self) -> usize {
+        self.active.len - self.interior.len
+    }
+
+    /// Number of valid vertices that no stencil touches.
+    pub fn omitted_len(&self) -> usize {
+        self.omitted
+    }
+
+    /// Number of vertices that would be interior were it not for an occlusion.
+    pub fn occluded_len(&self) -> usize {
+        self.occluded
+    }
+
+    /// Row (an even one) and column of the lattice that are row and column 1 of the padded box.
+    pub(crate) fn corner(&self) -> (usize, usize) {
+        self.corner
+    }
+
+    /// Rows of the padded box, padding not counted; they are numbered from 1.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Cells from one row of the padded box to the next.
+    pub(crate) fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Cells of the padded box.
+    pub(crate) fn cells(&self) -> usize {
+        (self.rows + 2) * self.stride
+    }
+
+    pub(crate) fn roles(&self) -> &[Role] {
+        &self.roles
+    }
+
+    /// Runs of interior vertices.
+    pub(crate) fn interior(&self) -> &RowRuns {
+        &self.interior
+    }
+
+    /// Runs of vertices in `I ∪ ∂I`.
+    pub(crate) fn active(&self) -> &RowRuns {
+        &self.active
+    }
+
+    /// The cell of a lattice vertex, if it lies in the box.
+    pub(crate) fn cell(&self, (row, col): (isize, isize)) -> Option<usize> {
+        let row = row - self.corner.0 as isize;
+        let col = col - self.corner.1 as isize;
+        let inside =
+            (0..self.rows as isize).contains(&row) && (0..self.stride as isize - 2).contains(&col);
+        inside.then(|| (row + 1) as usize * self.stride + (col + 1) as usize)
+    }
+
+    /// Index in the lattice's arrays of a cell of the padded box, if it is not padding.
+    pub(crate) fn lattice_index(&self, cell: usize) -> usize {
+        let (row, col) = self.lattice_vertex(cell);
+        self.lattice.index(row, col)
+    }
+
+    /// Row and column in the lattice of a cell that is not padding.
+    pub(crate) fn lattice_vertex(&self, cell: usize) -> (usize, usize) {
+        (
+            cell / self.stride - 1 + self.corner.0,
+            cell % self.stride - 1 + self.corner.1,
+        )
+    }
+
+    /// The six offsets W, E, NW, NE, SW, SE from a cell in `row` of the padded box.
+    pub(crate) fn neighbour_offsets(&self, row: usize) -> [isize; 6] {
+        neighbour_offsets(row, self.stride)
+    }
+}
+
+/// In the padded box rows count from 1, so its odd rows are the lattice's even ones.
+fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
+    let row = row as isize - 1;
+    NEIGHBOURS.map(|towards| {
+        let (r, c) = towards.step(row, 0);
+        (r - row) * stride as isize + c
+    })
+}
+
+/// First (even row) and last valid vertex in each direction.
+fn bounding_box(
+    lattice: &Lattice,
+    valid: impl Fn(usize, usize) -> bool,
+) -> Option<((usize, usize), (usize, usize))> {
+    let mut bounds: Option<(usize, usize, usize, usize)> = None;
+    for row in 0..lattice.rows() {
+        let mut cols = (0..lattice.cols()).filter(|col| valid(row, *col));
+        if let Some(first) = cols.next() {
+            let last = cols.next_back().unwrap_or(first);
+            let (top, left, _, right) = bounds.unwrap_or((row, first, row, last));
+            bounds = Some((top, left.min(first), row, right.max(last)));
+        }
+    }
+    bounds.map(|(top, left, bottom, right)| ((top - top % 2, left), (bottom, right)))
+}
+
+/// A run of consecutive cells in one row of the padded box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub start: usize,
+    pub end: usize,
+}
+
+/// Runs sorted by row.
+#[derive(Debug, Clone)]
+pub(crate) struct RowRuns {
+    /// `runs[first[row]..first[row + 1]]` are those of `row`.
+    first: Vec<usize>,
+    runs: Vec<Run>,
+    len: usize,
+}
+
+impl RowRuns {
+    fn new(roles: &[Role], stride: usize, belongs: impl Fn(Role) -> bool) -> Self {
+        let mut first = vec![0];
+        let mut runs: Vec<Run> = Vec::new();
+        for (row, cells) in roles.chunks(stride).enumerate() {
+            let from = *first.last().unwrap_or(&0);
+            for (col, role) in cells.iter().enumerate() {
+                let cell = row * stride + col;
+                if belongs(*role) {
+                    match runs[from..].last_mut() {
+                        Some(run) if run.end == cell => run.end += 1,
+                        _ => runs.push(Run {
+                            start: cell,
+                            end: cell + 1,
+                        }),
+                    }
+                }
+            }
+            first.push(runs.len());
+        }
+        let len = runs.iter().map(|run| run.end - run.start).sum();
+        RowRuns { first, runs, len }
+    }
+
+    /// Number of cells in all runs.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The runs of one row of the padded box.
+    pub(crate) fn row(&self, row: usize) -> &[Run] {
+        &self.runs[self.first[row]..self.first[row + 1]]
+    }
+
+    /// All runs, row by row.
+    pub(crate) fn all(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// All cells, row by row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = usize> + '_ {
+        self.runs.iter().flat_map(|run| run.start..run.end)
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+pub(crate) mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A field over a random domain: holes, islands, whatever the bits say.
+    pub(crate) fn arbitrary_field() -> impl Strategy<Value = Heightfield> {
+        (3usize..14, 3usize..14)
+            .prop_flat_map(|(rows, cols)| {
+                let cell =
+                    (0u8..10, -1.0..1.0f64).prop_map(|(k, z)| if k == 0 { f64::NAN } else { z });
+                (
+                    Just((rows, cols)),
+                    prop::collection::vec(cell, rows * cols),
+                    0.05..2.0f64,
+                )
+            })
+            .prop_map(|((rows, cols), heights, spacing)| {
+                Heightfield::new(Lattice::new(rows, cols, spacing).unwrap(), heights).unwrap()
+            })
+    }
+
+    /// A domain with one interior vertex, in the middle of the ring of its neighbours.
+    pub(crate) fn single_ring() -> Heightfield {
+        let lattice = Lattice::new(5, 6, 1.0).unwrap();
+        let mut heights = vec![f64::NAN; lattice.len()];
+        let (row, col) = (3, 2);
+        heights[lattice.index(row, col)] = 1.0;
+        for (r, c) in lattice.neighbours(row, col).into_iter().flatten() {
+            heights[lattice.index(r, c)] = 0.0;
+        }
+        Heightfield::new(lattice, heights).unwrap()
+    }
+
+    #[test]
+    fn a_ring_has_one_interior_vertex() {
+        let domain = Domain::new(&single_ring()).unwrap();
+        assert_eq!(domain.interior_len(), 1);
+        assert_eq!(domain.boundary_len(), 6);
+        assert_eq!(domain.omitted_len(), 0);
+        assert_eq!(domain.role(3, 2), Role::Interior);
+        assert_eq!(domain.role(2, 2), Role::Boundary);
+        assert_eq!(domain.role(0, 0), Role::Empty);
+    }
+
+    #[test]
+    fn too_thin_a_shape_is_an_error() {
+        let lattice = Lattice::new(2, 50, 1.0).unwrap();
+        let field = Heightfield::from_fn(lattice, |x, _| x).unwrap();
+        assert_eq!(
+            Domain::new(&field).unwrap_err(),
+            Error::NoInterior {
+                rows: 2,
+                cols: 50,
+                valid: 100
+            }
+        );
+        let field = Heightfield::from_fn(lattice, |_, _| f64::NAN).unwrap();
+        assert_eq!(Domain::new(&field).unwrap_err().code(), "NO_INTERIOR");
+    }
+
+    proptest! {
+        #[test]
+        fn roles_follow_their_definition(field in arbitrary_field()) {
+            let l = *field.lattice();
+            let valid = |(r, c): (usize, usize)| !field.height(r, c).is_nan();
+            let interior = |v: (usize, usize)| {
+                valid(v) && l.neighbours(v.0, v.1).iter().all(|n| n.is_some_and(valid))
+            };
+            let mut counts = [0; 3];
+            let domain = Domain::new(&field);
+            for row in 0..l.rows() {
+                for col in 0..l.cols() {
+                    let expected = if !valid((row, col)) {
+                        Role::Empty
+                    } else if interior((row, col)) {
+                        Role::Interior
+                    } else if l.neighbours(row, col).into_iter().flatten().any(interior) {
+                        Role::Boundary
+                    } else {
+                        Role::Omitted
+                    };
+                    if expected != Role::Empty {
+                        counts[expected as usize - 1] += 1;
+                    }
+                    if let Ok(domain) = &domain {
+                        prop_assert_eq!(domain.role(row, col), expected);
+                    }
+                }
+            }
+            match domain {
+                Ok(d) => prop_assert_eq!(
+                    [d.omitted_len(), d.boundary_len(), d.interior_len()], counts),
+                Err(_) => prop_assert_eq!(counts[2], 0),
+            }
+        }
+    }
+}

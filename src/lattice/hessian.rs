@@ -1,0 +1,200 @@
+//! The operator `C` from heights to best-fit Hessians, and its adjoint.
+
+use super::domain::Domain;
+use super::stencil::{HessianMap, Ring, Rolling};
+use crate::math::sym2::Sym2;
+
+/// `C`: heights at the lattice's vertices to Hessians at the interior vertices,
+/// matrix-free (paper, Eq. 16). Vertices outside the domain do not matter.
+///
+/// Heights are in the lattice's order and units, Hessians in the row-major
+/// order of the interior vertices ([`HessianOperator::vertices`]).
+#[derive(Debug, Clone, Copy)]
+pub struct HessianOperator<'a> {
+    domain: &'a Domain,
+}
+
+impl<'a> HessianOperator<'a> {
+    /// The operator over `domain`.
+    pub fn new(domain: &'a Domain) -> Self {
+        HessianOperator { domain }
+    }
+
+    /// Row and column of each interior vertex, in the order of the Hessians.
+    pub fn vertices(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let domain = self.domain;
+        domain
+            .interior()
+            .cells()
+            .map(|cell| domain.lattice_vertex(cell))
+    }
+
+    /// The Hessian at each interior vertex. `heights` has one value for each
+    /// lattice vertex; those outside the domain may be NaN. Linear cost.
+    ///
+    /// # Panics
+    /// If `heights` does not have `lattice.len()` values.
+    pub fn apply(&self, heights: &[f64]) -> Vec<Sym2> {
+        let domain = self.domain;
+        assert_eq!(heights.len(), domain.lattice().len());
+        let padded = gather_active(domain, heights);
+        let map = HessianMap::new(domain.lattice().spacing());
+        let mut hessians = Vec::with_capacity(domain.interior_len());
+        for row in 1..=domain.rows() {
+            for run in domain.interior().row(row) {
+                let ring = Ring::new(&padded, domain, row, *run);
+                hessians.extend((0..run.end - run.start).map(|i| map.hessian(ring.differences(i))));
+            }
+        }
+        hessians
+    }
+
+    /// The adjoint `Cᵀ` with respect to the Frobenius inner product: one value
+    /// for each lattice vertex, zero outside the domain. Linear cost.
+    ///
+    /// # Panics
+    /// If there is not one matrix for each interior vertex.
+    pub fn adjoint(&self, matrices: &[Sym2]) -> Vec<f64> {
+        let domain = self.domain;
+        assert_eq!(matrices.len(), domain.interior_len());
+        let map = HessianMap::new(domain.lattice().spacing());
+        let mut out = vec![0.0; domain.lattice().len()];
+        let mut left = matrices;
+        Rolling::<f64>::new(domain).sweep(
+            domain,
+            &mut (),
+            |(), row, weights| {
+                for run in domain.interior().row(row) {
+                    let (these, rest) = left.split_at(run.end - run.start);
+                    left = rest;
+                    let col = run.start - row * domain.stride();
+                    for (i, y) in these.iter().enumerate() {
+                        for (weight, value) in weights.iter_mut().zip(map.adjoint(*y)) {
+                            weight[col + i] = value;
+                        }
+                    }
+                }
+            },
+            |(), row, sums| {
+                for run in domain.active().row(row) {
+                    let sum = sums.run(*run);
+                    for (i, cell) in (run.start..run.end).enumerate() {
+                        out[domain.lattice_index(cell)] = sum.at(i);
+                    }
+                }
+            },
+        );
+        out
+    }
+
+    /// `C` as a sparse matrix: three rows `h_xx, h_xy, h_yy` for each interior
+    /// vertex, one column for each lattice vertex. Remember the factor 2 that
+    /// `h_xy` carries in the Frobenius inner product.
+    #[cfg(feature = "sprs")]
+    pub fn to_sparse(&self) -> sprs::CsMat<f64> {
+        let lattice = self.domain.lattice();
+        let inverse = 1.0 / (lattice.spacing() * lattice.spacing());
+        let (third, root) = (inverse / 3.0, inverse / 3f64.sqrt());
+        // Coefficients of h_xx, h_xy, h_yy at W, E, NW, NE, SW, SE.
+        let ring: [[f64; 3]; 6] = [
+            [inverse, 0.0, -third],
+            [inverse, 0.0, -third],
+            [0.0, -root, 2.0 * third],
+            [0.0, root, 2.0 * third],
+            [0.0, root, 2.0 * third],
+            [0.0, -root, 2.0 * third],
+        ];
+        let mut triplets =
+            sprs::TriMat::with_capacity((3 * self.domain.interior_len(), lattice.len()), 0);
+        for (i, (row, col)) in self.vertices().enumerate() {
+            triplets.add_triplet(3 * i, lattice.index(row, col), -2.0 * inverse);
+            triplets.add_triplet(3 * i + 2, lattice.index(row, col), -2.0 * inverse);
+            for (neighbour, entries) in lattice.neighbours(row, col).into_iter().zip(ring) {
+                for (k, entry) in entries.into_iter().enumerate() {
+                    if let (Some((r, c)), true) = (neighbour, entry != 0.0) {
+                        triplets.add_triplet(3 * i + k, lattice.index(r, c), entry);
+                    }
+                }
+            }
+        }
+        triplets.to_csr()
+    }
+}
+
+/// Lattice values on the padded box, zero outside the domain.
+pub(crate) fn gather_active(domain: &Domain, values: &[f64]) -> Vec<f64> {
+    let mut padded = vec![0.0; domain.cells()];
+    for cell in domain.active().cells() {
+        padded[cell] = values[domain.lattice_index(cell)];
+    }
+    padded
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+mod tests {
+    use super::*;
+    use crate::lattice::domain::tests::{arbitrary_field, single_ring};
+    use proptest::prelude::*;
+
+    fn pseudo_random(n: usize) -> impl Iterator<Item = f64> {
+        (0..n).scan(0.3f64, |x, _| {
+            *x = 3.9 * *x * (1.0 - *x);
+            Some(*x - 0.5)
+        })
+    }
+
+    fn check_operator(domain: &Domain) {
+        let c = HessianOperator::new(domain);
+        let n = domain.lattice().len();
+        let scale = domain.lattice().spacing().powi(-2);
+        let z: Vec<f64> = pseudo_random(n).collect();
+        let y: Vec<Sym2> = pseudo_random(3 * domain.interior_len())
+            .collect::<Vec<_>>()
+            .chunks(3)
+            .map(|e| Sym2::new(e[0], e[1], e[2]))
+            .collect();
+
+        let hessians = c.apply(&z);
+        let adjoint = c.adjoint(&y);
+        let left: f64 = hessians.iter().zip(&y).map(|(h, y)| h.dot(*y)).sum();
+        let right: f64 = z.iter().zip(&adjoint).map(|(z, a)| z * a).sum();
+        let size = scale * n as f64;
+        assert!((left - right).abs() < 1e-13 * size, "{left} {right}");
+
+        let sparse = c.to_sparse();
+        let product = &sparse * &sprs::CsVec::new(n, (0..n).collect(), z);
+        for (i, h) in hessians.iter().enumerate() {
+            for (k, entry) in h.entries().into_iter().enumerate() {
+                let expected = product.get(3 * i + k).copied().unwrap_or(0.0);
+                assert!((entry - expected).abs() < 1e-13 * scale);
+            }
+        }
+        let weighted: Vec<f64> = y
+            .iter()
+            .flat_map(|y| {
+                let [xx, xy, yy] = y.entries();
+                [xx, 2.0 * xy, yy]
+            })
+            .collect();
+        let transposed = sparse.transpose_view();
+        let mut expected = vec![0.0; n];
+        sprs::prod::mul_acc_mat_vec_csc(transposed.to_csc().view(), &weighted, &mut expected);
+        for (a, b) in adjoint.iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-12 * scale, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn one_interior_vertex() {
+        check_operator(&Domain::new(&single_ring()).unwrap());
+    }
+
+    proptest! {
+        #[test]
+        fn adjoint_to_rounding_and_equal_to_the_sparse_matrix(field in arbitrary_field()) {
+            if let Ok(domain) = Domain::new(&field) {
+                check_operator(&domain);
+            }
+        }
+    }
+}

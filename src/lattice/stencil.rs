@@ -1,0 +1,374 @@
+//! The best-fit quadratic through a vertex and its six neighbours, and the
+//! row kernels that evaluate its Hessian and the adjoint.
+//!
+//! Along the three lattice directions the heights have second differences
+//!
+//! ```text
+//! d₁ = W − 2C + E,   d₂ = NW − 2C + SE,   d₃ = NE − 2C + SW
+//! ```
+//!
+//! and the least-squares Hessian (paper, Eq. 12, 13 and 27; the printed Eq. 27
+//! gives the coefficients of x² and y², half of the diagonal) is
+//!
+//! ```text
+//! mean = (d₁ + d₂ + d₃) / 3h²,   diff = (2d₁ − d₂ − d₃) / 3h²,   off = (d₃ − d₂) / √3h²
+//! ```
+//!
+//! in the coordinates of [`Sym2`]. So `C` is three second differences and a
+//! 3×3 map, and `Cᵀ` is the transposed map and three second differences again.
+
+use super::domain::{Domain, Run};
+use crate::math::real::Real;
+use crate::math::sym2::Sym2;
+
+/// The quadratic `c + g·x + ½ xᵀHx` about a vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quadratic {
+    /// Value at the vertex.
+    pub constant: f64,
+    /// Gradient at the vertex.
+    pub gradient: [f64; 2],
+    /// Hessian.
+    pub hessian: Sym2,
+}
+
+impl Quadratic {
+    /// Least-squares fit to the heights of a vertex and its neighbours
+    /// W, E, NW, NE, SW, SE at distance `spacing`. It interpolates the centre.
+    pub fn fit(centre: f64, neighbours: [f64; 6], spacing: f64) -> Self {
+        let [w, e, nw, ne, sw, se] = neighbours;
+        let d = [
+            w - 2.0 * centre + e,
+            nw - 2.0 * centre + se,
+            ne - 2.0 * centre + sw,
+        ];
+        Quadratic {
+            constant: centre,
+            gradient: [
+                (ne - nw + 2.0 * (e - w) + se - sw) / (6.0 * spacing),
+                3f64.sqrt() * (nw + ne - sw - se) / (6.0 * spacing),
+            ],
+            hessian: HessianMap::new(spacing).hessian(d),
+        }
+    }
+
+    /// Value at the offset `(x, y)` from the vertex.
+    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let [xx, xy, yy] = self.hessian.entries();
+        self.constant
+            + self.gradient[0] * x
+            + self.gradient[1] * y
+            + 0.5 * (xx * x * x + 2.0 * xy * x * y + yy * y * y)
+    }
+}
+
+/// The map from the three second differences to the Hessian, and its adjoint.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HessianMap<T = f64> {
+    third: T,
+    root_third: T,
+}
+
+impl<T: Real> HessianMap<T> {
+    /// The coordinates of the Hessian, in the order of [`Sym2`].
+    #[inline(always)]
+    pub(crate) fn coordinates(&self, [d1, d2, d3]: [T; 3]) -> [T; 3] {
+        let side = d2 + d3;
+        [
+            self.third * (d1 + side),
+            self.third * (d1 + d1 - side),
+            self.root_third * (d3 - d2),
+        ]
+    }
+
+    /// The adjoint of that with respect to the Frobenius inner product.
+    #[inline(always)]
+    pub(crate) fn adjoint_of(&self, [mean, diff, off]: [T; 3]) -> [T; 3] {
+        let twice = self.third + self.third;
+        let (mean, diff) = (twice * mean, twice * diff);
+        let off = (self.root_third + self.root_third) * off;
+        [mean + (diff + diff), mean - diff - off, mean - diff + off]
+    }
+}
+
+impl HessianMap<f32> {
+    /// On a lattice of spacing 1.
+    pub(crate) fn unit() -> Self {
+        HessianMap {
+            third: 1.0 / 3.0,
+            root_third: 1.0 / 3f32.sqrt(),
+        }
+    }
+}
+
+impl HessianMap {
+    pub(crate) fn new(spacing: f64) -> Self {
+        let inverse = 1.0 / (spacing * spacing);
+        HessianMap {
+            third: inverse / 3.0,
+            root_third: inverse / 3f64.sqrt(),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn hessian(&self, differences: [f64; 3]) -> Sym2 {
+        let [mean, diff, off] = self.coordinates(differences);
+        Sym2 { mean, diff, off }
+    }
+
+    /// The adjoint with respect to the Frobenius inner product.
+    #[inline(always)]
+    pub(crate) fn adjoint(&self, y: Sym2) -> [f64; 3] {
+        self.adjoint_of([y.mean, y.diff, y.off])
+    }
+
+    /// The two composed: `adjoint(hessian(d))`.
+    #[inline(always)]
+    pub(crate) fn normal(&self, [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
+        let unit = 2.0 * self.third * self.third; // 2/9 h⁻⁴
+        let sum = unit * (d1 + d2 + d3);
+        let six = 6.0 * unit;
+        [six * d1 - sum, six * d2 - sum, six * d3 - sum]
+    }
+}
+
+/// The seven values about each cell of a run, as slices of the run's length.
+pub(crate) struct Ring<'a, T> {
+    w: &'a [T],
+    c: &'a [T],
+    e: &'a [T],
+    nw: &'a [T],
+    ne: &'a [T],
+    sw: &'a [T],
+    se: &'a [T],
+}
+
+impl<'a, T: Real> Ring<'a, T> {
+    /// Of `run` in `row` of a field on the padded box.
+    #[inline(always)]
+    pub(crate) fn new(field: &'a [T], domain: &Domain, row: usize, run: Run) -> Self {
+        let n = run.end - run.start;
+        let [w, e, nw, ne, sw, se] = domain
+            .neighbour_offsets(row)
+            .map(|o| &field[run.start.wrapping_add_signed(o)..][..n]);
+        let c = &field[run.start..][..n];
+        Ring {
+            w,
+            c,
+            e,
+            nw,
+            ne,
+            sw,
+            se,
+        }
+    }
+
+    /// The three second differences about cell `i` of the run.
+    #[inline(always)]
+    pub(crate) fn differences(&self, i: usize) -> [T; 3] {
+        let twice = self.c[i] + self.c[i];
+        [
+            self.w[i] - twice + self.e[i],
+            self.nw[i] - twice + self.se[i],
+            self.ne[i] - twice + self.sw[i],
+        ]
+    }
+}
+
+impl Ring<'_, f64> {
+    /// Gradient of the best-fit quadratic about cell `i` of the run.
+    #[inline(always)]
+    pub(crate) fn gradient(&self, i: usize, spacing: f64) -> [f64; 2] {
+        let (right, left) = (self.ne[i] + self.se[i], self.nw[i] + self.sw[i]);
+        let (up, down) = (self.nw[i] + self.ne[i], self.sw[i] + self.se[i]);
+        [
+            (right - left + 2.0 * (self.e[i] - self.w[i])) / (6.0 * spacing),
+            3f64.sqrt() * (up - down) / (6.0 * spacing),
+        ]
+    }
+}
+
+impl<T: Real> Ring<'_, T> {
+    /// Cell `i` of the run itself.
+    #[inline(always)]
+    pub(crate) fn centre(&self, i: usize) -> T {
+        self.c[i]
+    }
+
+    /// The sum over its six neighbours.
+    #[inline(always)]
+    pub(crate) fn sum(&self, i: usize) -> T {
+        self.w[i] + self.e[i] + self.nw[i] + self.ne[i] + self.sw[i] + self.se[i]
+    }
+}
+
+/// One row of the three weights that multiply second differences in `Cᵀ`.
+pub(crate) type Weights<T> = [Vec<T>; 3];
+
+/// The part of a row of weights that belongs to `run`, as slices of the run's length.
+#[inline(always)]
+pub(crate) fn weights_of<'a, T>(
+    weights: &'a mut Weights<T>,
+    domain: &Domain,
+    row: usize,
+    run: Run,
+) -> [&'a mut [T]; 3] {
+    let (col, n) = (run.start - row * domain.stride(), run.end - run.start);
+    weights.each_mut().map(|weight| &mut weight[col..][..n])
+}
+
+/// Three consecutive rows of weights, rolling down the padded box, so that
+/// `Cᵀ` never stores a whole field of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Rolling<T> {
+    rows: [Weights<T>; 3],
+}
+
+impl<T: Real> Rolling<T> {
+    pub(crate) fn new(domain: &Domain) -> Self {
+        let row = || vec![T::default(); domain.stride()];
+        let weights = || [row(), row(), row()];
+        Rolling {
+            rows: [weights(), weights(), weights()],
+        }
+    }
+
+    /// One pass down the domain: `fill(row, weights)` writes the weights of the
+    /// interior cells of a row (cleared before), `gather(row, sums)` then reads
+    /// the adjoint of a row whose three rows of weights are complete.
+    ///
+    /// `fill` is called for each row before `gather` of the row above it.
+    #[inline(always)]
+    pub(crate) fn sweep<S: ?Sized>(
+        &mut self,
+        domain: &Domain,
+        state: &mut S,
+        mut fill: impl FnMut(&mut S, usize, &mut Weights<T>),
+        mut gather: impl FnMut(&mut S, usize, &Gather<'_, T>),
+    ) {
+        for weights in self.rows.iter_mut().flatten() {
+            weights.fill(T::default());
+        }
+        for row in 1..=domain.rows() + 1 {
+            self.rows.rotate_left(1);
+            for weights in &mut self.rows[2] {
+                weights.fill(T::default());
+            }
+            if row <= domain.rows() {
+                fill(state, row, &mut self.rows[2]);
+            }
+            if row > 1 {
+                let gathered = Gather {
+                    rows: &self.rows,
+                    row: row - 1,
+                    domain,
+                };
+                gather(state, row - 1, &gathered);
+            }
+        }
+    }
+}
+
+/// Second differences of three complete rows of weights.
+pub(crate) struct Gather<'a, T> {
+    rows: &'a [Weights<T>; 3],
+    row: usize,
+    domain: &'a Domain,
+}
+
+/// The nine weights that meet in each cell of a run, as slices of the run's length.
+pub(crate) struct Gathered<'a, T> {
+    w: &'a [T],
+    e: &'a [T],
+    nw: &'a [T],
+    se: &'a [T],
+    ne: &'a [T],
+    sw: &'a [T],
+    c1: &'a [T],
+    c2: &'a [T],
+    c3: &'a [T],
+}
+
+impl<T: Real> Gather<'_, T> {
+    #[inline(always)]
+    pub(crate) fn run(&self, run: Run) -> Gathered<'_, T> {
+        let n = run.end - run.start;
+        let stride = self.domain.stride();
+        let col = run.start - self.row * stride;
+        // 1 on the lattice's even rows, as in `Lattice`; row 1 of the box is one.
+        let o = self.row % 2;
+        let [up, mid, down] = self.rows;
+        Gathered {
+            w: &mid[0][col - 1..][..n],
+            e: &mid[0][col + 1..][..n],
+            nw: &up[1][col + o - 1..][..n],
+            se: &down[1][col + o..][..n],
+            ne: &up[2][col + o..][..n],
+            sw: &down[2][col + o - 1..][..n],
+            c1: &mid[0][col..][..n],
+            c2: &mid[1][col..][..n],
+            c3: &mid[2][col..][..n],
+        }
+    }
+}
+
+impl<T: Real> Gathered<'_, T> {
+    /// The adjoint's value in cell `i` of the run.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> T {
+        let centre = self.c1[i] + self.c2[i] + self.c3[i];
+        (self.w[i] + self.e[i] + self.nw[i] + self.se[i] + self.ne[i] + self.sw[i])
+            - (centre + centre)
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+mod tests {
+    use super::*;
+    use crate::lattice::hexagonal::Lattice;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn exact_on_every_quadratic(
+            [xx, xy, yy] in [-5.0..5.0f64, -5.0..5.0f64, -5.0..5.0f64],
+            [gx, gy, c] in [-5.0..5.0f64, -5.0..5.0f64, -5.0..5.0f64],
+            h in 0.01..10.0f64,
+            odd in 0usize..2,
+        ) {
+            let truth = Quadratic { constant: c, gradient: [gx, gy], hessian: Sym2::new(xx, xy, yy) };
+            let lattice = Lattice::new(5, 5, h).unwrap();
+            let (row, col) = (2 + odd, 2);
+            let [x0, y0] = lattice.position(row, col);
+            let ring = lattice.neighbours(row, col).map(|n| {
+                let (r, c) = n.unwrap();
+                let [x, y] = lattice.position(r, c);
+                truth.at([x - x0, y - y0])
+            });
+            let fit = Quadratic::fit(c, ring, h);
+            let size = c.abs() + h * (gx.abs() + gy.abs()) + h * h * 20.0;
+            for (a, b) in fit.hessian.entries().into_iter().zip([xx, xy, yy]) {
+                prop_assert!((a - b).abs() < 1e-14 * size / (h * h) + 1e-13);
+            }
+            for (a, b) in fit.gradient.into_iter().zip([gx, gy]) {
+                prop_assert!((a - b).abs() < 1e-14 * size / h + 1e-13);
+            }
+            prop_assert_eq!(fit.constant, c);
+        }
+
+        #[test]
+        fn the_map_and_its_adjoint_fit(
+            d in prop::array::uniform3(-1.0..1.0f64), y in prop::array::uniform3(-1.0..1.0f64),
+        ) {
+            let map = HessianMap::new(0.7);
+            let y = Sym2::new(y[0], y[1], y[2]);
+            let left = map.hessian(d).dot(y);
+            let right: f64 = map.adjoint(y).iter().zip(d).map(|(a, b)| a * b).sum();
+            prop_assert!((left - right).abs() < 1e-13);
+            let composed = map.adjoint(map.hessian(d));
+            for (a, b) in composed.into_iter().zip(map.normal(d)) {
+                prop_assert!((a - b).abs() < 1e-13);
+            }
+        }
+    }
+}

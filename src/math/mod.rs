@@ -1,0 +1,6 @@
+//! Small numerics that know nothing of lattices: symmetric 2×2 matrices in closed form, two
+//! precisions, sums in lanes.
+
+pub(crate) mod lanes;
+pub(crate) mod real;
+pub(crate) mod sym2;

@@ -1,0 +1,8 @@
+//! What is no heightfield: meshes, point clouds, cameras, and the views under which they become one.
+
+pub(crate) mod camera;
+pub(crate) mod mesh;
+pub(crate) mod sampling;
+mod splats;
+pub(crate) mod triangulation;
+pub(crate) mod view;

@@ -1,0 +1,140 @@
+//! What is seen of a point cloud: at each lattice vertex the points in front that lie around it.
+//!
+//! A vertex looks at the points within one spacing of it. Those more than three spacings below the
+//! highest of them are behind, and out of sight: a surface steeper than 56° loses points to that. The height is that of the plane through the others, fitted by least squares in which near
+//! points count more, so that a tilt is no bias. Where they lie to one side of the vertex (their
+//! weighted centre is more than half a spacing off) there is nothing: holes stay holes, and the
+//! outline grows by less than half a spacing.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::{Result, try_filled};
+use crate::lattice::hexagonal::Lattice;
+
+/// How far a vertex looks, and how far below the highest point it sees, in spacings.
+const RADIUS: f64 = 1.0;
+const DEPTH: f64 = 3.0;
+/// How far the points' centre may be off, in spacings.
+const OFFSET: f64 = 0.5;
+
+/// Height and nearest visible point at each vertex; NaN and `miss` where there is none.
+pub(crate) fn splat(
+    lattice: &Lattice,
+    points: impl Iterator<Item = [f64; 3]> + Clone,
+    miss: u32,
+) -> Result<(Vec<f64>, Vec<u32>)> {
+    let vertices = lattice.len();
+    let mut highest = try_filled("point cloud", vertices, f64::NEG_INFINITY)?;
+    for point in points.clone() {
+        around(lattice, point, |vertex, _| {
+            highest[vertex] = highest[vertex].max(point[2]);
+        });
+    }
+    let mut sums = try_filled("point cloud", vertices, Sums::default())?;
+    let mut nearest = try_filled("point cloud", vertices, (miss, f64::INFINITY))?;
+    for (i, point) in points.enumerate() {
+        around(lattice, point, |vertex, [dx, dy]| {
+            // In spacings, so that the sums are of one size.
+            let below = (highest[vertex] - point[2]) / lattice.spacing();
+            if below > DEPTH {
+                return;
+            }
+            let away = dx * dx + dy * dy;
+            if away < nearest[vertex].1 {
+                nearest[vertex] = (i as u32, away);
+            }
+            sums[vertex].add([dx, dy], -below);
+        });
+    }
+    let mut heights = highest;
+    for (vertex, height) in heights.iter_mut().enumerate() {
+        *height = match sums[vertex].height() {
+            Some(above) => *height + above * lattice.spacing(),
+            None => {
+                nearest[vertex].0 = miss;
+                f64::NAN
+            }
+        };
+    }
+    Ok((heights, nearest.into_iter().map(|(i, _)| i).collect()))
+}
+
+/// Every vertex that looks at a point, with the way from it to the point in spacings.
+fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [f64; 2])) {
+    let [left, top] = lattice.origin();
+    let step = lattice.row_spacing() / lattice.spacing();
+    let (along, down) = (
+        (x - left) / lattice.spacing(),
+        (top - y) / lattice.spacing(),
+    );
+    let rows = range(
+        (down - RADIUS) / step,
+        (down + RADIUS) / step,
+        lattice.rows(),
+    );
+    for row in rows {
+        let dy = row as f64 * step - down;
+        let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
+        let reach = (RADIUS * RADIUS - dy * dy).max(0.0).sqrt();
+        for col in range(along + shift - reach, along + shift + reach, lattice.cols()) {
+            let dx = along - (col as f64 - shift);
+            visit(lattice.index(row, col), [dx, dy]);
+        }
+    }
+}
+
+/// The whole numbers from one value to another that are below `count`.
+fn range(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
+    // Casts saturate.
+    from.ceil().max(0.0) as usize..(to.floor() + 1.0).max(0.0).min(count as f64) as usize
+}
+
+/// Sums over the points around a vertex.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    weight: f64,
+    first: [f64; 2],
+    /// Of x², xy and y².
+    second: [f64; 3],
+    height: f64,
+    tilt: [f64; 2],
+}
+
+impl Sums {
+    fn add(&mut self, [x, y]: [f64; 2], height: f64) {
+        let near = 1.0 - (x * x + y * y) / (RADIUS * RADIUS);
+        let w = near * near;
+        self.weight += w;
+        self.height += w * height;
+        for (k, v) in [x, y].into_iter().enumerate() {
+            self.first[k] += w * v;
+            self.tilt[k] += w * v * height;
+        }
+        for (k, v) in [x * x, x * y, y * y].into_iter().enumerate() {
+            self.second[k] += w * v;
+        }
+    }
+
+    /// The height at the vertex itself.
+    fn height(&self) -> Option<f64> {
+        let [x, y] = self.first.map(|v| v / self.weight);
+        // Without any points both are NaN.
+        let around = x.hypot(y) <= OFFSET;
+        if !around {
+            return None;
+        }
+        let [xx, xy, yy] = self.second;
+        let [sx, sy] = self.first;
+        let normal = Matrix3::new(self.weight, sx, sy, sx, xx, xy, sy, xy, yy);
+        let right = Vector3::new(self.height, self.tilt[0], self.tilt[1]);
+        // The spread of the points in their narrowest direction: on a line it is 0, and a plane
+        // through them could have any tilt.
+        let (vx, vy) = (xx / self.weight - x * x, yy / self.weight - y * y);
+        let cross = xy / self.weight - x * y;
+        let narrowest = (vx + vy) / 2.0 - ((vx - vy) / 2.0).hypot(cross);
+        let plane = (narrowest > 1e-3)
+            .then(|| normal.try_inverse().map(|inverse| (inverse * right).x))
+            .flatten();
+        Some(plane.unwrap_or(self.height / self.weight))
+    }
+}

@@ -1,0 +1,238 @@
+//! Rulings as lines, evenly spaced.
+
+use std::collections::HashMap;
+
+use serde::Serialize;
+
+use super::{Rulings, least};
+use crate::error::{Result, positive};
+use crate::math::sym2::Sym2;
+
+/// Which lines are wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct TraceOptions {
+    /// Distance between lines, as seen from above, in the surface's units. `None`: ten spacings.
+    pub separation: Option<f64>,
+    /// A line ends where the direction is trusted by less, from 0 to 1. Default 0.3.
+    pub confidence: f64,
+    /// A line ends where the surface bends by more from one vertex to the next, in radians: at a
+    /// crease. Default 0.2.
+    pub crease: f64,
+}
+
+impl Default for TraceOptions {
+    fn default() -> Self {
+        TraceOptions {
+            separation: None,
+            confidence: 0.3,
+            crease: 0.2,
+        }
+    }
+}
+
+impl TraceOptions {
+    /// These options with another distance.
+    pub fn separation(self, separation: f64) -> Self {
+        TraceOptions {
+            separation: Some(separation),
+            ..self
+        }
+    }
+
+    /// These options with another least confidence.
+    pub fn confidence(self, confidence: f64) -> Self {
+        TraceOptions { confidence, ..self }
+    }
+
+    /// These options with another angle.
+    pub fn crease(self, crease: f64) -> Self {
+        TraceOptions { crease, ..self }
+    }
+}
+
+/// A ruling, traced.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Ruling {
+    /// Its course on the surface, a point about every spacing.
+    pub points: Vec<[f64; 3]>,
+    /// The distance between its ends.
+    pub length: f64,
+    /// How far it is from straight: the largest distance of a point from the line through its
+    /// ends, over the distance of these.
+    pub deviation: f64,
+}
+
+/// Lines of fewer separations are left out.
+const SHORTEST: f64 = 1.0;
+
+/// Where a line is on the surface, and which way it goes.
+type Step = ([f64; 2], [f64; 2]);
+
+impl Rulings {
+    /// Lines along the rulings, from where these are surest, no closer together than half the
+    /// separation; each ends at the border of the surface, at a crease or where it would come too
+    /// close to another one. (After Jobard and Lefer 1997.)
+    ///
+    /// # Errors
+    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite.
+    pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
+        let lattice = self.surface.lattice();
+        let separation = match options.separation {
+            Some(separation) => positive("separation", separation)?,
+            None => 10.0 * lattice.spacing(),
+        };
+        positive("crease", options.crease)?;
+        let mut seeds: Vec<usize> = (0..lattice.len())
+            .filter(|i| self.confidence[*i] >= options.confidence)
+            .collect();
+        seeds.sort_by(|a, b| self.confidence[*b].total_cmp(&self.confidence[*a]));
+        let mut taken = Taken {
+            size: separation,
+            cells: HashMap::new(),
+        };
+        let mut lines = Vec::new();
+        for seed in seeds {
+            let start = lattice.position(seed / lattice.cols(), seed % lattice.cols());
+            if taken.within(start, separation) {
+                continue;
+            }
+            let direction = self.directions[seed];
+            let back = [-direction[0], -direction[1]];
+            let mut course = self.follow((start, back), separation, options, &taken);
+            course.reverse();
+            course.push(start);
+            course.extend(self.follow((start, direction), separation, options, &taken));
+            let points: Vec<[f64; 3]> = (course.iter())
+                .filter_map(|p| self.height(*p).map(|z| [p[0], p[1], z]))
+                .collect();
+            course.iter().for_each(|p| taken.add(*p));
+            if let Some(line) = Ruling::new(points)
+                && line.length >= SHORTEST * separation
+            {
+                lines.push(line);
+            }
+        }
+        Ok(lines)
+    }
+
+    /// The points after a first one.
+    fn follow(
+        &self,
+        (mut place, mut towards): Step,
+        separation: f64,
+        options: &TraceOptions,
+        taken: &Taken,
+    ) -> Vec<[f64; 2]> {
+        let h = self.surface.lattice().spacing();
+        let mut course = Vec::new();
+        // A line that is longer than the surface goes in circles.
+        while course.len() < 2 * (self.surface.lattice().rows() + self.surface.lattice().cols()) {
+            let half = [0, 1].map(|k| place[k] + 0.5 * h * towards[k]);
+            let Some(middle) = self.along(half, towards, options) else {
+                break;
+            };
+            let next = [0, 1].map(|k| place[k] + h * middle[k]);
+            let Some(direction) = self.along(next, middle, options) else {
+                break;
+            };
+            if taken.within(next, 0.5 * separation) {
+                break;
+            }
+            course.push(next);
+            (place, towards) = (next, direction);
+        }
+        course
+    }
+
+    /// The direction at a place, whichever way is closer to one that is given.
+    fn along(&self, place: [f64; 2], near: [f64; 2], options: &TraceOptions) -> Option<[f64; 2]> {
+        let lattice = self.surface.lattice();
+        let triangle = lattice.locate(place);
+        let mut square = Sym2::default();
+        let mut confidence = 0.0;
+        for ((row, col), weight) in triangle.vertices.into_iter().zip(triangle.weights) {
+            if !lattice.contains(row, col) {
+                return None;
+            }
+            let i = lattice.index(row as usize, col as usize);
+            if self.bends[i].is_nan() || self.bends[i] > options.crease {
+                return None;
+            }
+            square = square + self.squares[i].scale(weight);
+            confidence += weight * self.confidence[i];
+        }
+        let [x, y] = least(square);
+        let found = if x * near[0] + y * near[1] < 0.0 {
+            [-x, -y]
+        } else {
+            [x, y]
+        };
+        (confidence >= options.confidence).then_some(found)
+    }
+
+    fn height(&self, place: [f64; 2]) -> Option<f64> {
+        let lattice = self.surface.lattice();
+        let triangle = lattice.locate(place);
+        let mut sum = 0.0;
+        for ((row, col), weight) in triangle.vertices.into_iter().zip(triangle.weights) {
+            if weight > 1e-9 {
+                let inside = lattice.contains(row, col);
+                sum += weight * inside.then(|| self.surface.height(row as usize, col as usize))?;
+            }
+        }
+        sum.is_finite().then_some(sum)
+    }
+}
+
+impl Ruling {
+    fn new(points: Vec<[f64; 3]>) -> Option<Self> {
+        let (first, last) = (*points.first()?, *points.last()?);
+        let difference = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+        let norm = |v: [f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
+        let axis = difference(last, first);
+        let length = norm(axis);
+        if length == 0.0 {
+            return None;
+        }
+        let off = |p: &[f64; 3]| {
+            let v = difference(*p, first);
+            let share = (0..3).map(|k| v[k] * axis[k]).sum::<f64>() / (length * length);
+            norm([0, 1, 2].map(|k| v[k] - share * axis[k]))
+        };
+        let deviation = points.iter().map(off).fold(0.0, f64::max) / length;
+        Some(Ruling {
+            points,
+            length,
+            deviation,
+        })
+    }
+}
+
+/// Points of lines, in square cells.
+struct Taken {
+    size: f64,
+    cells: HashMap<[i64; 2], Vec<[f64; 2]>>,
+}
+
+impl Taken {
+    fn cell(&self, place: [f64; 2]) -> [i64; 2] {
+        place.map(|v| (v / self.size).floor() as i64)
+    }
+
+    fn add(&mut self, place: [f64; 2]) {
+        let cell = self.cell(place);
+        self.cells.entry(cell).or_default().push(place);
+    }
+
+    /// Whether there is a point within a distance of at most the size of a cell.
+    fn within(&self, place: [f64; 2], distance: f64) -> bool {
+        let [x, y] = self.cell(place);
+        (x - 1..=x + 1)
+            .flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]))
+            .filter_map(|cell| self.cells.get(&cell))
+            .flatten()
+            .any(|p| (p[0] - place[0]).hypot(p[1] - place[1]) < distance)
+    }
+}

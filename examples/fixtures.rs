@@ -105,7 +105,7 @@ fn paper_schedule() -> Case {
         Some(0.02 * (x + y) * (x + y) + 0.2 * noise.next())
     });
     let options = Settings {
-        schedule: json!("paper"),
+        schedule: "paper".into(),
         max_iterations: 300,
         ..settings()
     };
@@ -115,7 +115,7 @@ fn paper_schedule() -> Case {
 fn settings() -> Settings {
     Settings {
         lambda: json!("medium"),
-        schedule: json!("default"),
+        schedule: "default".into(),
         gap: 0.01,
         max_iterations: 20_000,
         normalize: true,

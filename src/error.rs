@@ -165,7 +165,8 @@ impl Error {
         }
     }
 
-    pub(crate) fn option(
+    /// An option out of its range, by its name.
+    pub fn option(
         name: &'static str,
         value: impl std::fmt::Display,
         requirement: &'static str,
@@ -196,23 +197,13 @@ pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Res
 }
 
 /// Whether `found` values fill a shape within [`MAX_CELLS`].
-pub(crate) fn check_shape(
-    what: &'static str,
-    rows: usize,
-    cols: usize,
-    found: usize,
-) -> Result<()> {
+pub fn check_shape(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
     checked_cells(what, rows, cols)?;
     check_count(what, rows, cols, found)
 }
 
 /// Whether `found` values fill a shape of any size.
-pub(crate) fn check_count(
-    what: &'static str,
-    rows: usize,
-    cols: usize,
-    found: usize,
-) -> Result<()> {
+pub fn check_count(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
     let expected = rows * cols;
     if found == expected {
         return Ok(());
@@ -227,7 +218,7 @@ pub(crate) fn check_count(
 }
 
 /// A vector of `len` copies of `value`, with a failed allocation as an error.
-pub(crate) fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
+pub fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<Vec<T>> {
     let mut out = Vec::new();
     out.try_reserve_exact(len).map_err(|_| Error::OutOfMemory {
         what,

@@ -82,8 +82,6 @@ mod lattice;
 mod math;
 mod scene;
 mod shape;
-#[cfg(target_arch = "wasm32")]
-mod wasm;
 
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
@@ -107,6 +105,13 @@ pub use scene::sampling::{Hit, Resolution, Samples, sample};
 pub use scene::triangulation::Triangulation;
 pub use scene::view::{Frame, View};
 pub use shape::{analysis, patches, rulings};
+
+/// How the library checks what it is given: for the bindings in `wasm/`, which do as it does.
+#[doc(hidden)]
+pub mod checks {
+    pub use crate::error::{check_count, check_shape, try_filled};
+    pub use crate::fit::input::check_confidence;
+}
 
 /// The README's example.
 #[cfg(doctest)]

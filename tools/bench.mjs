@@ -13,14 +13,12 @@ import { tables } from './bench/tables.mjs';
 import { rule } from './bench/task.mjs';
 import { asMarkdown, asText } from './bench/text.mjs';
 import { build } from './build.mjs';
-import { setupBuild } from './setup.mjs';
 import { root } from './util/paths.mjs';
 import { main } from './util/problem.mjs';
 
 await main(async () => {
   const { quick, write, names, file } = parse(process.argv.slice(2));
-  const { env } = await setupBuild();
-  await build(env);
+  await build();
   await buildNative();
 
   const start = performance.now();

@@ -3,14 +3,13 @@ import { pathToFileURL } from 'node:url';
 import { setupBuild } from './setup.mjs';
 import { main } from './util/problem.mjs';
 import { buildVendor } from './build/vendor.mjs';
-import { buildWasm } from './build/wasm.mjs';
+import { compileWasm, packWasm } from './build/wasm.mjs';
 
-/** @param {import('./util/process.mjs').Env} env */
-export async function build(env) {
+/** Sets up what is missing and builds. */
+export async function build() {
+  const { env } = await setupBuild(compileWasm);
   await buildVendor();
-  await buildWasm(env);
+  await packWasm(env);
 }
 
-if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {
-  await main(async () => build((await setupBuild()).env));
-}
+if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) await main(build);

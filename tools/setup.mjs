@@ -3,24 +3,33 @@ import { pathToFileURL } from 'node:url';
 import { browser } from './setup/browser.mjs';
 import { npmPackages } from './setup/npm.mjs';
 import { rust } from './setup/rust.mjs';
-import { wasmBindgen } from './setup/wasm-bindgen.mjs';
+import { wasmBindgen, wasmBindgenTests } from './setup/wasm-bindgen.mjs';
 import { wasmTarget } from './setup/wasm-target.mjs';
 import { withPath } from './util/env.mjs';
 import { describe, main, Problem } from './util/problem.mjs';
 
 /** @typedef {import('./util/process.mjs').Env} Env */
 
-/** What a page in the browser needs. */
-export async function setupBuild() {
+/**
+ * What a page in the browser needs. The wasm is compiled meanwhile: the tools take about as long.
+ * @param {(env: Env) => Promise<void>} [compile]
+ */
+export async function setupBuild(compile = async () => {}) {
   await rust();
-  const [env, bindgen] = await together(wasmTarget(), wasmBindgen(), npmPackages());
+  const target = wasmTarget();
+  const [env, bindgen] = await together(target, wasmBindgen(), npmPackages(), target.then(compile));
   return { env: withPath(env, bindgen) };
 }
 
-/** What the tests need besides. */
-export async function setupTests() {
+/**
+ * What the tests need besides.
+ * @param {(env: Env) => Promise<void>} [compile]
+ */
+export async function setupTests(compile = async () => {}) {
   await rust();
-  const [env, bindgen, found] = await together(wasmTarget(), wasmBindgen(), browser(), npmPackages());
+  const target = wasmTarget();
+  const [env, bindgen, found] =
+    await together(target, wasmBindgenTests(), browser(), npmPackages(), target.then(compile));
   return { env: withPath(env, bindgen), browser: found };
 }
 

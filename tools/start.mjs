@@ -1,12 +1,10 @@
 /** `npm start`: sets up, builds, and serves the page until Ctrl-C. */
 import { build } from './build.mjs';
-import { setupBuild } from './setup.mjs';
 import { main, Problem } from './util/problem.mjs';
 
 await main(async () => {
   const ports = candidates(process.env.PORT);
-  const { env } = await setupBuild();
-  await build(env);
+  await build();
   const server = await open(ports);
   console.log(`\nThe page is at ${server.url} (Ctrl-C ends this)`);
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) {

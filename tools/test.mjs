@@ -2,6 +2,7 @@
  * `npm test`: sets up and runs every test there is; `npm test -- NAME...` those whose name
  * contains one of the words.
  */
+import { compileWasm } from './build/wasm.mjs';
 import { setupTests } from './setup.mjs';
 import { main, Problem, describe } from './util/problem.mjs';
 import { steps } from './test/steps.mjs';
@@ -15,7 +16,9 @@ await main(async () => {
   if (chosen.length === 0) {
     throw new Problem(`No test has such a name: there are ${steps.map(({ name }) => name).join(', ')}.`);
   }
-  const context = await timed('Set-up', setupTests);
+  // The tools and the wasm are compiled side by side.
+  const compile = chosen.some(({ name }) => name === 'build') ? compileWasm : undefined;
+  const context = await timed('Set-up', () => setupTests(compile));
 
   /** @type {Outcome[]} */
   const outcomes = [];

@@ -13,10 +13,13 @@ const version = '0.15.1';
 
 await main(async () => {
   const { env, browser } = await setupTests();
-  const folder = await cargoInstall('wasm-pack', version, { time: 'about 3 minutes', flags: ['--locked'] });
+  const folder = await cargoInstall('wasm-pack', version, {
+    time: 'about 2 minutes',
+    source: ['wasm-pack', '--version', version, '--locked'],
+  });
   const path = withPath(env, folder, ...(browser.driver ? [dirname(browser.driver)] : []));
 
-  await check('wasm-pack', ['build', '--out-dir', 'target/wasm-pack'], path);
+  await check('wasm-pack', ['build', 'wasm/solver', '--out-dir', '../../target/wasm-pack'], path);
   await check('wasm-pack', ['test', '--node'], path);
   if (!browser.chrome || !browser.driver) {
     throw new Problem('No browser with a driver was found for wasm-pack test --headless --chrome: install Chromium and chromedriver.');

@@ -147,7 +147,7 @@ impl Input {
 }
 
 /// Makes sure that every height, in rows of `cols`, has a confidence that is finite and not below 0.
-pub(crate) fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
+pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
     for (i, (weight, height)) in confidence.iter().zip(heights).enumerate() {
         if height.is_nan() {
             continue;

@@ -2,8 +2,6 @@
 
 use std::str::FromStr;
 
-use serde::{Deserialize, Deserializer, Serialize};
-
 use crate::error::{Error, Result};
 use crate::heights::normalization::Normalization;
 
@@ -29,7 +27,8 @@ pub enum Lambda {
 }
 
 impl Lambda {
-    fn named(name: &str) -> Option<Self> {
+    /// That of the name `small`, `medium` or `big`.
+    pub fn named(name: &str) -> Option<Self> {
         match name {
             "small" => Some(Lambda::Small),
             "medium" => Some(Lambda::Medium),
@@ -71,26 +70,8 @@ impl FromStr for Lambda {
     }
 }
 
-impl<'de> Deserialize<'de> for Lambda {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Raw {
-            Number(f64),
-            Name(String),
-        }
-        match Raw::deserialize(deserializer)? {
-            Raw::Number(value) => Ok(Lambda::Value(value)),
-            // Numbers come as numbers: reading them from text would cost the wasm 15 kB.
-            Raw::Name(name) => Lambda::named(&name)
-                .ok_or_else(|| serde::de::Error::custom("must be small, medium or big")),
-        }
-    }
-}
-
 /// How the iterations are run and when they stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Schedule {
     /// A fixed handful of conjugate-gradient iterations in each z-step,
     /// over-relaxation, balancing of the relative residuals; stops at the
@@ -103,9 +84,26 @@ pub enum Schedule {
     Paper,
 }
 
+impl FromStr for Schedule {
+    type Err = Error;
+
+    /// Reads `default` and `paper`.
+    fn from_str(text: &str) -> Result<Self> {
+        match text {
+            "default" => Ok(Schedule::Default),
+            "paper" => Ok(Schedule::Paper),
+            _ => Err(Error::option("schedule", text, "must be default or paper")),
+        }
+    }
+}
+
 /// What is minimised besides the fidelity term.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 pub enum Energy {
     /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15).
     #[default]
@@ -125,18 +123,20 @@ pub enum Energy {
 impl FromStr for Energy {
     type Err = Error;
 
-    /// Reads the names that JS has for them, as `squaredNuclear`.
+    /// Reads `nuclear`, `frobenius`, `squaredNuclear`, `secondFormOfInput` and `secondForm`.
     fn from_str(text: &str) -> Result<Self> {
-        use serde::de::IntoDeserializer;
-        use serde::de::value::{Error as Unknown, StrDeserializer};
-        let name: StrDeserializer<'_, Unknown> = text.into_deserializer();
-        Energy::deserialize(name).map_err(|_| {
-            Error::option(
+        match text {
+            "nuclear" => Ok(Energy::Nuclear),
+            "frobenius" => Ok(Energy::Frobenius),
+            "squaredNuclear" => Ok(Energy::SquaredNuclear),
+            "secondFormOfInput" => Ok(Energy::SecondFormOfInput),
+            "secondForm" => Ok(Energy::SecondForm),
+            _ => Err(Error::option(
                 "energy",
                 text,
                 "must be nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm",
-            )
-        })
+            )),
+        }
     }
 }
 
@@ -262,13 +262,13 @@ impl Options {
         }
         if !LAMBDAS.contains(&self.tie_break) {
             return Err(Error::option(
-                "tieBreak",
+                "tie_break",
                 format!("{:e}", self.tie_break),
                 "must lie between 1e-12 and 1e15",
             ));
         }
         if self.max_iterations == 0 {
-            return Err(Error::option("maxIterations", 0, "must be at least 1"));
+            return Err(Error::option("max_iterations", 0, "must be at least 1"));
         }
         Ok(())
     }
@@ -283,10 +283,8 @@ mod tests {
         assert_eq!("big".parse::<Lambda>().unwrap().value(), 1e7);
         assert_eq!("3e5".parse::<Lambda>().unwrap(), Lambda::Value(3e5));
         assert_eq!("huge".parse::<Lambda>().unwrap_err().code(), "OPTION");
-        let from_json = |text| serde_json::from_str::<Lambda>(text);
-        assert_eq!(from_json("\"small\"").unwrap(), Lambda::Small);
-        assert_eq!(from_json("12").unwrap(), Lambda::Value(12.0));
-        assert!(from_json("\"tiny\"").is_err());
+        assert_eq!("small".parse::<Lambda>().unwrap(), Lambda::Small);
+        assert!("tiny".parse::<Lambda>().is_err());
     }
 
     #[test]
@@ -301,6 +299,6 @@ mod tests {
         for bad in [0.0, 1.0, f64::NAN] {
             assert_eq!(name(Options::default().gap(bad)), "gap");
         }
-        assert_eq!(name(Options::default().max_iterations(0)), "maxIterations");
+        assert_eq!(name(Options::default().max_iterations(0)), "max_iterations");
     }
 }

@@ -1,12 +1,14 @@
 //! What a solve tells about itself, while it runs and afterwards.
 
-use serde::Serialize;
-
 use super::options::Energy;
 
 /// Why a solve stopped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 pub enum StopReason {
     /// The certified relative gap reached [`Options::gap`](crate::Options::gap).
     Gap,
@@ -21,8 +23,12 @@ pub enum StopReason {
 }
 
 /// Where a running solve stands: the figures of its last check.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 pub struct Progress {
     /// How many finer levels are still to come; 0 on the finest one.
     pub level: usize,
@@ -43,15 +49,16 @@ pub struct Progress {
 }
 
 /// Seconds spent in each phase of a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Seconds {
     /// Domain, normalisation, allocation.
     pub setup: f64,
     /// Conjugate gradients.
-    #[serde(rename = "zStep")]
+    #[cfg_attr(feature = "serde", serde(rename = "zStep"))]
     pub z_step: f64,
     /// Hessians, their soft threshold, the dual update.
-    #[serde(rename = "hStep")]
+    #[cfg_attr(feature = "serde", serde(rename = "hStep"))]
     pub h_step: f64,
     /// Objective, dual bound and residuals.
     pub certificate: f64,
@@ -73,8 +80,12 @@ impl std::ops::Add for Seconds {
 }
 
 /// The work on one level.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 pub struct LevelReport {
     /// Lattice spacing, in normalised coordinates.
     pub spacing: f64,
@@ -90,8 +101,12 @@ pub struct LevelReport {
 ///
 /// Energies are in normalised coordinates (see
 /// [`Normalization`](crate::Normalization)).
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 pub struct Report {
     /// Vertices where the Hessian is evaluated: the set `I`.
     pub interior: usize,

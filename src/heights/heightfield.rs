@@ -132,7 +132,7 @@ impl HeightImage {
     /// [`Error::Option`] unless it is positive and finite.
     pub fn with_pixel_size(self, pixel_size: f64) -> Result<Self> {
         Ok(HeightImage {
-            pixel_size: positive("pixelSize", pixel_size)?,
+            pixel_size: positive("pixel_size", pixel_size)?,
             ..self
         })
     }
@@ -150,7 +150,7 @@ impl HeightImage {
             Ok(self)
         } else {
             Err(Error::option(
-                "heightScale",
+                "height_scale",
                 scale,
                 "must be finite and leave every height finite",
             ))

@@ -39,7 +39,7 @@ impl Occlusions {
         threshold: f64,
         normalization: Normalization,
     ) -> Result<Self> {
-        let threshold = positive("occlusionThreshold", threshold)?;
+        let threshold = positive("occlusion_threshold", threshold)?;
         let lattice = field.lattice();
         let map = HessianMap::new(lattice.spacing());
         // Second derivatives shrink as lengths grow.

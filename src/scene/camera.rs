@@ -122,7 +122,7 @@ impl Intrinsics {
     fn check(&self) -> Result<()> {
         positive("fx", self.fx)?;
         positive("fy", self.fy)?;
-        positive("depthScale", self.depth_scale)?;
+        positive("depth_scale", self.depth_scale)?;
         for (name, value) in [("cx", self.cx), ("cy", self.cy)] {
             if !value.is_finite() {
                 return Err(Error::option(name, value, "must be a finite number"));

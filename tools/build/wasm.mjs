@@ -1,7 +1,8 @@
 /** Rust to wasm: cargo, wasm-bindgen, wasm-opt, and a look at the size. */
 import { createHash } from 'node:crypto';
-import { chmod, mkdtemp, readFile, rename, rm, writeFile } from 'node:fs/promises';
-import { join } from 'node:path';
+import { chmod, copyFile, mkdtemp, readFile, readdir, rename, rm, writeFile } from 'node:fs/promises';
+import { availableParallelism } from 'node:os';
+import { basename, join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { target } from '../setup/wasm-target.mjs';
 import { pkg, pkgWasm, root } from '../util/paths.mjs';
@@ -11,76 +12,106 @@ import { run } from '../util/process.mjs';
 /** @typedef {import('../util/process.mjs').Env} Env */
 
 /**
- * The package's wasm files: the crate's JavaScript bindings of one cargo feature each. `limit`
- * is the most bytes that a server may have to send, gzipped.
+ * The package's wasm files, each of the crate `wasm/NAME`. `limit` is the most bytes that a server may
+ * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', feature: 'js-solver', limit: 165_000 },
-  { name: 'files', feature: 'js-files', limit: 250_000 },
-  { name: 'images', feature: 'js-images', limit: 560_000 },
-  { name: 'meshes', feature: 'meshes', limit: 285_000 },
-  { name: 'unroll', feature: 'js-unroll', limit: 150_000 },
-  { name: 'patterns', feature: 'js-patterns', limit: 320_000 },
+  { name: 'solver', limit: 165_000 },
+  { name: 'files', limit: 250_000 },
+  { name: 'images', limit: 560_000 },
+  { name: 'meshes', limit: 285_000 },
+  { name: 'unroll', limit: 150_000 },
+  { name: 'patterns', limit: 220_000 },
 ];
-
-const stamp = join(pkgWasm, 'made-from');
 
 /** @param {Env} env */
 export async function buildWasm(env) {
-  const folder = await targetFolder(env);
-  const modules = [];
-  for (const { name, feature } of files) {
-    // A folder each: cargo keeps one library of a name, and would link them anew each time.
-    const own = join(folder, `wasm-${name}`);
-    const features = ['--no-default-features', '--features', feature, '--target-dir', own];
-    await must('cargo', ['build', '--release', '--lib', '--target', target, ...features], env);
-    modules.push(join(own, target, 'release', 'developable.wasm'));
+  await compileWasm(env);
+  await packWasm(env);
+}
+
+/**
+ * Compiles the crates, in one call and one folder, so that what they share is compiled once.
+ * @param {Env} env without need of wasm-bindgen
+ */
+export async function compileWasm(env) {
+  const crates = files.flatMap(({ name }) => ['--package', `developable-wasm-${name}`]);
+  await must('cargo', ['build', '--release', '--target', target, ...crates], env);
+}
+
+/**
+ * Makes the package's files of the modules that have changed: in a new folder beside the old one, so
+ * that who reads there finds one or the other.
+ * @param {Env} env
+ */
+export async function packWasm(env) {
+  const from = join(await targetFolder(env), target, 'release');
+  const tools = await fingerprint(env);
+  const modules = await Promise.all(files.map(async ({ name }) => {
+    const module = join(from, `developable_wasm_${name}.wasm`);
+    const origin = createHash('sha256').update(tools).update(await readFile(module)).digest('hex');
+    const packed = await readFile(made(pkgWasm, name), 'utf8').catch(() => '');
+    return { name, module, origin, current: packed === origin };
+  }));
+  if (!modules.every(({ current }) => current)) {
+    const draft = await mkdtemp(join(pkg, 'wasm-draft-'));
+    try {
+      const pending = modules[Symbol.iterator]();
+      // As many at a time as there are cores: wasm-opt has but one thread.
+      await Promise.all(Array.from({ length: availableParallelism() }, async () => {
+        for (const module of pending) await pack(draft, module, env);
+      }));
+      // `mkdtemp` lets nobody else in.
+      await chmod(draft, 0o755);
+      await rm(pkgWasm, { recursive: true, force: true });
+      await rename(draft, pkgWasm);
+    } finally {
+      await rm(draft, { recursive: true, force: true });
+    }
   }
-  const origin = await fingerprint(modules, env);
-  if (await readFile(stamp, 'utf8').catch(() => '') !== origin) await pack(modules, origin, env);
   for (const { name, limit } of files) await checkSize(name, limit);
 }
 
 /**
- * Makes the new folder beside the old one, so that who reads there finds one or the other.
- * @param {string[]} modules
- * @param {string} origin
+ * @param {string} folder
+ * @param {{ name: string, module: string, origin: string, current: boolean }} file
  * @param {Env} env
  */
-async function pack(modules, origin, env) {
-  const draft = await mkdtemp(join(pkg, 'wasm-draft-'));
-  try {
-    for (const [i, module] of modules.entries()) {
-      const { name } = files[i];
-      const out = ['--out-dir', draft, '--out-name', name];
-      await must('wasm-bindgen', ['--target', 'web', ...out, module], env);
-      const packed = join(draft, `${name}_bg.wasm`);
-      await must(process.execPath, [wasmOpt, '-O3', packed, '-o', packed], env);
+async function pack(folder, { name, module, origin, current }, env) {
+  if (current) {
+    for (const part of await readdir(pkgWasm)) {
+      if (part === basename(made('', name)) || new RegExp(`^${name}(_bg)?\\.`).test(part)) {
+        await copyFile(join(pkgWasm, part), join(folder, part));
+      }
     }
-    await writeFile(join(draft, 'made-from'), origin);
-    // `mkdtemp` lets nobody else in.
-    await chmod(draft, 0o755);
-    await rm(pkgWasm, { recursive: true, force: true });
-    await rename(draft, pkgWasm);
-  } finally {
-    await rm(draft, { recursive: true, force: true });
+    return;
   }
+  await must('wasm-bindgen', ['--target', 'web', '--out-dir', folder, '--out-name', name, module], env);
+  const packed = join(folder, `${name}_bg.wasm`);
+  // Beyond -O1 it takes twice as long for a file of the same size, gzipped.
+  await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], env);
+  await writeFile(made(folder, name), origin);
 }
+
+/**
+ * Where it says what a file was made from.
+ * @param {string} folder
+ * @param {string} name
+ */
+const made = (folder, name) => join(folder, `${name}.made-from`);
 
 /** npm's binaryen. It takes the module's features from the module itself. */
 const wasmOpt = join(root, 'node_modules/binaryen/bin/wasm-opt');
 
 /**
- * What the result depends on: the modules, the two tools, and this file.
- * @param {string[]} modules
+ * What the result depends on besides the module: the two tools, and this file.
  * @param {Env} env
  */
-async function fingerprint(modules, env) {
+async function fingerprint(env) {
   const bindgen = await run('wasm-bindgen', ['--version'], { env });
   const binaryen = await readFile(join(root, 'node_modules/binaryen/package.json'));
-  const hash = createHash('sha256').update(bindgen.output).update(binaryen);
-  for (const module of modules) hash.update(await readFile(module));
-  return hash.update(await readFile(new URL(import.meta.url))).digest('hex');
+  const own = await readFile(new URL(import.meta.url));
+  return createHash('sha256').update(bindgen.output).update(binaryen).update(own).digest();
 }
 
 /** @param {Env} env */

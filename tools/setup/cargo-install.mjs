@@ -8,10 +8,10 @@ import { Problem } from '../util/problem.mjs';
 import { cached, entry } from './cached.mjs';
 import { quietly, task } from './task.mjs';
 
-/** They run for a second or two: better quickly built than quick. */
+/** They run for seconds: better quickly built than quick. */
 const env = {
   ...native,
-  CARGO_PROFILE_RELEASE_OPT_LEVEL: '1',
+  CARGO_PROFILE_RELEASE_OPT_LEVEL: '0',
   CARGO_PROFILE_RELEASE_DEBUG: '0',
   CARGO_PROFILE_RELEASE_LTO: 'off',
   CARGO_PROFILE_RELEASE_CODEGEN_UNITS: '16',
@@ -23,15 +23,15 @@ const env = {
  * The folder of a crate's programs.
  * @param {string} crate
  * @param {string} version
- * @param {{ time: string, flags?: string[] }} options
+ * @param {{ time: string, source: string[], what?: string }} options `source`: what `cargo install` is told
  */
-export async function cargoInstall(crate, version, { time, flags = [] }) {
+export async function cargoInstall(crate, version, { time, source, what = `${crate} ${version}` }) {
   const name = `${crate}-${version}`;
   if (existsSync(entry(name))) return join(entry(name), 'bin');
-  const folder = await task(`${crate} ${version}, built by cargo install, in the cache`, time, () =>
+  const folder = await task(`${what}, built by cargo install, in the cache`, time, () =>
     cached(name, async (draft) => {
       const where = ['--root', draft, '--target-dir', join(draft, 'target')];
-      const args = ['install', crate, '--version', version, ...where, ...flags];
+      const args = ['install', ...source, ...where];
       const { ok, output, failure } = await quietly(crate, 'cargo', args, { env, cwd: root, limit: 3600 });
       if (!ok && /linker .* not found/.test(output)) {
         throw new Problem('Rust finds no linker here: install a C compiler (on Debian `apt-get install build-essential`).');

@@ -9,7 +9,7 @@ import { Skip, check } from './step.mjs';
 
 export async function format() {
   await component('fmt', 'rustfmt', native);
-  await check('cargo', ['fmt', '--check'], native);
+  await check('cargo', ['fmt', '--all', '--check'], native);
   // A crate of its own; all else about it is left to `npm run bench`, for it takes minutes to compile.
   await check('cargo', ['fmt', '--check', '--manifest-path', 'benches/Cargo.toml'], native);
 }
@@ -22,7 +22,7 @@ export async function lint() {
 /** @param {Context} context */
 export async function lintWasm({ env }) {
   await component('clippy', 'clippy', env);
-  await check('cargo', ['clippy', '--lib', '--tests', '--target', target, '--', '-D', 'warnings'], env);
+  await check('cargo', ['clippy', '--workspace', '--exclude', 'developable-bindgen', '--lib', '--tests', '--target', target, '--', '-D', 'warnings'], env);
 }
 
 export async function nativeTests() {

@@ -1,21 +1,33 @@
-//! Drawing Exchange Format of AutoCAD 2000, for cutters.
+//! Drawing Exchange Format, for cutters.
+//!
+//! A DXF file is pairs of lines: a group code, which says what is meant, and its value. Written is
+//! the format of AutoCAD release 12, which knows plain polylines and texts, needs no object handles
+//! and is read by every program for cutters. (Autodesk, DXF Reference, "ENTITIES Section".)
 
-use ::dxf::entities::{Entity, EntityType, LwPolyline, Text};
-use ::dxf::enums::{
-    AcadVersion, DrawingUnits, HorizontalTextJustification, Units, VerticalTextJustification,
-};
-use ::dxf::tables::Layer;
-use ::dxf::{Color, Drawing as File, LwPolylineVertex, Point};
+use std::fmt::Display;
+use std::io::{self, Write};
 
 use super::{Kind, layers};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
-use crate::flat::drawing::Drawing;
+use crate::flat::drawing::{Drawing, Label};
 
-/// Bit of a polyline's flags.
-const CLOSED: i32 = 1;
+/// Every layer with its colour, by its number in AutoCAD's palette.
+const LAYERS: [(&str, u8); 5] = [
+    ("CUT", 7),
+    ("MOUNTAIN", 1),
+    ("VALLEY", 5),
+    ("TAB", 8),
+    ("LABEL", 9),
+];
 
-/// A DXF file of a drawing (AutoCAD 2000, ASCII) in millimetres, with polylines and texts on the
+/// `$INSUNITS` for millimetres.
+const MILLIMETRES: u8 = 4;
+
+/// Height of capitals, in sizes of the font.
+const CAPITALS: f64 = 0.72;
+
+/// A DXF file of a drawing (AutoCAD R12, ASCII) in millimetres, with polylines and texts on the
 /// layers `CUT`, `MOUNTAIN`, `VALLEY`, `TAB` and `LABEL`.
 ///
 /// # Errors
@@ -23,66 +35,45 @@ const CLOSED: i32 = 1;
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_dxf(drawing: &Drawing) -> Result<Vec<u8>> {
     drawing.check()?;
-    let mut file = File::new();
-    let header = &mut file.header;
-    header.version = AcadVersion::R2000;
-    header.default_drawing_units = Units::Millimeters;
-    header.drawing_units = DrawingUnits::Metric;
-    header.minimum_drawing_extents = Point::new(0.0, 0.0, 0.0);
-    header.maximum_drawing_extents = Point::new(drawing.width, drawing.height, 0.0);
-    // The same file each time.
-    header.fingerprint_guid = Default::default();
-    header.version_guid = Default::default();
-    header.creation_date = Default::default();
-    header.creation_date_universal = Default::default();
-    header.update_date = Default::default();
-    header.update_date_universal = Default::default();
-    for (name, color) in [
-        ("CUT", 7),
-        ("MOUNTAIN", 1),
-        ("VALLEY", 5),
-        ("TAB", 8),
-        ("LABEL", 9),
-    ] {
-        file.add_layer(Layer {
-            name: name.into(),
-            color: Color::from_index(color),
-            ..Layer::default()
-        });
-    }
-    for (kind, lines) in layers(drawing) {
-        for (points, closed) in lines {
-            let vertices = points.iter().map(|[x, y]| LwPolylineVertex {
-                x: *x,
-                y: *y,
-                ..LwPolylineVertex::default()
-            });
-            let line = LwPolyline {
-                flags: if closed { CLOSED } else { 0 },
-                vertices: vertices.collect(),
-                ..LwPolyline::default()
-            };
-            add(&mut file, layer(kind), EntityType::LwPolyline(line));
+    let mut file = Pairs(Buffer::default());
+    let written = write(&mut file, drawing);
+    file.0.finish("DXF file", written)
+}
+
+fn write(file: &mut Pairs, drawing: &Drawing) -> io::Result<()> {
+    file.section("HEADER", |file| {
+        file.pair(9, "$ACADVER")?;
+        file.pair(1, "AC1009")?;
+        file.pair(9, "$INSUNITS")?;
+        file.pair(70, MILLIMETRES)?;
+        file.pair(9, "$EXTMIN")?;
+        file.point(10, [0.0, 0.0])?;
+        file.pair(9, "$EXTMAX")?;
+        file.point(10, [drawing.width, drawing.height])
+    })?;
+    file.section("TABLES", |file| {
+        file.pair(0, "TABLE")?;
+        file.pair(2, "LAYER")?;
+        file.pair(70, LAYERS.len())?;
+        for (name, color) in LAYERS {
+            file.pair(0, "LAYER")?;
+            file.pair(2, name)?;
+            file.pair(70, 0)?;
+            file.pair(62, color)?;
+            file.pair(6, "CONTINUOUS")?;
         }
-    }
-    for label in drawing.sheets.iter().flat_map(|sheet| &sheet.labels) {
-        let place = Point::new(label.place[0], label.place[1], 0.0);
-        let text = Text {
-            // The height of capitals, not of the font.
-            text_height: 0.72 * label.size,
-            location: place.clone(),
-            second_alignment_point: place,
-            horizontal_text_justification: HorizontalTextJustification::Center,
-            vertical_text_justification: VerticalTextJustification::Middle,
-            rotation: label.turn,
-            value: label.text.replace('°', "%%d"),
-            ..Text::default()
-        };
-        add(&mut file, "LABEL", EntityType::Text(text));
-    }
-    let mut out = Buffer::default();
-    let written = file.save(&mut out).map_err(std::io::Error::other);
-    out.finish("DXF file", written)
+        file.pair(0, "ENDTAB")
+    })?;
+    file.section("ENTITIES", |file| {
+        for (kind, lines) in layers(drawing) {
+            for (points, closed) in lines {
+                file.polyline(layer(kind), points, closed)?;
+            }
+        }
+        let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
+        labels.into_iter().try_for_each(|label| file.text(label))
+    })?;
+    file.pair(0, "EOF")
 }
 
 fn layer(kind: Kind) -> &'static str {
@@ -94,8 +85,85 @@ fn layer(kind: Kind) -> &'static str {
     }
 }
 
-fn add(file: &mut File, layer: &str, specific: EntityType) {
-    let mut entity = Entity::new(specific);
-    entity.common.layer = layer.into();
-    file.add_entity(entity);
+/// A file that grows by group codes and their values.
+struct Pairs(Buffer);
+
+impl Pairs {
+    fn pair(&mut self, code: u16, value: impl Display) -> io::Result<()> {
+        write!(self.0, "{code}\r\n{value}\r\n")
+    }
+
+    /// The group codes of y and z are those of x plus 10 and 20.
+    fn point(&mut self, code: u16, [x, y]: [f64; 2]) -> io::Result<()> {
+        self.pair(code, x)?;
+        self.pair(code + 10, y)?;
+        self.pair(code + 20, 0.0)
+    }
+
+    fn section(
+        &mut self,
+        name: &str,
+        content: impl FnOnce(&mut Self) -> io::Result<()>,
+    ) -> io::Result<()> {
+        self.pair(0, "SECTION")?;
+        self.pair(2, name)?;
+        content(self)?;
+        self.pair(0, "ENDSEC")
+    }
+
+    fn polyline(&mut self, layer: &str, points: &[[f64; 2]], closed: bool) -> io::Result<()> {
+        self.pair(0, "POLYLINE")?;
+        self.pair(8, layer)?;
+        // Its vertices follow.
+        self.pair(66, 1)?;
+        self.point(10, [0.0, 0.0])?;
+        self.pair(70, u8::from(closed))?;
+        for point in points {
+            self.pair(0, "VERTEX")?;
+            self.pair(8, layer)?;
+            self.point(10, *point)?;
+        }
+        self.pair(0, "SEQEND")?;
+        self.pair(8, layer)
+    }
+
+    /// Centred on its place.
+    fn text(&mut self, label: &Label) -> io::Result<()> {
+        const CENTRE: u8 = 1;
+        const MIDDLE: u8 = 2;
+        self.pair(0, "TEXT")?;
+        self.pair(8, "LABEL")?;
+        self.point(10, label.place)?;
+        self.pair(40, CAPITALS * label.size)?;
+        self.pair(1, encoded(&label.text))?;
+        self.pair(50, label.turn)?;
+        self.pair(72, CENTRE)?;
+        self.point(11, label.place)?;
+        self.pair(73, MIDDLE)
+    }
+}
+
+/// A text in one line of ASCII, as DXF writes what is not.
+fn encoded(text: &str) -> String {
+    let mut line = String::new();
+    for letter in text.chars() {
+        match letter {
+            '°' => line += "%%d",
+            ' '..='~' => line.push(letter),
+            _ if letter.is_control() => line.push(' '),
+            _ => line += &format!("\\U+{:04X}", u32::from(letter)),
+        }
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_stay_in_their_line() {
+        assert_eq!(encoded("M 50°"), "M 50%%d");
+        assert_eq!(encoded("a\r\n0\nEOF\né"), "a  0 EOF \\U+00E9");
+    }
 }

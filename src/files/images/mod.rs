@@ -10,7 +10,7 @@
 //! stand for a large even area, up to [`MAX_CELLS`](crate::MAX_CELLS) pixels.)
 
 #[cfg(feature = "images")]
-mod extended;
+pub mod extended;
 mod npy;
 mod photo;
 mod png;
@@ -23,10 +23,8 @@ use crate::heights::heightfield::HeightImage;
 
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
-#[cfg(all(feature = "js-images", target_arch = "wasm32"))]
-pub(crate) use extended::{decode as decode_image, decode_photo as decode_image_photo};
 pub use npy::write_npy;
-pub use photo::{PhotoFile, decode_photo, write_photo};
+pub use photo::{PhotoFile, decode_photo, decode_photo_basic, write_photo};
 pub use png::write_png;
 
 /// A file format that can be read. All but the first two need the cargo feature
@@ -82,6 +80,12 @@ const MAGIC: [(&[u8], Format); 13] = [
 ];
 
 impl Format {
+    /// Whether it is read without the cargo feature `images`.
+    #[cfg(feature = "images")]
+    fn is_basic(self) -> bool {
+        matches!(self, Format::Png | Format::Npy)
+    }
+
     /// The name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`,
     /// `"npz"`, `"jpeg"` or `"webp"`.
     pub fn name(self) -> &'static str {
@@ -120,7 +124,8 @@ impl FromStr for Format {
 }
 
 /// What the option `format` must be.
-pub(crate) const FORMAT_NAMES: &str =
+/// What `format` may be, as a requirement of the option.
+pub const FORMAT_NAMES: &str =
     "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
 
 /// A unit of length.
@@ -219,20 +224,33 @@ impl Decoded {
 /// array without elements.
 pub fn decode(bytes: &[u8], format: Option<Format>) -> Result<Decoded> {
     match announced(bytes, format)? {
+        #[cfg(feature = "images")]
+        other if !other.is_basic() => extended::decode(bytes, other),
+        basic => decode_basic(bytes, basic),
+    }
+}
+
+/// Decodes a PNG or NPY file, and links the decoders of these two only.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_basic(bytes: &[u8], format: Format) -> Result<Decoded> {
+    match format {
         Format::Png => png::decode(bytes),
         Format::Npy => npy::decode(bytes),
-        #[cfg(feature = "images")]
-        other => extended::decode(bytes, other),
-        #[cfg(not(feature = "images"))]
         other => Err(Error::Unsupported {
             format: other.title(),
-            reason: "this build reads PNG and NPY only; the cargo feature `images` adds it".into(),
+            reason: "only PNG and NPY are read here; the cargo feature `images` adds it".into(),
         }),
     }
 }
 
 /// The format that the bytes announce, if it is the stated one.
-pub(crate) fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
+///
+/// # Errors
+/// [`Error::Format`] for an empty file and one of another format than stated,
+/// [`Error::Unsupported`] for a file of no known format.
+pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
     if bytes.is_empty() {
         return Err(Error::Format {
             format: stated.map_or("an image", Format::title),

@@ -4,7 +4,7 @@ use ::png::{BitDepth, ColorType, Encoder, EncodingError, Transformations};
 
 use super::png::Pixels;
 use super::{Buffer, Format, announced};
-use crate::error::{Result, try_filled};
+use crate::error::{Error, Result, try_filled};
 use crate::flat::dewarp::Photo;
 
 /// A decoded photo.
@@ -34,19 +34,27 @@ impl PhotoFile {
 /// also JPEG (the way up that its Exif data state) and WebP files.
 ///
 /// # Errors
-/// [`Error::Unsupported`](crate::Error::Unsupported) for other files,
-/// [`Error::Format`](crate::Error::Format), [`Error::TooLarge`](crate::Error::TooLarge),
-/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+/// [`Error::Unsupported`] for other files,
+/// [`Error::Format`], [`Error::TooLarge`],
+/// [`Error::OutOfMemory`].
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     match announced(bytes, None)? {
-        Format::Png => decode_png(bytes),
         #[cfg(feature = "images")]
-        other => super::extended::decode_photo(bytes, other),
-        #[cfg(not(feature = "images"))]
-        other => Err(crate::Error::Unsupported {
+        other if other != Format::Png => super::extended::decode_photo(bytes, other),
+        format => decode_photo_basic(bytes, format),
+    }
+}
+
+/// Decodes a PNG file to RGBA bytes, and links the decoder of PNG only.
+///
+/// # Errors
+/// As [`decode_photo`].
+pub fn decode_photo_basic(bytes: &[u8], format: Format) -> Result<PhotoFile> {
+    match format {
+        Format::Png => decode_png(bytes),
+        other => Err(Error::Unsupported {
             format: other.title(),
-            reason: "this build reads photos from PNG files only; the cargo feature `images` adds \
-                     JPEG and WebP"
+            reason: "only PNG photos are read here; the cargo feature `images` adds JPEG and WebP"
                 .into(),
         }),
     }
@@ -81,7 +89,7 @@ fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
 /// An 8-bit RGBA PNG file.
 ///
 /// # Errors
-/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+/// [`Error::OutOfMemory`].
 pub fn write_photo(photo: &Photo<'_>) -> Result<Vec<u8>> {
     let mut file = Buffer::default();
     let written = write(&mut file, photo);

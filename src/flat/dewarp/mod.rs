@@ -31,8 +31,6 @@ mod map;
 mod photo;
 mod trim;
 
-use serde::Serialize;
-
 use super::unroll::UnrollReport;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::{HeightImage, Heightfield};
@@ -146,8 +144,12 @@ pub fn paint(
 }
 
 /// Whether a flat image is to be trusted, in a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 #[non_exhaustive]
 pub enum Verdict {
     /// The page was flat to begin with, and faced the camera: the photo can be used as it is.

@@ -1,7 +1,5 @@
 //! What is written on sheets, and where.
 
-use serde::{Deserialize, Serialize};
-
 use super::tabs::Tab;
 use super::{Line, distance, length};
 use crate::flat::pattern::Direction;
@@ -12,7 +10,8 @@ const LARGEST: f64 = 12.0;
 const SMALLEST: f64 = 1.5;
 
 /// A text on a sheet.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Label {
     /// What it is about.
     pub kind: LabelKind,
@@ -27,8 +26,12 @@ pub struct Label {
 }
 
 /// What a text is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum LabelKind {
     /// The number of a patch.
     Patch,

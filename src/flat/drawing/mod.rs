@@ -25,8 +25,6 @@ mod tabs;
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
-
 use super::pattern::{Direction, Seam, Sheet};
 use crate::error::{Error, Result, positive};
 pub use label::{Label, LabelKind};
@@ -76,7 +74,8 @@ impl DrawingOptions {
 }
 
 /// A drawing, its lower left corner at `0, 0`; `x` to the right, `y` up, in millimetres.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Drawing {
     /// Width.
     pub width: f64,
@@ -89,7 +88,8 @@ pub struct Drawing {
 }
 
 /// A sheet as it is drawn: turned so that its box is small, if that is worth it, never mirrored.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DrawnSheet {
     /// `Sheet 1` and so on.
     pub name: String,
@@ -108,7 +108,8 @@ pub struct DrawnSheet {
 }
 
 /// A line to fold along.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Line {
     /// The crease, by its place in [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
@@ -123,8 +124,12 @@ pub struct Line {
 }
 
 /// What a drawing comes to, lengths in millimetres.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "camelCase")
+)]
 pub struct Summary {
     /// Number of sheets.
     pub sheets: usize,

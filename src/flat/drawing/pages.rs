@@ -1,7 +1,5 @@
 //! A drawing spread over sheets of paper that are put together again.
 
-use serde::{Deserialize, Serialize};
-
 use super::Drawing;
 use crate::error::{Error, Result};
 
@@ -15,8 +13,12 @@ const BLANK: f64 = 10.0;
 const OVERLAP: f64 = 10.0;
 
 /// A size of paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 #[non_exhaustive]
 pub enum Paper {
     /// 210 × 297 mm.

@@ -32,8 +32,6 @@ mod outline;
 mod shape;
 mod spots;
 
-use serde::{Deserialize, Serialize};
-
 use super::unroll::UnrollOptions;
 use crate::error::{Result, check_shape, positive};
 use crate::heights::heightfield::Heightfield;
@@ -140,8 +138,12 @@ pub struct Seam {
 }
 
 /// Which way a sheet is folded, seen from above.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Direction {
     /// A ridge: the fold points to the viewer.
     Mountain,

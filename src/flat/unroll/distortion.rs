@@ -1,7 +1,5 @@
 //! How far a flat layout is from being an unrolling.
 
-use serde::Serialize;
-
 use super::pieces::{Name, Pieces, Point};
 
 /// From which strain on a triangle counts as distorted.
@@ -9,7 +7,8 @@ pub(super) const NOTICEABLE: f64 = 0.01;
 
 /// Lengths on a flat layout against those on the surface: strains, as shares. `σ₁ ≥ σ₂` are the
 /// singular values of the map of each triangle to the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Distortion {
     /// Root of the mean of `((σ₁ − 1)² + (σ₂ − 1)²) / 2` by area.

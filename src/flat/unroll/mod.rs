@@ -37,8 +37,6 @@ pub(crate) mod pieces;
 mod repair;
 mod sheets;
 
-use serde::Serialize;
-
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::ROW;
@@ -86,8 +84,12 @@ impl UnrollOptions {
 }
 
 /// What came of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 #[non_exhaustive]
 pub struct UnrollReport {
     /// Connected parts of the surface, each laid flat for itself.

@@ -1,7 +1,5 @@
 //! Fields in figures.
 
-use serde::Serialize;
-
 use super::curvature::Curvatures;
 use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
@@ -16,8 +14,12 @@ pub const THRESHOLD: f64 = 1.0;
 ///
 /// All in coordinates scaled to the unit square, as λ is, so that surfaces of any size compare:
 /// `κ` times the longer side, `K` times its square.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
 #[non_exhaustive]
 pub struct Summary {
     /// Vertices that have curvatures.
@@ -42,7 +44,8 @@ pub struct Summary {
 
 /// How often magnitudes occur, in bins of half a decade that are always the same, so that
 /// histograms compare.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Histogram {
     /// Where bins end, ascending: bin `i` holds the magnitudes from `edges[i − 1]` up to, but
@@ -102,7 +105,8 @@ impl Histogram {
 
 /// How far a surface is from another one on the same lattice, in their units, over the vertices
 /// where both have a height.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Deviation {
     /// Number of these vertices.

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
 use super::NO_PATCH;
 use super::bend::Bend;
 use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
 
 /// A line between two patches.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Crease {
     /// The patches on either side, the lower number first.

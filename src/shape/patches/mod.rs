@@ -31,8 +31,6 @@ pub(crate) mod extend;
 mod flood;
 mod merge;
 
-use serde::Serialize;
-
 use crate::error::{Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
@@ -89,7 +87,8 @@ impl PatchOptions {
 }
 
 /// A smooth part of a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Patch {
     /// Number of its vertices.

@@ -2,8 +2,6 @@
 
 use std::collections::HashMap;
 
-use serde::Serialize;
-
 use super::{Rulings, least};
 use crate::error::{Result, positive};
 use crate::math::sym2::Sym2;
@@ -52,7 +50,8 @@ impl TraceOptions {
 }
 
 /// A ruling, traced.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Ruling {
     /// Its course on the surface, a point about every spacing.

@@ -17,8 +17,11 @@ pub use exr::write_exr;
 pub use npz::{NpzArray, decode_npz, npz_arrays};
 pub use tiff::write_tiff;
 
-/// Decodes a file that begins like one of the format.
-pub(crate) fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
+/// Decodes a file that begins like one of the format; of NPZ the only array.
+///
+/// # Errors
+/// As [`decode`](super::decode); [`Error::Unsupported`] for PNG and NPY.
+pub fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
     match format {
         Format::Tiff => tiff::decode(bytes),
         Format::Exr => exr::decode(bytes),
@@ -33,8 +36,11 @@ pub(crate) fn decode(bytes: &[u8], format: Format) -> Result<Decoded> {
     }
 }
 
-/// Decodes a picture with its colours.
-pub(crate) fn decode_photo(bytes: &[u8], format: Format) -> Result<PhotoFile> {
+/// Decodes a JPEG or WebP photo.
+///
+/// # Errors
+/// As [`decode_photo`](super::decode_photo); [`Error::Unsupported`] for all others.
+pub fn decode_photo(bytes: &[u8], format: Format) -> Result<PhotoFile> {
     match format {
         Format::Jpeg => jpeg::decode_photo(bytes),
         Format::WebP => webp::decode_photo(bytes),

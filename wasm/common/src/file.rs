@@ -1,0 +1,90 @@
+//! The options of reading an image in, what the file holds out.
+
+use js_sys::{Float64Array, Uint8ClampedArray};
+use serde::Serialize;
+use serde_wasm_bindgen::{preserve, to_value};
+use wasm_bindgen::prelude::*;
+
+use super::options::{entries, option, unknown};
+use super::{Failure, Result};
+use developable::files::images::{Decoded, FORMAT_NAMES, Format, PhotoFile};
+
+/// `ReadOptions` of `types.d.ts`.
+#[derive(Default)]
+pub struct ReadOptions {
+    pub format: Option<Format>,
+    pub array: Option<String>,
+}
+
+impl ReadOptions {
+    pub fn new(options: &JsValue) -> Result<Self> {
+        let mut read = ReadOptions::default();
+        for (name, value) in entries(options)? {
+            match name.as_str() {
+                "format" => {
+                    let name: String = option("format", value, FORMAT_NAMES)?;
+                    read.format = Some(name.parse()?);
+                }
+                "array" => read.array = Some(option("array", value, "must be a name")?),
+                _ => return Err(unknown(&name, "format and array")),
+            }
+        }
+        Ok(read)
+    }
+
+    /// For files that have no arrays by name.
+    pub fn without_array(&self) -> Result<()> {
+        match self.array {
+            Some(_) => Err(Failure::option(
+                "the option `array` is for NPZ files, and this is none",
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// `ReadResult` of `types.d.ts`.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct ReadOutput {
+    format: &'static str,
+    width: usize,
+    height: usize,
+    #[serde(with = "preserve")]
+    data: Float64Array,
+    pixel_size: f64,
+    #[serde(with = "preserve")]
+    unit: JsValue,
+    height_scale: f64,
+    data_type: &'static str,
+}
+
+pub fn output(file: Decoded) -> Result<JsValue> {
+    Ok(to_value(&ReadOutput {
+        format: file.format.name(),
+        width: file.width,
+        height: file.height,
+        data: file.values.as_slice().into(),
+        pixel_size: file.pixel_size,
+        unit: file.unit.map_or(JsValue::NULL, |unit| unit.symbol().into()),
+        height_scale: file.height_scale,
+        data_type: file.data_type,
+    })?)
+}
+
+/// `Photo` of `types.d.ts` on its way out.
+#[derive(Serialize)]
+struct PhotoOutput {
+    width: usize,
+    height: usize,
+    #[serde(with = "preserve")]
+    data: Uint8ClampedArray,
+}
+
+pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
+    Ok(to_value(&PhotoOutput {
+        width: photo.width,
+        height: photo.height,
+        data: photo.rgba.as_slice().into(),
+    })?)
+}

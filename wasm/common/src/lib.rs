@@ -1,0 +1,102 @@
+//! The library as JavaScript sees it, behind `pkg/direct.js`: plain objects and
+//! typed arrays in and out, errors with a `code`. Nothing is computed here.
+//!
+//! This crate has what the others in `wasm/` share; each of those becomes one wasm file.
+
+pub mod arrays;
+pub mod bytes;
+pub mod fields;
+pub mod file;
+pub mod frame;
+pub mod options;
+pub mod photo;
+pub mod scene;
+pub mod triangulation;
+
+use developable::Error;
+use js_sys::Reflect;
+use wasm_bindgen::prelude::*;
+
+/// What every function exported to JavaScript gives.
+pub type Result<T> = std::result::Result<T, Failure>;
+
+/// Turns panics into JS exceptions that say what happened. The caller has to
+/// give the instance up after one.
+#[wasm_bindgen(js_name = reportPanics)]
+pub fn report_panics() {
+    std::panic::set_hook(Box::new(|panic| {
+        wasm_bindgen::throw_str(&panic.to_string())
+    }));
+}
+
+/// What becomes a JS `Error` with a `code`.
+pub struct Failure {
+    /// Of `ErrorCode` in `errors.d.ts`.
+    pub code: &'static str,
+    /// What was wrong, where, and what to do.
+    pub message: String,
+}
+
+impl Failure {
+    /// An option is wrong, or there is none of that name.
+    pub fn option(message: impl Into<String>) -> Self {
+        Failure {
+            code: "OPTION",
+            message: message.into(),
+        }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let code = error.code();
+        let message = match error {
+            Error::Option {
+                name,
+                value,
+                requirement,
+            } => {
+                format!("option `{}` is {value}, but {requirement}", in_js(name))
+            }
+            other => other.to_string(),
+        };
+        Failure { code, message }
+    }
+}
+
+/// An option's name as JavaScript writes it: `maxIterations` for `max_iterations`.
+fn in_js(name: &str) -> String {
+    let mut after_underscore = false;
+    let mut js = String::with_capacity(name.len());
+    for letter in name.chars() {
+        if letter != '_' {
+            // Of ASCII only: the tables of Unicode would cost each wasm file 10 kB.
+            js.push(if after_underscore {
+                letter.to_ascii_uppercase()
+            } else {
+                letter
+            });
+        }
+        after_underscore = letter == '_';
+    }
+    js
+}
+
+/// Something that JS should not have let through.
+impl From<serde_wasm_bindgen::Error> for Failure {
+    fn from(error: serde_wasm_bindgen::Error) -> Self {
+        Failure {
+            code: "INPUT",
+            message: error.to_string(),
+        }
+    }
+}
+
+impl From<Failure> for JsValue {
+    fn from(failure: Failure) -> Self {
+        let error = js_sys::Error::new(&failure.message);
+        // Cannot fail: the object is new and extensible.
+        let _ = Reflect::set(&error, &"code".into(), &failure.code.into());
+        error.into()
+    }
+}

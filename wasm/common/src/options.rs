@@ -1,0 +1,47 @@
+//! Options from plain JS objects, with errors that name the option. (Derived
+//! deserialisers would pass over unknown names and not say which value is wrong.)
+
+use js_sys::{Array, JsString, Object};
+use serde::de::DeserializeOwned;
+use serde_wasm_bindgen::from_value;
+use wasm_bindgen::prelude::*;
+
+use super::{Failure, Result};
+use developable::Error;
+
+/// What an options object says, without what is undefined in it.
+pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
+    if options.is_undefined() {
+        return Ok(Vec::new());
+    }
+    let Some(options) = options.dyn_ref::<Object>() else {
+        return Err(Failure::option("the options must be an object"));
+    };
+    Ok(Object::entries(options)
+        .iter()
+        .map(|entry| Array::from(&entry))
+        .filter(|entry| !entry.get(1).is_undefined())
+        .map(|entry| (String::from(JsString::from(entry.get(0))), entry.get(1)))
+        .collect())
+}
+
+pub fn option<T: DeserializeOwned>(
+    name: &'static str,
+    value: JsValue,
+    requirement: &'static str,
+) -> Result<T> {
+    from_value(value.clone()).map_err(|_| {
+        // `undefined`, functions and symbols have no JSON: then this is no string.
+        let json = js_sys::JSON::stringify(&value);
+        let shown = json.ok().and_then(|text| JsValue::from(text).as_string());
+        Failure::from(Error::option(
+            name,
+            shown.unwrap_or_else(|| format!("{value:?}")),
+            requirement,
+        ))
+    })
+}
+
+pub fn unknown(name: &str, known: &str) -> Failure {
+    Failure::option(format!("there is no option `{name}`, only {known}"))
+}

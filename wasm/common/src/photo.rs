@@ -1,0 +1,56 @@
+//! Photos, and what they show, in.
+
+use js_sys::Uint8Array;
+use serde::Deserialize;
+use serde_wasm_bindgen::{from_value, preserve};
+use wasm_bindgen::prelude::*;
+
+use super::Result;
+use super::bytes::copied;
+use super::options::option;
+use developable::dewarp::{Extent, Photo};
+
+/// `Photo` of `types.d.ts`, as `asPhoto` makes it.
+#[derive(Deserialize)]
+struct PhotoInput {
+    width: usize,
+    height: usize,
+    #[serde(with = "preserve")]
+    data: Uint8Array,
+}
+
+/// A photo's pixels, in wasm's own memory.
+pub struct Pixels {
+    width: usize,
+    height: usize,
+    rgba: Vec<u8>,
+}
+
+impl Pixels {
+    pub fn new(photo: JsValue) -> Result<Self> {
+        let PhotoInput {
+            width,
+            height,
+            data,
+        } = from_value(photo)?;
+        Ok(Pixels {
+            width,
+            height,
+            rgba: copied(&data)?,
+        })
+    }
+
+    pub fn photo(&self) -> Result<Photo<'_>> {
+        Ok(Photo::new(self.width, self.height, &self.rgba)?)
+    }
+}
+
+/// The option `extent`.
+pub fn extent_from(value: JsValue) -> Result<Extent> {
+    let requirement = "must be four numbers: left, bottom, right, top";
+    let [left, bottom, right, top] = option("extent", value, requirement)?;
+    Ok(Extent {
+        min: [left, bottom],
+        max: [right, top],
+    })
+}

@@ -1,0 +1,88 @@
+//! What is laid flat, and how: what all functions about sheets are told.
+
+use serde::Deserialize;
+use serde_wasm_bindgen::from_value;
+use wasm_bindgen::prelude::*;
+
+use super::Result;
+use super::fields::{ImageInput, LatticeInput};
+use super::options::option;
+use developable::Error;
+use developable::Heightfield;
+use developable::dewarp::Extent;
+use developable::unroll::UnrollOptions;
+
+/// Heights to be looked at, and what a photo of them shows.
+pub struct Scene {
+    pub surface: Heightfield,
+    /// What a photo shows, where there may be one.
+    pub extent: Extent,
+}
+
+/// An image or heights on the lattice, as `input.js` marks them.
+#[derive(Deserialize)]
+struct Kind {
+    kind: String,
+}
+
+/// Whether a field has pixels, which a spacing can be about.
+pub fn is_image(field: &JsValue) -> Result<bool> {
+    Ok(!field.is_undefined() && from_value::<Kind>(field.clone())?.kind == "image")
+}
+
+/// A spacing is for images: a lattice has its own.
+pub fn check_spacing(spacing: Option<f64>, images: bool) -> Result<()> {
+    match spacing {
+        Some(spacing) if !images => {
+            let requirement = "must be left out: a lattice has the spacing of its input";
+            Err(Error::option("spacing", spacing, requirement).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+impl Scene {
+    pub fn new(field: JsValue, spacing: Option<f64>) -> Result<Self> {
+        if is_image(&field)? {
+            let input: ImageInput = from_value(field)?;
+            let image = input.heights("height image", &input.data)?;
+            return Ok(Scene {
+                surface: image.to_lattice(spacing)?,
+                extent: Extent::of(&image),
+            });
+        }
+        let input: LatticeInput = from_value(field)?;
+        let surface = input.heights("heightfield", &input.heights)?;
+        Ok(Scene {
+            extent: Extent::of_lattice(&surface),
+            surface,
+        })
+    }
+}
+
+/// `UnrollOptions` of `types.d.ts`.
+#[derive(Default)]
+pub struct Settings {
+    pub unrolling: UnrollOptions,
+    pub spacing: Option<f64>,
+}
+
+impl Settings {
+    /// Whether an option is one of these; its value is taken then.
+    pub fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
+        let value = value.clone();
+        match name {
+            "tolerance" => {
+                let tolerance = option("tolerance", value, "must be a number")?;
+                self.unrolling = self.unrolling.tolerance(tolerance);
+            }
+            "maxIterations" => {
+                let most = option("maxIterations", value, "must be a whole number")?;
+                self.unrolling = self.unrolling.max_iterations(most);
+            }
+            "spacing" => self.spacing = Some(option("spacing", value, "must be a number")?),
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}

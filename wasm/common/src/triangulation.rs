@@ -1,0 +1,37 @@
+//! Heights on the lattice as the mesh that is written.
+
+use serde::Deserialize;
+use serde_wasm_bindgen::{from_value, preserve};
+use wasm_bindgen::prelude::*;
+
+use super::Result;
+use super::arrays::groups;
+use super::fields::LatticeInput;
+use super::frame::FrameFields;
+use developable::Mesh;
+use developable::Triangulation;
+
+/// What a `Heightfield` of `types.d.ts` may have for its mesh.
+#[derive(Deserialize)]
+struct Extras {
+    frame: Option<FrameFields>,
+    #[serde(default, with = "preserve")]
+    colors: JsValue,
+    #[serde(default, with = "preserve")]
+    uvs: JsValue,
+}
+
+/// The mesh of a `Heightfield`, in the axes of its frame.
+pub fn mesh_of(field: JsValue) -> Result<Mesh> {
+    let extras = from_value::<Extras>(field.clone())?;
+    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
+    let frame = extras.frame.map(Into::into).unwrap_or_default();
+    let mut triangulation = Triangulation::new(&field, &frame)?;
+    if let Some(colors) = groups(&extras.colors)? {
+        triangulation = triangulation.with_colors(&colors)?;
+    }
+    if let Some(uvs) = groups(&extras.uvs)? {
+        triangulation = triangulation.with_uvs(&uvs)?;
+    }
+    Ok(triangulation.into_mesh())
+}

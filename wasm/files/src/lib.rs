@@ -1,0 +1,123 @@
+//! PNG, NPY, OBJ and photos from and to bytes, and colours from photos.
+
+use js_sys::{Float32Array, Int32Array, Uint8Array};
+use serde_wasm_bindgen::from_value;
+use wasm_bindgen::prelude::*;
+
+use developable::checks::check_count;
+use developable::dewarp::{self, Extent, Photo};
+use developable::files::images::{
+    announced, decode_basic, decode_photo_basic, write_npy, write_photo, write_png,
+};
+use developable::files::wavefront::{write_mtl, write_obj_textured};
+use developable_wasm::Result;
+use developable_wasm::arrays::filled;
+use developable_wasm::bytes::copied;
+use developable_wasm::fields::{ImageInput, LatticeInput};
+use developable_wasm::file::{ReadOptions, output, photo_output};
+use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::photo::{Pixels, extent_from};
+use developable_wasm::triangulation::mesh_of;
+
+/// Decodes a PNG or NPY file.
+#[wasm_bindgen]
+pub fn read(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
+    let options = ReadOptions::new(&options)?;
+    options.without_array()?;
+    let file = copied(bytes)?;
+    output(decode_basic(&file, announced(&file, options.format)?)?)
+}
+
+/// NPY file of an image's heights.
+#[wasm_bindgen(js_name = writeImageNpy)]
+pub fn write_image_npy(image: JsValue) -> Result<Uint8Array> {
+    let image = from_value::<ImageInput>(image)?.into_image()?;
+    let file = write_npy(image.height(), image.width(), image.values())?;
+    Ok(file.as_slice().into())
+}
+
+/// NPY file of lattice heights.
+#[wasm_bindgen(js_name = writeLatticeNpy)]
+pub fn write_lattice_npy(field: JsValue) -> Result<Uint8Array> {
+    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
+    let lattice = field.lattice();
+    let file = write_npy(lattice.rows(), lattice.cols(), field.heights())?;
+    Ok(file.as_slice().into())
+}
+
+/// 16-bit PNG file of an image's heights.
+#[wasm_bindgen(js_name = writePng)]
+pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
+    let image = from_value::<ImageInput>(image)?.into_image()?;
+    Ok(write_png(&image)?.as_slice().into())
+}
+
+/// OBJ mesh of lattice heights, in the axes of their frame, and the file of its material, if any.
+#[wasm_bindgen(js_name = writeObj)]
+pub fn write_obj_file(field: JsValue, options: JsValue) -> Result<Uint8Array> {
+    let mut material = None;
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "materials" => material = Some(option("materials", value, "must be a file's name")?),
+            _ => return Err(unknown(&name, "materials")),
+        }
+    }
+    let material: Option<String> = material;
+    let file = write_obj_textured(&mesh_of(field)?, material.as_deref())?;
+    Ok(file.as_slice().into())
+}
+
+/// MTL file of one material with a picture.
+#[wasm_bindgen(js_name = writeMtl)]
+pub fn write_mtl_file(picture: &str) -> Result<Uint8Array> {
+    Ok(write_mtl(picture)?.as_slice().into())
+}
+
+/// Decodes a PNG file with colours.
+#[wasm_bindgen(js_name = readPhoto)]
+pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
+    let file = copied(bytes)?;
+    photo_output(&decode_photo_basic(&file, announced(&file, None)?)?)
+}
+
+/// Texture coordinates of a lattice's vertices in a photo of a part of the plane: left, bottom,
+/// right and top; nothing for what the vertices cover.
+#[wasm_bindgen(js_name = planeUvs)]
+pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
+    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
+    let extent = match extent.is_undefined() {
+        true => Extent::of_lattice(&field),
+        false => extent_from(extent)?,
+    };
+    let uvs = extent.uvs(field.lattice())?;
+    Ok(uvs.as_flattened().into())
+}
+
+/// Colours for those vertices whose texture has the number (of all, where there are no numbers).
+#[wasm_bindgen]
+pub fn paint(
+    colors: &Float32Array,
+    uvs: &Float32Array,
+    photo: JsValue,
+    texture_of: Option<Int32Array>,
+    number: i32,
+) -> Result<Float32Array> {
+    let pixels = Pixels::new(photo)?;
+    let photo = pixels.photo()?;
+    let mut painted = filled(colors.length(), 0.0f32)?;
+    colors.copy_to(painted.as_flattened_mut());
+    let mut places = filled(uvs.length(), 0.0f32)?;
+    uvs.copy_to(places.as_flattened_mut());
+    check_count("texture coordinates", painted.len(), 1, places.len())?;
+    let numbers = texture_of.map(|numbers| numbers.to_vec());
+    let wanted = |i: usize| numbers.as_ref().is_none_or(|n| n.get(i) == Some(&number));
+    dewarp::paint(&mut painted, &places, &photo, wanted);
+    Ok(painted.as_flattened().into())
+}
+
+/// 8-bit RGBA PNG file.
+#[wasm_bindgen(js_name = writePhoto)]
+pub fn write_photo_file(width: usize, height: usize, rgba: &Uint8Array) -> Result<Uint8Array> {
+    let file = write_photo(&Photo::new(width, height, &copied(rgba)?)?)?;
+    Ok(file.as_slice().into())
+}

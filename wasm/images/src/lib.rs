@@ -1,0 +1,75 @@
+//! TIFF, EXR and other height images from and to bytes.
+
+use js_sys::Uint8Array;
+use serde::Serialize;
+use serde_wasm_bindgen::{from_value, to_value};
+use wasm_bindgen::prelude::*;
+
+use developable::files::images::{
+    Format, announced, decode_npz, extended, npz_arrays, write_exr, write_tiff,
+};
+use developable_wasm::Result;
+use developable_wasm::bytes::copied;
+use developable_wasm::fields::ImageInput;
+use developable_wasm::file::{ReadOptions, output, photo_output};
+
+/// Decodes any height image but PNG and NPY.
+#[wasm_bindgen(js_name = readImage)]
+pub fn read_image(bytes: &Uint8Array, options: JsValue) -> Result<JsValue> {
+    let options = ReadOptions::new(&options)?;
+    let file = copied(bytes)?;
+    match announced(&file, options.format)? {
+        Format::Npz => output(decode_npz(&file, options.array.as_deref())?),
+        format => {
+            options.without_array()?;
+            output(extended::decode(&file, format)?)
+        }
+    }
+}
+
+/// Decodes a JPEG or WebP file with colours.
+#[wasm_bindgen(js_name = readImagePhoto)]
+pub fn read_image_photo(bytes: &Uint8Array) -> Result<JsValue> {
+    let file = copied(bytes)?;
+    photo_output(&extended::decode_photo(&file, announced(&file, None)?)?)
+}
+
+/// `NpzArray` of `types.d.ts`.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct ArrayOutput {
+    name: String,
+    /// As floats, for 64-bit integers would become what JavaScript calls a `BigInt`.
+    shape: Vec<f64>,
+    data_type: String,
+}
+
+/// The arrays of an NPZ file.
+#[wasm_bindgen(js_name = npzArrays)]
+pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
+    let file = copied(bytes)?;
+    announced(&file, Some(Format::Npz))?;
+    let arrays: Vec<_> = npz_arrays(&file)?
+        .into_iter()
+        .map(|array| ArrayOutput {
+            name: array.name,
+            shape: array.shape.into_iter().map(|n| n as f64).collect(),
+            data_type: array.data_type,
+        })
+        .collect();
+    Ok(to_value(&arrays)?)
+}
+
+/// TIFF file of an image's heights.
+#[wasm_bindgen(js_name = writeTiff)]
+pub fn write_tiff_file(image: JsValue) -> Result<Uint8Array> {
+    let image = from_value::<ImageInput>(image)?.into_image()?;
+    Ok(write_tiff(&image)?.as_slice().into())
+}
+
+/// EXR file of an image's heights.
+#[wasm_bindgen(js_name = writeExr)]
+pub fn write_exr_file(image: JsValue) -> Result<Uint8Array> {
+    let image = from_value::<ImageInput>(image)?.into_image()?;
+    Ok(write_exr(&image)?.as_slice().into())
+}

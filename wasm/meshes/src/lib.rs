@@ -1,0 +1,233 @@
+//! Meshes from files, and what is seen of them.
+
+mod camera;
+mod surfaces;
+
+use js_sys::{Array, Float32Array, Float64Array, Int32Array, Uint8Array, Uint32Array};
+use serde::{Deserialize, Serialize};
+use serde_wasm_bindgen::{from_value, preserve, to_value};
+use wasm_bindgen::prelude::*;
+
+use developable::Error;
+use developable::Mesh;
+use developable::View;
+use developable::checks::try_filled;
+use developable::files::meshes::{MeshFormat, read_mesh_beside};
+use developable::{Resolution, sample};
+use developable_wasm::Result;
+use developable_wasm::arrays::{filled, groups};
+use developable_wasm::bytes::copied;
+use developable_wasm::frame::FrameFields;
+use developable_wasm::options::{entries, option, unknown};
+
+/// `Mesh` of `types.d.ts`, on its way in; checked by `input.js` to have arrays of these types.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct MeshInput {
+    #[serde(with = "preserve")]
+    positions: Float64Array,
+    #[serde(with = "preserve")]
+    triangles: Uint32Array,
+    #[serde(default, with = "preserve")]
+    colors: JsValue,
+    #[serde(default, with = "preserve")]
+    uvs: JsValue,
+    #[serde(default, with = "preserve")]
+    texture_of: JsValue,
+}
+
+/// `Mesh` of `types.d.ts`, on its way out.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct MeshOutput {
+    #[serde(with = "preserve")]
+    positions: Float64Array,
+    #[serde(with = "preserve")]
+    triangles: Uint32Array,
+    #[serde(with = "preserve")]
+    colors: JsValue,
+    #[serde(with = "preserve")]
+    uvs: JsValue,
+    #[serde(with = "preserve")]
+    texture_of: JsValue,
+    #[serde(with = "preserve")]
+    textures: JsValue,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    missing: Vec<String>,
+}
+
+/// `SampledMesh` of `types.d.ts`, and the texture at each vertex, for `direct.js` to paint with.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct SampledOutput {
+    rows: usize,
+    cols: usize,
+    spacing: f64,
+    origin: [f64; 2],
+    #[serde(with = "preserve")]
+    heights: Float64Array,
+    frame: FrameFields,
+    #[serde(with = "preserve")]
+    colors: JsValue,
+    #[serde(with = "preserve")]
+    uvs: JsValue,
+    #[serde(with = "preserve")]
+    texture_of: Int32Array,
+}
+
+/// Decodes a mesh file; `files` are pairs of a name and the bytes of what lies beside it.
+#[wasm_bindgen(js_name = readMesh)]
+pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Result<JsValue> {
+    let mut format = None;
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "format" => {
+                let requirement = "must be `obj`, `ply`, `stl`, `gltf` or `glb`";
+                let name: String = option("format", value, requirement)?;
+                format = Some(name.parse::<MeshFormat>()?);
+            }
+            _ => return Err(unknown(&name, "format and files")),
+        }
+    }
+    let mut beside = Vec::new();
+    for file in files.iter().map(|file| Array::from(&file)) {
+        let name = file.get(0).as_string().unwrap_or_default();
+        beside.push((name, copied(&file.get(1).unchecked_into())?));
+    }
+    let beside: Vec<_> = (beside.iter())
+        .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+        .collect();
+    let file = read_mesh_beside(&copied(bytes)?, format, &beside)?;
+    let textures: Array = (file.textures.iter())
+        .map(|texture| Uint8Array::from(texture.bytes.as_slice()))
+        .collect();
+    Ok(to_value(&MeshOutput {
+        textures: if textures.length() > 0 {
+            textures.into()
+        } else {
+            JsValue::UNDEFINED
+        },
+        missing: file.missing,
+        ..MeshOutput::new(&file.mesh)
+    })?)
+}
+
+pub fn mesh_output(mesh: &Mesh) -> Result<JsValue> {
+    Ok(to_value(&MeshOutput::new(mesh))?)
+}
+
+impl MeshOutput {
+    fn new(mesh: &Mesh) -> Self {
+        MeshOutput {
+            positions: mesh.positions().as_flattened().into(),
+            triangles: mesh.triangles().as_flattened().into(),
+            colors: floats(mesh.colors()),
+            uvs: floats(mesh.uvs()),
+            texture_of: (mesh.textures()).map_or(JsValue::UNDEFINED, |numbers| {
+                Int32Array::from(numbers).into()
+            }),
+            textures: JsValue::UNDEFINED,
+            missing: Vec::new(),
+        }
+    }
+}
+
+/// What is seen of a mesh.
+#[wasm_bindgen(js_name = sampleMesh)]
+pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let (mut view, mut across, mut spacing) = (None, None, None);
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "view" => view = Some(view_from(value)?),
+            "resolution" => {
+                across = Some(option(
+                    "resolution",
+                    value,
+                    "must be a whole number, at least 2",
+                )?);
+            }
+            "spacing" => {
+                spacing = Some(option(
+                    "spacing",
+                    value,
+                    "must be a finite number above zero",
+                )?);
+            }
+            _ => return Err(unknown(&name, "view, resolution and spacing")),
+        }
+    }
+    let resolution = match (across, spacing) {
+        (Some(_), Some(spacing)) => {
+            let requirement = "must be left out where there is a resolution";
+            return Err(Error::option("spacing", spacing, requirement).into());
+        }
+        (None, Some(spacing)) => Resolution::Spacing(spacing),
+        (Some(across), None) => Resolution::Across(across),
+        (None, None) => Resolution::Auto,
+    };
+    let view = view.unwrap_or(View::Along([0.0, 0.0, -1.0]));
+    let samples = sample(&mesh, view, resolution)?;
+    let colors = mesh
+        .colors()
+        .map(|colors| samples.carry(&mesh, colors))
+        .transpose()?;
+    let uvs = mesh
+        .uvs()
+        .map(|uvs| samples.carry(&mesh, uvs))
+        .transpose()?;
+    let lattice = samples.heightfield().lattice();
+    Ok(to_value(&SampledOutput {
+        rows: lattice.rows(),
+        cols: lattice.cols(),
+        spacing: lattice.spacing(),
+        origin: lattice.origin(),
+        heights: samples.heightfield().heights().into(),
+        frame: (*samples.frame()).into(),
+        colors: floats(colors.as_deref()),
+        uvs: floats(uvs.as_deref()),
+        texture_of: samples.textures(&mesh)?.as_slice().into(),
+    })?)
+}
+
+fn view_from(value: JsValue) -> Result<View> {
+    match value.as_string() {
+        Some(name) => Ok(name.parse()?),
+        None => {
+            let requirement = "must be one of the names or a vector of three numbers";
+            Ok(View::Along(option("view", value, requirement)?))
+        }
+    }
+}
+
+fn floats<const N: usize>(values: Option<&[[f32; N]]>) -> JsValue {
+    values.map_or(JsValue::UNDEFINED, |values| {
+        Float32Array::from(values.as_flattened()).into()
+    })
+}
+
+impl MeshInput {
+    fn into_mesh(self) -> Result<Mesh> {
+        let mut positions = filled(self.positions.length(), 0.0)?;
+        self.positions.copy_to(positions.as_flattened_mut());
+        let mut triangles = filled(self.triangles.length(), 0)?;
+        self.triangles.copy_to(triangles.as_flattened_mut());
+        let mut mesh = if triangles.is_empty() {
+            Mesh::cloud(positions)?
+        } else {
+            Mesh::new(positions, triangles)?
+        };
+        if let Some(colors) = groups(&self.colors)? {
+            mesh = mesh.with_colors(colors)?;
+        }
+        if let Some(uvs) = groups(&self.uvs)? {
+            mesh = mesh.with_uvs(uvs)?;
+        }
+        if let Some(numbers) = self.texture_of.dyn_ref::<Int32Array>() {
+            let mut own = try_filled("mesh", numbers.length() as usize, 0)?;
+            numbers.copy_to(&mut own);
+            mesh = mesh.with_textures(own)?;
+        }
+        Ok(mesh)
+    }
+}

@@ -1,0 +1,76 @@
+//! Surfaces cut into sheets: drawn, and drawings to files.
+
+use js_sys::Uint8Array;
+use serde_wasm_bindgen::{from_value, to_value};
+use wasm_bindgen::prelude::*;
+
+use developable::drawing::{Drawing, DrawingOptions, Paper};
+use developable::files::drawings::{write_dxf, write_pdf, write_svg};
+use developable::patches::{PatchOptions, Patches};
+use developable::pattern::{PatternOptions, pattern};
+use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
+use developable_wasm::{Failure, Result};
+
+/// The drawing of a surface's pattern.
+#[wasm_bindgen(js_name = pattern)]
+pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
+    let mut settings = Settings::default();
+    let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
+    let mut drawing = DrawingOptions::default();
+    const NUMBER: &str = "must be a number";
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
+            "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
+            "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
+            "bend" => wanted = wanted.bend(option("bend", value, NUMBER)?),
+            "fold" => wanted = wanted.fold(option("fold", value, NUMBER)?),
+            "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
+            _ if settings.take(&name, &value)? => {}
+            _ => {
+                let known = "scale, tabs, gap, bend, fold, smallest, tolerance, maxIterations and \
+                             spacing";
+                return Err(unknown(&name, known));
+            }
+        }
+    }
+    check_spacing(settings.spacing, is_image(&field)?)?;
+    let surface = Scene::new(field, settings.spacing)?.surface;
+    let patches = Patches::new(&surface, &wanted)?;
+    let sheets = pattern(&surface, &patches, &sheets.unrolling(settings.unrolling))?;
+    Ok(to_value(&Drawing::new(&sheets, &drawing)?)?)
+}
+
+/// SVG file of a drawing.
+#[wasm_bindgen(js_name = writeSvg)]
+pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
+    Ok(write_svg(&drawn(drawing)?)?.as_slice().into())
+}
+
+/// PDF file of a drawing, on one page or on those of a paper.
+#[wasm_bindgen(js_name = writePdf)]
+pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
+    let mut paper = None;
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "paper" => paper = Some(option::<Paper>("paper", value, "must be a4 or letter")?),
+            _ => return Err(unknown(&name, "paper")),
+        }
+    }
+    Ok(write_pdf(&drawn(drawing)?, paper)?.as_slice().into())
+}
+
+/// DXF file of a drawing.
+#[wasm_bindgen(js_name = writeDxf)]
+pub fn write_dxf_file(drawing: JsValue) -> Result<Uint8Array> {
+    Ok(write_dxf(&drawn(drawing)?)?.as_slice().into())
+}
+
+/// `Drawing` of `types.d.ts`.
+fn drawn(drawing: JsValue) -> Result<Drawing> {
+    from_value(drawing).map_err(|error| Failure {
+        code: "INPUT",
+        message: format!("the drawing must be one that `pattern` gave: {error}"),
+    })
+}

@@ -1,0 +1,8 @@
+//! The solver and the examples: what every page needs.
+
+mod examples;
+mod occlusions;
+mod results;
+mod settings;
+mod solver;
+mod source;

@@ -1,0 +1,110 @@
+//! What may be chosen about a solve, and about how it is resampled.
+
+use wasm_bindgen::prelude::*;
+
+use developable::{Energy, Error, Lambda, Normalization, Options, Schedule};
+use developable_wasm::Result;
+use developable_wasm::options::{entries, option, unknown};
+
+/// `SolverOptions` of `types.d.ts`.
+#[derive(Clone, Copy)]
+pub struct Settings {
+    pub options: Options,
+    /// As in the options: what occlusions are searched for in.
+    pub normalization: Normalization,
+    pub spacing: Option<f64>,
+    pub occlusion_threshold: Option<f64>,
+}
+
+impl Settings {
+    pub fn new(options: &JsValue) -> Result<Settings> {
+        let mut out = Options::default();
+        let mut scale = Normalization::default();
+        let mut spacing = None;
+        let mut occlusion_threshold = None;
+        for (name, value) in entries(options)? {
+            match name.as_str() {
+                "lambda" => out = out.lambda(lambda(value)?),
+                "schedule" => {
+                    let name: String = option("schedule", value, "must be default or paper")?;
+                    out = out.schedule(name.parse::<Schedule>()?);
+                }
+                "gap" => out = out.gap(number("gap", value)?),
+                "maxIterations" => {
+                    let most = option("maxIterations", value, "must be a whole number")?;
+                    out = out.max_iterations(most);
+                }
+                "normalize" => scale = normalization(value)?,
+                "energy" => {
+                    let name: String = option("energy", value, "must be the name of an energy")?;
+                    out = out.energy(name.parse::<Energy>()?);
+                }
+                "reweighting" => {
+                    let passes = option("reweighting", value, "must be a whole number")?;
+                    out = out.reweighting(passes);
+                }
+                "tieBreak" => out = out.tie_break(number("tieBreak", value)?),
+                "spacing" => spacing = Some(number("spacing", value)?),
+                "occlusionThreshold" => {
+                    occlusion_threshold = Some(number("occlusionThreshold", value)?);
+                }
+                _ => {
+                    return Err(unknown(
+                        &name,
+                        "lambda, schedule, gap, maxIterations, normalize, energy, reweighting, \
+                         tieBreak, spacing and occlusionThreshold",
+                    ));
+                }
+            }
+        }
+        Ok(Settings {
+            options: out.normalization(scale),
+            normalization: scale,
+            spacing,
+            occlusion_threshold,
+        })
+    }
+
+    /// `OcclusionOptions` of `types.d.ts`.
+    pub fn of_detection(options: &JsValue) -> Result<Settings> {
+        let mut out = Settings::new(&JsValue::UNDEFINED)?;
+        for (name, value) in entries(options)? {
+            match name.as_str() {
+                "threshold" => out.occlusion_threshold = Some(number("threshold", value)?),
+                "spacing" => out.spacing = Some(number("spacing", value)?),
+                "normalize" => out.normalization = normalization(value)?,
+                _ => return Err(unknown(&name, "threshold, spacing and normalize")),
+            }
+        }
+        Ok(out)
+    }
+
+    /// Whether what is solved stays the same with these in the place of others.
+    pub fn leave_input(&self, other: &Settings) -> bool {
+        self.spacing == other.spacing
+            && self.occlusion_threshold == other.occlusion_threshold
+            && (self.occlusion_threshold.is_none() || self.normalization == other.normalization)
+    }
+}
+
+/// A number, or the name of one.
+fn lambda(value: JsValue) -> Result<Lambda> {
+    const REQUIREMENT: &str = "must be small, medium, big or a number above zero";
+    if let Some(number) = value.as_f64() {
+        return Ok(Lambda::Value(number));
+    }
+    let name: String = option("lambda", value, REQUIREMENT)?;
+    Lambda::named(&name)
+        .ok_or_else(|| Error::option("lambda", format!("{name:?}"), REQUIREMENT).into())
+}
+
+fn number(name: &'static str, value: JsValue) -> Result<f64> {
+    option(name, value, "must be a number")
+}
+
+fn normalization(value: JsValue) -> Result<Normalization> {
+    Ok(match option("normalize", value, "must be true or false")? {
+        true => Normalization::UnitSquare,
+        false => Normalization::Off,
+    })
+}

@@ -1,0 +1,110 @@
+//! The solver, in steps.
+
+use serde_wasm_bindgen::to_value;
+use wasm_bindgen::prelude::*;
+
+use super::results::{ImageOutput, SurfaceOutput};
+use super::settings::Settings;
+use super::source::Source;
+use developable::Status;
+use developable_wasm::Result;
+
+/// A solver and what it is about, for other options and for the way back to an image.
+#[wasm_bindgen]
+pub struct Solver {
+    solver: developable::Solver,
+    source: Source,
+    settings: Settings,
+}
+
+#[wasm_bindgen]
+impl Solver {
+    /// A solver on an image's heights, resampled to the lattice.
+    #[wasm_bindgen(js_name = onImage)]
+    pub fn on_image(image: JsValue, options: JsValue) -> Result<Solver> {
+        Solver::on(Source::image(image)?, &options)
+    }
+
+    /// A solver on heights that are on the lattice already.
+    #[wasm_bindgen(js_name = onLattice)]
+    pub fn on_lattice(field: JsValue, options: JsValue) -> Result<Solver> {
+        Solver::on(Source::lattice(field)?, &options)
+    }
+
+    fn on(source: Source, options: &JsValue) -> Result<Solver> {
+        let settings = Settings::new(options)?;
+        Ok(Solver {
+            solver: developable::Solver::new(source.input(&settings)?, &settings.options)?,
+            source,
+            settings,
+        })
+    }
+
+    /// Solves the same again with other options, from where it stands.
+    pub fn restart(&mut self, options: JsValue) -> Result<()> {
+        let settings = Settings::new(&options)?;
+        if settings.leave_input(&self.settings) {
+            self.solver.restart(&settings.options)?;
+        } else {
+            let input = self.source.input(&settings)?;
+            self.solver.restart_with(input, &settings.options)?;
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Solves another image from where it stands.
+    #[wasm_bindgen(js_name = restartWithImage)]
+    pub fn restart_with_image(&mut self, image: JsValue, options: JsValue) -> Result<()> {
+        self.restart_with(Source::image(image)?, &options)
+    }
+
+    /// Solves other heights on the lattice from where it stands.
+    #[wasm_bindgen(js_name = restartWithLattice)]
+    pub fn restart_with_lattice(&mut self, field: JsValue, options: JsValue) -> Result<()> {
+        self.restart_with(Source::lattice(field)?, &options)
+    }
+
+    fn restart_with(&mut self, source: Source, options: &JsValue) -> Result<()> {
+        let settings = Settings::new(options)?;
+        let input = source.input(&settings)?;
+        self.solver.restart_with(input, &settings.options)?;
+        self.source = source;
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Runs about `work` conjugate-gradient iterations; whether to go on.
+    pub fn advance(&mut self, work: usize) -> Result<bool> {
+        Ok(self.solver.advance(work)? == Status::Running)
+    }
+
+    /// Figures of the last check.
+    pub fn progress(&self) -> Result<JsValue> {
+        Ok(to_value(&self.solver.progress())?)
+    }
+
+    /// Stops.
+    pub fn cancel(&mut self) {
+        self.solver.cancel();
+    }
+
+    /// The best surface so far.
+    pub fn surface(&self) -> Result<JsValue> {
+        let surface = self.solver.surface()?;
+        let field = surface.heightfield();
+        let image = match self.source.pixels() {
+            Some(image) => Some(ImageOutput::from(&field.to_image(image)?)),
+            None => None,
+        };
+        Ok(to_value(&SurfaceOutput {
+            rows: field.lattice().rows(),
+            cols: field.lattice().cols(),
+            spacing: field.lattice().spacing(),
+            origin: field.lattice().origin(),
+            heights: field.heights().into(),
+            image,
+            report: surface.report(),
+        })?)
+    }
+}

@@ -9,6 +9,7 @@ import { help } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
 import { analyze, dewarp, pattern, unroll } from './sheets.js';
+import { print } from './terminal.js';
 
 /**
  * @param {string[]} args
@@ -40,11 +41,9 @@ export async function main(args) {
 async function perform(task, signal) {
   switch (task.command) {
     case 'help':
-      process.stdout.write(help);
-      return;
+      return print(help);
     case 'version':
-      process.stdout.write(`${await version()}\n`);
-      return;
+      return print(`${await version()}\n`);
     case 'info':
       return info(task);
     case 'occlusions':

@@ -1,6 +1,6 @@
 /** `developable analyze`, `developable unroll`, `developable pattern` and `developable dewarp`. */
 import * as developable from '../index.js';
-import { checkPlace, readBytes, writeWhole } from './files.js';
+import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readInput } from './inputs.js';
 
@@ -16,7 +16,7 @@ import { about, readInput } from './inputs.js';
  * @param {AbortSignal} signal
  */
 export async function analyze(task, signal) {
-  await checkPlace(task.output);
+  await checkPlaces(task.output);
   const input = await readInput(task);
   const { threshold } = task;
   const before = await developable.analyze(input, { threshold, ...spacing(task) });
@@ -114,11 +114,6 @@ async function flattened(task, signal) {
 /** @param {SheetTask} task */
 function spacing(task) {
   return task.lattice === 'square' ? { spacing: task.spacing } : {};
-}
-
-/** @param {(string | undefined)[]} paths */
-async function checkPlaces(...paths) {
-  for (const path of paths) if (path !== undefined) await checkPlace(path);
 }
 
 /**

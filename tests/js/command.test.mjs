@@ -202,8 +202,8 @@ test('bad input: status 3, what is wrong, and no output', async () => {
     ['ramp.npy -o x.npy --constraints ramp.npy', /every value is a constraint.*--free/],
     ['ramp.npy -o nowhere/x.npy', /nowhere.*no such/],
     ['ramp.npy -o x.npy --report nowhere/x.json', /nowhere.*no such/],
-    ['ramp.npy -o directory.npy', /directory\.npy.*no file/],
-    ['ramp.npy -o x.npy --report directory.npy', /directory\.npy.*no file/],
+    ['ramp.npy -o directory.npy', /directory\.npy.*it is a folder/],
+    ['ramp.npy -o x.npy --report directory.npy', /directory\.npy.*it is a folder/],
   ];
   for (const [args, message] of cases) {
     const { status, stdout, stderr } = await fit(...args.split(' '));

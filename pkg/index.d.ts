@@ -100,9 +100,9 @@ export function occlusions(input: HeightImage | Heightfield, options?: Occlusion
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-export function writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-export function writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+export function writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+export function writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+export function writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
 export function writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
@@ -149,9 +149,9 @@ export class DevelopableWorker {
   read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
   npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
   writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-  writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-  writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-  writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+  writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+  writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+  writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
   writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
   writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;

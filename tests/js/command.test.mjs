@@ -9,7 +9,7 @@ import * as direct from '../../pkg/direct.js';
 import { command, run, temporaryFolder } from './support/command.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 
-await Promise.all([direct.init(), direct.initFiles()]);
+await Promise.all([direct.init(), direct.load('files')]);
 const folder = await temporaryFolder();
 const ramp = image(24, 20, plane);
 const rough = image(40, 30, noisy(cylinder(40), 0.4));
@@ -21,7 +21,7 @@ await writeFile(join(folder, 'ramp.npy'), direct.writeNpy(ramp));
 await writeFile(join(folder, 'rough.npy'), direct.writeNpy(rough));
 await writeFile(join(folder, 'ramp.png'), direct.writePng({ ...ramp, pixelSize: 0.5 }));
 await writeFile(join(folder, 'hex.npy'), direct.writeNpy(hex));
-await writeFile(join(folder, 'hex.png'), direct.writePng({ ...hex, width: 26, height: 22, data: hex.heights }));
+await writeFile(join(folder, 'hex.png'), direct.writePng({ width: 26, height: 22, data: hex.heights }));
 await writeFile(join(folder, 'endless.npy'), direct.writeNpy(endless(300).input));
 await writeFile(join(folder, 'text.npy'), 'hello');
 const mask = new Uint8Array(480).fill(255);

@@ -48,11 +48,12 @@ test('every entry point can be imported in Node', async () => {
   const script = `
     import { fit, dispose } from 'developable';
     import * as direct from 'developable/direct';
+    import { initSync } from 'developable/sync';
     import { readFile } from 'node:fs/promises';
     import { fileURLToPath } from 'node:url';
     const input = { width: 8, height: 8, data: new Float32Array(64) };
     const worker = await fit(input);
-    direct.initSync(await readFile(fileURLToPath(import.meta.resolve('developable/wasm'))));
+    initSync(await readFile(fileURLToPath(import.meta.resolve('developable/wasm'))));
     const here = direct.fit(input);
     import.meta.resolve('developable/worker');
     import.meta.resolve('developable/package.json');
@@ -78,6 +79,7 @@ test('TypeScript users get types, with each kind of module resolution', async ()
     import { fit, read, example, writeNpy, init, DevelopableError, DevelopableWorker } from 'developable';
     import type { Surface, Progress, FitOptions, ErrorCode, Report } from 'developable';
     import * as direct from 'developable/direct';
+    import { initSync } from 'developable/sync';
 
     export async function use(file: Blob, signal: AbortSignal): Promise<Surface> {
       await init({ wasm: new URL('x.wasm', 'https://example.org/') });

@@ -29,10 +29,10 @@ export async function readBytes(path) {
 
 /**
  * Whether files can be put here: better known before the work than after it.
- * @param {(string | undefined)[]} paths
+ * @param {string[]} paths
  */
 export async function checkPlaces(...paths) {
-  for (const path of paths) if (path !== undefined) await placeOf(path);
+  for (const path of paths) await placeOf(path);
 }
 
 /**

@@ -15,7 +15,7 @@ import { announce, percent, progressLine } from './terminal.js';
  * @param {AbortSignal} signal
  */
 export async function fit(task, signal) {
-  await checkPlaces(task.output, task.report, task.mtl);
+  await checkPlaces(...task.written);
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
   const bare = await solve(task, await readInput(task), { signal, transfer: true });
   const surface = texture === undefined

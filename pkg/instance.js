@@ -1,6 +1,6 @@
 /** A wasm instance of this thread: loaded once, given up after a trap. */
 import { DevelopableError, messageOf } from './errors.js';
-import { compile } from './wasm-source.js';
+import { compile, compileOwn } from './wasm-source.js';
 
 /**
  * What wasm-bindgen makes of each wasm file, as far as it is the same for all.
@@ -15,9 +15,9 @@ import { compile } from './wasm-source.js';
 export class Instance {
   /** @type {G | undefined} */
   #glue;
+  #name;
   #importGlue;
   #place;
-  #hint;
   /** @type {Promise<void> | undefined} */
   #loading;
   #ready = false;
@@ -25,14 +25,14 @@ export class Instance {
   #trap;
 
   /**
+   * @param {import('./copies.js').WasmName} name
    * @param {() => Promise<G>} importGlue
-   * @param {URL} place where the file is unless `init` is told otherwise
-   * @param {string} hint the call that loads it
+   * @param {() => URL} place where the file is unless `init` is told otherwise
    */
-  constructor(importGlue, place, hint) {
+  constructor(name, importGlue, place) {
+    this.#name = name;
     this.#importGlue = importGlue;
     this.#place = place;
-    this.#hint = hint;
   }
 
   /** Takes the glue from a caller who has it already. @param {G} glue */
@@ -69,7 +69,8 @@ export class Instance {
 
   /** @param {import('./types.js').InitInput} [input] */
   async #load(input) {
-    const [glue, module] = await Promise.all([this.#glue ?? this.#importGlue(), compile(input ?? this.#place)]);
+    const compiled = input === undefined ? compileOwn(this.#name, this.#place) : compile(input);
+    const [glue, module] = await Promise.all([this.#glue ?? this.#importGlue(), compiled]);
     if (this.#ready) return; // `initSync` was faster
     await glue.default({ module_or_path: module });
     this.#start(glue);
@@ -95,7 +96,8 @@ export class Instance {
   call(run) {
     if (this.#trap) throw this.#trap;
     if (!this.#ready || !this.#glue) {
-      throw new DevelopableError('NOT_INITIALIZED', `the wasm is not loaded yet: await ${this.#hint} first`);
+      const hint = this.#name === 'solver' ? 'init()' : `load('${this.#name}')`;
+      throw new DevelopableError('NOT_INITIALIZED', `the wasm is not loaded yet: await ${hint} first`);
     }
     try {
       return run(this.#glue);

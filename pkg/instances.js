@@ -6,39 +6,39 @@ import { unknownName } from './nearest.js';
 // Bundlers look for exactly such imports and URLs.
 
 export const solver = new Instance(
+  'solver',
   () => import('./wasm/solver.js'),
-  new URL('./wasm/solver_bg.wasm', import.meta.url),
-  'init()',
+  () => new URL('./wasm/solver_bg.wasm', import.meta.url),
 );
 
 export const files = new Instance(
+  'files',
   () => import('./wasm/files.js'),
-  new URL('./wasm/files_bg.wasm', import.meta.url),
-  "load('files')",
+  () => new URL('./wasm/files_bg.wasm', import.meta.url),
 );
 
 export const images = new Instance(
+  'images',
   () => import('./wasm/images.js'),
-  new URL('./wasm/images_bg.wasm', import.meta.url),
-  "load('images')",
+  () => new URL('./wasm/images_bg.wasm', import.meta.url),
 );
 
 export const meshes = new Instance(
+  'meshes',
   () => import('./wasm/meshes.js'),
-  new URL('./wasm/meshes_bg.wasm', import.meta.url),
-  "load('meshes')",
+  () => new URL('./wasm/meshes_bg.wasm', import.meta.url),
 );
 
 export const sheets = new Instance(
+  'unroll',
   () => import('./wasm/unroll.js'),
-  new URL('./wasm/unroll_bg.wasm', import.meta.url),
-  "load('unroll')",
+  () => new URL('./wasm/unroll_bg.wasm', import.meta.url),
 );
 
 export const patterns = new Instance(
+  'patterns',
   () => import('./wasm/patterns.js'),
-  new URL('./wasm/patterns_bg.wasm', import.meta.url),
-  "load('patterns')",
+  () => new URL('./wasm/patterns_bg.wasm', import.meta.url),
 );
 
 /** All of them but the solver, by the names that `load` takes. */

@@ -1,5 +1,6 @@
 /** What the worker offers its client: the direct API, with solves as jobs. Arrays are handed over. */
 import * as direct from './direct.js';
+import { takeCopiesFrom } from './copies.js';
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
 import { asBytes } from './input.js';
@@ -7,7 +8,7 @@ import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
 import { asPicture } from './mesh-input.js';
 import { paintOf } from './paint.js';
-import { transfer } from './wire.js';
+import { transfer, wrap } from './wire.js';
 
 /** @type {Map<number, Job>} */
 const jobs = new Map();
@@ -25,8 +26,16 @@ const kept = new Map();
 let places = {};
 
 export const service = {
-  /** @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', the unrolling's and the patterns' */
-  init([wasm, files, images, meshes, unroll, patterns]) {
+  /**
+   * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', the unrolling's and the patterns'
+   * @param {MessagePort} [copies] where to get copies of them, where nothing lies beside this script
+   */
+  init([wasm, files, images, meshes, unroll, patterns], copies) {
+    if (copies) {
+      /** @type {import('./vendor/comlink.mjs').Remote<typeof import('./copies.js').wasmCopy>} */
+      const ask = wrap(copies);
+      takeCopiesFrom((name) => ask(name));
+    }
     places = { files, images, meshes, unroll, patterns };
     return direct.init(wasm);
   },

@@ -1,4 +1,6 @@
 /** From whatever says where the wasm is to a compiled module. */
+import { wasmCopy } from './copies.js';
+import { messageOf } from './errors.js';
 import { builtin } from './platform.js';
 
 /** @typedef {import('./types.js').InitInput} InitInput */
@@ -23,6 +25,22 @@ export async function compile(input) {
       : compileResponse(await fetch(url));
   }
   throw new TypeError('expected a URL, a Response, bytes, a WebAssembly.Module or a promise of one');
+}
+
+/**
+ * One of the package's own files: the one beside its modules, or else the copy that a bundle has.
+ * @param {import('./copies.js').WasmName} name
+ * @param {() => URL} place
+ * @returns {Promise<WebAssembly.Module>}
+ */
+export async function compileOwn(name, place) {
+  try {
+    return await compile(place());
+  } catch (cause) {
+    const copy = await wasmCopy(name);
+    if (copy) return WebAssembly.compile(copy);
+    throw new Error(`${messageOf(cause)} (${name}_bg.wasm has to be said where it is, if it is not in wasm/ beside the package's modules)`, { cause });
+  }
 }
 
 /**

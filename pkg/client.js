@@ -46,6 +46,7 @@ export class DevelopableWorker {
   /**
    * @param {HeightImage | Heightfield} input
    * @param {FitOptions} [given]
+   * @returns {Promise<any>} a surface, of the input's kind
    */
   async fit(input, given) {
     const { control, options: { transfer: handOver, ...options } } = controlOf('fit', given);

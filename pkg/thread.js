@@ -14,10 +14,10 @@ import { locate } from './wasm-source.js';
  */
 
 /**
- * Kept out of the `new URL` below: in that form bundlers would bring the script along a second time, as
- * a mere file.
+ * The script beside this module. Not as `new URL('./worker.js', import.meta.url)`, by which bundlers
+ * would bring it along a second time, as a mere file.
  */
-const here = import.meta.url;
+const ownScript = () => new URL(import.meta.url.replace(/[^/]*$/, 'worker.js'));
 
 /**
  * A thread that runs the package's own script, or the one at an address.
@@ -26,8 +26,8 @@ const here = import.meta.url;
  */
 export function spawn(url) {
   const threads = threadsOfNode();
-  if (threads) return ofNode(new threads.Worker(url ?? new URL('./worker.js', here), { execArgv: [] }));
-  const place = url === undefined ? ownPlace() : locate(url);
+  if (threads) return ofNode(new threads.Worker(url ?? ownScript(), { execArgv: [] }));
+  const place = url === undefined ? optional(ownScript) : locate(url);
   if (place && isForeign(place)) return ofImport(place.href);
   return ofBrowser(
     url !== undefined
@@ -51,10 +51,13 @@ export function spawnCode(code) {
 
 const threadsOfNode = () => (typeof Worker === 'undefined' ? builtin('node:worker_threads') : undefined);
 
-/** Where the script is beside this module; nothing where a bundle knows of no such place. */
-function ownPlace() {
+/**
+ * Nothing where a bundle knows of no such place.
+ * @param {() => URL} place
+ */
+function optional(place) {
   try {
-    return new URL('./worker.js', here);
+    return place();
   } catch {
     return undefined;
   }

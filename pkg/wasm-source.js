@@ -37,9 +37,25 @@ export async function compileOwn(name, place) {
   try {
     return await compile(place());
   } catch (cause) {
-    const copy = await wasmCopy(name);
-    if (copy) return WebAssembly.compile(copy);
-    throw new Error(`${messageOf(cause)} (${name}_bg.wasm has to be said where it is, if it is not in wasm/ beside the package's modules)`, { cause });
+    const found = await inSources(name) ?? await wasmCopy(name);
+    if (found) return WebAssembly.compile(found);
+    throw new Error(
+      `${messageOf(cause)}; if ${name}_bg.wasm is at another place, pass its address (see "Bundlers" in the README)`,
+      { cause },
+    );
+  }
+}
+
+/**
+ * In a server's bundle that has other places in mind: the file in the package's own folder.
+ * @param {string} name
+ */
+async function inSources(name) {
+  const files = builtin('node:fs/promises');
+  try {
+    return files && new Uint8Array(await files.readFile(new URL(import.meta.url.replace(/[^/]*$/, `wasm/${name}_bg.wasm`))));
+  } catch {
+    return undefined;
   }
 }
 

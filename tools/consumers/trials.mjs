@@ -1,0 +1,229 @@
+/** What the package is tried with. Each trial builds the app of tests/consumers as a user would, and runs it. */
+import { cp, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { Problem } from '../util/problem.mjs';
+import { run } from '../util/process.mjs';
+import { browse, served, site, strict, withBlobs, withInline } from './site.mjs';
+import { typesWith } from './types.mjs';
+
+/** @typedef {{ folder: string, chrome: string }} Context */
+/** @typedef {{ name: string, tool: string, run: (context: Context) => Promise<string | void> }} Trial */
+
+/** What the app comes to in a bundle that has copies: a request for the file that is not beside it. */
+const looksBeside = /404/;
+
+/** @type {Trial[]} */
+export const trials = [
+  ...['typescript-lowest', 'typescript'].map((tool) => ({ name: tool, tool, run: typesWith(tool) })),
+  { name: 'node', tool: 'node', run: onServer(process.execPath) },
+  { name: 'deno', tool: 'deno', run: onServer('node_modules/.bin/deno', 'run', '--allow-read') },
+  { name: 'bun', tool: 'bun', run: onServer('node_modules/.bin/bun') },
+  {
+    name: 'plain modules',
+    tool: 'chromium',
+    async run({ folder, chrome }) {
+      const out = await plainPage(folder, 'plain', '/developable/');
+      await cp(join(folder, 'node_modules/developable'), join(out, 'developable'), { recursive: true });
+      await visit(chrome, out, strict);
+    },
+  },
+  {
+    name: 'files of another origin',
+    tool: 'chromium',
+    async run({ folder, chrome }) {
+      const files = await site(join(folder, 'node_modules/developable'), { shared: true });
+      try {
+        const out = await plainPage(folder, 'foreign', files.url);
+        const origin = files.url.slice(0, -1);
+        await visit(chrome, out, [
+          "default-src 'none'", `script-src 'self' 'wasm-unsafe-eval' ${origin}`, `connect-src ${origin}`,
+          'worker-src blob:', 'img-src data:',
+        ]);
+      } finally {
+        await files.close();
+      }
+    },
+  },
+  ...['vite', 'vite7'].flatMap((tool) => {
+    const program = `node_modules/${tool}/bin/vite.js`;
+    return [
+      {
+        name: tool,
+        tool,
+        run: bundled(strict, (out) => [process.execPath, program, 'build', 'app', '--outDir', out, '--emptyOutDir']),
+      },
+      { name: `${tool} dev`, tool, run: developed(program, 'app', '--port', '0', '--host', '127.0.0.1') },
+    ];
+  }),
+  { name: 'webpack', tool: 'webpack', run: webpack },
+  {
+    name: 'parcel',
+    tool: 'parcel',
+    // Its pages have an import map in them.
+    run: bundled(withInline, (out) => ['node_modules/.bin/parcel', 'build', 'app/index.html', '--dist-dir', out, '--no-cache']),
+  },
+  {
+    name: 'rollup',
+    tool: 'rollup',
+    run: bundled(withBlobs, (out) => ['node_modules/.bin/rollup', 'app/page.js', '-p', 'node-resolve', '-d', out]),
+  },
+  { name: 'esbuild', tool: 'esbuild', run: esbuild('--format=esm') },
+  { name: 'esbuild splitting', tool: 'esbuild', run: esbuild('--format=esm', '--splitting') },
+  { name: 'esbuild script', tool: 'esbuild', run: esbuild('--format=iife') },
+  {
+    name: 'bun build',
+    tool: 'bun',
+    run: bundled(withBlobs, (out) => ['node_modules/.bin/bun', 'build', 'app/page.js', '--outdir', out]),
+  },
+  { name: 'next', tool: 'next', run: next() },
+  { name: 'next webpack', tool: 'next', run: next('--webpack') },
+];
+
+/** @param {string[]} command */
+function onServer(...command) {
+  /** @param {Context} context */
+  return async ({ folder }) => {
+    const [program, ...args] = command;
+    const output = await must([program, ...args, 'app/console.js'], folder);
+    check(JSON.parse(output.slice(output.indexOf('{'))));
+  };
+}
+
+/** @param {string[]} options */
+function esbuild(...options) {
+  return bundled(withBlobs, (out) => ['node_modules/.bin/esbuild', 'app/page.js', '--bundle', `--outdir=${out}`, ...options]);
+}
+
+/**
+ * @param {string[]} policy
+ * @param {(out: string) => string[]} command
+ */
+function bundled(policy, command) {
+  /** @param {Context} context */
+  return async ({ folder, chrome }) => {
+    const out = await emptied(folder, 'out');
+    const output = await must(command(out), folder);
+    const warnings = output.split('\n').filter((line) => /warning|\bwarn\b/i.test(line));
+    if (warnings.length > 0) throw new Problem(`it warns: ${warnings.join('\n')}`);
+    await asPage(folder, out, 'page.js');
+    await visit(chrome, out, policy);
+    return `works, ${await size(out)}`;
+  };
+}
+
+/** @param {Context} context */
+async function webpack({ folder, chrome }) {
+  const out = await emptied(folder, 'out');
+  const stats = join(folder, 'stats.json');
+  await must(['node_modules/.bin/webpack', '--mode', 'production', '--entry', './app/page.js', '-o', out, '--json', stats], folder);
+  /** @type {{ warnings: { message: string }[] }} */
+  const { warnings } = JSON.parse(await readFile(stats, 'utf8'));
+  // It finds any file of more than 244 KiB too large, lazily loaded or not.
+  const others = warnings.filter(({ message }) => !/^asset size limit/.test(message));
+  if (others.length > 0) throw new Problem(`it warns: ${others[0].message}`);
+  await asPage(folder, out, 'main.js');
+  await visit(chrome, out, strict);
+  return `works, ${await size(out)}`;
+}
+
+/** @param {string[]} args */
+function developed(...args) {
+  /** @param {Context} context */
+  return ({ folder, chrome }) => served(process.execPath, args, folder, (url) => browse(chrome, url, []).then(check));
+}
+
+/** @param {string[]} options */
+function next(...options) {
+  /** @param {Context} context */
+  return async ({ folder, chrome }) => {
+    const program = 'node_modules/next/dist/bin/next';
+    process.env.NEXT_TELEMETRY_DISABLED = '1';
+    await must([process.execPath, program, 'build', 'next', ...options], folder);
+    await served(process.execPath, [program, 'start', 'next', '--port', '0'], folder, async (url) => {
+      check(await (await fetch(new URL('/api/solve', url))).json());
+      check(await browse(chrome, url, []));
+    });
+    return 'works, in the page and in a route handler';
+  };
+}
+
+/**
+ * The app as plain modules.
+ * @param {string} folder
+ * @param {string} name
+ * @param {string} place where the package is
+ */
+async function plainPage(folder, name, place) {
+  const out = await emptied(folder, name);
+  await cp(join(folder, 'app'), out, { recursive: true });
+  const code = await readFile(join(out, 'solve.js'), 'utf8');
+  await writeFile(
+    join(out, 'solve.js'),
+    code.replace("'developable'", `'${place}index.js'`).replace("'developable/direct'", `'${place}direct.js'`),
+  );
+  return out;
+}
+
+/**
+ * A page for a bundler that makes none.
+ * @param {string} folder
+ * @param {string} out
+ * @param {string} script
+ */
+async function asPage(folder, out, script) {
+  if ((await readdir(out)).includes('index.html')) return;
+  const html = await readFile(join(folder, 'app/index.html'), 'utf8');
+  await writeFile(join(out, 'index.html'), html.replace('./page.js', `./${script}`));
+}
+
+/**
+ * @param {string} chrome
+ * @param {string} out
+ * @param {string[]} policy
+ */
+async function visit(chrome, out, policy) {
+  const { url, close } = await site(out, { policy });
+  try {
+    check(await browse(chrome, url, policy === withBlobs ? [looksBeside] : []));
+  } finally {
+    await close();
+  }
+}
+
+/**
+ * What the app has found.
+ * @param {{ worker: { gap: number, finite: boolean, read: boolean, unrolled: boolean }, here: { gap: number, finite: boolean } }} outcome
+ */
+function check({ worker, here }) {
+  const right = worker.gap <= 0.01 && worker.finite && worker.read && worker.unrolled && here.gap <= 0.01 && here.finite;
+  if (!right) throw new Problem(`it ran, but with a wrong result: ${JSON.stringify({ worker, here })}`);
+}
+
+/**
+ * @param {string} folder
+ * @param {string} name
+ */
+async function emptied(folder, name) {
+  const path = join(folder, name);
+  await rm(path, { recursive: true, force: true });
+  await mkdir(path);
+  return path;
+}
+
+/** @param {string} out */
+async function size(out) {
+  const names = (await readdir(out, { recursive: true })).filter((name) => /\.m?js$/.test(name));
+  const texts = await Promise.all(names.map((name) => readFile(join(out, name))));
+  const bytes = texts.reduce((sum, { length }) => sum + length, 0);
+  return `${Math.round(bytes / 1000)} kB of JavaScript in ${names.length} files`;
+}
+
+/**
+ * @param {string[]} command
+ * @param {string} cwd
+ */
+async function must([program, ...args], cwd) {
+  const { ok, output, failure } = await run(program, args, { cwd, limit: 300 });
+  if (!ok) throw new Problem(`${failure}\n${output.slice(-3000)}`);
+  return output;
+}

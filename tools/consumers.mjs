@@ -3,7 +3,7 @@
  * NAME...` with those whose name contains one of the words. The tools are those of
  * tests/consumers/package-lock.json and are installed in target/consumers/.
  */
-import { cp, mkdir, readFile, rm } from 'node:fs/promises';
+import { cp, mkdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { browser } from './setup/browser.mjs';
 import { root, pkg } from './util/paths.mjs';
@@ -45,10 +45,11 @@ async function install() {
   const installed = await readFile(join(folder, 'node_modules/.installed'), 'utf8').catch(() => '');
   if (lock !== installed) {
     console.log('- The tools, into target/consumers (about 1 minute, 700 MB)');
-    await must('npm', ['ci', '--ignore-scripts', '--no-audit', '--no-fund'], folder);
+    // Not `npm ci`, which insists on the programs for all other systems, too, and not all mirrors have them.
+    await must('npm', ['install', '--ignore-scripts', '--no-audit', '--no-fund'], folder);
     // Puts its program, which npm has brought, in its place.
     await must(process.execPath, ['install.js'], join(folder, 'node_modules/bun'));
-    await cp(join(folder, 'package-lock.json'), join(folder, 'node_modules/.installed'));
+    await writeFile(join(folder, 'node_modules/.installed'), lock);
   }
   const { output } = await must('npm', ['pack', '--json', '--pack-destination', folder], pkg);
   const [{ filename }] = JSON.parse(output.slice(output.indexOf('[')));
@@ -65,7 +66,7 @@ async function install() {
  */
 async function must(command, args, cwd) {
   const result = await run(command, args, { cwd, limit: 600 });
-  if (!result.ok) throw new Problem(`${command} ${args[0]}: ${result.failure}\n${result.output.slice(-2000)}`);
+  if (!result.ok) throw new Problem(`${command} ${args[0]}: ${result.failure}\n${result.output.slice(0, 2000)}`);
   return result;
 }
 

@@ -39,7 +39,7 @@ await main(async () => {
 /** The tools, and the package as npm would pack it. */
 async function install() {
   await mkdir(folder, { recursive: true });
-  for (const name of ['app', 'next']) await rm(join(folder, name), { recursive: true, force: true });
+  for (const name of ['app', 'hosted', 'next', 'own']) await rm(join(folder, name), { recursive: true, force: true });
   await cp(join(root, 'tests/consumers'), folder, { recursive: true });
   const lock = await readFile(join(folder, 'package-lock.json'), 'utf8');
   const installed = await readFile(join(folder, 'node_modules/.installed'), 'utf8').catch(() => '');

@@ -1,7 +1,8 @@
 'use client';
 
 import { useEffect } from 'react';
-import { solve, solveHere } from '../../app/solve.js';
+import { solve } from '../../app/solve.js';
+import { solveHere } from '../../app/solve-here.js';
 
 export default function Page() {
   useEffect(() => {

@@ -1,4 +1,5 @@
-import { solve, solveHere } from '../../../../app/solve.js';
+import { solve } from '../../../../app/solve.js';
+import { solveHere } from '../../../../app/solve-here.js';
 
 export const dynamic = 'force-dynamic';
 

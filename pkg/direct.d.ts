@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
   SolverOptions, Surface, Unrolling, UnrollOptions, WritePdfOptions,
@@ -65,11 +65,15 @@ export class Solver {
   [Symbol.dispose](): void;
 }
 
-/** Solves to the end; `onProgress` returning `false` stops and keeps the best surface so far. */
-export function fit(
-  input: HeightImage | Heightfield,
-  options?: SolverOptions & { onProgress?: (progress: Progress) => boolean | void },
-): Surface;
+export interface DirectFitOptions extends SolverOptions {
+  /** Called several times a second; `false` stops and keeps the best surface so far. */
+  onProgress?: (progress: Progress) => boolean | void;
+}
+
+/** Solves to the end. */
+export function fit(input: HeightImage, options?: DirectFitOptions): ImageSurface;
+export function fit(input: Heightfield, options?: DirectFitOptions): LatticeSurface;
+export function fit(input: HeightImage | Heightfield, options?: DirectFitOptions): Surface;
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
 /** Decodes a PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG or WebP file; `readMesh` is for meshes. */

@@ -138,7 +138,13 @@ export class Solver {
 makeDisposable(Solver);
 
 /** @type {typeof import('./direct.js').fit} */
-export function fit(input, given) {
+export const fit = (input, options) => /** @type {any} */ (solved(input, options));
+
+/**
+ * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
+ * @param {import('./direct.js').DirectFitOptions} [given]
+ */
+function solved(input, given) {
   const { onProgress, ...options } = optionsOf('directFit', given);
   const solve = new Solver(input, options);
   try {

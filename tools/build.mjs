@@ -2,6 +2,7 @@
 import { pathToFileURL } from 'node:url';
 import { setupBuild } from './setup.mjs';
 import { main } from './util/problem.mjs';
+import { buildInline } from './build/inline.mjs';
 import { buildVendor } from './build/vendor.mjs';
 import { buildWasm } from './build/wasm.mjs';
 
@@ -9,6 +10,7 @@ import { buildWasm } from './build/wasm.mjs';
 export async function build(env) {
   await buildVendor();
   await buildWasm(env);
+  await buildInline();
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {

@@ -31,16 +31,19 @@ const types = {
  * @typedef {object} Site
  * @property {Record<string, string>} folders what is served: from a path that ends in `/` to a folder on the disk
  * @property {string} policy the content security policy of every answer
+ * @property {Record<string, string>} headers further headers of every answer
  */
 
 /**
  * @param {Partial<Site> & { port?: number, host?: string }} [options] port 0 is any free one
  * @returns {Promise<Server>}
  */
-export async function serve({ port = 0, host = '127.0.0.1', folders = { '/': www, '/pkg/': pkg }, policy = strict } = {}) {
+export async function serve({
+  port = 0, host = '127.0.0.1', folders = { '/': www, '/pkg/': pkg }, policy = strict, headers = {},
+} = {}) {
   const server = createServer(async (request, response) => {
     try {
-      await answer(request, response, { folders, policy });
+      await answer(request, response, { folders, policy, headers });
     } catch {
       // The client has gone, or the file became unreadable while it was sent.
       if (response.headersSent) response.destroy();
@@ -72,7 +75,8 @@ export async function serve({ port = 0, host = '127.0.0.1', folders = { '/': www
  * @param {Response} response
  * @param {Site} site
  */
-async function answer({ method, url = '' }, response, { folders, policy }) {
+async function answer({ method, url = '' }, response, { folders, policy, headers }) {
+  for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
   response.setHeader('Content-Security-Policy', policy);
   response.setHeader('Cache-Control', 'no-store');
   response.setHeader('X-Content-Type-Options', 'nosniff');

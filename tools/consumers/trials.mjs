@@ -4,7 +4,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
-import { browse, served, site, strict, withBlobs, withInline } from './site.mjs';
+import { serve } from '../serve.mjs';
+import { browse, served, strict, withBlobs, withInline, withOrigin } from './browse.mjs';
 import { typesWith } from './types.mjs';
 
 /** @typedef {{ folder: string, chrome: string }} Context */
@@ -32,14 +33,10 @@ export const trials = [
     name: 'files of another origin',
     tool: 'chromium',
     async run({ folder, chrome }) {
-      const files = await site(join(folder, 'node_modules/developable'), { shared: true });
+      const folders = { '/': join(folder, 'node_modules/developable/') };
+      const files = await serve({ folders, headers: { 'Access-Control-Allow-Origin': '*' } });
       try {
-        const out = await plainPage(folder, 'foreign', files.url);
-        const origin = files.url.slice(0, -1);
-        await visit(chrome, out, [
-          "default-src 'none'", `script-src 'self' 'wasm-unsafe-eval' ${origin}`, `connect-src ${origin}`,
-          'worker-src blob:', 'img-src data:',
-        ]);
+        await visit(chrome, await plainPage(folder, 'foreign', files.url), withOrigin(files.url.slice(0, -1)));
       } finally {
         await files.close();
       }
@@ -90,7 +87,7 @@ function esbuild(...options) {
 }
 
 /**
- * @param {string[]} policy
+ * @param {string} policy
  * @param {(out: string) => string[]} command
  */
 function bundled(policy, command) {
@@ -223,10 +220,10 @@ async function asPage(folder, out, script) {
 /**
  * @param {string} chrome
  * @param {string} out
- * @param {string[]} policy
+ * @param {string} policy
  */
 async function visit(chrome, out, policy) {
-  const { url, close } = await site(out, { policy });
+  const { url, close } = await serve({ folders: { '/': out }, policy });
   try {
     check(await browse(chrome, url, policy === withBlobs ? [looksBeside] : []));
   } finally {

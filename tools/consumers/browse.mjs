@@ -1,55 +1,24 @@
-/** Folders served to a browser, each trial with the strictest content security policy that it lives with. */
+/** Pages in a browser, and the servers of tools. */
 import { spawn } from 'node:child_process';
-import { readFile, stat } from 'node:fs/promises';
-import { createServer } from 'node:http';
-import { extname, join, normalize } from 'node:path';
 import { chromium } from 'playwright-core';
 import { Problem } from '../util/problem.mjs';
 
-const types = new Map([
-  ['.html', 'text/html; charset=utf-8'],
-  ['.js', 'text/javascript'],
-  ['.mjs', 'text/javascript'],
-  ['.wasm', 'application/wasm'],
-]);
+/** The content security policy that the package promises to live with. */
+export const strict =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src data:";
 
-/** What the package promises to live with. */
-export const strict = [
-  "default-src 'none'", "script-src 'self' 'wasm-unsafe-eval'", "connect-src 'self'", "worker-src 'self'", 'img-src data:',
-];
-
-/** The same for a bundle that carries the worker as a copy. */
-export const withBlobs = [...strict.filter((part) => !part.startsWith('worker-src')), "worker-src 'self' blob:"];
+/** The same for a bundle that has the worker as a copy. */
+export const withBlobs = strict.replace("worker-src 'self'", "worker-src 'self' blob:");
 
 /** The same for a page with a script in it. */
-export const withInline = strict.map((part) => part.replace("'wasm", "'unsafe-inline' 'wasm"));
+export const withInline = strict.replace("script-src 'self'", "script-src 'self' 'unsafe-inline'");
 
 /**
- * @param {string} folder
- * @param {{ policy?: string[], shared?: boolean }} [options] `shared`: for pages of other origins, too
- * @returns {Promise<{ url: string, close: () => Promise<void> }>}
+ * The same for a page that has the package from another origin.
+ * @param {string} origin
  */
-export async function site(folder, { policy, shared = false } = {}) {
-  const server = createServer(async (request, response) => {
-    const { pathname } = new URL(request.url ?? '/', 'http://localhost');
-    const path = join(folder, normalize(decodeURIComponent(pathname)));
-    const file = await stat(path).then((found) => (found.isDirectory() ? join(path, 'index.html') : path), () => path);
-    const body = await readFile(file).catch(() => undefined);
-    if (policy) response.setHeader('Content-Security-Policy', policy.join('; '));
-    if (shared) response.setHeader('Access-Control-Allow-Origin', '*');
-    response.writeHead(body ? 200 : 404, { 'Content-Type': types.get(extname(file)) ?? 'text/plain' }).end(body);
-  });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', () => resolve(undefined)));
-  const address = server.address();
-  if (!address || typeof address !== 'object') throw new Error('the server has no address');
-  return {
-    url: `http://127.0.0.1:${address.port}/`,
-    close: () => new Promise((resolve) => {
-      server.close(() => resolve());
-      server.closeAllConnections();
-    }),
-  };
-}
+export const withOrigin = (origin) =>
+  `default-src 'none'; script-src 'self' 'wasm-unsafe-eval' ${origin}; connect-src ${origin}; worker-src blob:; img-src data:`;
 
 /**
  * Opens a page and waits for what its app has found. Whatever else goes wrong there is a failure, too.

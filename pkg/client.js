@@ -349,11 +349,7 @@ export class DevelopableWorker {
       const sources = [wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm];
       this.#wasm ??= Promise.all(sources.map(portable));
       this.#wasm.catch(() => (this.#wasm = undefined));
-      try {
-        this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
-      } catch (cause) {
-        throw new DevelopableError('WORKER', `the worker could not be started: ${messageOf(cause)}`, { cause });
-      }
+      this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
     }
     return this.#connection;
   }

@@ -9,7 +9,7 @@ import type {
 export * from './types.js';
 
 export interface WorkerOptions {
-  /** Where the worker's script is; default: `worker.js` beside this module. */
+  /** Where the worker's script is; default: `worker.js` beside this module, or else the copy that a bundle has. */
   workerUrl?: string | URL;
   /** Where the solver's wasm is; default: beside the worker. */
   wasm?: InitInput;

@@ -1,13 +1,15 @@
 /** The promise API, over a worker of its own. Documented in `index.d.ts`. */
 import { Connection } from './connection.js';
-import { asOptions, controlOf } from './control.js';
+import { controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
-import { asBytes, asField, asImage, asInput, asLattice, detached } from './input.js';
+import { asBytes, asField, asImage, asInput, asLattice, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asPicture } from './mesh-input.js';
 import { OpenSolver } from './open.js';
+import { optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, dewarpOptions } from './sheet-input.js';
+import { asPhoto, dewarpOptions, extentOf } from './sheet-input.js';
 import { orAborted, solve } from './solve.js';
+import { asText, plainCopy, reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
 import { transfer } from './wire.js';
 
@@ -34,7 +36,7 @@ export class DevelopableWorker {
 
   /** @param {WorkerOptions} [options] */
   constructor(options) {
-    this.#options = asOptions(options);
+    this.#options = optionsOf('worker', options);
   }
 
   init() {
@@ -44,9 +46,10 @@ export class DevelopableWorker {
   /**
    * @param {HeightImage | Heightfield} input
    * @param {FitOptions} [given]
+   * @returns {Promise<any>} a surface, of the input's kind
    */
   async fit(input, given) {
-    const { control, options: { transfer: handOver, ...options } } = controlOf(given);
+    const { control, options: { transfer: handOver, ...options } } = controlOf('fit', given);
     if (!control.keep) control.signal?.throwIfAborted();
     const { field, buffers } = detached(asInput(input), { transfer: handOver });
     const sent = transfer(field, buffers);
@@ -72,18 +75,20 @@ export class DevelopableWorker {
 
   /**
    * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').OcclusionOptions} [options]
+   * @param {import('./types.js').OcclusionOptions} [given]
    */
-  async occlusions(input, options) {
+  async occlusions(input, given) {
+    const options = optionsOf('occlusions', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.occlusions(transfer(field, buffers), options));
   }
 
   /**
    * @param {Uint8Array | ArrayBuffer | Blob} bytes
-   * @param {import('./types.js').ReadOptions} [options]
+   * @param {import('./types.js').ReadOptions} [given]
    */
-  async read(bytes, options) {
+  async read(bytes, given) {
+    const options = optionsOf('read', given);
     const file = await ownBytes(bytes);
     return this.#request((remote) => remote.read(transfer(file, [file.buffer]), options));
   }
@@ -100,36 +105,38 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.writeNpy(transfer(field, buffers)));
   }
 
-  /** @param {HeightImage} input */
+  /** @param {HeightImage | import('./types.js').Surface} input */
   async writePng(input) {
-    const { field, buffers } = detached(asImage(input));
+    const { field, buffers } = detached(asPixels(input));
     return this.#request((remote) => remote.writePng(transfer(field, buffers)));
   }
 
-  /** @param {HeightImage} input */
+  /** @param {HeightImage | import('./types.js').Surface} input */
   async writeTiff(input) {
-    const { field, buffers } = detached(asImage(input));
+    const { field, buffers } = detached(asPixels(input));
     return this.#request((remote) => remote.writeTiff(transfer(field, buffers)));
   }
 
-  /** @param {HeightImage} input */
+  /** @param {HeightImage | import('./types.js').Surface} input */
   async writeExr(input) {
-    const { field, buffers } = detached(asImage(input));
+    const { field, buffers } = detached(asPixels(input));
     return this.#request((remote) => remote.writeExr(transfer(field, buffers)));
   }
 
   /**
    * @param {Heightfield} input
-   * @param {import('./index.js').WriteObjOptions} [options]
+   * @param {import('./index.js').WriteObjOptions} [given]
    */
-  async writeObj(input, options) {
+  async writeObj(input, given) {
+    const options = optionsOf('writeObj', given);
     const { field, buffers } = detached(asLattice(input));
     return this.#request((remote) => remote.writeObj(transfer(field, buffers), options));
   }
 
   /** @param {string} picture */
   async writeMtl(picture) {
-    return this.#request((remote) => remote.writeMtl(picture));
+    const name = asText('INPUT', "the picture's name", picture);
+    return this.#request((remote) => remote.writeMtl(name));
   }
 
   /** @param {Heightfield} input */
@@ -150,7 +157,7 @@ export class DevelopableWorker {
    */
   async writeGlb(input, given) {
     const { field, buffers } = detached(asLattice(input));
-    const { texture, ...rest } = asOptions(given);
+    const { texture, ...rest } = optionsOf('writeGlb', given);
     const options = { ...rest, texture: texture === undefined || texture === null ? texture : await ownBytes(texture) };
     return this.#request((remote) => remote.writeGlb(transfer(field, buffers), options));
   }
@@ -160,7 +167,7 @@ export class DevelopableWorker {
    * @param {import('./types.js').ReadMeshOptions} [given]
    */
   async readMesh(bytes, given) {
-    const { files, ...rest } = asOptions(given);
+    const { files, ...rest } = optionsOf('readMesh', given);
     const options = { ...rest, files: new Map(asFiles(files)) };
     const file = await ownBytes(bytes);
     return this.#request((remote) => remote.readMesh(transfer(file, [file.buffer]), options));
@@ -168,18 +175,20 @@ export class DevelopableWorker {
 
   /**
    * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').SampleMeshOptions} [options]
+   * @param {import('./types.js').SampleMeshOptions} [given]
    */
-  async sampleMesh(mesh, options) {
-    const given = asMesh(mesh);
-    return this.#request((remote) => remote.sampleMesh(given, options));
+  async sampleMesh(mesh, given) {
+    const options = optionsOf('sampleMesh', given);
+    const own = asMesh(mesh);
+    return this.#request((remote) => remote.sampleMesh(own, options));
   }
 
   /**
    * @param {HeightImage} input
-   * @param {import('./types.js').Intrinsics} camera
+   * @param {import('./types.js').Intrinsics} intrinsics
    */
-  async backProject(input, camera) {
+  async backProject(input, intrinsics) {
+    const camera = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
     const { field, buffers } = detached(asImage(input));
     return this.#request((remote) => remote.backProject(transfer(field, buffers), camera));
   }
@@ -188,16 +197,16 @@ export class DevelopableWorker {
    * @template {Heightfield} F
    * @param {F} input
    * @param {import('./types.js').Picture | Blob} picture
-   * @param {import('./types.js').PaintOptions} [options]
+   * @param {import('./types.js').PaintOptions} [given]
    * @returns {Promise<import('./types.js').Painted<F>>}
    */
-  async paint(input, picture, options) {
-    const isBlob = typeof Blob === 'function' && picture instanceof Blob;
-    const given = asPicture(isBlob ? await ownBytes(picture) : /** @type {import('./types.js').Picture} */ (picture));
-    const { field, buffers } = detached(asLattice(input));
-    const { extent = dewarpOptions(input).extent, ...others } = asOptions(options);
-    const place = { ...others, extent: field.uvs && options?.extent === undefined ? undefined : extent };
-    return { ...input, ...await this.#request((remote) => remote.paint(transfer(field, buffers), given, place)) };
+  async paint(input, picture, given) {
+    const own = reading('INPUT', 'the input', () => ({ ...input }));
+    const { extent } = optionsOf('paint', given);
+    const { field, buffers } = detached(asLattice(own));
+    const found = asPicture(isBlob(picture) ? await ownBytes(picture) : picture);
+    const place = { extent: extent ?? (field.uvs ? undefined : extentOf(own)) };
+    return { ...own, ...await this.#request((remote) => remote.paint(transfer(field, buffers), found, place)) };
   }
 
   /**
@@ -205,7 +214,7 @@ export class DevelopableWorker {
    * @param {import('./types.js').AnalyzeOptions} [given]
    */
   async analyze(input, given) {
-    const { reference, ...options } = asOptions(given);
+    const { reference, ...options } = optionsOf('analyze', given);
     const { field, buffers } = detached(asField(input));
     const other = reference === undefined ? undefined : asField(reference);
     return this.#request((remote) => remote.analyze(transfer(field, buffers), { ...options, reference: other }));
@@ -213,56 +222,64 @@ export class DevelopableWorker {
 
   /**
    * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').PatchOptions} [options]
+   * @param {import('./types.js').PatchOptions} [given]
    */
-  async patches(input, options) {
+  async patches(input, given) {
+    const options = optionsOf('patches', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.patches(transfer(field, buffers), options));
   }
 
   /**
    * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').RulingOptions} [options]
+   * @param {import('./types.js').RulingOptions} [given]
    */
-  async rulings(input, options) {
+  async rulings(input, given) {
+    const options = optionsOf('rulings', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.rulings(transfer(field, buffers), options));
   }
 
   /**
    * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').UnrollOptions} [options]
+   * @param {import('./types.js').UnrollOptions} [given]
    */
-  async unroll(input, options) {
+  async unroll(input, given) {
+    const options = optionsOf('unroll', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.unroll(transfer(field, buffers), options));
   }
 
   /**
    * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').PatternOptions} [options]
+   * @param {import('./types.js').PatternOptions} [given]
    */
-  async pattern(input, options) {
+  async pattern(input, given) {
+    const options = optionsOf('pattern', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.pattern(transfer(field, buffers), options));
   }
 
   /** @param {import('./types.js').Drawing} drawing */
-  writeSvg(drawing) {
-    return this.#request((remote) => remote.writeSvg(drawing));
+  async writeSvg(drawing) {
+    const own = plainCopy('the drawing', drawing);
+    return this.#request((remote) => remote.writeSvg(own));
   }
 
   /**
    * @param {import('./types.js').Drawing} drawing
-   * @param {import('./types.js').WritePdfOptions} [options]
+   * @param {import('./types.js').WritePdfOptions} [given]
    */
-  writePdf(drawing, options) {
-    return this.#request((remote) => remote.writePdf(drawing, options));
+  async writePdf(drawing, given) {
+    const own = plainCopy('the drawing', drawing);
+    const options = optionsOf('writePdf', given);
+    return this.#request((remote) => remote.writePdf(own, options));
   }
 
   /** @param {import('./types.js').Drawing} drawing */
-  writeDxf(drawing) {
-    return this.#request((remote) => remote.writeDxf(drawing));
+  async writeDxf(drawing) {
+    const own = plainCopy('the drawing', drawing);
+    return this.#request((remote) => remote.writeDxf(own));
   }
 
   /**
@@ -294,10 +311,12 @@ export class DevelopableWorker {
 
   /**
    * @param {import('./types.js').ExampleName} name
-   * @param {import('./types.js').ExampleOptions} [options]
+   * @param {import('./types.js').ExampleOptions} [given]
    */
-  example(name, options) {
-    return this.#request((remote) => remote.example(name, options));
+  async example(name, given) {
+    const options = optionsOf('example', given);
+    const own = /** @type {import('./types.js').ExampleName} */ (asText('OPTION', 'the name of the example', name));
+    return this.#request((remote) => remote.example(own, options));
   }
 
   get connected() {
@@ -329,8 +348,8 @@ export class DevelopableWorker {
       const { wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm } = this.#options;
       const sources = [wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm];
       this.#wasm ??= Promise.all(sources.map(portable));
-      this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
       this.#wasm.catch(() => (this.#wasm = undefined));
+      this.#connection = new Connection(this.#options.workerUrl, this.#wasm);
     }
     return this.#connection;
   }
@@ -342,8 +361,20 @@ makeDisposable(DevelopableWorker);
  * @param {Uint8Array | ArrayBuffer | Blob} bytes
  */
 async function ownBytes(bytes) {
-  const isBlob = typeof Blob === 'function' && bytes instanceof Blob;
-  return isBlob ? new Uint8Array(await bytes.arrayBuffer()) : new Uint8Array(asBytes(bytes));
+  if (!isBlob(bytes)) return new Uint8Array(asBytes(bytes));
+  try {
+    return new Uint8Array(await bytes.arrayBuffer());
+  } catch (cause) {
+    throw new DevelopableError('INPUT', `the file could not be read: ${messageOf(cause)}`, { cause });
+  }
+}
+
+/**
+ * @param {unknown} value
+ * @returns {value is Blob}
+ */
+function isBlob(value) {
+  return typeof Blob === 'function' && reading('INPUT', 'the file', () => value instanceof Blob);
 }
 
 /**

@@ -1,21 +1,19 @@
 /** A running worker, and the calls that wait for it. */
+import { wasmCopy, workerCopy } from './copies.js';
 import { DevelopableError, messageOf } from './errors.js';
-import { builtin } from './platform.js';
-import nodeEndpoint from './vendor/node-adapter.mjs';
-import { wrap } from './wire.js';
+import { spawn, spawnCode } from './thread.js';
+import { expose, transfer, wrap } from './wire.js';
 
 /**
  * @typedef {import('./vendor/comlink.mjs').Remote<typeof import('./service.js').service>} Remote
  * @typedef {string | WebAssembly.Module | undefined} Source what a worker can be told about where a wasm file is
- * @typedef {{
- *   endpoint: import('./vendor/comlink.mjs').Endpoint,
- *   terminate: () => void,
- *   hold: (busy: boolean) => void,
- * }} Thread
+ * @typedef {import('./thread.js').Thread} Thread
  */
 
 export class Connection {
+  /** @type {Thread | undefined} */
   #thread;
+  /** @type {Remote | undefined} */
   #remote;
   #ready;
   /** @type {Set<(error: DevelopableError) => void>} */
@@ -28,12 +26,45 @@ export class Connection {
    * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes', the unrolling's and the patterns'
    */
   constructor(workerUrl, wasm) {
-    /** @param {string} reason */
-    const died = (reason) => this.close(new DevelopableError('WORKER', reason));
-    this.#thread = spawn(workerUrl, died);
-    this.#remote = /** @type {Remote} */ (wrap(this.#thread.endpoint));
-    this.#ready = this.#settled(wasm.then((sources) => this.#remote.init(sources)));
+    this.#ready = this.#settled(this.#start(workerUrl, wasm));
     this.#ready.catch((error) => this.close(error));
+  }
+
+  /**
+   * Starts the script beside this module, or else the copy that a bundle without that script has.
+   * @param {string | URL | undefined} workerUrl
+   * @param {Promise<Source[]>} wasm
+   */
+  async #start(workerUrl, wasm) {
+    const failure = await this.#use(() => spawn(workerUrl), wasm);
+    if (failure === undefined) return;
+    const code = workerUrl === undefined ? await workerCopy() : undefined;
+    if (this.#end) return;
+    const failed = code ? await this.#use(() => spawnCode(code), wasm, portOfCopies()) : failure;
+    if (failed !== undefined) throw new DevelopableError('WORKER', notStarted(failed, code !== undefined));
+  }
+
+  /**
+   * @param {() => Thread} begin
+   * @param {Promise<Source[]>} wasm
+   * @param {MessagePort} [copies] where a script without files beside it asks for them
+   * @returns {Promise<string | undefined>} why it ended before it could answer, if it did
+   */
+  async #use(begin, wasm, copies) {
+    let thread;
+    try {
+      thread = begin();
+    } catch (error) {
+      return messageOf(error);
+    }
+    this.#thread = thread;
+    thread.hold(this.#pending.size > 0);
+    const remote = /** @type {Remote} */ (wrap(thread.endpoint));
+    const init = wasm.then((sources) => remote.init(sources, copies && transfer(copies, [copies])));
+    const failure = await Promise.race([init, thread.ended]);
+    if (failure !== undefined) return failure;
+    this.#remote = remote;
+    thread.ended.then((reason) => this.close(new DevelopableError('WORKER', `the worker failed: ${reason}`)));
   }
 
   get open() {
@@ -53,7 +84,7 @@ export class Connection {
    */
   async request(run) {
     if (this.#end) throw this.#end;
-    return this.#settled(this.#ready.then(() => run(this.#remote)));
+    return this.#settled(this.#ready.then(() => run(/** @type {Remote} */ (this.#remote))));
   }
 
   /**
@@ -63,7 +94,7 @@ export class Connection {
   close(error) {
     if (this.#end) return;
     this.#end = error;
-    this.#thread.terminate();
+    this.#thread?.terminate();
     for (const reject of this.#pending) reject(error);
   }
 
@@ -77,7 +108,7 @@ export class Connection {
     let reject = () => {};
     const ended = new Promise((_, fail) => (reject = fail));
     this.#pending.add(reject);
-    this.#thread.hold(true);
+    this.#thread?.hold(true);
     try {
       return /** @type {T} */ (await Promise.race([promise, ended]));
     } catch (error) {
@@ -89,58 +120,31 @@ export class Connection {
       throw error;
     } finally {
       this.#pending.delete(reject);
-      this.#thread.hold(this.#pending.size > 0);
+      this.#thread?.hold(this.#pending.size > 0);
     }
   }
 }
 
-/**
- * @param {string | URL | undefined} url
- * @param {(reason: string) => void} died
- * @returns {Thread}
- */
-function spawn(url, died) {
-  const threads = typeof Worker === 'undefined' ? builtin('node:worker_threads') : undefined;
-  return threads ? spawnThread(threads, url, died) : spawnWorker(url, died);
+/** Where a worker gets copies of the wasm from. */
+function portOfCopies() {
+  const { port1, port2 } = new MessageChannel();
+  expose(async (/** @type {import('./copies.js').WasmName} */ name) => {
+    const bytes = await wasmCopy(name);
+    return bytes && transfer(bytes, [bytes.buffer]);
+  }, port1);
+  // In Node it would keep the process alive.
+  /** @type {{ unref?: () => void }} */ (port1).unref?.();
+  return port2;
 }
 
 /**
- * @param {string | URL | undefined} url
- * @param {(reason: string) => void} died
- * @returns {Thread}
+ * @param {string} reason
+ * @param {boolean} copied
  */
-function spawnWorker(url, died) {
-  const worker = url
-    ? new Worker(url, { type: 'module', name: 'developable' })
-    : // Bundlers look for exactly this.
-      new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
-  worker.addEventListener('error', (event) => {
-    event.preventDefault?.();
-    // A script that cannot be loaded gives an event without a message.
-    died(`the worker failed: ${event.message || 'its script could not be loaded'}`);
-  });
-  worker.addEventListener('messageerror', () => died('the worker sent what cannot be received'));
-  return { endpoint: worker, terminate: () => worker.terminate(), hold: () => {} };
-}
-
-/**
- * @param {typeof import('node:worker_threads')} threads
- * @param {string | URL | undefined} url
- * @param {(reason: string) => void} died
- * @returns {Thread}
- */
-function spawnThread(threads, url, died) {
-  // Kept apart from the `new URL` above, which bundlers for browsers resolve.
-  const script = './worker.js';
-  const worker = new threads.Worker(url ?? new URL(script, import.meta.url), { execArgv: [] });
-  worker.on('error', (error) => died(`the worker failed: ${messageOf(error)}`));
-  worker.on('messageerror', () => died('the worker sent what cannot be received'));
-  worker.on('exit', (code) => died(`the worker ended with exit code ${code}`));
-  worker.unref();
-  return {
-    endpoint: nodeEndpoint(/** @type {any} */ (worker)),
-    terminate: () => void worker.terminate(),
-    // An idle worker does not keep the process alive.
-    hold: (busy) => (busy ? worker.ref() : worker.unref()),
-  };
+function notStarted(reason, copied) {
+  const remedy = copied
+    ? "allow workers from blob: (in a content security policy: worker-src 'self' blob:), or put"
+    : 'put';
+  return `the worker could not be started: ${reason}; ${remedy} the package's folder on your site and say where: `
+    + "init({ workerUrl: '/developable/worker.js' })";
 }

@@ -1,5 +1,5 @@
 /** The part of the options that is the caller's side of a solve, not the solver's. */
-import { DevelopableError } from './errors.js';
+import { optionsOf } from './options.js';
 
 /**
  * @typedef {import('./types.js').Progress} Progress
@@ -10,34 +10,12 @@ import { DevelopableError } from './errors.js';
  */
 
 /**
- * Options, or none; with a word of the package's own for anything else.
- * @template {object} T
- * @param {T | undefined} options
- * @returns {Partial<T>}
- */
-export function asOptions(options) {
-  if (options === undefined) return {};
-  if (options === null || typeof options !== 'object') {
-    throw new DevelopableError('OPTION', `the options must be an object, but are ${options}`);
-  }
-  return options;
-}
-
-/**
  * Splits the options of a solve into those for its control and those for the solver.
+ * @param {'fit' | 'openFit'} call
  * @param {import('./index.js').FitOptions} [options]
  * @returns {{ control: Control, options: import('./types.js').SolverOptions & { transfer?: boolean } }}
  */
-export function controlOf(options) {
-  const { signal, onAbort = 'reject', onProgress, ...rest } = asOptions(options);
-  if (onAbort !== 'reject' && onAbort !== 'keep') {
-    throw new DevelopableError('OPTION', "option `onAbort` must be 'reject' or 'keep'");
-  }
-  if (signal !== undefined && typeof Object(signal).throwIfAborted !== 'function') {
-    throw new DevelopableError('OPTION', 'option `signal` must be an AbortSignal');
-  }
-  if (onProgress !== undefined && typeof onProgress !== 'function') {
-    throw new DevelopableError('OPTION', 'option `onProgress` must be a function');
-  }
+export function controlOf(call, options) {
+  const { signal, onAbort, onProgress, ...rest } = optionsOf(call, options);
   return { control: { signal, keep: onAbort === 'keep', onProgress }, options: rest };
 }

@@ -1,45 +1,31 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
   SolverOptions, Surface, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
-/** Loads the wasm once; later calls (with anything) return the same promise. May be repeated after a failure. */
+/** What is not needed by everybody, each in a wasm file of its own. */
+export type PartName = 'files' | 'images' | 'meshes' | 'unroll' | 'patterns';
+
+/** Loads the solver's wasm once; later calls (with anything) return the same promise. May be repeated after a failure. */
 export function init(input?: InitInput): Promise<void>;
-/** The same, synchronously, from bytes or a compiled module. */
-export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
 
 /**
- * Loads the wasm file that `read` and the `write…` functions need for PNG, NPY and OBJ, and that photos,
- * `paint` and `sampleMesh` of a mesh with textures need; otherwise like `init`.
+ * Loads other parts, likewise: `load('files', 'meshes')`, or from another place, `load({ files: url })`.
+ * - `files`: `read` and the `write…` functions for PNG, NPY, OBJ and MTL, photos in PNG, `paint`, and `sampleMesh` of a
+ *   mesh with textures;
+ * - `images`: all other height images, and photos in JPEG and WebP;
+ * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
+ * - `unroll`: `analyze`, `patches`, `rulings`, `unroll` and `dewarp`;
+ * - `patterns`: `pattern`, `writeSvg`, `writePdf` and `writeDxf`.
+ *
+ * Where nothing can be awaited, `developable/sync` has `initSync` and `loadSync`.
  */
-export function initFiles(input?: InitInput): Promise<void>;
-/** The same, synchronously. */
-export function initFilesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
-
-/** Loads the wasm file for all other height images, and for photos in JPEG and WebP; otherwise like `init`. */
-export function initImages(input?: InitInput): Promise<void>;
-/** The same, synchronously. */
-export function initImagesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
-
-/** Loads the wasm file that `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb` need; otherwise like `init`. */
-export function initMeshes(input?: InitInput): Promise<void>;
-/** The same, synchronously. */
-export function initMeshesSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
-
-/** Loads the wasm file that `analyze`, `patches`, `rulings`, `unroll` and `dewarp` need; otherwise like `init`. */
-export function initUnroll(input?: InitInput): Promise<void>;
-/** The same, synchronously. */
-export function initUnrollSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
-
-/** Loads the wasm file that `pattern`, `writeSvg`, `writePdf` and `writeDxf` need; otherwise like `init`. */
-export function initPatterns(input?: InitInput): Promise<void>;
-/** The same, synchronously. */
-export function initPatternsSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+export function load(...parts: (PartName | Partial<Record<PartName, InitInput>>)[]): Promise<void>;
 
 export interface WriteGlbOptions {
   /**
@@ -79,25 +65,29 @@ export class Solver {
   [Symbol.dispose](): void;
 }
 
-/** Solves to the end; `onProgress` returning `false` stops and keeps the best surface so far. */
-export function fit(
-  input: HeightImage | Heightfield,
-  options?: SolverOptions & { onProgress?: (progress: Progress) => boolean | void },
-): Surface;
+export interface DirectFitOptions extends SolverOptions {
+  /** Called several times a second; `false` stops and keeps the best surface so far. */
+  onProgress?: (progress: Progress) => boolean | void;
+}
+
+/** Solves to the end. */
+export function fit(input: HeightImage, options?: DirectFitOptions): ImageSurface;
+export function fit(input: Heightfield, options?: DirectFitOptions): LatticeSurface;
+export function fit(input: HeightImage | Heightfield, options?: DirectFitOptions): Surface;
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): DetectedOcclusions;
-/** Decodes a PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG or WebP file. */
+/** Decodes a PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG or WebP file; `readMesh` is for meshes. */
 export function read(bytes: Uint8Array | ArrayBuffer, options?: ReadOptions): ReadResult;
 /** What arrays an NPZ file holds, one of which `read` takes by its name. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer): NpzArray[];
 /** NPY file (float64) of an image or of lattice heights. */
 export function writeNpy(input: HeightImage | Heightfield): Uint8Array<ArrayBuffer>;
-/** 16-bit grey PNG whose text chunks record pixel size, height scale and offset; level 0 is no data. */
-export function writePng(input: HeightImage): Uint8Array<ArrayBuffer>;
+/** 16-bit grey PNG of an image, or of the one that a surface has, whose text chunks record pixel size, height scale and offset; level 0 is no data. */
+export function writePng(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
 /** TIFF (float32, NaN is no data) that records the pixel size; heights are rounded to 32 bits. */
-export function writeTiff(input: HeightImage): Uint8Array<ArrayBuffer>;
+export function writeTiff(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
 /** EXR (float32, channel Z, NaN is no data); heights are rounded to 32 bits. */
-export function writeExr(input: HeightImage): Uint8Array<ArrayBuffer>;
+export function writeExr(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
 /**
  * OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`, with
  * normals, and with the field's `colors` and `uvs`.
@@ -115,7 +105,7 @@ export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Uint8Ar
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /**
  * What is seen of a mesh, as heights on a lattice: an input for `fit`. Textures are read as by
- * `readPhoto`, which takes `initFiles()` and, but for PNG, `initImages()`.
+ * `readPhoto`, which takes `load('files')` and, but for PNG, `load('images')`.
  */
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
 /**
@@ -132,8 +122,8 @@ export function backProject(image: HeightImage, camera: Intrinsics): Mesh;
 /**
  * Gives a surface the colours of a picture of it, and texture coordinates where it has none: the
  * picture shows what the heights show, with as many pixels as it likes. Of a file, `texture` is set,
- * too. Where the picture is transparent, colours stay as they are. Takes `initFiles()`, and for JPEG and
- * WebP `initImages()`.
+ * too. Where the picture is transparent, colours stay as they are. Takes `load('files')`, and for JPEG
+ * and WebP `load('images')`.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
@@ -162,7 +152,7 @@ export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /**
  * Decodes a PNG, JPEG (the way up that its Exif data state) or WebP file as RGBA bytes; all but PNG
- * take `initImages()`.
+ * take `load('images')`.
  */
 export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
 /** 8-bit RGBA PNG. */

@@ -1,43 +1,28 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
-import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
-import { isImage } from './formats.js';
-import { asBytes, asField, asImage, asInput, asLattice, carriedOf } from './input.js';
-import { files, images, meshes, patterns, sheets, solver } from './instances.js';
+import { isImage, refuseMesh } from './formats.js';
+import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
+import { files, images, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh } from './mesh-input.js';
+import { optionsOf } from './options.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, dewarpOptions } from './sheet-input.js';
+import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
 export { DevelopableError } from './errors.js';
 export { readPhoto };
 
 /** @type {typeof import('./direct.js').init} */
 export const init = (input) => solver.init(input);
-/** @type {typeof import('./direct.js').initSync} */
-export const initSync = (input) => solver.initSync(input);
-/** @type {typeof import('./direct.js').initFiles} */
-export const initFiles = (input) => files.init(input);
-/** @type {typeof import('./direct.js').initFilesSync} */
-export const initFilesSync = (input) => files.initSync(input);
-/** @type {typeof import('./direct.js').initImages} */
-export const initImages = (input) => images.init(input);
-/** @type {typeof import('./direct.js').initImagesSync} */
-export const initImagesSync = (input) => images.initSync(input);
-/** @type {typeof import('./direct.js').initMeshes} */
-export const initMeshes = (input) => meshes.init(input);
-/** @type {typeof import('./direct.js').initMeshesSync} */
-export const initMeshesSync = (input) => meshes.initSync(input);
 
-/** @type {typeof import('./direct.js').initUnroll} */
-export const initUnroll = (input) => sheets.init(input);
-/** @type {typeof import('./direct.js').initUnrollSync} */
-export const initUnrollSync = (input) => sheets.initSync(input);
-
-/** @type {typeof import('./direct.js').initPatterns} */
-export const initPatterns = (input) => patterns.init(input);
-/** @type {typeof import('./direct.js').initPatternsSync} */
-export const initPatternsSync = (input) => patterns.initSync(input);
+/** @type {typeof import('./direct.js').load} */
+export async function load(...parts) {
+  const places = reading('OPTION', 'the parts to load', () =>
+    parts.flatMap((part) => Object.entries(isRecord(part) ? part : { [String(part)]: undefined })));
+  const wanted = places.map(([name, place]) => ({ part: partOf(name), place }));
+  await Promise.all(wanted.map(({ part, place }) => part.init(place)));
+}
 
 /**
  * @typedef {import('./direct.js').Solver} SolverApi
@@ -64,30 +49,33 @@ export class Solver {
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
-   * @param {import('./types.js').SolverOptions} [options]
+   * @param {import('./types.js').SolverOptions} [given]
    */
-  constructor(input, options) {
+  constructor(input, given) {
     const field = asInput(input);
+    const options = optionsOf('solver', given);
     this.#carried = carriedOf(field);
     this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
   }
 
-  /** @param {import('./types.js').SolverOptions} [options] */
-  restart(options) {
+  /** @param {import('./types.js').SolverOptions} [given] */
+  restart(given) {
     const handle = this.#live();
+    const options = optionsOf('solver', given);
     solver.call(() => handle.restart(options));
     this.#work = 1;
   }
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
-   * @param {import('./types.js').SolverOptions} [options]
+   * @param {import('./types.js').SolverOptions} [given]
    */
-  restartWith(input, options) {
+  restartWith(input, given) {
     const handle = this.#live();
     const field = asInput(input);
+    const options = optionsOf('solver', given);
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
@@ -98,6 +86,9 @@ export class Solver {
   /** @param {number} milliseconds */
   advance(milliseconds) {
     const handle = this.#live();
+    if (typeof milliseconds !== 'number' || Number.isNaN(milliseconds)) {
+      throw new DevelopableError('INPUT', `the milliseconds must be a number, but are ${show(milliseconds)}`);
+    }
     const end = performance.now() + milliseconds;
     for (;;) {
       const start = performance.now();
@@ -147,8 +138,14 @@ export class Solver {
 makeDisposable(Solver);
 
 /** @type {typeof import('./direct.js').fit} */
-export function fit(input, given) {
-  const { onProgress, ...options } = asOptions(given);
+export const fit = (input, options) => /** @type {any} */ (solved(input, options));
+
+/**
+ * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
+ * @param {import('./direct.js').DirectFitOptions} [given]
+ */
+function solved(input, given) {
+  const { onProgress, ...options } = optionsOf('directFit', given);
   const solve = new Solver(input, options);
   try {
     while (solve.advance(PROGRESS_INTERVAL)) {
@@ -162,16 +159,19 @@ export function fit(input, given) {
 }
 
 /** @type {typeof import('./direct.js').occlusions} */
-export function occlusions(input, options) {
+export function occlusions(input, given) {
   const field = asField(input);
+  const options = optionsOf('occlusions', given);
   return solver.call((wasm) =>
     field.kind === 'image' ? wasm.occlusionsOfImage(field, options) : wasm.occlusionsOfLattice(field, options),
   );
 }
 
 /** @type {typeof import('./direct.js').read} */
-export function read(bytes, options) {
+export function read(bytes, given) {
   const file = asBytes(bytes);
+  const options = optionsOf('read', given);
+  refuseMesh(file, options);
   return isImage(file, options)
     ? images.call((wasm) => wasm.readImage(file, options))
     : files.call((wasm) => wasm.read(file, options));
@@ -191,31 +191,33 @@ export function writeNpy(input) {
 
 /** @type {typeof import('./direct.js').writePng} */
 export function writePng(input) {
-  const image = asImage(input);
+  const image = asPixels(input);
   return bytesOf((wasm) => wasm.writePng(image));
 }
 
 /** @type {typeof import('./direct.js').writeTiff} */
 export function writeTiff(input) {
-  const image = asImage(input);
+  const image = asPixels(input);
   return unshared(images.call((wasm) => wasm.writeTiff(image)));
 }
 
 /** @type {typeof import('./direct.js').writeExr} */
 export function writeExr(input) {
-  const image = asImage(input);
+  const image = asPixels(input);
   return unshared(images.call((wasm) => wasm.writeExr(image)));
 }
 
 /** @type {typeof import('./direct.js').writeObj} */
-export function writeObj(input, options) {
+export function writeObj(input, given) {
   const lattice = asLattice(input);
+  const options = optionsOf('writeObj', given);
   return bytesOf((wasm) => wasm.writeObj(lattice, options));
 }
 
 /** @type {typeof import('./direct.js').writeMtl} */
 export function writeMtl(picture) {
-  return bytesOf((wasm) => wasm.writeMtl(String(picture)));
+  const name = asText('INPUT', "the picture's name", picture);
+  return bytesOf((wasm) => wasm.writeMtl(name));
 }
 
 /** @type {typeof import('./direct.js').writePly} */
@@ -233,7 +235,7 @@ export function writeStl(input) {
 /** @type {typeof import('./direct.js').writeGlb} */
 export function writeGlb(input, given) {
   const lattice = asLattice(input);
-  const { texture = lattice.texture, ...rest } = asOptions(given);
+  const { texture = lattice.texture, ...rest } = optionsOf('writeGlb', given);
   const options = { ...rest, texture: texture === null || texture === undefined ? undefined : asBytes(texture) };
   return unshared(meshes.call((wasm) => wasm.writeGlb(lattice, options)));
 }
@@ -241,74 +243,85 @@ export function writeGlb(input, given) {
 /** @type {typeof import('./direct.js').readMesh} */
 export function readMesh(bytes, given) {
   const file = asBytes(bytes);
-  const { files: beside, ...options } = asOptions(given);
+  const { files: beside, ...options } = optionsOf('readMesh', given);
   const pairs = asFiles(beside);
   return meshes.call((wasm) => wasm.readMesh(file, pairs, options));
 }
 
 /** @type {typeof import('./direct.js').sampleMesh} */
-export function sampleMesh(mesh, options) {
-  const { textures, ...given } = asMesh(mesh);
-  const { textureOf, ...seen } = meshes.call((wasm) => wasm.sampleMesh(given, options));
+export function sampleMesh(mesh, given) {
+  const { textures, ...bare } = asMesh(mesh);
+  const options = optionsOf('sampleMesh', given);
+  const { textureOf, ...seen } = meshes.call((wasm) => wasm.sampleMesh(bare, options));
   return inColour(seen, textureOf, textures);
 }
 
 /** @type {typeof import('./direct.js').paint} */
 export function paint(input, picture, options) {
-  return { ...input, ...paintOf(input, picture, options) };
+  const own = reading('INPUT', 'the input', () => ({ ...input }));
+  return { ...own, ...paintOf(own, picture, options) };
 }
 
 /** @type {typeof import('./direct.js').backProject} */
-export function backProject(input, camera) {
+export function backProject(input, intrinsics) {
   const image = asImage(input);
+  const camera = optionsOf('camera', intrinsics);
   return meshes.call((wasm) => wasm.backProject(image, camera));
 }
 
 /** @type {typeof import('./direct.js').analyze} */
 export function analyze(input, given) {
   const field = asField(input);
-  const { reference, ...options } = asOptions(given);
+  const { reference, ...options } = optionsOf('analyze', given);
   const other = reference === undefined ? undefined : asField(reference);
   return sheets.call((wasm) => wasm.analyze(field, other, options));
 }
 
 /** @type {typeof import('./direct.js').patches} */
-export function patches(input, options) {
+export function patches(input, given) {
   const field = asField(input);
+  const options = optionsOf('patches', given);
   return sheets.call((wasm) => wasm.patches(field, options));
 }
 
 /** @type {typeof import('./direct.js').rulings} */
-export function rulings(input, options) {
+export function rulings(input, given) {
   const field = asField(input);
+  const options = optionsOf('rulings', given);
   return sheets.call((wasm) => wasm.rulings(field, options));
 }
 
 /** @type {typeof import('./direct.js').unroll} */
-export function unroll(input, options) {
+export function unroll(input, given) {
   const field = asField(input);
+  const options = optionsOf('unroll', given);
   return sheets.call((wasm) => wasm.unroll(field, options));
 }
 
 /** @type {typeof import('./direct.js').pattern} */
-export function pattern(input, options) {
+export function pattern(input, given) {
   const field = asField(input);
+  const options = optionsOf('pattern', given);
   return patterns.call((wasm) => wasm.pattern(field, options));
 }
 
 /** @type {typeof import('./direct.js').writeSvg} */
 export function writeSvg(drawing) {
-  return unshared(patterns.call((wasm) => wasm.writeSvg(drawing)));
+  const own = plainCopy('the drawing', drawing);
+  return unshared(patterns.call((wasm) => wasm.writeSvg(own)));
 }
 
 /** @type {typeof import('./direct.js').writePdf} */
-export function writePdf(drawing, options) {
-  return unshared(patterns.call((wasm) => wasm.writePdf(drawing, options)));
+export function writePdf(drawing, given) {
+  const own = plainCopy('the drawing', drawing);
+  const options = optionsOf('writePdf', given);
+  return unshared(patterns.call((wasm) => wasm.writePdf(own, options)));
 }
 
 /** @type {typeof import('./direct.js').writeDxf} */
 export function writeDxf(drawing) {
-  return unshared(patterns.call((wasm) => wasm.writeDxf(drawing)));
+  const own = plainCopy('the drawing', drawing);
+  return unshared(patterns.call((wasm) => wasm.writeDxf(own)));
 }
 
 /** @type {typeof import('./direct.js').dewarp} */
@@ -325,8 +338,10 @@ export function writePhoto(photo) {
 }
 
 /** @type {typeof import('./direct.js').example} */
-export function example(name, options) {
-  return solver.call((wasm) => wasm.example(name, options));
+export function example(name, given) {
+  const own = asText('OPTION', 'the name of the example', name);
+  const options = optionsOf('example', given);
+  return solver.call((wasm) => wasm.example(own, options));
 }
 
 /** @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write */

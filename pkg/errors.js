@@ -6,7 +6,8 @@ export class DevelopableError extends Error {
    * @param {{ cause?: unknown }} [options]
    */
   constructor(code, message, options) {
-    super(message, options);
+    // What was given may be part of it, and be long.
+    super(message.length > 900 ? `${message.slice(0, 900)}…` : message, options);
     this.code = code;
   }
 }
@@ -24,5 +25,9 @@ Object.defineProperty(DevelopableError.prototype, 'name', {
  * @returns {string}
  */
 export function messageOf(thrown) {
-  return thrown instanceof Error ? thrown.message : String(thrown);
+  try {
+    return String(thrown instanceof Error ? thrown.message : thrown);
+  } catch {
+    return 'an exception that does not say what it is';
+  }
 }

@@ -1,4 +1,5 @@
 /** Which of the two wasm files for images knows a file, by its format's name or its first bytes. */
+import { DevelopableError } from './errors.js';
 
 /** The formats that the wasm of the images reads; it is not loaded for any other. */
 const IMAGES = ['tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'];
@@ -20,4 +21,27 @@ export function isImage(bytes, options) {
   if (format !== undefined) return IMAGES.includes(format);
   return MAGIC.some((magic) =>
     [...magic].every((letter, i) => letter === '?' || bytes[i] === letter.charCodeAt(0)));
+}
+
+/** How mesh files begin; for an OBJ, its first line that is no comment. */
+const MESHES = { PLY: /^ply\s/, STL: /^solid\b/, GLB: /^glTF/, glTF: /^\{/, OBJ: /^(v|vn|vt|vp|f|o|g|s|mtllib|usemtl)\s/ };
+
+/**
+ * Says of a mesh's file that another function reads it.
+ * @param {Uint8Array} bytes
+ * @param {{ format?: string }} options those of `read`
+ */
+export function refuseMesh(bytes, options) {
+  if (options.format !== undefined || isImage(bytes) || bytes[0] >= 0x80) return;
+  const lines = String.fromCharCode(...bytes.subarray(0, 2000)).split('\n').map((line) => line.trim());
+  const first = lines.find((line) => line !== '' && !line.startsWith('#')) ?? '';
+  const name = Object.entries(MESHES).find(([, start]) => start.test(`${first} `))?.[0] ?? (isBinaryStl(bytes) && 'STL');
+  if (name) throw new DevelopableError('UNSUPPORTED', `this is a mesh (${name}), and no image of heights: readMesh reads it`);
+}
+
+/** A binary STL says nothing of itself but how many triangles it has. @param {Uint8Array} bytes */
+function isBinaryStl(bytes) {
+  if (bytes.length < 84) return false;
+  const triangles = new DataView(bytes.buffer, bytes.byteOffset).getUint32(80, true);
+  return bytes.length === 84 + 50 * triangles;
 }

@@ -1,15 +1,15 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, InitInput, Intrinsics, Mesh, NpzArray,
+  ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
-  SolverOptions, Surface, Unrolling, UnrollOptions, WritePdfOptions,
+  SolverOptions, Surface, SurfaceOf, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
 export interface WorkerOptions {
-  /** Where the worker's script is; default: `worker.js` beside this module. */
+  /** Where the worker's script is; default: `worker.js` beside this module, or else the copy that a bundle has. */
   workerUrl?: string | URL;
   /** Where the solver's wasm is; default: beside the worker. */
   wasm?: InitInput;
@@ -67,7 +67,7 @@ export interface FitOptions extends OpenFitOptions, HandOver {}
  * If its worker ends, calls under way reject as they do everywhere, and later ones with code
  * `WORKER` (or `DISPOSED`, where the worker was disposed of): open the input again then.
  */
-export interface OpenSolver {
+export interface OpenSolver<I extends HeightImage | Heightfield = HeightImage | Heightfield> {
   /**
    * Solves: from nothing the first time, later from where the last solve ended, whatever ended it.
    * What is left out of the options has its default. What is wrong with the input or the options
@@ -75,12 +75,12 @@ export interface OpenSolver {
    *
    * The newest wish wins: a new call ends the one under way, which rejects with code `REPLACED`.
    */
-  fit(options?: OpenFitOptions): Promise<Surface>;
+  fit(options?: OpenFitOptions): Promise<SurfaceOf<I>>;
   /**
    * Another input for the next call of `fit`, which starts from the last answer if the lattice
    * keeps its shape; a call under way goes on with the one before.
    */
-  replace(input: HeightImage | Heightfield, options?: HandOver): Promise<void>;
+  replace(input: I, options?: HandOver): Promise<void>;
   readonly disposed: boolean;
   /** Frees the memory in the worker; a call under way rejects with code `DISPOSED`. Harmless when repeated. */
   dispose(): void;
@@ -92,17 +92,21 @@ export interface OpenSolver {
  * Options count where no shared worker runs yet; after a failure they can be given anew.
  */
 export function init(options?: WorkerOptions | InitInput): Promise<void>;
+export function fit(input: HeightImage, options?: FitOptions): Promise<ImageSurface>;
+export function fit(input: Heightfield, options?: FitOptions): Promise<LatticeSurface>;
 export function fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
 /** Sends an input to the shared worker to stay there. It takes memory until it is disposed of. */
+export function open(input: HeightImage, options?: HandOver): Promise<OpenSolver<HeightImage>>;
+export function open(input: Heightfield, options?: HandOver): Promise<OpenSolver<Heightfield>>;
 export function open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
 /** The occlusions in heights, to be looked at before a solve. */
 export function occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
 export function read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-export function writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-export function writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-export function writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+export function writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+export function writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+export function writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
 export function writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
 export function writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
@@ -143,15 +147,19 @@ export function dispose(): void;
 export class DevelopableWorker {
   constructor(options?: WorkerOptions);
   init(): Promise<void>;
+  fit(input: HeightImage, options?: FitOptions): Promise<ImageSurface>;
+  fit(input: Heightfield, options?: FitOptions): Promise<LatticeSurface>;
   fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
+  open(input: HeightImage, options?: HandOver): Promise<OpenSolver<HeightImage>>;
+  open(input: Heightfield, options?: HandOver): Promise<OpenSolver<Heightfield>>;
   open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
   occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
   read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
   npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
   writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-  writePng(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-  writeTiff(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
-  writeExr(input: HeightImage): Promise<Uint8Array<ArrayBuffer>>;
+  writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+  writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+  writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
   writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
   writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;

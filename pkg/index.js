@@ -1,6 +1,7 @@
 /** The promise API: one worker for all who do not want one of their own. Documented in `index.d.ts`. */
 import { DevelopableWorker } from './client.js';
-import { asOptions } from './control.js';
+import { optionsOf } from './options.js';
+import { reading } from './values.js';
 
 export { DevelopableError } from './errors.js';
 export { DevelopableWorker };
@@ -14,7 +15,7 @@ const worker = () => (shared ??= new DevelopableWorker());
 
 /** @type {typeof import('./index.js').init} */
 export async function init(options) {
-  const places = isInitInput(options) ? { wasm: options } : asOptions(options);
+  const places = isInitInput(options) ? { wasm: options } : optionsOf('worker', options);
   if (options !== undefined && !shared?.connected) shared = new DevelopableWorker(places);
   return worker().init();
 }
@@ -91,7 +92,7 @@ export function dispose() {
  * @returns {options is InitInput}
  */
 function isInitInput(options) {
-  return (
+  return reading('OPTION', 'the options', () => (
     typeof options === 'string' ||
     options instanceof URL ||
     options instanceof ArrayBuffer ||
@@ -99,5 +100,5 @@ function isInitInput(options) {
     options instanceof WebAssembly.Module ||
     (typeof Response === 'function' && options instanceof Response) ||
     (typeof options === 'object' && options !== null && 'then' in options)
-  );
+  ));
 }

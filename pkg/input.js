@@ -1,14 +1,15 @@
 /**
- * Inputs: checked as far as JS has to, and copied field by field. Sizes and values are checked in
- * Rust, where the messages know the most.
+ * Inputs: checked as far as JS has to, and copied field by field, but for the numbers in typed arrays, which are read in
+ * place. Shapes and values are checked in Rust, where the messages know the most.
  */
-import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
+import { optionsOf } from './options.js';
+import { isRecord, reading, record, refuseUnknown, show, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage} HeightImage
  * @typedef {import('./types.js').Heightfield} Heightfield
- * @typedef {Exclude<import('./types.js').Numbers, readonly number[]>} NumericArray
+ * @typedef {import('./values.js').NumericArray} NumericArray
  * @typedef {{ confidence?: NumericArray, constraints?: NumericArray }} Known
  * @typedef {HeightImage & Known & { kind: 'image', data?: NumericArray }} Image
  * @typedef {Heightfield & Known & { kind: 'lattice', heights?: NumericArray }} Lattice
@@ -19,9 +20,35 @@ const ARRAYS = [
   'data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges', 'colors', 'uvs', 'texture',
 ];
 
+/** What an image and heights on the lattice may both have; `kind` is what tells them apart once they are checked. */
+const COMMON = /** @type {const} */ (['kind', 'mask', 'noData', 'confidence', 'constraints', 'occlusions']);
+
+const IMAGE = /** @type {const} */ ([...COMMON, 'width', 'height', 'data', 'pixelSize', 'heightScale']);
+
+const LATTICE = /** @type {const} */ ([
+  ...COMMON, 'rows', 'cols', 'spacing', 'origin', 'heights', 'brokenEdges', 'frame', 'colors', 'uvs', 'texture',
+]);
+
+/** What results have that are inputs in turn: of `read`, and of `fit`. */
+const RESULTS = { image: ['format', 'dataType', 'unit'], lattice: ['image', 'report'] };
+
 const SHAPES =
   'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +
   'with constraints in the place of data or heights if there is nothing else';
+
+/**
+ * What an image or a lattice says, each property read once.
+ * @param {unknown} input
+ */
+function read(input) {
+  const said = record('INPUT', 'the input', isRecord(input) ? input : {}, [...IMAGE, ...LATTICE, 'image']);
+  const lattice = said.heights !== undefined || (said.data === undefined && said.rows !== undefined);
+  const known = lattice ? [...LATTICE, ...RESULTS.lattice] : [...IMAGE, ...RESULTS.image, 'brokenEdges'];
+  refuseUnknown('INPUT', `property of ${lattice ? 'the heights on the lattice' : 'the image'}`, input, known);
+  return { said, lattice };
+}
+
+/** @typedef {ReturnType<typeof read>['said']} Said */
 
 /**
  * What can be solved: heights, and all that is known about them, or constraints alone.
@@ -29,14 +56,11 @@ const SHAPES =
  * @returns {Image | Lattice}
  */
 export function asInput(input) {
-  /** @type {Record<string, unknown>} */
-  const given = Object(input);
-  /** @param {string} name */
-  const has = (name) => given[name] !== undefined;
-  const design = has('constraints');
-  if (has('heights') || (design && has('rows'))) return latticeInput(/** @type {Heightfield} */ (input));
-  if (has('data') || design) return imageInput(/** @type {HeightImage} */ (input));
-  throw new DevelopableError('INPUT', `the input must be ${SHAPES}`);
+  const { said, lattice } = read(input);
+  if (said.data === undefined && said.heights === undefined && said.constraints === undefined) {
+    throw new DevelopableError('INPUT', `the input must be ${SHAPES}`);
+  }
+  return lattice ? latticeInput(said) : imageInput(said);
 }
 
 /**
@@ -45,10 +69,9 @@ export function asInput(input) {
  * @returns {Image | Lattice}
  */
 export function asField(input) {
-  /** @type {Record<string, unknown>} */
-  const given = Object(input);
-  if (given.heights !== undefined) return asLattice(/** @type {Heightfield} */ (input));
-  if (given.data !== undefined) return asImage(/** @type {HeightImage} */ (input));
+  const { said } = read(input);
+  if (said.heights !== undefined) return latticeHeights(said);
+  if (said.data !== undefined) return imageHeights(said);
   throw new DevelopableError(
     'INPUT',
     'there must be heights: an image ({ width, height, data }) or a lattice ({ rows, cols, spacing, heights })',
@@ -60,7 +83,25 @@ export function asField(input) {
  * @returns {Image}
  */
 export function asImage(input) {
-  return { ...pixels(input), data: numbers('data', Object(input).data) };
+  const { said, lattice } = read(input);
+  if (!lattice) return imageHeights(said);
+  throw new DevelopableError('INPUT', 'there must be an image ({ width, height, data }), and these are heights on the lattice');
+}
+
+/**
+ * An image that is to be written, or the one that a surface has.
+ * @param {HeightImage | import('./types.js').Surface} input
+ * @returns {Image}
+ */
+export function asPixels(input) {
+  const { said, lattice } = read(input);
+  if (!lattice) return imageHeights(said);
+  if (said.image !== undefined) return asImage(/** @type {HeightImage} */ (said.image));
+  throw new DevelopableError(
+    'INPUT',
+    'there must be pixels, and these are heights on the lattice that were no image: writeNpy and the meshes take them; ' +
+      'or pass { width: cols, height: rows, data: heights, pixelSize: spacing } to write its rows as they are',
+  );
 }
 
 /**
@@ -68,41 +109,47 @@ export function asImage(input) {
  * @returns {Lattice}
  */
 export function asLattice(input) {
-  return { ...vertices(input), heights: numbers('heights', Object(input).heights) };
+  const { said, lattice } = read(input);
+  if (lattice) return latticeHeights(said);
+  throw new DevelopableError(
+    'INPUT',
+    'there must be heights on the lattice ({ rows, cols, spacing, heights }), as `fit` gives them',
+  );
 }
 
-/**
- * @param {HeightImage} input
- * @returns {Image}
- */
-function imageInput(input) {
-  if ('brokenEdges' in input && input.brokenEdges !== undefined) {
+/** @param {Said} said @returns {Image} */
+function imageHeights(said) {
+  return { ...pixels(said), data: numbers('data', said.data) };
+}
+
+/** @param {Said} said @returns {Lattice} */
+function latticeHeights(said) {
+  return { ...vertices(said), heights: numbers('heights', said.heights) };
+}
+
+/** @param {Said} said @returns {Image} */
+function imageInput(said) {
+  if (said.brokenEdges !== undefined) {
     throw new DevelopableError('INPUT', 'brokenEdges are for heights on the lattice: an image has none of its edges');
   }
-  const data = input.data === undefined ? undefined : numbers('data', input.data);
-  return { ...pixels(input), data, ...known(input, data === undefined) };
+  const data = said.data === undefined ? undefined : numbers('data', said.data);
+  return { ...pixels(said), data, ...known(said, data === undefined) };
 }
 
-/**
- * @param {Heightfield} input
- * @returns {Lattice}
- */
-function latticeInput(input) {
-  const heights = input.heights === undefined ? undefined : numbers('heights', input.heights);
-  const brokenEdges = flags('brokenEdges', input.brokenEdges);
-  return { ...vertices(input), heights, ...known(input, heights === undefined), brokenEdges };
+/** @param {Said} said @returns {Lattice} */
+function latticeInput(said) {
+  const heights = said.heights === undefined ? undefined : numbers('heights', said.heights);
+  const brokenEdges = flags('brokenEdges', said.brokenEdges);
+  return { ...vertices(said), heights, ...known(said, heights === undefined), brokenEdges };
 }
 
-/**
- * An image without what is at its pixels.
- * @param {HeightImage} input
- */
-function pixels(input) {
-  const { width, height, mask, noData, pixelSize, heightScale } = Object(input);
+/** An image without what is at its pixels. @param {Said} said */
+function pixels({ width, height, mask, noData, pixelSize, heightScale }) {
+  const size = { width: count('width', width), height: count('height', height) };
+  cells('the image', size.width, size.height);
   return {
     kind: /** @type {const} */ ('image'),
-    width: count('width', width),
-    height: count('height', height),
+    ...size,
     mask: flags('mask', mask),
     noData: optional('noData', noData),
     pixelSize: optional('pixelSize', pixelSize),
@@ -110,44 +157,48 @@ function pixels(input) {
   };
 }
 
-/**
- * A lattice without what is at its vertices.
- * @param {Heightfield} input
- */
-function vertices(input) {
-  const { rows, cols, spacing, origin, mask, noData, frame, colors, uvs, texture } = Object(input);
-  if (origin !== undefined && !(origin?.length === 2 && isNumber(origin[0]) && isNumber(origin[1]))) {
-    throw new DevelopableError('INPUT', `origin must be two numbers [x, y], but is ${show(origin)}`);
-  }
+/** A lattice without what is at its vertices. @param {Said} said */
+function vertices({ rows, cols, spacing, origin, mask, noData, frame, colors, uvs, texture }) {
+  const size = { rows: count('rows', rows), cols: count('cols', cols) };
+  const total = cells('the lattice', size.rows, size.cols);
   return {
     kind: /** @type {const} */ ('lattice'),
-    rows: count('rows', rows),
-    cols: count('cols', cols),
+    ...size,
     spacing: number('spacing', spacing),
-    origin: origin && /** @type {[number, number]} */ ([origin[0], origin[1]]),
+    origin: origin === undefined ? undefined : /** @type {[number, number]} */ (tuple('origin', 2, origin)),
     mask: flags('mask', mask),
     noData: optional('noData', noData),
     frame: frame === undefined ? undefined : asFrame(frame),
-    colors: optionalFloats('colors', colors),
-    uvs: optionalFloats('uvs', uvs),
+    colors: each('colors', 3, total, optionalFloats('colors', colors)),
+    uvs: each('uvs', 2, total, optionalFloats('uvs', uvs)),
     texture: texture === undefined ? undefined : asBytes(texture),
   };
 }
 
 /**
- * @param {unknown} frame
+ * @param {unknown} given
  * @returns {import('./types.js').Frame}
  */
-function asFrame(frame) {
-  const { right, up, towards } = Object(frame);
-  for (const axis of [right, up, towards]) {
-    if (!(Array.isArray(axis) && axis.length === 3 && axis.every(Number.isFinite))) {
-      throw new DevelopableError('INPUT', 'frame must have three axes of three numbers: right, up and towards');
-    }
-  }
-  /** @param {[number, number, number]} axis @returns {[number, number, number]} */
-  const own = ([x, y, z]) => [x, y, z];
-  return { right: own(right), up: own(up), towards: own(towards) };
+function asFrame(given) {
+  const { right, up, towards } = record('INPUT', 'the frame', given, ['right', 'up', 'towards']);
+  /** @param {string} name @param {unknown} axis */
+  const own = (name, axis) => /** @type {[number, number, number]} */ (tuple(`${name} of the frame`, 3, axis));
+  return { right: own('right', right), up: own('up', up), towards: own('towards', towards) };
+}
+
+/**
+ * A list of so many finite numbers.
+ * @param {string} name
+ * @param {number} length
+ * @param {unknown} given
+ */
+function tuple(name, length, given) {
+  const list = reading('INPUT', name, () => {
+    const found = /** @type {ArrayLike<unknown>} */ (Object(given));
+    return found.length === length ? Array.from({ length }, (_, i) => found[i]) : [];
+  });
+  if (list.length === length && list.every(Number.isFinite)) return list;
+  throw new DevelopableError('INPUT', `${name} must be ${length} numbers, but is ${show(given)}`);
 }
 
 /**
@@ -163,7 +214,7 @@ export function carriedOf(field) {
 
 /**
  * What may be known besides the heights.
- * @param {HeightImage | Heightfield} input
+ * @param {Said} said
  * @param {boolean} design whether there are none
  */
 function known({ confidence, constraints, occlusions }, design) {
@@ -185,7 +236,7 @@ function known({ confidence, constraints, occlusions }, design) {
  * @returns {{ field: F, buffers: ArrayBuffer[] }}
  */
 export function detached(field, options) {
-  const handOver = asOptions(options).transfer === true;
+  const handOver = optionsOf('handOver', options).transfer === true;
   /** @type {Set<ArrayBuffer>} */
   const buffers = new Set();
   /** @type {Record<string, unknown>} */
@@ -221,11 +272,16 @@ export function copied(array) {
  * @returns {Uint8Array}
  */
 export function asBytes(bytes) {
-  if (bytes instanceof ArrayBuffer) return new Uint8Array(bytes);
-  if (ArrayBuffer.isView(bytes)) {
-    return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  }
-  throw new DevelopableError('INPUT', `the file's bytes must be a Uint8Array or ArrayBuffer, but are ${show(bytes)}`);
+  const what = "the file's bytes";
+  return reading('INPUT', what, () => {
+    if (bytes instanceof ArrayBuffer) return /** @type {Uint8Array} */ (viewOf(what, new Uint8Array(bytes)));
+    if (bytes instanceof DataView) return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    if (typeOf(bytes) !== undefined) {
+      const { buffer, byteOffset, byteLength } = viewOf(what, bytes);
+      return new Uint8Array(buffer, byteOffset, byteLength);
+    }
+    throw new DevelopableError('INPUT', `${what} must be a Uint8Array or ArrayBuffer, but are ${show(bytes)}`);
+  });
 }
 
 /**
@@ -234,20 +290,21 @@ export function asBytes(bytes) {
  * @returns {NumericArray}
  */
 export function numbers(name, value) {
-  if (Array.isArray(value)) {
-    const odd = value.findIndex((entry) => typeof entry !== 'number');
-    if (odd >= 0) {
-      throw new DevelopableError('INPUT', `${name}[${odd}] must be a number, but is ${show(value[odd])}`);
+  return reading('INPUT', name, () => {
+    const type = typeOf(value);
+    if (type !== undefined && !/BigU?[Ii]nt/.test(type)) return viewOf(name, value);
+    if (!Array.isArray(value)) {
+      throw new DevelopableError(
+        'INPUT',
+        `${name} must be a flat array of numbers or a typed array of them, but is ${show(value)}`,
+      );
     }
-    return Float64Array.from(value);
-  }
-  if (ArrayBuffer.isView(value) && !(value instanceof DataView) && !/BigU?[Ii]nt/.test(tag(value))) {
-    return /** @type {NumericArray} */ (value);
-  }
-  throw new DevelopableError(
-    'INPUT',
-    `${name} must be a flat array of numbers or a typed array of them, but is ${show(value)}`,
-  );
+    return Float64Array.from({ length: value.length }, (_, i) => {
+      const entry = value[i];
+      if (typeof entry === 'number') return entry;
+      throw new DevelopableError('INPUT', `${name}[${i}] must be a number, but is ${show(entry)}`);
+    });
+  });
 }
 
 /**
@@ -259,7 +316,8 @@ export function numbers(name, value) {
  * @returns {A}
  */
 export function typed(type, name, value) {
-  return value instanceof type ? value : type.from(numbers(name, value));
+  const values = numbers(name, value);
+  return values instanceof type ? values : type.from(values);
 }
 
 /**
@@ -271,12 +329,30 @@ export function optionalFloats(name, value) {
 }
 
 /**
+ * So many values for each vertex, and no others.
+ * @template {NumericArray | undefined} A
+ * @param {string} name
+ * @param {number} size
+ * @param {number} vertices
+ * @param {A} array
+ * @returns {A}
+ */
+function each(name, size, vertices, array) {
+  if (array === undefined || array.length === size * vertices) return array;
+  throw new DevelopableError(
+    'SHAPE',
+    `${name} has ${array.length} values where ${vertices} vertices with ${size} each need ${size * vertices}`,
+  );
+}
+
+/**
  * @param {string} name
  * @param {unknown} value
  * @returns {Uint8Array | undefined}
  */
 function flags(name, value) {
-  if (value === undefined || value instanceof Uint8Array) return value;
+  if (value === undefined) return undefined;
+  if (typeOf(value) === 'Uint8Array') return /** @type {Uint8Array} */ (viewOf(name, value));
   throw new DevelopableError('INPUT', `${name} must be a Uint8Array, but is ${show(value)}`);
 }
 
@@ -284,9 +360,20 @@ function flags(name, value) {
  * @param {string} name
  * @param {unknown} value
  */
-function count(name, value) {
+export function count(name, value) {
   if (Number.isSafeInteger(value) && Number(value) >= 0) return Number(value);
   throw new DevelopableError('INPUT', `${name} must be a whole number, but is ${show(value)}`);
+}
+
+/**
+ * The number of cells, within what wasm can count: how many there may be is Rust's to say.
+ * @param {string} what
+ * @param {number} a
+ * @param {number} b
+ */
+export function cells(what, a, b) {
+  if (Math.max(a, b, a * b) < 2 ** 32) return a * b;
+  throw new DevelopableError('TOO_LARGE', `${what} has ${a} × ${b} values, more than there may be`);
 }
 
 /**
@@ -294,7 +381,7 @@ function count(name, value) {
  * @param {unknown} value
  */
 function number(name, value) {
-  if (isNumber(value)) return value;
+  if (typeof value === 'number') return value;
   throw new DevelopableError('INPUT', `${name} must be a number, but is ${show(value)}`);
 }
 
@@ -304,24 +391,4 @@ function number(name, value) {
  */
 function optional(name, value) {
   return value === undefined ? undefined : number(name, value);
-}
-
-/**
- * @param {unknown} value
- * @returns {value is number}
- */
-function isNumber(value) {
-  return typeof value === 'number';
-}
-
-/** @param {unknown} value */
-function tag(value) {
-  return Object.prototype.toString.call(value).slice(8, -1);
-}
-
-/** @param {unknown} value */
-function show(value) {
-  if (typeof value === 'string') return JSON.stringify(value);
-  if (typeof value === 'bigint') return `${value}n`;
-  return typeof value === 'object' && value !== null ? tag(value) : String(value);
 }

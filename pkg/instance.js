@@ -1,6 +1,6 @@
 /** A wasm instance of this thread: loaded once, given up after a trap. */
 import { DevelopableError, messageOf } from './errors.js';
-import { compile } from './wasm-source.js';
+import { compile, compileOwn } from './wasm-source.js';
 
 /**
  * What wasm-bindgen makes of each wasm file, as far as it is the same for all.
@@ -13,9 +13,11 @@ import { compile } from './wasm-source.js';
 
 /** @template {Glue} G */
 export class Instance {
+  /** @type {G | undefined} */
   #glue;
+  #name;
+  #importGlue;
   #place;
-  #hint;
   /** @type {Promise<void> | undefined} */
   #loading;
   #ready = false;
@@ -23,14 +25,19 @@ export class Instance {
   #trap;
 
   /**
-   * @param {G} glue
-   * @param {URL} place where the file is unless `init` is told otherwise
-   * @param {string} hint the call that loads it
+   * @param {import('./copies.js').WasmName} name
+   * @param {() => Promise<G>} importGlue
+   * @param {() => URL} place where the file is unless `init` is told otherwise
    */
-  constructor(glue, place, hint) {
-    this.#glue = glue;
+  constructor(name, importGlue, place) {
+    this.#name = name;
+    this.#importGlue = importGlue;
     this.#place = place;
-    this.#hint = hint;
+  }
+
+  /** Takes the glue from a caller who has it already. @param {G} glue */
+  use(glue) {
+    this.#glue ??= glue;
   }
 
   /**
@@ -45,15 +52,15 @@ export class Instance {
     return this.#loading;
   }
 
-  /** @param {ArrayBuffer | ArrayBufferView | WebAssembly.Module} input */
+  /** Needs the glue. @param {ArrayBuffer | ArrayBufferView | WebAssembly.Module} input */
   initSync(input) {
     if (this.#ready) return;
     try {
       const bytes = /** @type {BufferSource | WebAssembly.Module} */ (input);
-      this.#glue.initSync({
-        module: bytes instanceof WebAssembly.Module ? bytes : new WebAssembly.Module(bytes),
-      });
-      this.#start();
+      const module = bytes instanceof WebAssembly.Module ? bytes : new WebAssembly.Module(bytes);
+      const glue = /** @type {G} */ (this.#glue);
+      glue.initSync({ module });
+      this.#start(glue);
     } catch (cause) {
       throw initError(cause);
     }
@@ -62,14 +69,17 @@ export class Instance {
 
   /** @param {import('./types.js').InitInput} [input] */
   async #load(input) {
-    const module = await compile(input ?? this.#place);
+    const compiled = input === undefined ? compileOwn(this.#name, this.#place) : compile(input);
+    const [glue, module] = await Promise.all([this.#glue ?? this.#importGlue(), compiled]);
     if (this.#ready) return; // `initSync` was faster
-    await this.#glue.default({ module_or_path: module });
-    this.#start();
+    await glue.default({ module_or_path: module });
+    this.#start(glue);
   }
 
-  #start() {
-    this.#glue.reportPanics();
+  /** @param {G} glue */
+  #start(glue) {
+    glue.reportPanics();
+    this.#glue = glue;
     this.#ready = true;
   }
 
@@ -85,13 +95,15 @@ export class Instance {
    */
   call(run) {
     if (this.#trap) throw this.#trap;
-    if (!this.#ready) {
-      throw new DevelopableError('NOT_INITIALIZED', `the wasm is not loaded yet: await ${this.#hint} first`);
+    if (!this.#ready || !this.#glue) {
+      const hint = this.#name === 'solver' ? 'init()' : `load('${this.#name}')`;
+      throw new DevelopableError('NOT_INITIALIZED', `the wasm is not loaded yet: await ${hint} first`);
     }
     try {
       return run(this.#glue);
     } catch (error) {
-      const { code } = /** @type {{ code?: import('./errors.js').ErrorCode }} */ (error);
+      /** @type {{ code?: import('./errors.js').ErrorCode }} */
+      const { code } = Object(error);
       if (error instanceof Error && typeof code === 'string') {
         throw new DevelopableError(code, error.message);
       }

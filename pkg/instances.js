@@ -1,44 +1,56 @@
 /** The wasm files: the solver, and what else there is, which not everybody needs. */
+import { DevelopableError } from './errors.js';
 import { Instance } from './instance.js';
-import * as filesGlue from './wasm/files.js';
-import * as imagesGlue from './wasm/images.js';
-import * as meshesGlue from './wasm/meshes.js';
-import * as patternsGlue from './wasm/patterns.js';
-import * as solverGlue from './wasm/solver.js';
-import * as unrollGlue from './wasm/unroll.js';
+import { unknownName } from './nearest.js';
+
+// Bundlers look for exactly such imports and URLs.
 
 export const solver = new Instance(
-  solverGlue,
-  new URL('./wasm/solver_bg.wasm', import.meta.url),
-  'init()',
+  'solver',
+  () => import('./wasm/solver.js'),
+  () => new URL('./wasm/solver_bg.wasm', import.meta.url),
 );
 
 export const files = new Instance(
-  filesGlue,
-  new URL('./wasm/files_bg.wasm', import.meta.url),
-  'initFiles()',
+  'files',
+  () => import('./wasm/files.js'),
+  () => new URL('./wasm/files_bg.wasm', import.meta.url),
 );
 
 export const images = new Instance(
-  imagesGlue,
-  new URL('./wasm/images_bg.wasm', import.meta.url),
-  'initImages()',
+  'images',
+  () => import('./wasm/images.js'),
+  () => new URL('./wasm/images_bg.wasm', import.meta.url),
 );
 
 export const meshes = new Instance(
-  meshesGlue,
-  new URL('./wasm/meshes_bg.wasm', import.meta.url),
-  'initMeshes()',
+  'meshes',
+  () => import('./wasm/meshes.js'),
+  () => new URL('./wasm/meshes_bg.wasm', import.meta.url),
 );
 
 export const sheets = new Instance(
-  unrollGlue,
-  new URL('./wasm/unroll_bg.wasm', import.meta.url),
-  'initUnroll()',
+  'unroll',
+  () => import('./wasm/unroll.js'),
+  () => new URL('./wasm/unroll_bg.wasm', import.meta.url),
 );
 
 export const patterns = new Instance(
-  patternsGlue,
-  new URL('./wasm/patterns_bg.wasm', import.meta.url),
-  'initPatterns()',
+  'patterns',
+  () => import('./wasm/patterns.js'),
+  () => new URL('./wasm/patterns_bg.wasm', import.meta.url),
 );
+
+/** All of them but the solver, by the names that `load` takes. */
+const parts = { files, images, meshes, unroll: sheets, patterns };
+
+/** @typedef {keyof typeof parts} PartName */
+
+/**
+ * @param {string} name
+ * @returns {Instance<any>}
+ */
+export function partOf(name) {
+  if (Object.hasOwn(parts, name)) return parts[/** @type {PartName} */ (name)];
+  throw new DevelopableError('OPTION', unknownName('part', name, Object.keys(parts)));
+}

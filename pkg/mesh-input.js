@@ -2,13 +2,17 @@
 import { DevelopableError } from './errors.js';
 import { asBytes, numbers, optionalFloats, typed } from './input.js';
 import { asPhoto } from './sheet-input.js';
+import { reading, record, refuseUnknown, typeOf } from './values.js';
+
+const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing']);
 
 /**
  * @param {import('./types.js').Mesh} mesh
  * @returns {import('./types.js').Mesh & { textures?: (Uint8Array | import('./sheet-input.js').Pixels)[] }}
  */
 export function asMesh(mesh) {
-  const { positions, triangles, colors, uvs, textureOf, textures } = Object(mesh);
+  const { positions, triangles, colors, uvs, textureOf, textures } = record('INPUT', 'the mesh', mesh, MESH);
+  refuseUnknown('INPUT', 'property of the mesh', mesh, MESH);
   if (positions === undefined) {
     throw new DevelopableError(
       'INPUT',
@@ -20,17 +24,22 @@ export function asMesh(mesh) {
     triangles: indices(triangles ?? []),
     colors: optionalFloats('colors', colors),
     uvs: optionalFloats('uvs', uvs),
-    textureOf: textureOf === undefined ? undefined : numbersOf(textureOf),
-    textures: textures === undefined ? undefined : [...textures].map(asPicture),
+    textureOf: textureOf === undefined ? undefined : Int32Array.from(numbers('textureOf', textureOf)),
+    textures: textures === undefined
+      ? undefined
+      : reading('INPUT', 'textures', () => [.../** @type {Iterable<unknown>} */ (textures)].map(asPicture)),
   };
 }
 
 /**
  * The bytes of a picture's file, or its pixels.
- * @param {import('./types.js').Picture} picture
+ * @param {unknown} picture
  */
 export function asPicture(picture) {
-  return ArrayBuffer.isView(picture) || picture instanceof ArrayBuffer ? asBytes(picture) : asPhoto(picture);
+  return reading('INPUT', 'the picture', () =>
+    (typeOf(picture) !== undefined || picture instanceof DataView || picture instanceof ArrayBuffer
+      ? asBytes(picture)
+      : asPhoto(picture)));
 }
 
 /**
@@ -39,19 +48,16 @@ export function asPicture(picture) {
  * @returns {[string, Uint8Array][]}
  */
 export function asFiles(files) {
-  const entries = files instanceof Map ? [...files] : Object.entries(files ?? {});
-  return entries.map(([name, bytes]) => [String(name), asBytes(bytes)]);
-}
-
-/** @param {unknown} numbers of textures */
-function numbersOf(numbers) {
-  return numbers instanceof Int32Array ? numbers : Int32Array.from(typed(Float64Array, 'textureOf', numbers));
+  return reading('INPUT', 'files', () => {
+    const entries = files instanceof Map ? [...files] : Object.entries(files ?? {});
+    return entries.map(([name, bytes]) => [String(name), asBytes(bytes)]);
+  });
 }
 
 /** @param {unknown} triangles */
 function indices(triangles) {
-  if (triangles instanceof Uint32Array) return triangles;
   const values = numbers('triangles', triangles);
+  if (values instanceof Uint32Array) return values;
   const odd = values.findIndex((value) => !(Number.isInteger(value) && value >= 0 && value < 2 ** 32));
   if (odd < 0) return Uint32Array.from(values);
   throw new DevelopableError('INPUT', `triangles[${odd}] must be the number of a vertex, but is ${values[odd]}`);

@@ -48,7 +48,7 @@ export class OpenSolver {
 
   /** @param {import('./index.js').OpenFitOptions} [given] */
   async fit(given) {
-    const { control, options } = controlOf(given);
+    const { control, options } = controlOf('openFit', given);
     if (!control.keep) control.signal?.throwIfAborted();
     const connection = this.#live();
     this.#turn?.end(new DevelopableError('REPLACED', 'a newer call of fit took the place of this one'));

@@ -1,11 +1,11 @@
 /** Colours at the vertices of a lattice, from the pictures that their texture coordinates are about. */
-import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
 import { asLattice } from './input.js';
 import { files, images } from './instances.js';
 import { asPicture } from './mesh-input.js';
-import { dewarpOptions } from './sheet-input.js';
+import { optionsOf } from './options.js';
+import { extentOf } from './sheet-input.js';
 
 /**
  * @typedef {import('./types.js').SampledMesh} SampledMesh
@@ -25,13 +25,11 @@ export function readPhoto(bytes) {
  * @param {import('./types.js').PaintOptions} [given]
  */
 export function paintOf(input, picture, given) {
-  const { extent, ...others } = asOptions(given);
-  const [unknown] = Object.keys(others);
-  if (unknown !== undefined) throw new DevelopableError('OPTION', `there is no option \`${unknown}\`, only extent`);
+  const { extent } = optionsOf('paint', given);
   const lattice = asLattice(input);
   const { uvs: own, colors, heights = new Float64Array() } = lattice;
-  const place = () => dewarpOptions(input, { extent }).extent;
-  const uvs = own && extent === undefined ? own : files.call((wasm) => wasm.planeUvs(lattice, place()));
+  const place = own && extent === undefined ? undefined : extent ?? extentOf(input);
+  const uvs = own && extent === undefined ? own : files.call((wasm) => wasm.planeUvs(lattice, place));
   const found = asPicture(picture);
   const start = colors ?? blank(heights);
   return { uvs, colors: painted(start, uvs, found), texture: fileOf(found) };

@@ -1,5 +1,6 @@
 /** What the worker offers its client: the direct API, with solves as jobs. Arrays are handed over. */
 import * as direct from './direct.js';
+import { takeCopiesFrom } from './copies.js';
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
 import { asBytes } from './input.js';
@@ -7,7 +8,7 @@ import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
 import { asPicture } from './mesh-input.js';
 import { paintOf } from './paint.js';
-import { transfer } from './wire.js';
+import { transfer, wrap } from './wire.js';
 
 /** @type {Map<number, Job>} */
 const jobs = new Map();
@@ -19,13 +20,23 @@ const kept = new Map();
 
 /** @typedef {import('./types.js').InitInput | undefined} Place */
 
-/** Where the other wasm files are, each loaded when it is needed. @type {Place[]} */
-let [filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm] = /** @type {Place[]} */ ([]);
+/** @typedef {import('./direct.js').PartName} PartName */
+
+/** Where the other wasm files are, each loaded when it is needed. @type {Partial<Record<PartName, Place>>} */
+let places = {};
 
 export const service = {
-  /** @param {Place[]} places of the solver's wasm, the files', the images', the meshes', the unrolling's and the patterns' */
-  init([wasm, ...others]) {
-    [filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm] = others;
+  /**
+   * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', the unrolling's and the patterns'
+   * @param {MessagePort} [copies] where to get copies of them, where nothing lies beside this script
+   */
+  init([wasm, files, images, meshes, unroll, patterns], copies) {
+    if (copies) {
+      /** @type {import('./vendor/comlink.mjs').Remote<typeof import('./copies.js').wasmCopy>} */
+      const ask = wrap(copies);
+      takeCopiesFrom((name) => ask(name));
+    }
+    places = { files, images, meshes, unroll, patterns };
     return direct.init(wasm);
   },
 
@@ -120,30 +131,30 @@ export const service = {
    * @param {Parameters<typeof direct.read>[1]} [options]
    */
   async read(bytes, options) {
-    await (isImage(asBytes(bytes), options) ? withImages() : withFiles());
+    await (isImage(asBytes(bytes), options) ? loaded('images') : loaded('files'));
     const result = direct.read(bytes, options);
     return transfer(result, buffersOf(result.data));
   },
 
   /** @param {Parameters<typeof direct.npzArrays>[0]} bytes */
   async npzArrays(bytes) {
-    await withImages();
+    await loaded('images');
     return direct.npzArrays(bytes);
   },
 
-  writeNpy: written(withFiles, direct.writeNpy),
-  writePng: written(withFiles, direct.writePng),
-  writeTiff: written(withImages, direct.writeTiff),
-  writeExr: written(withImages, direct.writeExr),
-  writeObj: written(withFiles, direct.writeObj),
-  writeMtl: written(withFiles, direct.writeMtl),
-  writePly: written(withMeshes, direct.writePly),
-  writeStl: written(withMeshes, direct.writeStl),
-  writeGlb: written(withMeshes, direct.writeGlb),
-  writePhoto: written(withFiles, direct.writePhoto),
-  writeSvg: written(withPatterns, direct.writeSvg),
-  writePdf: written(withPatterns, direct.writePdf),
-  writeDxf: written(withPatterns, direct.writeDxf),
+  writeNpy: written('files', direct.writeNpy),
+  writePng: written('files', direct.writePng),
+  writeTiff: written('images', direct.writeTiff),
+  writeExr: written('images', direct.writeExr),
+  writeObj: written('files', direct.writeObj),
+  writeMtl: written('files', direct.writeMtl),
+  writePly: written('meshes', direct.writePly),
+  writeStl: written('meshes', direct.writeStl),
+  writeGlb: written('meshes', direct.writeGlb),
+  writePhoto: written('files', direct.writePhoto),
+  writeSvg: written('patterns', direct.writeSvg),
+  writePdf: written('patterns', direct.writePdf),
+  writeDxf: written('patterns', direct.writeDxf),
 
   /** @param {Parameters<typeof direct.readPhoto>[0]} bytes */
   async readPhoto(bytes) {
@@ -161,28 +172,28 @@ export const service = {
 
   /** @type {(input: Input, options?: import('./types.js').AnalyzeOptions) => Promise<import('./types.js').Analysis>} */
   async analyze(input, options) {
-    await withUnroll();
+    await loaded('unroll');
     const result = direct.analyze(heights(input), options);
     return transfer(result, buffersOf(result.gaussian, result.kappa1, result.kappa2, result.nuclearNorm));
   },
 
   /** @type {(input: Input, options?: import('./types.js').PatchOptions) => Promise<import('./types.js').PatchMap>} */
   async patches(input, options) {
-    await withUnroll();
+    await loaded('unroll');
     const result = direct.patches(heights(input), options);
     return transfer(result, buffersOf(result.labels));
   },
 
   /** @type {(input: Input, options?: import('./types.js').RulingOptions) => Promise<import('./types.js').RulingField>} */
   async rulings(input, options) {
-    await withUnroll();
+    await loaded('unroll');
     const result = direct.rulings(heights(input), options);
     return transfer(result, buffersOf(result.directions, result.confidence));
   },
 
   /** @type {(input: Input, options?: import('./types.js').UnrollOptions) => Promise<import('./types.js').Unrolling>} */
   async unroll(input, options) {
-    await withUnroll();
+    await loaded('unroll');
     const result = direct.unroll(heights(input), options);
     const { vertices, positions, triangles, places, parts, stretches, overlaps } = result;
     return transfer(result, buffersOf(vertices, positions, triangles, places, parts, stretches, overlaps));
@@ -190,13 +201,13 @@ export const service = {
 
   /** @type {(input: Input, options?: import('./types.js').PatternOptions) => Promise<import('./types.js').Drawing>} */
   async pattern(input, options) {
-    await withPatterns();
+    await loaded('patterns');
     return direct.pattern(heights(input), options);
   },
 
   /** @type {(input: Input, photo: import('./types.js').Photo, options?: import('./types.js').DewarpOptions) => Promise<import('./types.js').Dewarped>} */
   async dewarp(input, photo, options) {
-    await withUnroll();
+    await loaded('unroll');
     const result = direct.dewarp(heights(input), photo, options);
     return transfer(result, buffersOf(result.data, result.map));
   },
@@ -206,7 +217,7 @@ export const service = {
    * @param {Parameters<typeof direct.readMesh>[1]} [options]
    */
   async readMesh(bytes, options) {
-    await withMeshes();
+    await loaded('meshes');
     const mesh = direct.readMesh(bytes, options);
     return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.colors, mesh.uvs, mesh.textureOf));
   },
@@ -216,7 +227,7 @@ export const service = {
    * @param {Parameters<typeof direct.sampleMesh>[1]} [options]
    */
   async sampleMesh(mesh, options) {
-    await Promise.all([withMeshes(), mesh.textures && withPictures(mesh.textures)]);
+    await Promise.all([loaded('meshes'), mesh.textures && withPictures(mesh.textures)]);
     const sampled = direct.sampleMesh(mesh, options);
     return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
   },
@@ -226,7 +237,7 @@ export const service = {
    * @param {Parameters<typeof direct.backProject>[1]} camera
    */
   async backProject(input, camera) {
-    await withMeshes();
+    await loaded('meshes');
     const mesh = direct.backProject(input, camera);
     return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.uvs));
   },
@@ -250,13 +261,8 @@ function keptSolver(solver) {
   return found;
 }
 
-function withFiles() {
-  return direct.initFiles(filesWasm);
-}
-
-function withImages() {
-  return direct.initImages(imagesWasm);
-}
+/** @param {PartName} part */
+const loaded = (part) => direct.load({ [part]: places[part] });
 
 /**
  * What it takes to read pictures, and to paint with them.
@@ -267,33 +273,21 @@ async function withPictures(pictures) {
     const given = asPicture(picture);
     return given instanceof Uint8Array && isImage(given);
   });
-  await Promise.all([withFiles(), others && withImages()]);
-}
-
-function withMeshes() {
-  return direct.initMeshes(meshesWasm);
-}
-
-function withUnroll() {
-  return direct.initUnroll(unrollWasm);
-}
-
-function withPatterns() {
-  return direct.initPatterns(patternsWasm);
+  await Promise.all([loaded('files'), others && loaded('images')]);
 }
 
 /**
  * @template T, O
- * @param {() => Promise<void>} loaded
+ * @param {PartName} part
  * @param {(input: T, options?: O) => Uint8Array<ArrayBuffer>} write
  */
-function written(loaded, write) {
+function written(part, write) {
   /**
    * @param {T} input
    * @param {O} [options]
    */
   return async (input, options) => {
-    await loaded();
+    await loaded(part);
     const bytes = write(input, options);
     return transfer(bytes, buffersOf(bytes));
   };

@@ -1,6 +1,8 @@
 /** What is laid flat, and photos of it: checked as far as JS has to. */
-import { asOptions } from './control.js';
 import { DevelopableError } from './errors.js';
+import { cells, count } from './input.js';
+import { optionsOf } from './options.js';
+import { record, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage | import('./types.js').Heightfield} Heights
@@ -8,20 +10,26 @@ import { DevelopableError } from './errors.js';
  */
 
 /**
- * A photo, such as an `ImageData`, with its bytes as a view of their own.
- * @param {import('./types.js').Photo} photo
+ * A photo, such as an `ImageData`, with its bytes as a view of their own. Other things that it says are its own matter:
+ * photos come from many libraries.
+ * @param {unknown} photo
  * @returns {Pixels}
  */
 export function asPhoto(photo) {
-  const { width, height, data } = Object(photo);
-  const sound = Number.isSafeInteger(width) && Number.isSafeInteger(height) && width >= 0 && height >= 0;
-  if (!sound || !(data instanceof Uint8Array || data instanceof Uint8ClampedArray)) {
+  const said = record('INPUT', 'the photo', photo, ['width', 'height', 'data']);
+  if (!['Uint8Array', 'Uint8ClampedArray'].includes(typeOf(said.data) ?? '')) {
     throw new DevelopableError(
       'INPUT',
       'the photo must be { width, height, data } with RGBA bytes in a Uint8ClampedArray or Uint8Array, as an ImageData',
     );
   }
-  return { width, height, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
+  const [width, height] = [count('width of the photo', said.width), count('height of the photo', said.height)];
+  const { buffer, byteOffset, length } = viewOf('data of the photo', said.data);
+  const expected = 4 * cells('the photo', width, height);
+  if (length !== expected) {
+    throw new DevelopableError('SHAPE', `the photo has ${length} bytes where ${width} × ${height} pixels need ${expected}`);
+  }
+  return { width, height, data: new Uint8Array(buffer, byteOffset, length) };
 }
 
 /**
@@ -32,9 +40,19 @@ export function asPhoto(photo) {
  * @returns {import('./types.js').DewarpOptions}
  */
 export function dewarpOptions(input, given) {
-  const options = asOptions(given);
-  const { heights, image } = /** @type {Partial<import('./types.js').Surface>} */ (Object(input));
-  if (options.extent !== undefined || heights === undefined || image === undefined) return options;
-  const { width, height, pixelSize = 1 } = image;
-  return { ...options, extent: [0, 0, width * pixelSize, height * pixelSize] };
+  const options = optionsOf('dewarp', given);
+  return options.extent === undefined ? { ...options, extent: extentOf(input) } : options;
+}
+
+/**
+ * The part of the plane that a surface's image shows, if it has one.
+ * @param {Heights} input
+ * @returns {[number, number, number, number] | undefined}
+ */
+export function extentOf(input) {
+  const { heights, image } = record('INPUT', 'the input', input, ['heights', 'image']);
+  if (heights === undefined || image === undefined) return undefined;
+  const { width, height, pixelSize = 1 } = record('INPUT', 'the image', image, ['width', 'height', 'pixelSize']);
+  const size = [count('width', width), count('height', height), Number(pixelSize)];
+  return [0, 0, size[0] * size[2], size[1] * size[2]];
 }

@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" />
 /** What the direct and the worker API share: inputs, options, results. */
 export { DevelopableError, type ErrorCode } from './errors.js';
 
@@ -352,7 +353,7 @@ export interface Surface {
    * design, at all pixels within its outline; where there are constraints, too, it is resampled
    * from the vertices, which are what meets them exactly.
    */
-  image?: { width: number; height: number; pixelSize: number; data: Float64Array };
+  image?: SurfaceImage;
   /** The input's. */
   frame?: Frame;
   /** The input's. */
@@ -363,6 +364,27 @@ export interface Surface {
   texture?: Uint8Array;
   report: Report;
 }
+
+/** A surface at the pixels of its input. */
+export interface SurfaceImage {
+  width: number;
+  height: number;
+  pixelSize: number;
+  data: Float64Array;
+}
+
+/** The surface of an image. */
+export interface ImageSurface extends Surface {
+  image: SurfaceImage;
+}
+
+/** The surface of heights on the lattice. */
+export interface LatticeSurface extends Surface {
+  image?: never;
+}
+
+/** The surface of an input of one kind or the other. */
+export type SurfaceOf<I extends HeightImage | Heightfield> = I extends HeightImage ? ImageSurface : LatticeSurface;
 
 export type ExampleName = 'cylinder' | 'cone' | 'roof' | 'oloid' | 'page';
 

@@ -1,4 +1,6 @@
 /** From whatever says where the wasm is to a compiled module. */
+import { wasmCopy } from './copies.js';
+import { messageOf } from './errors.js';
 import { builtin } from './platform.js';
 
 /** @typedef {import('./types.js').InitInput} InitInput */
@@ -23,6 +25,38 @@ export async function compile(input) {
       : compileResponse(await fetch(url));
   }
   throw new TypeError('expected a URL, a Response, bytes, a WebAssembly.Module or a promise of one');
+}
+
+/**
+ * One of the package's own files: the one beside its modules, or else the copy that a bundle has.
+ * @param {import('./copies.js').WasmName} name
+ * @param {() => URL} place
+ * @returns {Promise<WebAssembly.Module>}
+ */
+export async function compileOwn(name, place) {
+  try {
+    return await compile(place());
+  } catch (cause) {
+    const found = await inSources(name) ?? await wasmCopy(name);
+    if (found) return WebAssembly.compile(found);
+    throw new Error(
+      `${messageOf(cause)}; if ${name}_bg.wasm is at another place, pass its address (see "Bundlers" in the README)`,
+      { cause },
+    );
+  }
+}
+
+/**
+ * In a server's bundle that has other places in mind: the file in the package's own folder.
+ * @param {string} name
+ */
+async function inSources(name) {
+  const files = builtin('node:fs/promises');
+  try {
+    return files && new Uint8Array(await files.readFile(new URL(import.meta.url.replace(/[^/]*$/, `wasm/${name}_bg.wasm`))));
+  } catch {
+    return undefined;
+  }
 }
 
 /**

@@ -130,6 +130,10 @@ fn lines_end_at_creases_and_planes_have_none() {
     }
     let plane = Rulings::new(&unit_square(40, |x, y| x + 2.0 * y)).unwrap();
     assert!(plane.trace(&TraceOptions::default()).unwrap().is_empty());
+    for confidence in [-0.1, 1.1, f64::NAN] {
+        let error = plane.trace(&TraceOptions::default().confidence(confidence));
+        assert_eq!(error.unwrap_err().code(), "OPTION");
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 import { pathToFileURL } from 'node:url';
 import { setupBuild } from './setup.mjs';
 import { main } from './util/problem.mjs';
+import { buildInline } from './build/inline.mjs';
 import { buildVendor } from './build/vendor.mjs';
 import { compileWasm, packWasm } from './build/wasm.mjs';
 
@@ -10,6 +11,7 @@ export async function build() {
   const { env } = await setupBuild(compileWasm);
   await buildVendor();
   await packWasm(env);
+  await buildInline();
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) await main(build);

@@ -1,19 +1,21 @@
 /** From the command line to a task. */
 import { realpathSync } from 'node:fs';
 import { extname, resolve } from 'node:path';
-import { commandOf, split, usage } from './flags.js';
+import { OPTIONS } from '../options.js';
+import { checkFlags, commandNamed } from './commands.js';
+import { split, usage } from './flags.js';
 
 /**
  * @typedef {import('./flags.js').Flag} Flag
  * @typedef {import('./flags.js').Values} Values
- * @typedef {Exclude<import('./flags.js').Command, 'info'>} WritingCommand
+ * @typedef {Exclude<import('./commands.js').Command, 'info'>} WritingCommand
  * @typedef {import('../types.js').SolverOptions} SolverOptions
  * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json' | '.mtl'} Extension
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
  * @property {string[]} written all files that are to be written
- * @property {string} output
+ * @property {string} output nothing for standard output
  * @property {Extension} extension the output's
  * @property {string} [array] of an NPZ file
  * @property {string} [mask]
@@ -40,8 +42,10 @@ import { commandOf, split, usage } from './flags.js';
  * @typedef {Omit<FitTask, 'command'> & { asIs: boolean }} SheetTask `asIs`: without a fit
  * @typedef {SheetTask & { command: 'analyze', threshold?: number }} AnalyzeTask
  * @typedef {SheetTask & { command: 'unroll' }} UnrollTask
+ * @typedef {SheetTask & { command: 'patches', patching: import('../types.js').PatchOptions }} PatchesTask
+ * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
  * @typedef {SheetTask & {
- *   command: 'pattern', scale?: number, tabs?: number, paper?: 'a4' | 'letter',
+ *   command: 'pattern', patching: import('../types.js').PatchOptions, scale?: number, tabs?: number, paper?: 'a4' | 'letter',
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture: string, dots?: number, trim: boolean, map?: string,
@@ -53,8 +57,6 @@ const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr',
 const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const papers = /** @type {const} */ (['a4', 'letter', 'none']);
 const lattices = /** @type {const} */ (['square', 'hex']);
-const schedules = /** @type {const} */ (['default', 'paper']);
-const energies = /** @type {const} */ (['nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm']);
 
 /** What each command can write. @type {Record<WritingCommand, readonly Extension[]>} */
 const extensions = {
@@ -62,44 +64,52 @@ const extensions = {
   design: surfaces,
   occlusions: ['.png', '.npy'],
   analyze: ['.json'],
+  patches: ['.json', '.npy', '.obj', '.ply', '.glb'],
+  rulings: ['.json', '.obj'],
   unroll: ['.obj', '.json'],
   pattern: [...drawings, '.json'],
   dewarp: ['.png'],
 };
+
+/** Commands that tell something, for which standard output will do. */
+const telling = ['analyze', 'patches', 'rulings'];
 
 /** The threshold of the paper's authors, which `auto` stands for. */
 const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
- * @returns {FitTask | OcclusionsTask | AnalyzeTask | UnrollTask | PatternTask | DewarpTask | InfoTask | { command: 'help' } | { command: 'version' }}
+ * @returns {FitTask | OcclusionsTask | AnalyzeTask | PatchesTask | RulingsTask | UnrollTask | PatternTask |
+ *   DewarpTask | InfoTask | { command: 'help', about?: import('./commands.js').Command } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
-  if (values.help) return { command: 'help' };
   if (values.version) return { command: 'version' };
   const [name, input, ...more] = positionals;
+  if (name === 'help') return { command: 'help', about: input === undefined ? undefined : commandNamed(input) };
+  if (values.help) return { command: 'help', about: name === undefined ? undefined : commandNamed(name) };
   if (name === undefined) throw usage('there is nothing to do');
-  const command = commandOf(name, values);
-  if (input === undefined) throw usage('the input is missing');
-  if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`);
-  const { output, report, mask, confidence, constraints, texture, mtl, map, array } = values;
+  const command = commandNamed(name);
+  checkFlags(command, values);
+  if (input === undefined) throw usage('the input is missing', command);
+  if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`, command);
+  const { output = '', report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
-  if (output === undefined) throw usage('the output is missing: -o FILE');
+  if (values.output === undefined && !telling.includes(command)) throw usage('the output is missing: -o FILE', command);
   const read = { mask, confidence, constraints, texture, 'occlusion mask': values['occlusion-mask'] };
   const kind = kindOf(input, values);
   checkKind(kind, command, values);
   if (report !== undefined) apart({ report }, { output, input, map, ...read });
   if (map !== undefined) apart({ map }, { output, input, ...read });
   if (mtl !== undefined) apart({ mtl }, { output, input, report, ...read });
-  apart({ output }, read);
+  if (values.output !== undefined) apart({ output }, read);
 
   /** @type {InputTask} */
   const about = {
     input,
     output,
-    written: [output, report, map, mtl].filter((path) => path !== undefined),
-    extension: extension('output', output, extensions[command]),
+    written: [values.output, report, map, mtl].filter((path) => path !== undefined),
+    extension: values.output === undefined ? '.json' : extension('output', output, extensions[command]),
     array,
     mask,
     lattice: kind !== 'image' ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
@@ -136,10 +146,10 @@ export function parse(args) {
     options: {
       lambda: lambda(values.lambda),
       gap: number('gap', values),
-      schedule: choice('schedule', values.schedule ?? 'default', schedules),
+      schedule: one('schedule', values, OPTIONS.solver.schedule),
       maxIterations: number('max-iterations', values),
       normalize: about.normalize,
-      energy: choice('energy', values.energy ?? 'nuclear', energies),
+      energy: one('energy', values, OPTIONS.solver.energy),
       reweighting: number('reweight', values),
       tieBreak: number('tie-break', values),
       occlusionThreshold: values.occlusions === 'auto' ? THRESHOLD : number('occlusions', values, 'auto or '),
@@ -149,10 +159,26 @@ export function parse(args) {
   switch (command) {
     case 'analyze':
       return { command, ...fitting, asIs, threshold: number('threshold', values) };
+    case 'patches':
+      if (asIs && about.lattice === 'square' && isMesh(output)) {
+        throw usage('--as-is of an image has no mesh: write .json or .npy, or leave it out', command);
+      }
+      return { command, ...fitting, asIs, patching: patching(values) };
+    case 'rulings':
+      return {
+        command,
+        ...fitting,
+        asIs,
+        tracing: {
+          separation: number('separation', values),
+          confidence: number('min-confidence', values),
+          crease: number('crease', values),
+        },
+      };
     case 'unroll':
       return { command, ...fitting, asIs };
     case 'pattern':
-      return { command, ...fitting, asIs, ...drawing(values, about.extension) };
+      return { command, ...fitting, asIs, patching: patching(values), ...drawing(values, about.extension) };
     case 'dewarp':
       if (texture === undefined) throw usage('the photo is missing: --texture PHOTO');
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
@@ -160,6 +186,11 @@ export function parse(args) {
     default:
       return { command, ...fitting };
   }
+}
+
+/** Where patches end. @param {Values} values */
+function patching(values) {
+  return { bend: number('bend', values), fold: number('fold', values), smallest: number('smallest', values) };
 }
 
 /**
@@ -308,7 +339,23 @@ function choice(name, value, choices) {
 }
 
 /**
- * @param {Exclude<Flag, 'help' | 'version' | 'no-normalize' | 'ray' | 'as-is' | 'trim'>} name
+ * One of the names that an option may have, or nothing.
+ * @template {'schedule' | 'energy'} N
+ * @param {N} name
+ * @param {Values} values
+ * @param {import('../options.js').Kind} kind
+ * @returns {SolverOptions[N]}
+ */
+function one(name, values, kind) {
+  const text = values[name];
+  if (text === undefined) return undefined;
+  const value = kind.take(text);
+  if (value !== undefined) return /** @type {SolverOptions[N]} */ (value);
+  throw usage(`--${name} ${kind.must}, but is "${text}"`);
+}
+
+/**
+ * @param {Exclude<Flag, import('./flags.js').PlainFlag>} name
  * @param {Values} values
  * @param {string} [names] what may stand there besides a number
  */

@@ -1,9 +1,19 @@
 /** Reading files, and writing them whole or not at all. */
+import { randomBytes } from 'node:crypto';
 import { constants } from 'node:fs';
-import { access, open, readFile, realpath, rename, rm, stat } from 'node:fs/promises';
-import { dirname, join } from 'node:path';
+import { access, copyFile, link, open, readFile, readlink, realpath, rename, rm, stat } from 'node:fs/promises';
+import { dirname, join, resolve } from 'node:path';
 import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
+
+/**
+ * @typedef {import('node:fs').Stats} Stats
+ * @typedef {object} Place where a file is to be put
+ * @property {string} path as the user gave it
+ * @property {string} target the file itself, where the path is a link
+ * @property {Stats} [there] what is there already
+ * @typedef {{ target: string, kept?: string }} Replaced a file, and under what name its last state is kept, if it had one
+ */
 
 /**
  * @param {string} path
@@ -18,94 +28,192 @@ export async function readBytes(path) {
 }
 
 /**
- * Whether a file can be put here: better known before the work than after it.
- * @param {string} path
+ * Whether files can be put here: better known before the work than after it.
+ * @param {string[]} paths
  */
-export async function checkPlace(path) {
-  const target = await followed(path);
-  try {
-    await access(dirname(target), constants.W_OK);
-  } catch (error) {
-    throw failed(`cannot write ${path}`, error);
-  }
-  const there = await stat(target).catch(() => undefined);
-  if (there && !there.isFile()) {
-    throw new Problem(status.input, `cannot write ${path}: it is there and no file`);
-  }
+export async function checkPlaces(...paths) {
+  for (const path of paths) await placeOf(path);
 }
 
 /**
- * Writes all of these files, or none: each into a file of another name in the same folder, down
- * to the disk, and only then over what was there.
+ * Writes all of these files, or none: each into a draft in the same folder, down to the disk, and only then over what
+ * was there, which is put back if the next one cannot be written.
  * @param {{ path: string, bytes: Uint8Array }[]} files
  * @param {AbortSignal} signal
  */
 export async function writeWhole(files, signal) {
-  /** @type {{ path: string, target: string, draft: string }[]} */
+  /** @type {(Place & { draft: string })[]} */
   const drafts = [];
+  /** @type {Replaced[]} */
+  const replaced = [];
   try {
-    for (const [i, { path, bytes }] of files.entries()) {
-      const target = await followed(path);
-      // Not made from the target's name, which may be as long as a name can be.
-      const draft = join(dirname(target), `.developable-${process.pid}-${i}.tmp`);
-      drafts.push({ path, target, draft });
-      await write(path, draft, bytes);
+    for (const { path, bytes } of files) {
+      const place = await placeOf(path);
+      const draft = beside(place.target);
+      drafts.push({ ...place, draft });
+      await writing(path, () => write(draft, bytes, place.there));
     }
     signal.throwIfAborted();
-    for (const { path, target, draft } of drafts) {
-      await rename(draft, target).catch((error) => {
-        throw failed(`cannot write ${path}`, error);
-      });
+    for (const [i, { path, target, there, draft }] of drafts.entries()) {
+      // After the last one nothing can fail any more.
+      const kept = there && i + 1 < drafts.length ? beside(target) : undefined;
+      await writing(path, () => replace(target, draft, kept));
+      replaced.push({ target, kept });
     }
+    for (const { kept } of replaced) if (kept !== undefined) await remove(kept);
   } catch (error) {
-    await Promise.all(drafts.map(({ draft }) => rm(draft, { force: true })));
+    for (const { target, kept } of replaced.reverse()) {
+      await (kept === undefined ? remove(target) : rename(kept, target).catch(() => {}));
+    }
     throw error;
+  } finally {
+    await Promise.all(drafts.map(({ draft }) => remove(draft)));
   }
 }
 
 /**
+ * Where a file is to be put; an error where that is not possible.
  * @param {string} path
+ * @returns {Promise<Place>}
+ */
+async function placeOf(path) {
+  return writing(path, async () => {
+    const target = await followed(path);
+    const folder = dirname(target);
+    if (!(await stat(folder)).isDirectory()) throw new Refusal(reasons.ENOTDIR);
+    const there = await stat(target).catch((error) => {
+      if (error.code !== 'ENOENT') throw error;
+      return undefined;
+    });
+    if (there && !there.isFile()) throw new Refusal(there.isDirectory() ? reasons.EISDIR : 'it is there and no file');
+    // To root every file is writable, but one without any such permission is meant to stay.
+    if (there && ((there.mode & 0o222) === 0 || !(await writable(target)))) throw new Refusal('it is read-only');
+    await access(folder, constants.W_OK | constants.X_OK);
+    return { path, target, there };
+  });
+}
+
+/** @param {string} path */
+async function writable(path) {
+  return access(path, constants.W_OK).then(() => true, () => false);
+}
+
+/**
+ * The file itself where the path is a link, which is to stay one, also where the file is not there yet.
+ * @param {string} path
+ * @returns {Promise<string>}
+ */
+async function followed(path) {
+  try {
+    return await realpath(path);
+  } catch (error) {
+    if (codeOf(error) !== 'ENOENT') throw error;
+    const next = await readlink(path).catch(() => undefined);
+    return next === undefined ? path : followed(resolve(dirname(path), next));
+  }
+}
+
+/**
+ * A name in the same folder that nobody can foresee: a link might be waiting there. Not made from the file's own name,
+ * which may be as long as a name can be.
+ * @param {string} target
+ */
+function beside(target) {
+  return join(dirname(target), `.developable-${randomBytes(12).toString('hex')}.tmp`);
+}
+
+/**
+ * A new file, with the owner and the permissions of the one that it is to replace.
  * @param {string} draft
  * @param {Uint8Array} bytes
+ * @param {Stats | undefined} there
  */
-async function write(path, draft, bytes) {
+async function write(draft, bytes, there) {
+  const file = await open(draft, 'wx', there ? there.mode & 0o777 : 0o666);
   try {
-    const file = await open(draft, 'w');
-    try {
-      await file.writeFile(bytes);
-      await file.sync();
-    } finally {
-      await file.close();
+    if (there) {
+      // Only root can give files away.
+      await file.chown(there.uid, there.gid).catch(() => {});
+      await file.chmod(there.mode & 0o777);
     }
+    await file.writeFile(bytes);
+    await file.sync();
+  } finally {
+    await file.close();
+  }
+}
+
+/**
+ * Puts a draft in the place of a file.
+ * @param {string} target
+ * @param {string} draft
+ * @param {string} [kept] a name under which the file is to be kept
+ */
+async function replace(target, draft, kept) {
+  try {
+    // Not every file system gives a file two names.
+    if (kept !== undefined) await link(target, kept).catch(() => copyFile(target, kept, constants.COPYFILE_EXCL));
+    await rename(draft, target);
+  } catch (error) {
+    if (kept !== undefined) await remove(kept);
+    throw error;
+  }
+}
+
+/** Removes a file of our own; where that fails, it is no reason to hide how the rest went. @param {string} file */
+async function remove(file) {
+  await rm(file, { force: true }).catch(() => {});
+}
+
+/** Why a file is not written, in words of our own. */
+class Refusal extends Error {}
+
+/**
+ * Says of what goes wrong which file it is about.
+ * @template T
+ * @param {string} path
+ * @param {() => Promise<T>} run
+ */
+async function writing(path, run) {
+  try {
+    return await run();
   } catch (error) {
     throw failed(`cannot write ${path}`, error);
   }
 }
 
-/**
- * The file itself where the path is a link, which is to stay one.
- * @param {string} path
- */
-function followed(path) {
-  return realpath(path).catch(() => path);
-}
+/** @type {Record<string, string>} */
+const reasons = {
+  ENOENT: 'there is no such file or folder',
+  EISDIR: 'it is a folder',
+  ENOTDIR: 'a part of the path is no folder',
+  EACCES: 'permission denied',
+  EPERM: 'not permitted',
+  EROFS: 'the file system is read-only',
+  ENOSPC: 'the disk is full',
+  EDQUOT: 'the disk quota is exceeded',
+  EFBIG: 'it would be too large a file',
+  EIO: 'the disk failed',
+  EBUSY: 'it is in use',
+  EMFILE: 'too many files are open',
+  ENFILE: 'too many files are open',
+  ELOOP: 'its links go in a circle',
+  ENAMETOOLONG: 'the name is too long',
+  ERR_INVALID_ARG_VALUE: 'no file can have this name',
+};
 
 /**
+ * What went wrong with a file, without the system's own names for it.
  * @param {string} what
  * @param {unknown} error
  */
-function failed(what, error) {
-  const { code } = /** @type {NodeJS.ErrnoException} */ (error);
-  /** @type {Record<string, string>} */
-  const reasons = {
-    ENOENT: 'there is no such file or folder',
-    EISDIR: 'it is a folder',
-    ENOTDIR: 'a part of the path is no folder',
-    EACCES: 'permission denied',
-    EPERM: 'not permitted',
-    EROFS: 'the file system is read-only',
-    ENOSPC: 'the disk is full',
-    ENAMETOOLONG: 'the name is too long',
-  };
-  return new Problem(status.input, `${what}: ${reasons[code ?? ''] ?? messageOf(error)}`);
+export function failed(what, error) {
+  if (error instanceof Problem) return error;
+  const reason = reasons[codeOf(error)] ?? messageOf(error).replace(/^E[A-Z0-9]+: (.*?)(, \w+( '.*)?)?$/s, '$1');
+  return new Problem(status.input, `${what}: ${reason}`);
+}
+
+/** @param {unknown} error */
+function codeOf(error) {
+  return /** @type {NodeJS.ErrnoException} */ (error).code ?? '';
 }

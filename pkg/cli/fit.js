@@ -1,7 +1,7 @@
 /** `developable fit` and `developable design`. */
 import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
-import { checkPlace, readBytes, writeWhole } from './files.js';
+import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about, readInput } from './inputs.js';
 import { announce, percent, progressLine } from './terminal.js';
 
@@ -15,9 +15,7 @@ import { announce, percent, progressLine } from './terminal.js';
  * @param {AbortSignal} signal
  */
 export async function fit(task, signal) {
-  await checkPlace(task.output);
-  if (task.report !== undefined) await checkPlace(task.report);
-  if (task.mtl !== undefined) await checkPlace(task.mtl);
+  await checkPlaces(...task.written);
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
   const bare = await solve(task, await readInput(task), { signal, transfer: true });
   const surface = texture === undefined

@@ -1,107 +1,218 @@
-/** The flags: what there is, which command takes what, and the command line taken apart. */
+/** The flags: what there is, in the order in which they are explained, and the command line taken apart. */
 import { parseArgs } from 'node:util';
 import { messageOf } from '../errors.js';
+import { nearest } from '../nearest.js';
 import { Problem, status } from './problem.js';
 
-const text = /** @type {const} */ ({ type: 'string' });
-const plain = /** @type {const} */ ({ type: 'boolean' });
+/**
+ * @typedef {object} FlagInfo
+ * @property {string} help
+ * @property {string} [value] what follows it; without one it is there or not
+ * @property {string} [short]
+ * @property {string} [option] the option of the library that it stands for, where that has another name
+ */
 
-const flags = {
-  output: /** @type {const} */ ({ type: 'string', short: 'o' }),
-  lambda: text,
-  gap: text,
-  schedule: text,
-  'max-iterations': text,
-  energy: text,
-  reweight: text,
-  'tie-break': text,
-  lattice: text,
-  spacing: text,
-  'height-scale': text,
-  intrinsics: text,
-  ray: plain,
-  texture: text,
-  mtl: text,
-  view: text,
-  resolution: text,
-  mask: text,
-  'no-data': text,
-  'no-normalize': plain,
-  confidence: text,
-  constraints: text,
-  free: text,
-  occlusions: text,
-  threshold: text,
-  array: text,
-  'occlusion-mask': text,
-  report: text,
-  'as-is': plain,
-  dots: text,
-  trim: plain,
-  map: text,
-  scale: text,
-  paper: text,
-  tabs: text,
-  help: /** @type {const} */ ({ type: 'boolean', short: 'h' }),
-  version: plain,
+/** @satisfies {Record<string, { title: string, flags: Record<string, FlagInfo> }>} */
+export const sections = {
+  output: {
+    title: 'What to write',
+    flags: {
+      output: { short: 'o', value: 'FILE', help: 'the file to write, which appears whole or not at all' },
+      report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
+    },
+  },
+  energy: {
+    title: 'What to minimise',
+    flags: {
+      lambda: {
+        value: 'L',
+        help: 'how closely to follow the input: small (1e5), medium (1e6, the default), big (1e7) or any number above zero',
+      },
+      energy: {
+        value: 'E',
+        help: 'nuclear (the default), frobenius, squaredNuclear, secondFormOfInput or secondForm',
+      },
+      reweight: {
+        value: 'N',
+        option: 'reweighting',
+        help: 'passes that undo the shrinking of curvature; 2 or 3 are usual (default 0)',
+      },
+      'tie-break': { value: 'E', help: 'weight that keeps free vertices near a thin plate (default 0.01)' },
+      'no-normalize': {
+        option: 'normalize',
+        help: 'take the coordinates as they are, instead of scaling them to the unit square, for which lambda is meant',
+      },
+    },
+  },
+  stop: {
+    title: 'When to stop',
+    flags: {
+      gap: { value: 'G', help: 'certified relative gap to stop at (default 0.01)' },
+      schedule: { value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
+      'max-iterations': { value: 'N', help: 'most iterations (default 20000)' },
+    },
+  },
+  heights: {
+    title: 'How to read the heights',
+    flags: {
+      lattice: {
+        value: 'L',
+        help: 'square (the default): INPUT is an image; hex: its values are on the hexagonal lattice already (odd rows ' +
+          'half a spacing to the left, 0 or NaN is no data), and so are those of OUTPUT',
+      },
+      spacing: {
+        value: 'S',
+        help: "distance of neighbours on the lattice (default: the size of a pixel: 1 unless the file says otherwise), " +
+          "for a mesh in the place of --resolution, in the mesh's unit",
+      },
+      'height-scale': {
+        value: 'S',
+        help: "factor from the file's values to heights (default: what the file says, 1 for floats, NPY and NPZ; for " +
+          'other whole numbers white is a quarter of the longer side above black)',
+      },
+      array: { value: 'NAME', help: 'the array of an NPZ file, where it holds several' },
+      mask: { value: 'FILE', help: 'image of the same shape; 0 takes a value out' },
+      'no-data': { value: 'V', help: 'value that means no data, besides NaN' },
+    },
+  },
+  mesh: {
+    title: 'How to look at a mesh',
+    flags: {
+      view: {
+        value: 'V',
+        help: 'the direction to look in: -x, +x, -y, +y, -z (the default: what has the largest z is in front), +z, a ' +
+          'vector as 0,-1,-1, or best-fit: straight at the plane that fits best. Up is near +y (along -y it is -z)',
+      },
+      resolution: {
+        value: 'N',
+        help: 'vertices along the longer side (default 200; of a point cloud fewer, to leave each some points)',
+      },
+      intrinsics: {
+        value: 'fx,fy,cx,cy[,scale]',
+        help: 'INPUT holds the depths that a camera with these numbers (in pixels; the centre of the top left one is ' +
+          '0,0) has seen; 0 and below are none. It is taken for a mesh, in which jumps are not bridged; scale makes ' +
+          'lengths of depths. x is to the right, y up, the axis along -z',
+      },
+      ray: { help: 'depths are from the camera, not along its axis' },
+    },
+  },
+  known: {
+    title: 'What else is known (files of the same shape)',
+    flags: {
+      confidence: {
+        value: 'FILE',
+        help: 'how far each height is to be trusted: whole numbers as shares of their largest, so that white is 1 and ' +
+          'black 0; others as they are',
+      },
+      constraints: {
+        value: 'FILE',
+        help: "heights to be met exactly, in the input's scale; transparent pixels and NaN are free",
+      },
+      free: { value: 'V', help: 'value of the constraints that means free, besides' },
+      'occlusion-mask': { value: 'FILE', help: 'not 0 where the surface is torn' },
+      occlusions: {
+        value: 'T',
+        option: 'occlusionThreshold',
+        help: "look for more such places: where it bends by more than T; auto is the authors' value, 4e4",
+      },
+      threshold: { value: 'T', help: 'where it bends by more than T, it is torn (default 4e4)' },
+    },
+  },
+  colours: {
+    title: 'Colours',
+    flags: {
+      texture: {
+        value: 'FILE',
+        help: 'PNG, JPEG or WebP picture with the outline of INPUT, or that its texture coordinates are about: the ' +
+          'colours of an .obj or .ply, the texture of a .glb (of a WebP its colours alone). A mesh with textures of its ' +
+          'own does not need it',
+      },
+      mtl: { value: 'FILE', help: '.mtl file to be written, too, through which an .obj has that picture as its texture' },
+    },
+  },
+  shape: {
+    title: 'What is made of the surface',
+    flags: {
+      'as-is': { help: 'take the heights as they are, without a fit' },
+      bend: {
+        value: 'A',
+        help: 'angle, in radians, by which the surface bends from one vertex to the next on a crease (default: six ' +
+          'times its median, and at least 0.035)',
+      },
+      fold: { value: 'A', help: 'patches that fold by less, in radians, are one (default 0.15)' },
+      smallest: { value: 'S', help: 'share of all vertices that a patch has at least (default 0.005)' },
+      separation: { value: 'D', help: 'distance between lines, as seen from above (default: ten lattice spacings)' },
+      'min-confidence': {
+        value: 'C',
+        option: 'confidence',
+        help: 'a line ends where its direction is trusted by less, from 0 to 1 (default 0.3)',
+      },
+      crease: {
+        value: 'A',
+        help: 'a line ends where the surface bends by more from one vertex to the next, in radians (default 0.2)',
+      },
+      scale: { value: 'MM', help: 'millimetres of the pattern for each unit of length (default 1)' },
+      tabs: { value: 'MM', help: 'depth of tabs to glue along creases that are cut (default: none)' },
+      paper: {
+        value: 'P',
+        help: 'a4 or letter: a .pdf on pages that are put together by the crosses on them; none (the default): on one page',
+      },
+      dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
+      trim: { help: 'cut off the margins where there is no sheet' },
+      map: {
+        value: 'FILE',
+        help: '.npy (height, width, 2) or .json: for each pixel of the flat image its place x, y in the photo',
+      },
+    },
+  },
+  general: {
+    title: 'Besides',
+    flags: {
+      help: { short: 'h', help: 'this text' },
+      version: { help: 'the version' },
+    },
+  },
 };
-
-/** @typedef {keyof typeof flags} Flag */
-/** @typedef {'fit' | 'design' | 'occlusions' | 'analyze' | 'unroll' | 'pattern' | 'dewarp' | 'info'} Command */
-
-/** What only a flat image can be told. @type {readonly Flag[]} */
-const ofImages = ['dots', 'trim', 'map'];
-
-/** What only a pattern can be told. @type {readonly Flag[]} */
-const ofPatterns = ['scale', 'paper', 'tabs'];
-
-/** What is about flat sheets. @type {readonly Flag[]} */
-const ofSheets = ['as-is', ...ofImages, ...ofPatterns];
-
-/** @type {readonly Flag[]} */
-const general = ['array', 'help', 'version'];
-
-/** What a command does not take. @type {Record<Command, readonly Flag[]>} */
-const foreign = {
-  fit: ['threshold', ...ofSheets],
-  design: [
-    'intrinsics', 'ray', 'texture', 'mtl', 'no-data', 'confidence', 'constraints', 'occlusions', 'threshold',
-    ...ofSheets,
-  ],
-  occlusions: [
-    'lambda', 'gap', 'schedule', 'max-iterations', 'energy', 'reweight', 'tie-break', 'confidence',
-    'constraints', 'free', 'occlusions', 'occlusion-mask', 'report', 'texture', 'mtl', ...ofSheets,
-  ],
-  analyze: ['texture', 'mtl', 'report', ...ofImages, ...ofPatterns],
-  unroll: ['texture', 'mtl', 'threshold', ...ofImages, ...ofPatterns],
-  pattern: ['texture', 'mtl', 'threshold', ...ofImages],
-  dewarp: ['mtl', 'threshold', ...ofPatterns],
-  info: /** @type {Flag[]} */ (Object.keys(flags)).filter((flag) => !general.includes(flag)),
-};
-
-/** @param {string[]} args */
-export function split(args) {
-  try {
-    return parseArgs({ args: joined(args), options: flags, allowPositionals: true });
-  } catch (error) {
-    throw usage(messageOf(error).replace(/\. To specify a positional.*$/s, ''));
-  }
-}
-
-/** @typedef {ReturnType<typeof split>['values']} Values */
 
 /**
- * @param {string} name
- * @param {Values} values
- * @returns {Command}
+ * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections]} Flag
+ * @typedef {'no-normalize' | 'ray' | 'as-is' | 'trim' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
-export function commandOf(name, values) {
-  const commands = /** @type {Command[]} */ (Object.keys(foreign));
-  const command = commands.find((known) => known === name);
-  if (!command) throw usage(`there is no command "${name}", only ${commands.join(', ')}`);
-  const stray = foreign[command].find((flag) => values[flag] !== undefined);
-  if (stray) throw usage(`--${stray} is not for "${command}"`);
-  return command;
+
+const flags = /** @type {Record<Flag, FlagInfo>} */ (
+  Object.assign({}, ...Object.values(sections).map((section) => section.flags))
+);
+
+/** Flags by the names of their options, where those differ. */
+const renamed = new Map(Object.entries(flags).flatMap(([flag, { option }]) => (option ? [[option, flag]] : [])));
+
+/** How an option of the library is called here: `maxIterations` is `--max-iterations`. @param {string} option */
+export function flagOf(option) {
+  return `--${renamed.get(option) ?? option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}`;
+}
+
+/**
+ * @param {string[]} args
+ * @returns {{ values: Values, positionals: string[] }}
+ */
+export function split(args) {
+  const options = Object.fromEntries(
+    Object.entries(flags).map(([name, { value, short }]) => [
+      name,
+      { type: value === undefined ? /** @type {const} */ ('boolean') : /** @type {const} */ ('string'), ...(short && { short }) },
+    ]),
+  );
+  try {
+    const { values, positionals } = parseArgs({ args: joined(args), options, allowPositionals: true });
+    return { values: /** @type {Values} */ (values), positionals };
+  } catch (error) {
+    const message = messageOf(error).replace(/\. To specify a positional.*$/s, '');
+    const [, unknown] = /^Unknown option '(-[^']*)'/.exec(message) ?? [];
+    if (unknown === undefined) throw usage(message);
+    const near = nearest(unknown.replace(/^-+/, ''), Object.keys(flags));
+    throw usage(`unknown option ${unknown}${near === undefined ? '' : `: did you mean --${near}?`}`);
+  }
 }
 
 /**
@@ -119,7 +230,10 @@ function joined(args) {
   return out;
 }
 
-/** @param {string} message */
-export function usage(message) {
-  return new Problem(status.usage, `${message}\nTry "developable --help".`);
+/**
+ * @param {string} message
+ * @param {string} [command] whose help there is
+ */
+export function usage(message, command) {
+  return new Problem(status.usage, `${message}\nTry "developable ${command === undefined ? '' : `${command} `}--help".`);
 }

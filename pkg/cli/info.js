@@ -3,6 +3,7 @@ import * as developable from '../index.js';
 import { readBytes } from './files.js';
 import { isMesh } from './arguments.js';
 import { about, readMeshFile } from './inputs.js';
+import { print } from './terminal.js';
 
 /** @typedef {import('../types.js').ReadResult} ReadResult */
 
@@ -14,7 +15,7 @@ export async function info({ input, array }) {
     if (isArchive(bytes) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
     return imageInWords(await developable.read(bytes, { array }));
   });
-  process.stdout.write(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
+  await print(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
 }
 
 /** @param {Uint8Array} bytes */

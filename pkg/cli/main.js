@@ -5,10 +5,13 @@ import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
 import { fit } from './fit.js';
-import { help } from './help.js';
+import { flagOf } from './flags.js';
+import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
-import { analyze, dewarp, pattern, unroll } from './sheets.js';
+import { dewarp, pattern, unroll } from './sheets.js';
+import { analyze, patches, rulings } from './tell.js';
+import { print } from './terminal.js';
 
 /**
  * @param {string[]} args
@@ -40,17 +43,19 @@ export async function main(args) {
 async function perform(task, signal) {
   switch (task.command) {
     case 'help':
-      process.stdout.write(help);
-      return;
+      return print(task.about === undefined ? overview() : helpOn(task.about));
     case 'version':
-      process.stdout.write(`${await version()}\n`);
-      return;
+      return print(`${await version()}\n`);
     case 'info':
       return info(task);
     case 'occlusions':
       return occlusions(task, signal);
     case 'analyze':
       return analyze(task, signal);
+    case 'patches':
+      return patches(task, signal);
+    case 'rulings':
+      return rulings(task, signal);
     case 'unroll':
       return unroll(task, signal);
     case 'pattern':
@@ -83,18 +88,9 @@ function explain(error) {
   }
 }
 
-/** Flags that are not called as their options are. @type {Record<string, string>} */
-const shorter = { reweighting: 'reweight', occlusionThreshold: 'occlusions' };
-
-/**
- * `maxIterations` is `--max-iterations` here.
- * @param {string} message
- */
+/** Options by their names here. @param {string} message */
 function asFlags(message) {
-  return message.replace(
-    /option `(\w+)`/,
-    (_, name) => `--${shorter[name] ?? name.replace(/[A-Z]/g, (/** @type {string} */ letter) => `-${letter.toLowerCase()}`)}`,
-  );
+  return message.replace(/option `(\w+)`/, (_, name) => flagOf(name));
 }
 
 async function version() {

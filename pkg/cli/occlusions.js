@@ -1,8 +1,9 @@
 /** `developable occlusions`. */
 import { crc32, deflateSync } from 'node:zlib';
 import * as developable from '../index.js';
-import { checkPlace, writeWhole } from './files.js';
+import { checkPlaces, writeWhole } from './files.js';
 import { readInput } from './inputs.js';
+import { print } from './terminal.js';
 
 /**
  * Prints how many vertices there are, and writes where.
@@ -10,7 +11,7 @@ import { readInput } from './inputs.js';
  * @param {AbortSignal} signal
  */
 export async function occlusions(task, signal) {
-  await checkPlace(task.output);
+  await checkPlaces(task.output);
   const input = await readInput(task);
   const { threshold, normalize, spacing } = task;
   const options = task.lattice !== 'square' ? { threshold, normalize } : { threshold, normalize, spacing };
@@ -22,7 +23,7 @@ export async function occlusions(task, signal) {
     ? maskPng(width, height, flags)
     : await developable.writeNpy({ width, height, data: flags });
   await writeWhole([{ path: task.output, bytes }], signal);
-  process.stdout.write(`${count}\n`);
+  await print(`${count}\n`);
 }
 
 /**

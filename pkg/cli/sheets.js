@@ -1,6 +1,6 @@
-/** `developable analyze`, `developable unroll`, `developable pattern` and `developable dewarp`. */
+/** `developable unroll`, `developable pattern` and `developable dewarp`. */
 import * as developable from '../index.js';
-import { checkPlace, readBytes, writeWhole } from './files.js';
+import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readInput } from './inputs.js';
 
@@ -11,31 +11,11 @@ import { about, readInput } from './inputs.js';
  */
 
 /**
- * The figures of the input, and of the surface fitted to it.
- * @param {import('./arguments.js').AnalyzeTask} task
- * @param {AbortSignal} signal
- */
-export async function analyze(task, signal) {
-  await checkPlace(task.output);
-  const input = await readInput(task);
-  const { threshold } = task;
-  const before = await developable.analyze(input, { threshold, ...spacing(task) });
-  /** @type {Record<string, unknown>} */
-  const figures = { input: before.summary };
-  if (!task.asIs) {
-    const surface = await solve(task, input, { signal });
-    const after = await developable.analyze(surface, { threshold, reference: input, ...spacing(task) });
-    Object.assign(figures, { output: after.summary, deviation: after.deviation });
-  }
-  await writeWhole([{ path: task.output, bytes: json(figures) }], signal);
-}
-
-/**
  * @param {import('./arguments.js').UnrollTask} task
  * @param {AbortSignal} signal
  */
 export async function unroll(task, signal) {
-  await checkPlaces(task.output, task.report);
+  await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
   const sheet = await developable.unroll(surface, options);
   const bytes = task.extension === '.obj' ? flatObj(sheet) : json(plainArrays(sheet));
@@ -47,10 +27,10 @@ export async function unroll(task, signal) {
  * @param {AbortSignal} signal
  */
 export async function pattern(task, signal) {
-  await checkPlaces(task.output, task.report);
+  await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
   const { scale, tabs, paper } = task;
-  const drawing = await developable.pattern(surface, { ...options, scale, tabs });
+  const drawing = await developable.pattern(surface, { ...options, ...task.patching, scale, tabs });
   const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, paper) }];
   if (task.report !== undefined) files.push({ path: task.report, bytes: json(drawing.summary) });
   await writeWhole(files, signal);
@@ -81,7 +61,7 @@ async function drawn(drawing, extension, paper) {
  * @param {AbortSignal} signal
  */
 export async function dewarp(task, signal) {
-  await checkPlaces(task.output, task.report, task.map);
+  await checkPlaces(...task.written);
   const bytes = await readBytes(task.texture);
   const photo = await about(task.texture, () => developable.readPhoto(bytes));
   const { surface, options } = await flattened(task, signal);
@@ -105,20 +85,15 @@ export async function dewarp(task, signal) {
  * @param {SheetTask} task
  * @param {AbortSignal} signal
  */
-async function flattened(task, signal) {
+export async function flattened(task, signal) {
   const input = await readInput(task);
   if (task.asIs) return { surface: input, options: spacing(task) };
   return { surface: await solve(task, input, { signal }), options: {} };
 }
 
 /** @param {SheetTask} task */
-function spacing(task) {
+export function spacing(task) {
   return task.lattice === 'square' ? { spacing: task.spacing } : {};
-}
-
-/** @param {(string | undefined)[]} paths */
-async function checkPlaces(...paths) {
-  for (const path of paths) if (path !== undefined) await checkPlace(path);
 }
 
 /**
@@ -135,7 +110,7 @@ function share(value) {
 }
 
 /** @param {unknown} value */
-function json(value) {
+export function json(value) {
   return new TextEncoder().encode(`${JSON.stringify(value, undefined, 2)}\n`);
 }
 

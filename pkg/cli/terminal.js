@@ -1,6 +1,24 @@
-/** What people see while they wait: only on a terminal, so that scripts get silence. */
+/** What people see: results on standard output, and on a terminal how the work goes, so that scripts get silence. */
+import { failed } from './files.js';
 
 const terminal = process.stderr;
+
+// What cannot be written is said where it was asked for, and of standard error there is nobody to tell.
+for (const stream of [process.stdout, process.stderr]) stream.on('error', () => {});
+
+/**
+ * @param {string} text
+ * @returns {Promise<void>}
+ */
+export function print(text) {
+  return new Promise((resolve, reject) => {
+    process.stdout.write(text, (error) => {
+      // Who has read enough, as `head` has, closes the pipe.
+      if (!error || /** @type {NodeJS.ErrnoException} */ (error).code === 'EPIPE') resolve();
+      else reject(failed('cannot write to standard output', error));
+    });
+  });
+}
 
 /** One line that is written over and over. */
 export function progressLine() {

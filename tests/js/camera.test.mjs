@@ -8,7 +8,7 @@ import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 
 after(() => developable.dispose());
-await Promise.all([direct.init(), direct.initFiles(), direct.initMeshes()]);
+await Promise.all([direct.init(), direct.load('files', 'meshes')]);
 
 const [width, height] = [64, 48];
 const camera = { fx: 90, fy: 110, cx: 30, cy: 25 };
@@ -98,7 +98,7 @@ test('what is wrong with a camera is said', async () => {
   assert.throws(changed({ cx: NaN }), error('OPTION', /`cx`/));
   assert.throws(changed({ cy: undefined }), error('OPTION', /fx, fy, cx and cy/));
   assert.throws(changed({ depthScale: -1 }), error('OPTION', /`depthScale`/));
-  assert.throws(changed({ depth: 'radial' }), error('OPTION', /`planar` or `ray`/));
+  assert.throws(changed({ depth: 'radial' }), error('OPTION', /planar or ray/));
   assert.throws(changed({ k1: 0.1 }), error('OPTION', /`k1`/));
   assert.throws(() => direct.backProject(/** @type {any} */ ({}), camera), error('INPUT', /width/));
   assert.throws(() => direct.backProject({ ...image, data: [1, 2] }, camera), error('SHAPE', /depth image/));

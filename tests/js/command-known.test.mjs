@@ -7,7 +7,7 @@ import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { deviation, image, lattice, plane } from './support/shapes.mjs';
 
-await Promise.all([direct.init(), direct.initFiles()]);
+await Promise.all([direct.init(), direct.load('files')]);
 const folder = await temporaryFolder();
 const ramp = image(30, 24, plane);
 const step = image(30, 24, (x, y) => plane(x, y) + (x > 15 ? 9 : 0));

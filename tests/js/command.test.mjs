@@ -4,12 +4,16 @@ import { mkdir, readFile, readdir, readlink, symlink, writeFile } from 'node:fs/
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
+import { parse } from '../../pkg/cli/arguments.js';
+import { commands } from '../../pkg/cli/commands.js';
 import { writeWhole } from '../../pkg/cli/files.js';
+import { flagOf, sections } from '../../pkg/cli/flags.js';
 import * as direct from '../../pkg/direct.js';
+import { OPTIONS } from '../../pkg/options.js';
 import { command, run, temporaryFolder } from './support/command.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 
-await Promise.all([direct.init(), direct.initFiles()]);
+await Promise.all([direct.init(), direct.load('files')]);
 const folder = await temporaryFolder();
 const ramp = image(24, 20, plane);
 const rough = image(40, 30, noisy(cylinder(40), 0.4));
@@ -21,7 +25,7 @@ await writeFile(join(folder, 'ramp.npy'), direct.writeNpy(ramp));
 await writeFile(join(folder, 'rough.npy'), direct.writeNpy(rough));
 await writeFile(join(folder, 'ramp.png'), direct.writePng({ ...ramp, pixelSize: 0.5 }));
 await writeFile(join(folder, 'hex.npy'), direct.writeNpy(hex));
-await writeFile(join(folder, 'hex.png'), direct.writePng({ ...hex, width: 26, height: 22, data: hex.heights }));
+await writeFile(join(folder, 'hex.png'), direct.writePng({ width: 26, height: 22, data: hex.heights }));
 await writeFile(join(folder, 'endless.npy'), direct.writeNpy(endless(300).input));
 await writeFile(join(folder, 'text.npy'), 'hello');
 const mask = new Uint8Array(480).fill(255);
@@ -45,18 +49,87 @@ const report = async (args) => {
 
 test('help and version', async () => {
   const help = await run(folder, ['--help']);
-  assert.equal(help.status, 0);
-  const flags = [
-    '--output', '--lambda', '--gap', '--schedule', '--max-iterations', '--lattice', '--spacing', '--height-scale',
-    '--mask', '--no-data', '--no-normalize', '--report', '--help', '--version', '--energy', '--reweight', '--tie-break',
-    '--view', '--resolution', '--confidence', '--constraints', '--free', '--occlusions', '--threshold', '--occlusion-mask',
-    '--as-is', '--texture', '--dots', '--trim', '--map', '--scale', '--tabs', '--paper',
-  ];
-  for (const flag of flags) assert.ok(help.stdout.includes(flag), flag);
-  assert.ok(help.stdout.split('\n').every((line) => line.length <= 80));
-  assert.deepEqual(await run(folder, ['fit', '-h']), help);
+  assert.deepEqual([help.status, help.stderr], [0, '']);
+  assert.deepEqual(await run(folder, ['help']), help);
   const { version } = JSON.parse(await readFile(new URL('../../pkg/package.json', import.meta.url), 'utf8'));
   assert.deepEqual(await run(folder, ['--version']), { status: 0, stdout: `${version}\n`, stderr: '' });
+});
+
+test('each command has a help of its own, with its flags, an example and how it can end', async () => {
+  const { stdout: overview } = await run(folder, ['--help']);
+  /** @type {Record<string, import('../../pkg/cli/flags.js').FlagInfo>} */
+  const infos = Object.assign({}, ...Object.values(sections).map((section) => section.flags));
+  const every = Object.keys(infos);
+  for (const [name, { flags, examples }] of Object.entries(commands)) {
+    assert.match(overview, new RegExp(`^  ${name} +\\w`, 'm'));
+    const help = await run(folder, [name, '--help']);
+    assert.deepEqual([help.status, help.stderr], [0, '']);
+    assert.deepEqual(await run(folder, ['help', name]), help);
+    assert.ok(help.stdout.startsWith(`Usage: developable ${name} `), help.stdout);
+    const told = [...help.stdout.matchAll(/^ {2}(?:-\w, )?--([\w-]+)/gm)].map((match) => match[1]);
+    assert.deepEqual(told.toSorted(), [...flags].sort());
+    for (const stray of every.filter((flag) => !told.includes(flag))) {
+      const args = infos[stray].value === undefined ? [`--${stray}`] : [`--${stray}`, '1'];
+      const message = new RegExp(`^--${stray} is not for "${name}"\\nTry "developable ${name} --help"`);
+      assert.throws(() => parse([name, ...args]), { status: 2, message });
+    }
+    assert.match(help.stdout, /Exit status: 0 .*\n.*2 for wrong usage/);
+    for (const example of examples) {
+      assert.ok(help.stdout.includes(`  developable ${example}\n`));
+      parse(example.split(' ')); // which throws where it would be refused
+    }
+    assert.ok(help.stdout.split('\n').every((line) => line.length <= 80), name);
+  }
+  assert.ok(overview.split('\n').every((line) => line.length <= 80));
+  // All that a solve can be told can be told here.
+  for (const option of Object.keys(OPTIONS.solver)) {
+    const flag = flagOf(option).slice(2);
+    assert.ok(every.includes(flag) || every.includes(`no-${flag}`), option);
+  }
+});
+
+test('patches and rulings are told, and drawn', async () => {
+  const folds = image(40, 40, (x) => Math.abs(x - 20));
+  await writeFile(join(folder, 'tent.npy'), direct.writeNpy(folds));
+  const { status, stdout, stderr } = await run(folder, ['patches', 'tent.npy', '--lambda', 'big']);
+  assert.deepEqual([status, stderr], [0, '']);
+  const map = JSON.parse(stdout);
+  // Two planes of 20 by 40 at 45 degrees, less what lies between the lattice's border and the image's.
+  assert.deepEqual([map.patches.length, map.creases.length], [2, 1]);
+  for (const { area } of map.patches) assert.ok(Math.abs(area / (20 * 40 * Math.SQRT2) - 1) < 0.12, `${area}`);
+  assert.ok(Math.abs(map.creases[0].fold - Math.PI / 2) < 0.05);
+  await silently(run(folder, ['patches', 'tent.npy', '--lambda', 'big', '-o', 'p.json']));
+  assert.equal(await readFile(join(folder, 'p.json'), 'utf8'), stdout);
+
+  await silently(run(folder, ['patches', 'tent.npy', '--as-is', '-o', 'p.npy', '--report', 'q.json']));
+  const { width, height, data } = await load('p.npy');
+  const report = JSON.parse(await readFile(join(folder, 'q.json'), 'utf8'));
+  assert.deepEqual([width, height], [report.cols, report.rows]);
+  assert.deepEqual([...new Set(data)].filter((label) => label >= 0).sort(), [0, 1]);
+
+  await silently(run(folder, ['patches', 'tent.npy', '-o', 'p.obj']));
+  const lines = (await readFile(join(folder, 'p.obj'), 'utf8')).split('\n').filter((line) => line.startsWith('v '));
+  const colours = new Set(lines.map((line) => line.split(' ').slice(4).join(' ')));
+  assert.equal(colours.size, 2);
+  const bare = await run(folder, ['patches', 'tent.npy', '--as-is', '-o', 'p.ply']);
+  assert.deepEqual([bare.status, /--as-is of an image has no mesh/.test(bare.stderr)], [2, true]);
+
+  // The rulings of a cylinder about an axis along y are parallel to it.
+  await writeFile(join(folder, 'tube.npy'), direct.writeNpy(image(40, 40, cylinder(40))));
+  await silently(run(folder, ['rulings', 'tube.npy', '--as-is', '-o', 'r.obj', '--report', 'r.json', '--separation', '5']));
+  const ruled = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
+  assert.ok(ruled.lines.length >= 4);
+  const obj = await readFile(join(folder, 'r.obj'), 'utf8');
+  const points = [...obj.matchAll(/^v (\S+) (\S+) (\S+)$/gm)].map((match) => match.slice(1).map(Number));
+  const drawn = [...obj.matchAll(/^l (.*)$/gm)].map(([, numbers]) => numbers.split(' ').map((n) => points[Number(n) - 1]));
+  assert.deepEqual(drawn, ruled.lines.map((/** @type {{ points: number[][] }} */ line) => line.points));
+  const sparse = await run(folder, ['rulings', 'tube.npy', '--as-is', '--separation', '20']);
+  assert.ok(JSON.parse(sparse.stdout).lines.length < ruled.lines.length);
+  const odd = await run(folder, ['rulings', 'tube.npy', '--as-is', '--min-confidence', '7']);
+  assert.equal(odd.status, 2);
+  assert.match(odd.stderr, /--min-confidence is 7/);
+  const analysis = await run(folder, ['analyze', 'tube.npy', '--as-is']);
+  assert.ok(JSON.parse(analysis.stdout).input.vertices > 0);
 });
 
 test('a plane comes back in each format, with nothing said in a pipe', async () => {
@@ -143,7 +216,11 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
     ['fit ramp.npy more.npy -o x.npy', /more\.npy/],
     ['fit ramp.npy -o x.jpg', /\.npy, \.png.*x\.jpg/],
     ['fit ramp.npy -o', /output/],
-    ['fit ramp.npy -o x.npy --colour red', /--colour/],
+    ['fit ramp.npy -o x.npy --colour red', /unknown option --colour\n/],
+    ['fit ramp.npy -o x.npy --lamda 3', /unknown option --lamda: did you mean --lambda\?/],
+    ['ptches ramp.npy', /no command "ptches", did you mean "patches"\?/],
+    ['help fti', /did you mean "fit"\?/],
+    ['fit ramp.npy -o x.npy --thresh 3', /unknown option --thresh/],
     ['fit ramp.npy -o x.npy --lambda huge', /--lambda.*small.*huge/],
     ['fit ramp.npy -o x.npy --lambda -3', /--lambda.*-3/],
     ['fit ramp.npy -o x.npy --gap 2', /--gap.*2/],
@@ -202,8 +279,8 @@ test('bad input: status 3, what is wrong, and no output', async () => {
     ['ramp.npy -o x.npy --constraints ramp.npy', /every value is a constraint.*--free/],
     ['ramp.npy -o nowhere/x.npy', /nowhere.*no such/],
     ['ramp.npy -o x.npy --report nowhere/x.json', /nowhere.*no such/],
-    ['ramp.npy -o directory.npy', /directory\.npy.*no file/],
-    ['ramp.npy -o x.npy --report directory.npy', /directory\.npy.*no file/],
+    ['ramp.npy -o directory.npy', /directory\.npy.*it is a folder/],
+    ['ramp.npy -o x.npy --report directory.npy', /directory\.npy.*it is a folder/],
   ];
   for (const [args, message] of cases) {
     const { status, stdout, stderr } = await fit(...args.split(' '));

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
+import { initSync, loadSync } from '../../pkg/sync.js';
 import { filesWasmFile, wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane, rms } from './support/shapes.mjs';
 
@@ -21,7 +22,7 @@ const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
 test('before init every function says so', () => {
   assert.throws(() => direct.fit(ramp), error('NOT_INITIALIZED', /init\(\)/));
   assert.throws(() => new direct.Solver(ramp), error('NOT_INITIALIZED'));
-  assert.throws(() => direct.read(new Uint8Array(8)), error('NOT_INITIALIZED', /initFiles\(\)/));
+  assert.throws(() => direct.read(new Uint8Array(8)), error('NOT_INITIALIZED', /load\('files'\)/));
 });
 
 test('an init that fails can be tried again, one that is done stays', async () => {
@@ -29,18 +30,18 @@ test('an init that fails can be tried again, one that is done stays', async () =
   await assert.rejects(direct.init('does-not-exist.wasm'), error('INIT', /does-not-exist/));
   await assert.rejects(direct.init(Promise.reject(new Error('no luck'))), error('INIT', /no luck/));
   await assert.rejects(direct.init(/** @type {any} */ (7)), error('INIT'));
-  assert.throws(() => direct.initSync(new Uint8Array([1, 2, 3])), error('INIT'));
+  assert.throws(() => initSync(new Uint8Array([1, 2, 3])), error('INIT'));
   const first = direct.init(readFile(wasmFile));
   assert.equal(direct.init('does-not-exist.wasm'), first);
   await first;
-  direct.initSync(new Uint8Array(0));
+  initSync(new Uint8Array(0));
 });
 
 test('files have a wasm of their own', async () => {
-  assert.throws(() => direct.writeNpy(ramp), error('NOT_INITIALIZED', /initFiles\(\)/));
-  await assert.rejects(direct.initFiles('does-not-exist.wasm'), error('INIT', /does-not-exist/));
-  direct.initFilesSync(await readFile(filesWasmFile));
-  await direct.initFiles('does-not-exist.wasm'); // it is there already
+  assert.throws(() => direct.writeNpy(ramp), error('NOT_INITIALIZED', /load\('files'\)/));
+  await assert.rejects(direct.load({ files: 'does-not-exist.wasm' }), error('INIT', /does-not-exist/));
+  loadSync({ files: await readFile(filesWasmFile) });
+  await direct.load({ files: 'does-not-exist.wasm' }); // it is there already
   assert.equal(direct.read(direct.writeNpy(ramp)).width, ramp.width);
 });
 
@@ -129,12 +130,11 @@ test('wrong inputs and options are named', () => {
   assert.throws(fit({ ...lattice(3, 3, plane), origin: [1] }), error('INPUT', /origin/));
   assert.throws(fit({ width: 3, height, data }), error('SHAPE', /120.*30/));
   assert.throws(fit({ width: 2 ** 20, height: 2 ** 20, data }), error('TOO_LARGE'));
-  assert.throws(fit({ width: 2 ** 40, height, data }), error('INPUT'));
+  assert.throws(fit({ width: 2 ** 32, height, data }), error('TOO_LARGE'));
   assert.throws(fit({ width: 0, height: 0, data: [] }), error('EMPTY'));
   assert.throws(fit({ width: 2, height: 2, data: [0, 1, Infinity, 0] }), error('NOT_FINITE', /row 1, column 0/));
   assert.throws(fit({ width: 2, height: 2, data: [0, 1, 2, 3] }), error('NO_INTERIOR'));
 
-  assert.throws(fit(ramp, { lamda: 1 }), error('OPTION', /lamda/));
   assert.throws(fit(ramp, { lambda: 'huge' }), error('OPTION', /lambda.*huge/));
   assert.throws(fit(ramp, { lambda: -1 }), error('OPTION', /lambda.*-1/));
   // What JSON does not know, and what is left out.

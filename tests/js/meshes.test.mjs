@@ -41,8 +41,8 @@ const verticesOf = (text) => text.split('\n').filter((line) => line.startsWith('
 const offPlane = ([x, y, z]) => Math.abs(x + 2 * y + 4 * z - 1);
 
 test('meshes have a wasm of their own', async () => {
-  assert.throws(() => direct.readMesh(new Uint8Array(8)), error('NOT_INITIALIZED', /initMeshes\(\)/));
-  await Promise.all([direct.init(), direct.initFiles(), direct.initMeshes()]);
+  assert.throws(() => direct.readMesh(new Uint8Array(8)), error('NOT_INITIALIZED', /load\('meshes'\)/));
+  await Promise.all([direct.init(), direct.load('files', 'meshes')]);
 });
 
 test('files of all formats', async () => {

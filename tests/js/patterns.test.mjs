@@ -37,11 +37,11 @@ const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
   return true;
 };
 
-before(() => Promise.all([direct.init(), direct.initFiles(), direct.initUnroll()]));
+before(() => Promise.all([direct.init(), direct.load('files', 'unroll')]));
 
 test('patterns have a wasm of their own', async () => {
-  assert.throws(() => direct.pattern(card), error('NOT_INITIALIZED', /initPatterns\(\)/));
-  await direct.initPatterns();
+  assert.throws(() => direct.pattern(card), error('NOT_INITIALIZED', /load\('patterns'\)/));
+  await direct.load('patterns');
 });
 
 test('a drawing in millimetres', async () => {

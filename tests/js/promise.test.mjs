@@ -54,7 +54,7 @@ test('errors arrive with their code, as errors of the package', async () => {
     await assert.rejects(developable.fit(ramp, { signal: /** @type {any} */ (signal) }), error('OPTION', /signal/));
   }
   await assert.rejects(developable.fit(ramp, { onProgress: /** @type {any} */ ('log') }), error('OPTION', /onProgress/));
-  await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ f: () => {} })), error('INPUT', /sent/));
+  await assert.rejects(developable.fit(ramp, /** @type {any} */ ({ f: () => {} })), error('OPTION', /unknown option `f`/));
   await assert.rejects(developable.read(new Uint8Array(9)), error('UNSUPPORTED', /./));
   await assert.rejects(developable.example(/** @type {any} */ ('torus')), error('OPTION', /torus/));
 });

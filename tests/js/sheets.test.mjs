@@ -40,8 +40,8 @@ const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
 };
 
 test('they have a wasm of their own', async () => {
-  assert.throws(() => direct.unroll(page), error('NOT_INITIALIZED', /initUnroll\(\)/));
-  await Promise.all([direct.init(), direct.initFiles(), direct.initUnroll()]);
+  assert.throws(() => direct.unroll(page), error('NOT_INITIALIZED', /load\('unroll'\)/));
+  await Promise.all([direct.init(), direct.load('files', 'unroll')]);
 });
 
 test('analysis of images and of surfaces', async () => {

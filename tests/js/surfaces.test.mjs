@@ -16,7 +16,7 @@ import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 
 after(() => developable.dispose());
-await Promise.all([direct.init(), direct.initFiles(), direct.initMeshes()]);
+await Promise.all([direct.init(), direct.load('files', 'meshes')]);
 
 /** No flip or turn leaves it as it is. @param {number} x @param {number} y */
 const height = (x, y) => 0.5 * x + 2 * y;
@@ -168,8 +168,8 @@ test('what is wrong is said', async () => {
     return true;
   };
   const any = /** @type {any} */ (field);
-  assert.throws(() => direct.writePly({ ...field, colors: new Float32Array(9) }), error('SHAPE', /colours of the surface/));
-  assert.throws(() => direct.writePly({ ...field, uvs: new Float32Array(7) }), error('SHAPE', /array/));
+  assert.throws(() => direct.writePly({ ...field, colors: new Float32Array(9) }), error('SHAPE', /colors has 9 values.*90/));
+  assert.throws(() => direct.writePly({ ...field, uvs: new Float32Array(7) }), error('SHAPE', /uvs has 7 values.*60/));
   assert.throws(() => direct.writeStl({ ...any, colors: 'red' }), error('INPUT', /colors/));
   const texture = new TextEncoder().encode('GIF89a');
   assert.throws(() => direct.writeGlb(field, { texture }), error('UNSUPPORTED', /PNG or JPEG/));

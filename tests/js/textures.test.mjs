@@ -8,7 +8,7 @@ import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 
 after(() => developable.dispose());
-await Promise.all([direct.init(), direct.initFiles(), direct.initImages(), direct.initMeshes()]);
+await Promise.all([direct.init(), direct.load('files', 'images', 'meshes')]);
 
 /** @param {string} name */
 const place = (name) => new URL(`../data/meshes/${name}`, import.meta.url);

@@ -27,9 +27,9 @@ const shares = { roof: 1, cylinder: 1, cone: 0.724, oloid: 0.398, page: 0.606 };
  * @returns {Promise<Input>}
  */
 export async function exampleInput(folder, name, vertices, lattice = 'hex') {
-  const { example, init, initFiles, writeNpy } = await import('../../pkg/direct.js');
+  const { example, init, load, writeNpy } = await import('../../pkg/direct.js');
   await init();
-  await initFiles();
+  await load('files');
   // On square pixels there is one for each √3/2 vertices.
   const pixels = lattice === 'hex' ? vertices : vertices * Math.sqrt(0.75);
   const size = Math.round(Math.sqrt(pixels / shares[name]));

@@ -3,7 +3,7 @@
  * counterpart of the native program in `benches/`.
  */
 import { readFile } from 'node:fs/promises';
-import { fit, init, initFiles, read } from '../../pkg/direct.js';
+import { fit, init, load, read } from '../../pkg/direct.js';
 import solverGlue from '../../pkg/wasm/solver.js';
 import { restart } from './restart.mjs';
 import { fastest } from './task.mjs';
@@ -19,7 +19,7 @@ import { fastest } from './task.mjs';
 const task = JSON.parse(process.argv[2] ?? '');
 await init();
 // The file is decoded in the other instance: the solver's memory holds the solve alone.
-await initFiles();
+await load('files');
 // The glue's own initialisation is done; again, it gives what it gave then.
 const { memory } = await solverGlue();
 const input = await readInput(task.input);

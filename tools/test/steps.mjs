@@ -1,4 +1,5 @@
 /** Every test there is, in the order of what fails fastest. */
+import { buildInline } from '../build/inline.mjs';
 import { buildVendor } from '../build/vendor.mjs';
 import { buildWasm } from '../build/wasm.mjs';
 import { docs, format, lint, lintWasm, nativeTests } from './rust.mjs';
@@ -18,6 +19,7 @@ export const steps = [
     run: async ({ env }) => {
       await buildVendor();
       await buildWasm(env);
+      await buildInline();
     },
   },
   { name: 'wasm-node', what: 'the wasm in Node', run: inNode('wasm_node') },

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Rulings, least};
-use crate::error::{Result, positive};
+use crate::error::{Error, Result, positive};
 use crate::math::sym2::Sym2;
 
 /// Which lines are wanted.
@@ -75,7 +75,8 @@ impl Rulings {
     /// close to another one. (After Jobard and Lefer 1997.)
     ///
     /// # Errors
-    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite.
+    /// [`Error::Option`] unless separation and crease are positive and finite, and the confidence is
+    /// from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
         let lattice = self.surface.lattice();
         let separation = match options.separation {
@@ -83,6 +84,10 @@ impl Rulings {
             None => 10.0 * lattice.spacing(),
         };
         positive("crease", options.crease)?;
+        if !(0.0..=1.0).contains(&options.confidence) {
+            let requirement = "must be from 0 to 1";
+            return Err(Error::option("confidence", options.confidence, requirement));
+        }
         let mut seeds: Vec<usize> = (0..lattice.len())
             .filter(|i| self.confidence[*i] >= options.confidence)
             .collect();

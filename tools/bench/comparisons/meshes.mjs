@@ -8,8 +8,8 @@ const RUNS = 3;
 
 /** @param {Bench} bench */
 export async function meshes(bench) {
-  const { initMeshes, sampleMesh } = await import('../../../pkg/direct.js');
-  await initMeshes();
+  const { load, sampleMesh } = await import('../../../pkg/direct.js');
+  await load('meshes');
   const rows = [];
   let first;
   for (const cells of bench.quick ? [100, 300] : [220, 710]) {

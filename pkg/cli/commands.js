@@ -1,0 +1,178 @@
+/** The commands: what each does, reads, writes and takes. */
+import { nearest } from '../nearest.js';
+import { usage } from './flags.js';
+
+/**
+ * @typedef {import('./flags.js').Flag} Flag
+ * @typedef {import('./flags.js').Values} Values
+ *
+ * @typedef {object} CommandInfo
+ * @property {string} usage what follows the command's name
+ * @property {string} summary in a few words
+ * @property {string} about
+ * @property {Record<string, string>} [terms] the names in its usage
+ * @property {readonly Flag[]} flags
+ * @property {Partial<Record<Flag, string>>} [words] what some of them mean here
+ * @property {readonly string[]} examples
+ */
+
+/** @satisfies {readonly Flag[]} */
+const heights = ['lattice', 'spacing', 'height-scale', 'array', 'mask', 'no-data'];
+/** @satisfies {readonly Flag[]} */
+const mesh = ['view', 'resolution', 'intrinsics', 'ray'];
+/** @satisfies {readonly Flag[]} */
+const energy = ['lambda', 'energy', 'reweight', 'tie-break', 'no-normalize', 'gap', 'schedule', 'max-iterations'];
+/** @satisfies {readonly Flag[]} */
+const known = ['confidence', 'constraints', 'free', 'occlusion-mask', 'occlusions'];
+/** @satisfies {readonly Flag[]} */
+const general = ['help', 'version'];
+
+/** Of all commands that fit a surface. @satisfies {readonly Flag[]} */
+const fitted = ['output', ...energy, ...heights, ...mesh, ...known, ...general];
+
+/** Of those that go on with it. @satisfies {readonly Flag[]} */
+const shaped = [...fitted, 'as-is'];
+
+const INPUT =
+  'heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture (PNG, JPEG, WebP); or a mesh or point cloud, of which what is ' +
+  'seen from one side is taken: .obj, .ply, .stl, .glb, .gltf. Materials, textures and buffers that it names are read ' +
+  'from its folder or below; what is not there is warned of';
+
+const OUTPUT =
+  ".npy, .png, .tif or .exr (heights at the input's pixels) or .obj, .ply, .stl or .glb (a mesh). Of a mesh, the latter " +
+  'are in its own coordinates, with its colours and texture coordinates, the former heights on the lattice';
+
+/** @satisfies {Record<string, CommandInfo>} */
+export const commands = {
+  fit: {
+    usage: 'INPUT -o OUTPUT [options]',
+    summary: 'fit a surface to heights',
+    about: 'Fits a piecewise-developable surface to heights, with a certified bound of how far from the optimum it can be.',
+    terms: { INPUT, OUTPUT },
+    flags: [...fitted, 'report', 'texture', 'mtl'],
+    examples: [
+      'fit scan.tif -o surface.obj --lambda big --report report.json',
+      'fit scan.ply -o surface.glb --view -z',
+      'fit depth.png -o depth.ply --intrinsics 525,525,319.5,239.5,0.001',
+    ],
+  },
+  design: {
+    usage: 'CONSTRAINTS -o OUTPUT [options]',
+    summary: 'make a surface through given heights',
+    about: 'Makes a surface that passes through heights and is free elsewhere.',
+    terms: { CONSTRAINTS: 'heights, as an image of any kind; transparent pixels and NaN are free', OUTPUT },
+    flags: [
+      'output', 'report', ...energy, 'lattice', 'spacing', 'height-scale', 'array', 'mask', 'free', 'occlusion-mask', ...general,
+    ],
+    examples: ['design pins.png -o surface.obj --free 0 --height-scale 0.1'],
+  },
+  occlusions: {
+    usage: 'INPUT -o MASK [options]',
+    summary: 'look for places where a surface is torn',
+    about: 'Looks for places where a surface is torn, and prints how many vertices it has found.',
+    terms: { INPUT, MASK: '.png or .npy, white (or 1) where the surface is torn' },
+    flags: ['output', 'threshold', 'no-normalize', ...heights, ...mesh, ...general],
+    words: { 'no-normalize': 'take the coordinates as they are, instead of scaling them to the unit square' },
+    examples: ['occlusions scan.png -o torn.png', 'occlusions scan.png -o torn.npy --threshold 1e4'],
+  },
+  analyze: {
+    usage: 'INPUT [-o FIGURES] [options]',
+    summary: 'tell how developable it is',
+    about: 'Tells how developable the input is, and the surface fitted to it.',
+    terms: { INPUT, FIGURES: '.json (default: standard output)' },
+    flags: [...shaped, 'threshold'],
+    words: { threshold: 'Gaussian curvature that counts (default 1)' },
+    examples: ['analyze scan.png -o figures.json', 'analyze scan.png --as-is'],
+  },
+  patches: {
+    usage: 'INPUT [-o PATCHES] [options]',
+    summary: 'find the smooth patches and the creases between them',
+    about: 'Fits a surface, and finds its smooth patches and the creases between them.',
+    terms: {
+      INPUT,
+      PATCHES:
+        '.json: areas of patches, and the creases with their course, length and fold angle (default: standard output); ' +
+        '.npy: the patch of each vertex on the lattice, from 0, -1 for none; .obj, .ply or .glb: the surface with a ' +
+        'colour for each patch',
+    },
+    flags: [...shaped, 'report', 'bend', 'fold', 'smallest'],
+    words: { report: 'JSON file for the patches and creases, beside another output' },
+    examples: ['patches roof.png -o patches.json', 'patches roof.png -o patches.ply --report patches.json'],
+  },
+  rulings: {
+    usage: 'INPUT [-o RULINGS] [options]',
+    summary: 'find the lines along which it is straight',
+    about: 'Fits a surface, and traces its rulings: straight lines along which it does not bend.',
+    terms: {
+      INPUT,
+      RULINGS: '.json: the points of each line, its length and how straight it is (default: standard output); .obj: lines',
+    },
+    flags: [...shaped, 'report', 'separation', 'min-confidence', 'crease'],
+    words: { report: 'JSON file for the lines, beside another output' },
+    examples: ['rulings page.tif -o rulings.obj --separation 20', 'rulings page.tif'],
+  },
+  unroll: {
+    usage: 'INPUT -o SHEET [options]',
+    summary: 'lay it flat',
+    about: 'Fits a surface and lays it flat, as rigidly as it goes.',
+    terms: { INPUT, SHEET: '.obj (a flat mesh) or .json (with stretch and overlaps)' },
+    flags: [...shaped, 'report'],
+    words: { report: 'JSON file for the strain and the verdict' },
+    examples: ['unroll scan.png -o sheet.obj --report sheet.json'],
+  },
+  pattern: {
+    usage: 'INPUT -o PATTERN [options]',
+    summary: 'cut it into sheets of paper or metal',
+    about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
+    terms: { INPUT, PATTERN: '.svg, .pdf or .dxf in true size, or .json' },
+    flags: [...shaped, 'report', 'bend', 'fold', 'smallest', 'scale', 'tabs', 'paper'],
+    words: { report: 'JSON file for the figures of the pattern' },
+    examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4'],
+  },
+  dewarp: {
+    usage: 'INPUT --texture PHOTO -o IMAGE [options]',
+    summary: 'make a photo of it flat',
+    about: 'Fits a surface and makes a photo of it flat.',
+    terms: {
+      INPUT,
+      PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes',
+      IMAGE: '.png, transparent where there is no sheet',
+    },
+    flags: [...shaped, 'report', 'texture', 'dots', 'trim', 'map'],
+    words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
+    examples: ['dewarp scan.png --texture photo.png -o page.png --trim'],
+  },
+  info: {
+    usage: 'FILE [--array NAME]',
+    summary: 'tell what is in a file',
+    about: 'Tells what is in a file of heights or a mesh: size, type, range, units.',
+    flags: ['array', ...general],
+    examples: ['info scan.tif', 'info arrays.npz --array depth'],
+  },
+};
+
+/** @typedef {keyof typeof commands} Command */
+
+/**
+ * @param {string} name
+ * @returns {Command}
+ */
+export function commandNamed(name) {
+  const names = /** @type {Command[]} */ (Object.keys(commands));
+  const command = names.find((known) => known === name);
+  if (command) return command;
+  const near = nearest(name, names);
+  throw usage(`there is no command "${name}", ${near === undefined ? `only ${names.join(', ')}` : `did you mean "${near}"?`}`);
+}
+
+/**
+ * Refuses flags that are for other commands.
+ * @param {Command} command
+ * @param {Values} values
+ */
+export function checkFlags(command, values) {
+  /** @type {readonly string[]} */
+  const taken = commands[command].flags;
+  const stray = Object.keys(values).find((flag) => !taken.includes(flag));
+  if (stray !== undefined) throw usage(`--${stray} is not for "${command}"`, command);
+}

@@ -1,0 +1,165 @@
+/**
+ * All options: what each call takes, and of what kind. Ranges are checked in Rust, which all its users share; what gets
+ * there are plain numbers, texts and lists.
+ */
+import { DevelopableError } from './errors.js';
+import { isRecord, reading, record, refuseUnknown, show } from './values.js';
+
+/**
+ * A kind of value; `take` gives a copy of one, and nothing for what is none.
+ * @typedef {{ must: string, take: (value: unknown) => unknown }} Kind
+ */
+
+/** @type {Kind} */
+const number = {
+  must: 'must be a number',
+  take: (value) => (typeof value === 'number' && !Number.isNaN(value) ? value : undefined),
+};
+
+/** @type {Kind} */
+const whole = {
+  must: 'must be a whole number from 0 to 2^32 - 1',
+  take: (value) => (Number.isInteger(value) && Number(value) >= 0 && Number(value) < 2 ** 32 ? value : undefined),
+};
+
+/** @type {Kind} */
+const flag = { must: 'must be true or false', take: (value) => (typeof value === 'boolean' ? value : undefined) };
+
+/** @type {Kind} */
+const text = { must: 'must be a text', take: (value) => (typeof value === 'string' ? value : undefined) };
+
+/** @type {Kind} */
+const callback = { must: 'must be a function', take: (value) => (typeof value === 'function' ? value : undefined) };
+
+/** What is checked by who takes it. @type {Kind} */
+const anything = { must: '', take: (value) => value };
+
+/** @type {(...names: string[]) => Kind} */
+const choice = (...names) => ({
+  must: `must be ${names.slice(0, -1).join(', ')} or ${names.at(-1)}`,
+  take: (value) => names.find((name) => name === value),
+});
+
+/** @type {(length: number, what: string) => Kind} */
+const numbers = (length, what) => ({
+  must: `must be ${what}`,
+  take: (value) => {
+    const list = Array.isArray(value) ? Array.from({ length }, (_, i) => value[i]) : [];
+    return list.length === Object(value).length && list.every(Number.isFinite) ? list : undefined;
+  },
+});
+
+/** @type {(a: Kind, b: Kind) => Kind} */
+const either = (a, b) => ({
+  must: `${a.must.replace(/ or (?=\S+$)/, ', ')} or ${b.must.replace('must be ', '')}`,
+  take: (value) => a.take(value) ?? b.take(value),
+});
+
+/** @type {Kind} */
+const signal = {
+  must: 'must be an AbortSignal',
+  take: (value) => {
+    const aborted = Object.getOwnPropertyDescriptor(AbortSignal.prototype, 'aborted')?.get;
+    try {
+      aborted?.call(value); // which throws for what is none, whatever it looks like
+      const { throwIfAborted, addEventListener } = /** @type {AbortSignal} */ (value);
+      return typeof throwIfAborted === 'function' && typeof addEventListener === 'function' ? value : undefined;
+    } catch {
+      return undefined;
+    }
+  },
+};
+
+const resampled = { spacing: number };
+const handOver = { transfer: flag };
+const control = { signal, onAbort: choice('reject', 'keep'), onProgress: callback };
+const extent = numbers(4, 'four numbers: left, bottom, right and top');
+const patching = { bend: number, fold: number, smallest: number };
+const unrolling = { tolerance: number, maxIterations: whole };
+
+const solver = {
+  ...resampled,
+  lambda: either(choice('small', 'medium', 'big'), number),
+  schedule: choice('default', 'paper'),
+  gap: number,
+  maxIterations: whole,
+  normalize: flag,
+  energy: choice('nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm'),
+  reweighting: whole,
+  tieBreak: number,
+  occlusionThreshold: number,
+};
+
+const directions = ['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'];
+
+/** What each call takes. @satisfies {Record<string, Record<string, Kind>>} */
+export const OPTIONS = {
+  solver,
+  directFit: { ...solver, onProgress: callback },
+  fit: { ...solver, ...control, ...handOver },
+  openFit: { ...solver, ...control },
+  handOver,
+  occlusions: { ...resampled, threshold: number, normalize: flag },
+  read: { format: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'), array: text },
+  readMesh: { format: choice('obj', 'ply', 'stl', 'gltf', 'glb'), files: anything },
+  sampleMesh: {
+    ...resampled,
+    view: either(choice(...directions), numbers(3, 'a vector of three numbers')),
+    resolution: whole,
+  },
+  camera: { fx: number, fy: number, cx: number, cy: number, depthScale: number, depth: choice('planar', 'ray') },
+  paint: { extent },
+  analyze: { ...resampled, threshold: number, reference: anything },
+  patches: { ...resampled, ...patching },
+  rulings: { ...resampled, separation: number, confidence: number, crease: number },
+  unroll: { ...resampled, ...unrolling },
+  pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
+  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, extent },
+  writeObj: { materials: text },
+  writePdf: { paper: choice('a4', 'letter') },
+  writeGlb: { texture: anything },
+  example: { size: whole, noise: number, seed: whole },
+  worker: {
+    workerUrl: anything,
+    wasm: anything,
+    filesWasm: anything,
+    imagesWasm: anything,
+    meshesWasm: anything,
+    unrollWasm: anything,
+    patternsWasm: anything,
+  },
+};
+
+/**
+ * The options of a call, as a plain object without anything that is undefined.
+ * @template {object} T
+ * @param {keyof typeof OPTIONS} call
+ * @param {T | undefined} given
+ * @returns {Partial<T>}
+ */
+export function optionsOf(call, given) {
+  if (given === undefined) return {};
+  return reading('OPTION', 'the options', () => {
+    if (!isRecord(given)) {
+      throw new DevelopableError('OPTION', `the options must be an object, but are ${show(given)}`);
+    }
+    /** @type {Record<string, Kind>} */
+    const kinds = OPTIONS[call];
+    const names = Object.keys(kinds);
+    refuseUnknown('OPTION', 'option', given, names);
+    const entries = Object.entries(record('OPTION', 'the options', given, names));
+    const copies = entries.map(([name, value]) => [name, taken(name, kinds[name], value)]);
+    return /** @type {Partial<T>} */ (Object.fromEntries(copies));
+  });
+}
+
+/**
+ * @param {string} name
+ * @param {Kind} kind
+ * @param {unknown} value
+ */
+function taken(name, kind, value) {
+  const copy = reading('OPTION', `option \`${name}\``, () => kind.take(value));
+  if (copy !== undefined) return copy;
+  throw new DevelopableError('OPTION', `option \`${name}\` is ${show(value)}, but ${kind.must}`);
+}

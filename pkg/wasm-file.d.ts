@@ -1,0 +1,7 @@
+/**
+ * What an import of one of the wasm files gives depends on the tool: its address (Vite with `?url`,
+ * webpack's `asset/resource`, esbuild's loader `file`), its bytes (esbuild's loader `binary`,
+ * `with { type: 'bytes' }`) or a module. Each is what `init` and `WorkerOptions` take.
+ */
+declare const file: string | Uint8Array | WebAssembly.Module;
+export default file;

@@ -1,0 +1,17 @@
+/** The promise API: a solve in a worker, and work that takes others of the package's wasm files. */
+import { dispose, fit, read, unroll, writePng } from 'developable';
+import { scan } from './scan.js';
+
+export async function solve() {
+  const surface = await fit(scan(), { lambda: 'medium' });
+  const { data } = await read(await writePng(surface.image));
+  const { report } = await unroll(surface);
+  dispose();
+  return {
+    gap: surface.report.gap,
+    finite: surface.image.data.every(Number.isFinite),
+    read: data.length === surface.image.data.length,
+    // It is curved, so that it has more area than its outline.
+    unrolled: report.area > 46 * 38 && report.area < 2 * 48 * 40,
+  };
+}

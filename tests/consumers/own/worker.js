@@ -1,0 +1,3 @@
+import { solveHere } from '../app/solve-here.js';
+
+solveHere().then((here) => postMessage({ here }));

@@ -117,10 +117,11 @@ test('no request ends the server, and none leads out of the folder', async () =>
   await pageIsThere();
 });
 
-test('a request for a range is answered with the whole file', async () => {
-  const response = await fetch(url, { headers: { Range: 'bytes=5-2' } });
-  assert.equal(response.status, 200);
-  assert.equal(await response.text(), '<title>page</title>');
+test('a range is sent, and one that is none refused', async () => {
+  const part = await fetch(url, { headers: { Range: 'bytes=1-5' } });
+  assert.deepEqual([part.status, await part.text()], [206, 'title']);
+  const backwards = await fetch(url, { headers: { Range: 'bytes=5-2' } });
+  assert.equal(backwards.status, 416);
 });
 
 test('`npm start` serves the page itself', async () => {

@@ -239,19 +239,9 @@ impl Cascade {
             return Ok(None);
         };
         let certificate = state.certify(coarse);
-        let mut best = Best::new(&state.z, &certificate);
-        best.take_input(coarse);
+        let mut best = Best::of_input(coarse);
+        best.take(&state.z, &certificate);
         Ok(Some((state, best)))
-    }
-}
-
-impl Answer {
-    /// Objective and optimum are the same but for rounding errors.
-    pub(crate) fn dual_bound(&self) -> f64 {
-        match self.reason {
-            StopReason::Rounding => self.best.objective(),
-            _ => self.best.dual_bound,
-        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
+use super::iteration::Best;
 use super::state::Certificate;
 use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem::Problem;
@@ -252,6 +253,20 @@ impl Plan {
         self.schedule == Schedule::Paper || iteration >= last + last / 4
     }
 
+    /// Twice the conjugate-gradient iterations, and no over-relaxation: for a domain on which the
+    /// usual ones do not converge.
+    pub(crate) fn be_more_exact(&mut self) {
+        self.relaxation = 1.0;
+        for limit in [
+            &mut self.cg_iterations,
+            &mut self.cg_rough,
+            &mut self.cg_first,
+            &mut self.cg_free,
+        ] {
+            *limit *= 2;
+        }
+    }
+
     /// Whether there may be no further iteration.
     pub(crate) fn is_last(&self, iteration: usize) -> bool {
         iteration >= self.max_iterations
@@ -303,14 +318,16 @@ impl Plan {
         iteration: usize,
         certificate: &Certificate,
         change: f64,
-        objective: f64,
-        gap: f64,
+        best: &Best,
     ) -> Option<StopReason> {
-        if objective <= problem.rounding {
+        let (objective, rounding) = (best.objective(), best.rounding);
+        let missing = objective - best.dual_bound;
+        let certified = missing + rounding <= self.gap * objective;
+        if objective <= rounding || (missing <= rounding && !certified) {
             return Some(StopReason::Rounding);
         }
         let done = match self.schedule {
-            Schedule::Default => (gap <= self.gap).then_some(StopReason::Gap),
+            Schedule::Default => certified.then_some(StopReason::Gap),
             Schedule::Paper => {
                 // Four entries of a Hessian, as in the paper.
                 let entries = 4.0 * problem.domain.interior_len() as f64;

@@ -355,10 +355,7 @@ impl Solver {
             lambda: self.options.lambda.value(),
             rho: answers().next().map_or(0.0, |answer| answer.state.rho),
             scale: self.coordinates.scale,
-            stop_reason: match self.status {
-                Status::Running => StopReason::Cancelled,
-                Status::Stopped(reason) => reason,
-            },
+            stop_reason,
             seconds: Seconds {
                 setup: self.setup,
                 total: self.started.elapsed().as_secs_f64(),

@@ -3,12 +3,11 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::input::Input;
-use crate::heights::normalization::Normalization;
 use crate::lattice::domain::Domain;
 
-/// Normalised coordinates: lengths times `scale`, heights above the input's
-/// best-fit plane. The energy does not see affine functions, and without them
-/// nothing is lost to rounding.
+/// Normalised coordinates: lengths times `scale`, heights above the best-fit
+/// plane of a component. The energy does not see affine functions, and without
+/// them nothing is lost to rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinates {
     /// Factor from the user's units.
@@ -19,36 +18,48 @@ pub(crate) struct Coordinates {
 }
 
 impl Coordinates {
-    pub(crate) fn new(input: &Input, domain: &Domain, normalization: Normalization) -> Self {
+    /// With the least squares, by confidence, over what is given in `I ∪ ∂I`.
+    pub(crate) fn new(input: &Input, domain: &Domain, scale: f64) -> Self {
         let field = input.field();
-        let scale = normalization.factor(field);
-        // Heights that mean nothing do not count.
-        let given = |v: &(usize, usize)| input.is_given(field.lattice().index(v.0, v.1));
-        let cells = || domain.active().cells();
-        let vertices = || cells().map(|c| domain.lattice_vertex(c)).filter(given);
-        let n = vertices().count() as f64;
-        let position = |(row, col)| field.lattice().position(row, col);
-        let height = |(row, col)| field.height(row, col);
-        let centre = [0, 1].map(|k| vertices().map(|v| position(v)[k]).sum::<f64>() / n);
-        let mean = vertices().map(height).sum::<f64>() / n;
-
-        // Least squares over what is given in I ∪ ∂I.
+        let given = || {
+            let vertices = domain.active().cells().map(|c| domain.lattice_vertex(c));
+            vertices.filter_map(|(row, col)| {
+                let vertex = field.lattice().index(row, col);
+                let weight = if input.is_constrained(vertex) {
+                    1.0
+                } else {
+                    input.weight(vertex)
+                };
+                // Heights that mean nothing do not count.
+                (weight > 0.0).then(|| {
+                    let [x, y] = field.lattice().position(row, col);
+                    ([x, y, field.heights()[vertex]], weight)
+                })
+            })
+        };
+        let total: f64 = given().map(|(_, weight)| weight).sum();
+        let mean = |k: usize| {
+            given()
+                .map(|(at, weight)| weight / total * at[k])
+                .sum::<f64>()
+        };
+        let [x0, y0, z0] = [0, 1, 2].map(mean);
         let mut normal = Matrix3::zeros();
         let mut right = Vector3::zeros();
-        for v in vertices() {
-            let [x, y] = position(v);
-            let row = Vector3::new(1.0, scale * (x - centre[0]), scale * (y - centre[1]));
-            normal += row * row.transpose();
-            right += row * (height(v) - mean);
+        for ([x, y, z], weight) in given() {
+            let [x, y, z] = [x - x0, y - y0, z - z0].map(|length| scale * length);
+            let row = Vector3::new(1.0, x, y);
+            normal += weight / total * row * row.transpose();
+            right += weight / total * z * row;
         }
         // What holds a component in place spans a plane; zero is for overflow only.
         let solution = normal.cholesky().map(|c| c.solve(&right));
         let [constant, sx, sy] = solution.map_or([0.0; 3], |s| [s[0], s[1], s[2]]);
         Coordinates {
             scale,
-            centre,
-            constant: mean + constant,
-            slope: [scale * sx, scale * sy],
+            centre: [x0, y0],
+            constant: z0 + constant / scale,
+            slope: [sx, sy],
         }
     }
 

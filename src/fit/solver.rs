@@ -51,7 +51,8 @@ pub enum Status {
 pub struct Solver {
     input: Input,
     options: Options,
-    coordinates: Coordinates,
+    /// Factor from the user's units to the energy's.
+    scale: f64,
     domain: Arc<Domain>,
     components: Components,
     /// Of the first parts.
@@ -68,7 +69,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Sets up a solve. WarmStart: about 180 bytes for each vertex of the valid
+    /// Sets up a solve. Memory: about 180 bytes for each vertex of the valid
     /// vertices' bounding box.
     ///
     /// # Errors
@@ -85,11 +86,12 @@ impl Solver {
         options.validate()?;
         let domain = Arc::new(domain_of(&input)?);
         check_held(&input, &domain)?;
-        let coordinates = Coordinates::new(&input, &domain, options.normalization);
+        let scale = options.normalization.factor(&input.field);
         let components = Components::new(&domain)?;
         let energies = match components.list.len() {
             1 => Vec::new(),
             n => {
+                let coordinates = Coordinates::new(&input, &domain, scale);
                 let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
                 problem.smoothness_by(n, |cell| components.of(cell))
             }
@@ -102,7 +104,7 @@ impl Solver {
         let mut solver = Solver {
             input,
             options: *options,
-            coordinates,
+            scale,
             domain,
             components,
             answers: Vec::new(),
@@ -145,7 +147,6 @@ impl Solver {
                 answers.push(running.answer()?);
             }
             Some(WarmStart {
-                coordinates: self.coordinates,
                 domain: self.domain.clone(),
                 components: self.components.clone(),
                 answers,
@@ -170,10 +171,10 @@ impl Solver {
             };
             let corner = self.components.corner(number);
             let warm = |problem: &Problem| match &self.memory {
-                Some(memory) => memory.state(problem, corner, &self.coordinates),
+                Some(memory) => memory.state(problem, corner),
                 None => Ok(None),
             };
-            let component = Cascade::new(input, domain, &self.coordinates, &self.options, warm)?;
+            let component = Cascade::new(input, domain, self.scale, &self.options, warm)?;
             match component.reason() {
                 Some(reason) => self.answers.push(component.into_answer(reason)),
                 None => {
@@ -307,7 +308,7 @@ impl Solver {
             let (top, left) = self.components.corner(number);
             answer
                 .problem
-                .write_heights(&self.coordinates, &answer.best.z, |(row, col), z| {
+                .write_heights(&answer.best.z, |(row, col), z| {
                     heights[lattice.index(top + row, left + col)] = z;
                 });
             total.add(&answer.best, 1.0);
@@ -354,7 +355,7 @@ impl Solver {
             gap: self.known_gap(&total),
             lambda: self.options.lambda.value(),
             rho: answers().next().map_or(0.0, |answer| answer.state.rho),
-            scale: self.coordinates.scale,
+            scale: self.scale,
             stop_reason,
             seconds: Seconds {
                 setup: self.setup,

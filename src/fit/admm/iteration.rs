@@ -5,7 +5,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::ascent::Ascent;
-use super::balance::balanced_bound;
+use super::balance::{Balanced, balanced_bound};
 use super::schedule::Plan;
 use super::state::{Certificate, State};
 use crate::error::Result;
@@ -20,8 +20,8 @@ pub(crate) struct Level {
     pub state: State,
     pub best: Best,
     pub seconds: Seconds,
-    plan: Plan,
-    cg: ConjugateGradients,
+    pub(super) plan: Plan,
+    pub(super) cg: ConjugateGradients,
     ascent: Option<Ascent>,
     /// The iteration from which on it is worth it again, and the first one of this pass.
     next_climb: usize,
@@ -35,7 +35,7 @@ pub(crate) struct Level {
     /// When the certificate was last balanced, and when ρ last changed.
     balanced: usize,
     tuned: usize,
-    cg_iterations: usize,
+    pub(super) cg_iterations: usize,
     /// Objective at the last check, and how often it went out of hand.
     last_objective: f64,
     recoveries: usize,
@@ -50,6 +50,8 @@ pub(crate) struct Best {
     pub dual_bound: f64,
     /// What rounding errors of the heights may change in both.
     pub rounding: f64,
+    /// Whether the iterate is the affine surface of least squares.
+    pub affine: bool,
 }
 
 /// An objective that grows by more than this from one check to the next, and is as much above the
@@ -68,6 +70,7 @@ impl Best {
             nuclear_norm: problem.smoothness(&problem.target),
             dual_bound: 0.0,
             rounding: problem.rounding,
+            affine: false,
         }
     }
 
@@ -88,6 +91,13 @@ impl Best {
         self.dual_bound = self.dual_bound.max(certificate.dual_bound);
     }
 
+    /// Takes the surface 0, whose energy is all fidelity.
+    pub(super) fn take_zero(&mut self, fidelity: f64) {
+        self.z.fill(0.0);
+        (self.fidelity, self.nuclear_norm) = (fidelity, 0.0);
+        self.affine = true;
+    }
+
     /// Takes a surface and bound of another energy than before.
     fn replace(&mut self, z: &[f64], certificate: &Certificate) {
         self.take_surface(z, certificate);
@@ -98,23 +108,24 @@ impl Best {
         self.z.copy_from_slice(z);
         self.fidelity = certificate.fidelity;
         self.nuclear_norm = certificate.nuclear_norm;
+        self.affine = false;
     }
 }
 
 impl Level {
-    /// Starts from `state`, and looks for better bounds from the iteration `next_climb` on; a reason
-    /// to stop at once comes with it.
+    /// Starts from `state`, or the affine surface if that `may_be_affine`, and looks for better
+    /// bounds from the iteration `next_climb` on; a reason to stop at once comes with it.
     pub(crate) fn new(
         problem: Problem,
         mut state: State,
         plan: Plan,
         domains: &[Arc<Domain>],
         next_climb: usize,
+        may_be_affine: bool,
     ) -> Result<(Self, Option<StopReason>)> {
         let start = Instant::now();
-        let mut cg = ConjugateGradients::new(&problem, domains, state.rho)?;
+        let cg = ConjugateGradients::new(&problem, domains, state.rho)?;
         let certificate = state.certify(&problem);
-        state.update(&problem, 0.0, &mut cg);
         // A start from a coarser level need not be better than the input.
         let mut best = Best::of_input(&problem);
         best.take(&state.z, &certificate);
@@ -124,7 +135,7 @@ impl Level {
             best,
             seconds: Seconds::default(),
             plan,
-            first_energy: cg.energy(),
+            first_energy: 0.0,
             cg,
             ascent: None,
             next_climb,
@@ -138,6 +149,10 @@ impl Level {
             last_objective: certificate.objective(),
             recoveries: 0,
         };
+        if may_be_affine {
+            level.try_affine()?;
+        }
+        level.start_z_step();
         level.climb()?;
         let reason = level
             .plan
@@ -215,6 +230,12 @@ impl Level {
         }
     }
 
+    /// Makes the z-step's right-hand side anew.
+    fn start_z_step(&mut self) {
+        self.state.update(&self.problem, 0.0, &mut self.cg);
+        self.first_energy = self.cg.energy();
+    }
+
     /// H-step, dual update and, when one is due, the certificate.
     fn finish_iteration(&mut self) -> Result<Option<StopReason>> {
         let start = Instant::now();
@@ -252,12 +273,11 @@ impl Level {
             !self.problem.free.is_empty() && self.plan.is_balance(self.iteration, self.balanced);
         if balance {
             self.balanced = self.iteration;
-            let bound = balanced_bound(
-                &mut self.state,
-                &self.problem,
-                &mut self.cg,
-                &mut self.cg_iterations,
-            )?;
+            let (z, rho) = (self.state.z.clone(), self.state.rho);
+            let multigrid = self.cg.multigrid();
+            let Balanced { bound, steps, .. } =
+                balanced_bound(&mut self.state, &self.problem, &z, rho, multigrid)?;
+            self.cg_iterations += steps;
             certificate.dual_bound = certificate.dual_bound.max(bound);
         }
         if self.plan.follows_normals {
@@ -282,8 +302,7 @@ impl Level {
             self.tuned = self.iteration;
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(rho);
-            self.state.update(&self.problem, 0.0, &mut self.cg);
-            self.first_energy = self.cg.energy();
+            self.start_z_step();
         }
         Ok(reason)
     }
@@ -306,8 +325,7 @@ impl Level {
         self.plan.be_more_exact();
         self.state.start_again(&self.best.z);
         self.last_objective = self.best.objective();
-        self.state.update(&self.problem, 0.0, &mut self.cg);
-        self.first_energy = self.cg.energy();
+        self.start_z_step();
         let last = self.plan.is_last(self.iteration);
         last.then_some(StopReason::MaxIterations)
     }
@@ -340,8 +358,8 @@ impl Level {
         let certificate = self.state.certify(&self.problem);
         self.best.replace(&self.state.z, &certificate);
         self.last_objective = certificate.objective();
-        self.state.update(&self.problem, 0.0, &mut self.cg);
-        self.first_energy = self.cg.energy();
+        self.try_affine()?;
+        self.start_z_step();
         self.z_step = 0;
         self.pass_start = self.iteration;
         self.next_climb = self.iteration;

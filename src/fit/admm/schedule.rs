@@ -162,8 +162,7 @@ impl Plan {
     /// balancing alone would let ρ grow without end. There is no use for a screening
     /// length (ρ/2λ)^¼ beyond a part of the domain's size.
     fn within_bounds(&self, rho: f64, problem: &Problem) -> f64 {
-        let domain = &problem.domain;
-        let size = problem.spacing * domain.rows().max(domain.stride()) as f64;
+        let size = problem.size();
         if !problem.free.is_empty() {
             // No screening length, but the ratio of dual and Hessian of a surface as large as this.
             return rho.min(10.0 * size);
@@ -219,6 +218,14 @@ impl Plan {
         } else {
             self.relaxation
         }
+    }
+
+    /// Whether an affine surface is worth a try.
+    pub(crate) fn tries_affine(&self, problem: &Problem) -> bool {
+        self.schedule == Schedule::Default
+            && !self.follows_normals
+            && problem.free.is_empty()
+            && problem.constrained.is_empty()
     }
 
     /// Whether an iterate of such a gap is worth the search for a better bound.

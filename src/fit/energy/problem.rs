@@ -41,8 +41,8 @@ pub(crate) struct Problem {
     pub spacing: f64,
     /// Objectives up to this are rounding errors of zero.
     pub rounding: f64,
-    /// Slope of the plane that the coordinates take away.
-    slope: [f64; 2],
+    /// From the user's heights and back.
+    pub coordinates: Coordinates,
 }
 
 impl Problem {
@@ -86,7 +86,7 @@ impl Problem {
             map: HessianMap::new(spacing),
             spacing,
             rounding,
-            slope: coordinates.slope,
+            coordinates: *coordinates,
             domain,
         };
         if !alike || !problem.constrained.is_empty() {
@@ -140,7 +140,8 @@ impl Problem {
                 let ring = Ring::new(z, domain, row, *run);
                 for (i, factor) in factors[run.start..run.end].iter_mut().enumerate() {
                     let [gx, gy] = ring.gradient(i, self.spacing);
-                    let (gx, gy) = (gx + self.slope[0], gy + self.slope[1]);
+                    let [sx, sy] = self.coordinates.slope;
+                    let (gx, gy) = (gx + sx, gy + sy);
                     *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
                 }
             }
@@ -200,6 +201,18 @@ impl Problem {
         sum
     }
 
+    /// `λ Σ w z̃²`: what the surface 0 costs.
+    pub(crate) fn cost_of_zero(&self) -> f64 {
+        let cells = self.domain.active().cells();
+        let squares = cells.map(|cell| self.fidelity.at(cell) * self.target[cell].powi(2));
+        self.lambda * squares.sum::<f64>()
+    }
+
+    /// The longer side of the domain's box.
+    pub(crate) fn size(&self) -> f64 {
+        self.spacing * self.domain.rows().max(self.domain.stride()) as f64
+    }
+
     /// For values, which do not depend on ρ.
     fn law(&self) -> Any {
         Any {
@@ -226,14 +239,11 @@ impl Problem {
     }
 
     /// Calls `write` with each vertex of `I ∪ ∂I` and its height in the user's units.
-    pub(crate) fn write_heights(
-        &self,
-        coordinates: &Coordinates,
-        z: &[f64],
-        mut write: impl FnMut((usize, usize), f64),
-    ) {
+    pub(crate) fn write_heights(&self, z: &[f64], mut write: impl FnMut((usize, usize), f64)) {
         for cell in self.domain.active().cells() {
-            let height = coordinates.outward(position(&self.domain, cell), z[cell]);
+            let height = self
+                .coordinates
+                .outward(position(&self.domain, cell), z[cell]);
             write(self.domain.lattice_vertex(cell), height);
         }
     }

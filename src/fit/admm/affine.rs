@@ -8,7 +8,7 @@
 
 use super::balance::balanced_bound;
 use super::iteration::Level;
-use crate::error::{Result, try_filled};
+use crate::error::Result;
 
 /// The screening length `(κ/2λ)^¼`, in sizes of the domain: bends are then a millionth of what they
 /// could be.
@@ -17,6 +17,13 @@ const STIFF: f64 = 10.0;
 /// A larger gap means that the surface bends.
 const CLOSE: f64 = 0.1;
 
+/// Residual at which its dual is found, relative to the first; where fidelity is weak, what is left
+/// costs more.
+const ENOUGH: [f64; 2] = [1e-4, 1e-9];
+
+/// Most iterations for it.
+const STEPS: usize = 100;
+
 impl Level {
     /// Takes the affine surface, and a bound about it, where it is better than the best one so far.
     pub(super) fn try_affine(&mut self) -> Result<()> {
@@ -24,22 +31,24 @@ impl Level {
         if trivial || !self.plan.tries_affine(&self.problem) {
             return Ok(());
         }
-        // The coordinates are heights above the least squares, so that surface is 0.
-        let cost = self.problem.cost_of_zero();
-        if cost > self.best.objective() {
+        let z = self.problem.least_squares()?;
+        let cost = [self.problem.distance(&z), self.problem.smoothness(&z)];
+        let objective = cost[0] + cost[1];
+        if objective > self.best.objective() {
             return Ok(());
         }
-        let zero = try_filled("affine surface", self.problem.domain.cells(), 0.0)?;
         let stiffness = 2.0 * self.problem.lambda * (STIFF * self.problem.size()).powi(4);
         self.cg.set_rho(stiffness);
         let multigrid = self.cg.multigrid();
-        let balanced = balanced_bound(&mut self.state, &self.problem, &zero, stiffness, multigrid)?;
+        let (state, problem) = (&mut self.state, &self.problem);
+        let enough = (ENOUGH[usize::from(problem.loose)], STEPS);
+        let balanced = balanced_bound(state, problem, &z, stiffness, multigrid, enough)?;
         self.cg.set_rho(self.state.rho);
         self.cg_iterations += balanced.steps;
         self.best.dual_bound = self.best.dual_bound.max(balanced.bound);
-        self.best.take_zero(cost);
-        if cost - balanced.bound <= CLOSE * cost {
-            self.state.z = zero;
+        self.best.take_affine(&z, cost);
+        if objective - balanced.bound <= CLOSE * objective {
+            self.state.z = z;
             self.state
                 .take_balanced(&self.problem, stiffness, &balanced);
         }

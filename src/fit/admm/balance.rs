@@ -16,7 +16,7 @@ use crate::fit::linear::precise::Precise;
 use crate::lattice::stencil::{Ring, weights_of};
 
 /// Residual at which the dual is balanced, relative to the first, and most iterations.
-const ENOUGH: (f64, usize) = (1e-9, 100);
+pub(super) const ENOUGH: (f64, usize) = (1e-9, 100);
 
 pub(super) struct Balanced {
     /// A lower bound of the optimum.
@@ -34,11 +34,12 @@ pub(super) fn balanced_bound(
     z: &[f64],
     stiffness: f64,
     multigrid: &mut Multigrid,
+    enough: (f64, usize),
 ) -> Result<Balanced> {
     let mut q = try_filled("certificate", problem.domain.cells(), 0.0)?;
     let mut precise = Precise::new(problem)?;
     state.balance(problem, z, &q, stiffness, &mut precise.residual);
-    let steps = precise.solve(problem, stiffness, multigrid, &mut q, ENOUGH);
+    let steps = precise.solve(problem, stiffness, multigrid, &mut q, enough);
     let bound = state.balance(problem, z, &q, stiffness, &mut precise.residual);
     Ok(Balanced { bound, steps, q })
 }

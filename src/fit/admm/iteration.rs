@@ -5,7 +5,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::ascent::Ascent;
-use super::balance::{Balanced, balanced_bound};
+use super::balance::{Balanced, ENOUGH, balanced_bound};
 use super::schedule::Plan;
 use super::state::{Certificate, State};
 use crate::error::Result;
@@ -91,10 +91,10 @@ impl Best {
         self.dual_bound = self.dual_bound.max(certificate.dual_bound);
     }
 
-    /// Takes the surface 0, whose energy is all fidelity.
-    pub(super) fn take_zero(&mut self, fidelity: f64) {
-        self.z.fill(0.0);
-        (self.fidelity, self.nuclear_norm) = (fidelity, 0.0);
+    /// Takes the affine surface of least squares.
+    pub(super) fn take_affine(&mut self, z: &[f64], [fidelity, nuclear_norm]: [f64; 2]) {
+        self.z.copy_from_slice(z);
+        (self.fidelity, self.nuclear_norm) = (fidelity, nuclear_norm);
         self.affine = true;
     }
 
@@ -269,14 +269,13 @@ impl Level {
         if self.is_out_of_hand(&certificate) {
             return Ok(self.recover());
         }
-        let balance =
-            !self.problem.free.is_empty() && self.plan.is_balance(self.iteration, self.balanced);
+        let balance = self.problem.loose && self.plan.is_balance(self.iteration, self.balanced);
         if balance {
             self.balanced = self.iteration;
             let (z, rho) = (self.state.z.clone(), self.state.rho);
             let multigrid = self.cg.multigrid();
             let Balanced { bound, steps, .. } =
-                balanced_bound(&mut self.state, &self.problem, &z, rho, multigrid)?;
+                balanced_bound(&mut self.state, &self.problem, &z, rho, multigrid, ENOUGH)?;
             self.cg_iterations += steps;
             certificate.dual_bound = certificate.dual_bound.max(bound);
         }

@@ -23,7 +23,7 @@
 //!     (60.0f64.powi(2) - (x - 30.0).powi(2)).sqrt() + 0.3 * (77.0 * x).sin()
 //! })?;
 //! let surface = fit(&field, &Options::default().lambda(Lambda::Small))?;
-//! assert!(surface.report().gap <= 0.01); // within 1 % of the optimum, certified
+//! assert!(surface.report().is_certified(0.01)); // within 1 % of the optimum, certified
 //! let heights = surface.heightfield().heights(); // row by row, in the input's units
 //! # assert!(heights.iter().all(|z| z.is_finite()));
 //! # Ok(())

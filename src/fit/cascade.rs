@@ -55,12 +55,13 @@ impl Cascade {
     pub(crate) fn new(
         mut input: Input,
         domain: Arc<Domain>,
-        coordinates: &Coordinates,
+        scale: f64,
         options: &Options,
         warm: impl FnOnce(&Problem) -> Result<Option<State>>,
     ) -> Result<Self> {
         let plan = Plan::new(options);
-        let mut problem = Problem::new(&input, domain.clone(), coordinates, options)?;
+        let coordinates = Coordinates::new(&input, &domain, scale);
+        let mut problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
         let mut domains = vec![domain];
         let mut finer = Vec::new();
         let objective = problem.smoothness(&problem.target);
@@ -80,7 +81,7 @@ impl Cascade {
             if !problem.free.is_empty() {
                 plate::fill(&mut problem, &domains, &plan)?;
                 problem.take_first_normals(options.energy)?;
-                give_back(&mut input, &problem, coordinates)?;
+                give_back(&mut input, &problem)?;
                 coarse = coarser(&input)?;
             }
         }
@@ -90,7 +91,7 @@ impl Cascade {
                 finer.push(problem);
                 for (input, domain) in &coarse {
                     if plan.wants_level(domain.interior_len()) {
-                        finer.push(Problem::new(input, domain.clone(), coordinates, options)?);
+                        finer.push(Problem::new(input, domain.clone(), &coordinates, options)?);
                     }
                 }
                 problem = finer.remove(finer.len() - 1);
@@ -103,6 +104,7 @@ impl Cascade {
             plan.on_level(!finer.is_empty(), 0),
             &domains[finer.len()..],
             0,
+            true,
         )?;
         let mut component = Cascade {
             level,
@@ -143,12 +145,14 @@ impl Cascade {
             let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
             // Levels take about as many iterations as the one before.
             let next_climb = 2 * self.level.report().iterations / 3;
+            let may_be_affine = self.level.best.affine;
             let (level, stop) = Level::new(
                 fine,
                 state,
                 plan,
                 &self.domains[self.finer.len()..],
                 next_climb,
+                may_be_affine,
             )?;
             self.level = level;
             match stop {
@@ -239,19 +243,9 @@ impl Cascade {
             return Ok(None);
         };
         let certificate = state.certify(coarse);
-        let mut best = Best::new(&state.z, &certificate);
-        best.take_input(coarse);
+        let mut best = Best::of_input(coarse);
+        best.take(&state.z, &certificate);
         Ok(Some((state, best)))
-    }
-}
-
-impl Answer {
-    /// Objective and optimum are the same but for rounding errors.
-    pub(crate) fn dual_bound(&self) -> f64 {
-        match self.reason {
-            StopReason::Rounding => self.best.objective(),
-            _ => self.best.dual_bound,
-        }
     }
 }
 
@@ -274,14 +268,15 @@ fn coarser(input: &Input) -> Result<Vec<(Input, Arc<Domain>)>> {
 }
 
 /// Puts the heights that were found for free vertices where the given ones are.
-fn give_back(input: &mut Input, problem: &Problem, coordinates: &Coordinates) -> Result<()> {
+fn give_back(input: &mut Input, problem: &Problem) -> Result<()> {
     let domain = &problem.domain;
     let lattice = *input.field.lattice();
     let mut heights = input.field.heights().to_vec();
     for cell in &problem.free {
         let cell = *cell as usize;
-        heights[domain.lattice_index(cell)] =
-            coordinates.outward(position(domain, cell), problem.target[cell]);
+        heights[domain.lattice_index(cell)] = problem
+            .coordinates
+            .outward(position(domain, cell), problem.target[cell]);
     }
     input.field = Heightfield::new(lattice, heights)?;
     Ok(())

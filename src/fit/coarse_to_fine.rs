@@ -191,7 +191,7 @@ mod tests {
 
     use super::*;
     use crate::fit::coordinates::Coordinates;
-    use crate::{Normalization, Options, Sym2};
+    use crate::{Options, Sym2};
 
     #[test]
     fn a_constant_dual_and_a_plane_carry_over_unchanged() {
@@ -201,7 +201,7 @@ mod tests {
         let field = Input::new(field);
         let coarse_field = coarsen(&field).unwrap();
         let domains = [&field, &coarse_field].map(|f| Arc::new(Domain::new(&f.field).unwrap()));
-        let coordinates = Coordinates::new(&field, &domains[0], Normalization::Off);
+        let coordinates = Coordinates::new(&field, &domains[0], 1.0);
         let options = Options::default().lambda(1e3);
         let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
             .map(|(f, d)| Problem::new(f, d.clone(), &coordinates, &options).unwrap());

@@ -3,66 +3,99 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::input::Input;
-use crate::heights::normalization::Normalization;
 use crate::lattice::domain::Domain;
 
-/// Normalised coordinates: lengths times `scale`, heights above the input's
-/// best-fit plane. The energy does not see affine functions, and without them
-/// nothing is lost to rounding.
+/// Normalised coordinates: lengths times `scale`, heights above the best-fit
+/// plane of a component. The energy does not see affine functions, and without
+/// them nothing is lost to rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinates {
     /// Factor from the user's units.
     pub scale: f64,
-    centre: [f64; 2],
-    constant: f64,
-    pub slope: [f64; 2],
+    plane: Plane,
 }
 
-impl Coordinates {
-    pub(crate) fn new(input: &Input, domain: &Domain, normalization: Normalization) -> Self {
-        let field = input.field();
-        let scale = normalization.factor(field);
-        // Heights that mean nothing do not count.
-        let given = |v: &(usize, usize)| input.is_given(field.lattice().index(v.0, v.1));
-        let cells = || domain.active().cells();
-        let vertices = || cells().map(|c| domain.lattice_vertex(c)).filter(given);
-        let n = vertices().count() as f64;
-        let position = |(row, col)| field.lattice().position(row, col);
-        let height = |(row, col)| field.height(row, col);
-        let centre = [0, 1].map(|k| vertices().map(|v| position(v)[k]).sum::<f64>() / n);
-        let mean = vertices().map(height).sum::<f64>() / n;
+/// An affine function.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plane {
+    centre: [f64; 2],
+    constant: f64,
+    slope: [f64; 2],
+}
 
-        // Least squares over what is given in I ∪ ∂I.
+impl Plane {
+    /// Least squares: points, and their weights.
+    pub(crate) fn fit(points: impl Iterator<Item = ([f64; 3], f64)> + Clone) -> Self {
+        let total: f64 = points.clone().map(|(_, weight)| weight).sum();
+        let points = points.map(|(point, weight)| (point, weight / total));
+        let mean = |k: usize| {
+            points
+                .clone()
+                .map(|(at, weight)| weight * at[k])
+                .sum::<f64>()
+        };
+        let [x0, y0, z0] = [0, 1, 2].map(mean);
+        let away = |from: f64, k: usize| {
+            let distances = points.clone().map(|(at, _)| (at[k] - from).abs());
+            distances.fold(0.0, f64::max)
+        };
+        // Of unit size, so that squares neither over- nor underflow.
+        let size = away(x0, 0).max(away(y0, 1));
         let mut normal = Matrix3::zeros();
         let mut right = Vector3::zeros();
-        for v in vertices() {
-            let [x, y] = position(v);
-            let row = Vector3::new(1.0, scale * (x - centre[0]), scale * (y - centre[1]));
-            normal += row * row.transpose();
-            right += row * (height(v) - mean);
+        for ([x, y, z], weight) in points.clone() {
+            let row = Vector3::new(1.0, (x - x0) / size, (y - y0) / size);
+            normal += weight * row * row.transpose();
+            right += weight * (z - z0) * row;
         }
         // What holds a component in place spans a plane; zero is for overflow only.
         let solution = normal.cholesky().map(|c| c.solve(&right));
         let [constant, sx, sy] = solution.map_or([0.0; 3], |s| [s[0], s[1], s[2]]);
-        Coordinates {
-            scale,
-            centre,
-            constant: mean + constant,
-            slope: [scale * sx, scale * sy],
+        Plane {
+            centre: [x0, y0],
+            constant: z0 + constant,
+            slope: [sx / size, sy / size],
         }
     }
 
-    fn plane(&self, [x, y]: [f64; 2]) -> f64 {
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> f64 {
         self.constant + self.slope[0] * (x - self.centre[0]) + self.slope[1] * (y - self.centre[1])
+    }
+}
+
+impl Coordinates {
+    /// About the plane next to what is given in `I ∪ ∂I`, by confidence.
+    pub(crate) fn new(input: &Input, domain: &Domain, scale: f64) -> Self {
+        let field = input.field();
+        let vertices = domain.active().cells().map(|c| domain.lattice_vertex(c));
+        let plane = Plane::fit(vertices.filter_map(|(row, col)| {
+            let vertex = field.lattice().index(row, col);
+            let weight = if input.is_constrained(vertex) {
+                1.0
+            } else {
+                input.weight(vertex)
+            };
+            // Heights that mean nothing do not count.
+            (weight > 0.0).then(|| {
+                let [x, y] = field.lattice().position(row, col);
+                ([x, y, field.heights()[vertex]], weight)
+            })
+        }));
+        Coordinates { scale, plane }
+    }
+
+    /// Slope of the plane.
+    pub(crate) fn slope(&self) -> [f64; 2] {
+        self.plane.slope
     }
 
     /// A height at a position, both in the user's units, in normalised coordinates.
     pub(crate) fn inward(&self, position: [f64; 2], height: f64) -> f64 {
-        self.scale * (height - self.plane(position))
+        self.scale * (height - self.plane.at(position))
     }
 
     /// The way back.
     pub(crate) fn outward(&self, position: [f64; 2], z: f64) -> f64 {
-        z / self.scale + self.plane(position)
+        z / self.scale + self.plane.at(position)
     }
 }

@@ -14,12 +14,24 @@ pub enum StopReason {
     Gap,
     /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
     Residuals,
-    /// The objective is zero up to rounding, hence optimal: the surface is affine.
+    /// Objective and bound differ by no more than the rounding errors of the heights can make of
+    /// them: the surface is optimal as far as double precision can tell. That of an affine input is
+    /// affine.
     Rounding,
     /// [`Options::max_iterations`](crate::Options::max_iterations) was reached.
     MaxIterations,
     /// The callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
     Cancelled,
+    /// The iterates grew beyond all bounds, and did so again with more exact steps. The surface is
+    /// the best one from before, and its bound holds.
+    Diverged,
+}
+
+/// By how much an objective may miss the optimum, relative to itself; nothing if one of the two is
+/// not known, or if the objective is a rounding error.
+pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Option<f64> {
+    let known = objective.is_finite() && dual_bound.is_finite() && objective > rounding;
+    known.then(|| ((objective - dual_bound) / objective).max(0.0))
 }
 
 /// Where a running solve stands: the figures of its last check.
@@ -40,8 +52,8 @@ pub struct Progress {
     pub objective: f64,
     /// Best lower bound of the optimum so far.
     pub dual_bound: f64,
-    /// `(objective − dual_bound) / objective`.
-    pub gap: f64,
+    /// `(objective − dual_bound) / objective`; none where the objective is a rounding error.
+    pub gap: Option<f64>,
     /// ADMM penalty ρ.
     pub rho: f64,
     /// Seconds since the solver was made.
@@ -132,17 +144,18 @@ pub struct Report {
     pub energy: Energy,
     /// Reweighted passes that were made after the first solve.
     pub reweighting: usize,
-    /// Energy of the returned surface.
+    /// Energy of the returned surface; always finite.
     pub objective: f64,
     /// Its first term, `λ Σ (z − z̃)²`.
     pub fidelity: f64,
     /// Its second term, `Σ ‖H‖_*`.
     pub nuclear_norm: f64,
-    /// Certified lower bound of the optimum.
+    /// Certified lower bound of the optimum; always finite, and 0 where nothing better is known.
     pub dual_bound: f64,
-    /// `(objective − dual_bound) / objective`: the most by which the result can miss the optimum;
-    /// 0 for [`StopReason::Rounding`].
-    pub gap: f64,
+    /// `(objective − dual_bound) / objective`: the most by which the result can miss the optimum.
+    /// None for [`StopReason::Rounding`], and where the objective itself is no more than a rounding
+    /// error: then a share of it says nothing.
+    pub gap: Option<f64>,
     /// λ as a number.
     pub lambda: f64,
     /// Last ADMM penalty ρ.
@@ -153,4 +166,21 @@ pub struct Report {
     pub stop_reason: StopReason,
     /// Seconds per phase.
     pub seconds: Seconds,
+}
+
+impl Report {
+    /// Whether the surface is certified to be within this share of the optimum.
+    ///
+    /// ```
+    /// use developable::{Heightfield, Lattice, Options, fit};
+    /// # fn main() -> developable::Result<()> {
+    /// let lattice = Lattice::new(20, 20, 1.0)?;
+    /// let field = Heightfield::from_fn(lattice, |x, y| (0.3 * x).sin() + 0.1 * y)?;
+    /// assert!(fit(&field, &Options::default())?.report().is_certified(0.01));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn is_certified(&self, gap: f64) -> bool {
+        self.gap.is_some_and(|certified| certified <= gap)
+    }
 }

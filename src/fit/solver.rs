@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::admm::iteration::relative_gap;
 use super::cascade::{Answer, Cascade, domain_of};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
@@ -42,9 +41,9 @@ pub enum Status {
 /// let field = Heightfield::from_fn(lattice, |x, y| 0.01 * x * x + 0.1 * (7.0 * y).sin())?;
 /// let mut solver = Solver::new(&field, &Options::default())?;
 /// while solver.advance(100)? == Status::Running {
-///     println!("gap {:.3}", solver.progress().gap);
+///     println!("gap {:.3?}", solver.progress().gap);
 /// }
-/// assert!(solver.surface()?.report().gap <= 0.01);
+/// assert!(solver.surface()?.report().is_certified(0.01));
 /// # Ok(())
 /// # }
 /// ```
@@ -52,7 +51,8 @@ pub enum Status {
 pub struct Solver {
     input: Input,
     options: Options,
-    coordinates: Coordinates,
+    /// Factor from the user's units to the energy's.
+    scale: f64,
     domain: Arc<Domain>,
     components: Components,
     /// Of the first parts.
@@ -69,7 +69,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Sets up a solve. WarmStart: about 180 bytes for each vertex of the valid
+    /// Sets up a solve. Memory: about 180 bytes for each vertex of the valid
     /// vertices' bounding box.
     ///
     /// # Errors
@@ -86,11 +86,12 @@ impl Solver {
         options.validate()?;
         let domain = Arc::new(domain_of(&input)?);
         check_held(&input, &domain)?;
-        let coordinates = Coordinates::new(&input, &domain, options.normalization);
+        let scale = options.normalization.factor(&input.field);
         let components = Components::new(&domain)?;
         let energies = match components.list.len() {
             1 => Vec::new(),
             n => {
+                let coordinates = Coordinates::new(&input, &domain, scale);
                 let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
                 problem.smoothness_by(n, |cell| components.of(cell))
             }
@@ -103,7 +104,7 @@ impl Solver {
         let mut solver = Solver {
             input,
             options: *options,
-            coordinates,
+            scale,
             domain,
             components,
             answers: Vec::new(),
@@ -146,7 +147,6 @@ impl Solver {
                 answers.push(running.answer()?);
             }
             Some(WarmStart {
-                coordinates: self.coordinates,
                 domain: self.domain.clone(),
                 components: self.components.clone(),
                 answers,
@@ -171,10 +171,10 @@ impl Solver {
             };
             let corner = self.components.corner(number);
             let warm = |problem: &Problem| match &self.memory {
-                Some(memory) => memory.state(problem, corner, &self.coordinates),
+                Some(memory) => memory.state(problem, corner),
                 None => Ok(None),
             };
-            let component = Cascade::new(input, domain, &self.coordinates, &self.options, warm)?;
+            let component = Cascade::new(input, domain, self.scale, &self.options, warm)?;
             match component.reason() {
                 Some(reason) => self.answers.push(component.into_answer(reason)),
                 None => {
@@ -193,18 +193,25 @@ impl Solver {
         (next < self.components.list.len()).then_some(next)
     }
 
-    /// The worst of the reasons why parts stopped.
+    /// The worst of the reasons why parts stopped. Rounding errors of some may be too large for the
+    /// gap of all.
     fn reason(&self) -> StopReason {
-        let reasons = || self.answers.iter().map(|answer| answer.reason);
-        let any = |reason| reasons().any(|r| r == reason);
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.best, 1.0);
+        }
+        let certified = total.gap().is_some_and(|gap| gap <= self.options.gap);
+        let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
         [
             StopReason::Cancelled,
+            StopReason::Diverged,
             StopReason::MaxIterations,
             StopReason::Residuals,
             StopReason::Gap,
         ]
         .into_iter()
         .find(|reason| any(*reason))
+        .filter(|reason| *reason != StopReason::Gap || certified)
         .unwrap_or(StopReason::Rounding)
     }
 
@@ -235,7 +242,7 @@ impl Solver {
     pub fn progress(&self) -> Progress {
         let mut total = Totals::default();
         for answer in &self.answers {
-            total.add(&answer.best, answer.dual_bound(), 1.0);
+            total.add(&answer.best, 1.0);
             total.add_work(&answer.levels);
         }
         let mut pending = self.answers.len();
@@ -243,22 +250,27 @@ impl Solver {
             let level = running.level();
             let share = running.problem().domain.interior_len() as f64
                 / level.problem.domain.interior_len() as f64;
-            total.add(&level.best, level.best.dual_bound, share);
+            total.add(&level.best, share);
             total.add_work(&running.levels());
             pending += 1;
         }
         let pending = self.energies.iter().skip(pending);
-        let objective = total.objective() + pending.sum::<f64>();
+        total.nuclear_norm += pending.sum::<f64>();
         Progress {
             level: self.running.as_ref().map_or(0, Cascade::levels_left),
             iteration: total.iterations,
             cg_iterations: total.cg_iterations,
-            objective,
+            objective: total.objective(),
             dual_bound: total.dual_bound,
-            gap: relative_gap(objective, total.dual_bound),
+            gap: self.known_gap(&total),
             rho: self.rho(),
             elapsed: self.started.elapsed().as_secs_f64(),
         }
+    }
+
+    fn known_gap(&self, total: &Totals) -> Option<f64> {
+        let rounding = self.status == Status::Stopped(StopReason::Rounding);
+        total.gap().filter(|_| !rounding)
     }
 
     /// Of the largest part.
@@ -296,10 +308,10 @@ impl Solver {
             let (top, left) = self.components.corner(number);
             answer
                 .problem
-                .write_heights(&self.coordinates, &answer.best.z, |(row, col), z| {
+                .write_heights(&answer.best.z, |(row, col), z| {
                     heights[lattice.index(top + row, left + col)] = z;
                 });
-            total.add(&answer.best, answer.dual_bound(), 1.0);
+            total.add(&answer.best, 1.0);
             total.add_work(&answer.levels);
             add_levels(&mut levels, &answer.levels);
             seconds = seconds + answer.seconds;
@@ -319,7 +331,10 @@ impl Solver {
             heights[vertex] = self.input.field.heights()[vertex];
         }
         total.nuclear_norm += self.energies.iter().skip(pending).sum::<f64>();
-        let objective = total.objective();
+        let stop_reason = match self.status {
+            Status::Running => StopReason::Cancelled,
+            Status::Stopped(reason) => reason,
+        };
         let report = Report {
             interior: self.domain.interior_len(),
             boundary: self.domain.boundary_len(),
@@ -333,18 +348,15 @@ impl Solver {
             levels,
             energy: self.options.energy,
             reweighting: answers().map(|answer| answer.passes).max().unwrap_or(0),
-            objective,
+            objective: total.objective(),
             fidelity: total.fidelity,
             nuclear_norm: total.nuclear_norm,
             dual_bound: total.dual_bound,
-            gap: relative_gap(objective, total.dual_bound),
+            gap: self.known_gap(&total),
             lambda: self.options.lambda.value(),
             rho: answers().next().map_or(0.0, |answer| answer.state.rho),
-            scale: self.coordinates.scale,
-            stop_reason: match self.status {
-                Status::Running => StopReason::Cancelled,
-                Status::Stopped(reason) => reason,
-            },
+            scale: self.scale,
+            stop_reason,
             seconds: Seconds {
                 setup: self.setup,
                 total: self.started.elapsed().as_secs_f64(),

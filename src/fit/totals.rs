@@ -1,7 +1,7 @@
 //! The figures of all parts together.
 
 use super::admm::iteration::Best;
-use super::report::LevelReport;
+use super::report::{LevelReport, relative_gap};
 
 /// Sums over the parts.
 #[derive(Default)]
@@ -9,15 +9,17 @@ pub(super) struct Totals {
     pub fidelity: f64,
     pub nuclear_norm: f64,
     pub dual_bound: f64,
+    pub rounding: f64,
     pub iterations: usize,
     pub cg_iterations: usize,
 }
 
 impl Totals {
-    pub(super) fn add(&mut self, best: &Best, dual_bound: f64, share: f64) {
+    pub(super) fn add(&mut self, best: &Best, share: f64) {
         self.fidelity += share * best.fidelity;
         self.nuclear_norm += share * best.nuclear_norm;
-        self.dual_bound += share * dual_bound;
+        self.dual_bound += share * best.dual_bound;
+        self.rounding += share * best.rounding;
     }
 
     pub(super) fn add_work(&mut self, levels: &[LevelReport]) {
@@ -30,6 +32,10 @@ impl Totals {
 
     pub(super) fn objective(&self) -> f64 {
         self.fidelity + self.nuclear_norm
+    }
+
+    pub(super) fn gap(&self) -> Option<f64> {
+        relative_gap(self.objective(), self.dual_bound, self.rounding)
     }
 }
 

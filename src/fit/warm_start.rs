@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::admm::state::State;
 use super::cascade::Answer;
 use super::components::Components;
-use super::coordinates::Coordinates;
 use super::energy::problem::{Problem, position};
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
@@ -18,7 +17,6 @@ pub(super) const WORTH_KEEPING: RangeInclusive<f64> = 0.4..=3.0;
 /// What an earlier solve has found, to start from.
 #[derive(Debug, Clone)]
 pub(super) struct WarmStart {
-    pub coordinates: Coordinates,
     pub domain: Arc<Domain>,
     pub components: Components,
     pub answers: Vec<Answer>,
@@ -27,18 +25,11 @@ pub(super) struct WarmStart {
 impl WarmStart {
     /// The state to start from, unless nothing of it is known. `corner` is the
     /// vertex of the whole lattice that is `(0, 0)` of the problem's.
-    pub(super) fn state(
-        &self,
-        problem: &Problem,
-        corner: (usize, usize),
-        coordinates: &Coordinates,
-    ) -> Result<Option<State>> {
+    pub(super) fn state(&self, problem: &Problem, corner: (usize, usize)) -> Result<Option<State>> {
         let Some(rho) = self.answers.first().map(|answer| answer.state.rho) else {
             return Ok(None);
         };
         let mut state = State::new(problem, rho)?;
-        // Hessians scale as one over lengths.
-        let factor = self.coordinates.scale / coordinates.scale;
         let mut found = 0;
         for cell in problem.domain.active().cells() {
             let (row, col) = problem.domain.lattice_vertex(cell);
@@ -47,14 +38,14 @@ impl WarmStart {
                 continue;
             };
             found += 1;
-            let z = self
-                .coordinates
-                .outward(position(&answer.problem.domain, old), answer.state.z[old]);
-            state.z[cell] = coordinates.inward(position(&problem.domain, cell), z);
+            let (from, to) = (&answer.problem.coordinates, &problem.coordinates);
+            let z = from.outward(position(&answer.problem.domain, old), answer.state.z[old]);
+            state.z[cell] = to.inward(position(&problem.domain, cell), z);
             let interior = |domain: &Domain, cell: usize| domain.roles()[cell] == Role::Interior;
             if interior(&problem.domain, cell) && interior(&answer.problem.domain, old) {
                 let (dual, hessian) = answer.state.matrices(&answer.problem, old);
-                state.set_matrices(cell, dual, hessian.scale(factor));
+                // Hessians scale as one over lengths.
+                state.set_matrices(cell, dual, hessian.scale(from.scale / to.scale));
             }
         }
         for cell in &problem.constrained {

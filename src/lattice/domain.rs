@@ -314,7 +314,7 @@ impl RowRuns {
     }
 
     /// All cells, row by row.
-    pub(crate) fn cells(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn cells(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         self.runs.iter().flat_map(|run| run.start..run.end)
     }
 }

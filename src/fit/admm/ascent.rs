@@ -280,7 +280,7 @@ mod tests {
 
     use super::*;
     use crate::fit::coordinates::Coordinates;
-    use crate::{Domain, Heightfield, Input, Lattice, Normalization, Options};
+    use crate::{Domain, Heightfield, Input, Lattice, Options};
 
     /// Rows that alternate by so little that no dual is saturated: the best surface is flat, and
     /// the optimum what all of the alternation costs. From `Y = 0`, a few steps reach nearly all of it.
@@ -296,7 +296,7 @@ mod tests {
         };
         let input = Input::new(Heightfield::from_fn(lattice, height).unwrap());
         let domain = Arc::new(Domain::new(input.field()).unwrap());
-        let coordinates = Coordinates::new(&input, &domain, Normalization::Off);
+        let coordinates = Coordinates::new(&input, &domain, 1.0);
         let problem = Problem::new(
             &input,
             domain.clone(),

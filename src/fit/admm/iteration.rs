@@ -5,13 +5,13 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::ascent::Ascent;
-use super::balance::balanced_bound;
+use super::balance::{Balanced, ENOUGH, balanced_bound};
 use super::schedule::Plan;
 use super::state::{Certificate, State};
 use crate::error::Result;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::fit::report::{LevelReport, Seconds, StopReason};
+use crate::fit::report::{LevelReport, Seconds, StopReason, relative_gap};
 use crate::lattice::domain::Domain;
 
 #[derive(Debug, Clone)]
@@ -20,8 +20,8 @@ pub(crate) struct Level {
     pub state: State,
     pub best: Best,
     pub seconds: Seconds,
-    plan: Plan,
-    cg: ConjugateGradients,
+    pub(super) plan: Plan,
+    pub(super) cg: ConjugateGradients,
     ascent: Option<Ascent>,
     /// The iteration from which on it is worth it again, and the first one of this pass.
     next_climb: usize,
@@ -35,7 +35,10 @@ pub(crate) struct Level {
     /// When the certificate was last balanced, and when ρ last changed.
     balanced: usize,
     tuned: usize,
-    cg_iterations: usize,
+    pub(super) cg_iterations: usize,
+    /// Objective at the last check, and how often it went out of hand.
+    last_objective: f64,
+    recoveries: usize,
 }
 
 /// The best iterate so far and the best bound so far; they need not belong together.
@@ -45,24 +48,29 @@ pub(crate) struct Best {
     pub fidelity: f64,
     pub nuclear_norm: f64,
     pub dual_bound: f64,
+    /// What rounding errors of the heights may change in both.
+    pub rounding: f64,
+    /// Whether the iterate is the affine surface of least squares.
+    pub affine: bool,
 }
 
-/// By how much an objective may miss the optimum, relative to itself.
-pub(crate) fn relative_gap(objective: f64, dual_bound: f64) -> f64 {
-    if objective > 0.0 {
-        ((objective - dual_bound) / objective).max(0.0)
-    } else {
-        0.0
-    }
-}
+/// An objective that grows by more than this from one check to the next, and is as much above the
+/// input's, is out of hand.
+const OUT_OF_HAND: f64 = 10.0;
+
+/// Most recoveries from that.
+const MOST_RECOVERIES: usize = 6;
 
 impl Best {
-    pub(crate) fn new(z: &[f64], certificate: &Certificate) -> Self {
+    /// The input itself: its objective is finite, and 0 is a bound of every energy.
+    pub(crate) fn of_input(problem: &Problem) -> Self {
         Best {
-            z: z.to_vec(),
-            fidelity: certificate.fidelity,
-            nuclear_norm: certificate.nuclear_norm,
-            dual_bound: certificate.dual_bound,
+            z: problem.target.clone(),
+            fidelity: 0.0,
+            nuclear_norm: problem.smoothness(&problem.target),
+            dual_bound: 0.0,
+            rounding: problem.rounding,
+            affine: false,
         }
     }
 
@@ -70,55 +78,64 @@ impl Best {
         self.fidelity + self.nuclear_norm
     }
 
+    /// Everything, where it is not known.
     pub(crate) fn gap(&self) -> f64 {
-        relative_gap(self.objective(), self.dual_bound)
+        relative_gap(self.objective(), self.dual_bound, self.rounding).unwrap_or(1.0)
     }
 
+    /// Takes what is better of an iterate. One that is not finite has nothing that is.
     pub(crate) fn take(&mut self, z: &[f64], certificate: &Certificate) {
         if certificate.objective() < self.objective() {
-            self.z.copy_from_slice(z);
-            self.fidelity = certificate.fidelity;
-            self.nuclear_norm = certificate.nuclear_norm;
+            self.take_surface(z, certificate);
         }
         self.dual_bound = self.dual_bound.max(certificate.dual_bound);
     }
-}
 
-impl Best {
-    /// The input itself, if it is better: a start from a coarser level need not be.
-    pub(crate) fn take_input(&mut self, problem: &Problem) {
-        let objective = problem.smoothness(&problem.target);
-        if objective < self.objective() {
-            self.z.copy_from_slice(&problem.target);
-            self.fidelity = 0.0;
-            self.nuclear_norm = objective;
-        }
+    /// Takes the affine surface of least squares.
+    pub(super) fn take_affine(&mut self, z: &[f64], [fidelity, nuclear_norm]: [f64; 2]) {
+        self.z.copy_from_slice(z);
+        (self.fidelity, self.nuclear_norm) = (fidelity, nuclear_norm);
+        self.affine = true;
+    }
+
+    /// Takes a surface and bound of another energy than before.
+    fn replace(&mut self, z: &[f64], certificate: &Certificate) {
+        self.take_surface(z, certificate);
+        self.dual_bound = certificate.dual_bound;
+    }
+
+    fn take_surface(&mut self, z: &[f64], certificate: &Certificate) {
+        self.z.copy_from_slice(z);
+        self.fidelity = certificate.fidelity;
+        self.nuclear_norm = certificate.nuclear_norm;
+        self.affine = false;
     }
 }
 
 impl Level {
-    /// Starts from `state`, and looks for better bounds from the iteration `next_climb` on; a reason
-    /// to stop at once comes with it.
+    /// Starts from `state`, or the affine surface if that `may_be_affine`, and looks for better
+    /// bounds from the iteration `next_climb` on; a reason to stop at once comes with it.
     pub(crate) fn new(
         problem: Problem,
         mut state: State,
         plan: Plan,
         domains: &[Arc<Domain>],
         next_climb: usize,
+        may_be_affine: bool,
     ) -> Result<(Self, Option<StopReason>)> {
         let start = Instant::now();
-        let mut cg = ConjugateGradients::new(&problem, domains, state.rho)?;
+        let cg = ConjugateGradients::new(&problem, domains, state.rho)?;
         let certificate = state.certify(&problem);
-        state.update(&problem, 0.0, &mut cg);
-        let mut best = Best::new(&state.z, &certificate);
-        best.take_input(&problem);
+        // A start from a coarser level need not be better than the input.
+        let mut best = Best::of_input(&problem);
+        best.take(&state.z, &certificate);
         let mut level = Level {
             problem,
             state,
             best,
             seconds: Seconds::default(),
             plan,
-            first_energy: cg.energy(),
+            first_energy: 0.0,
             cg,
             ascent: None,
             next_climb,
@@ -129,12 +146,17 @@ impl Level {
             balanced: 0,
             tuned: 0,
             cg_iterations: 0,
+            last_objective: certificate.objective(),
+            recoveries: 0,
         };
+        if may_be_affine {
+            level.try_affine()?;
+        }
+        level.start_z_step();
         level.climb()?;
-        let (objective, gap) = (level.best.objective(), level.best.gap());
         let reason = level
             .plan
-            .stop(&level.problem, 0, &certificate, 0.0, objective, gap);
+            .stop(&level.problem, 0, &certificate, 0.0, &level.best);
         level.seconds.setup = start.elapsed().as_secs_f64();
         Ok((level, reason))
     }
@@ -208,6 +230,12 @@ impl Level {
         }
     }
 
+    /// Makes the z-step's right-hand side anew.
+    fn start_z_step(&mut self) {
+        self.state.update(&self.problem, 0.0, &mut self.cg);
+        self.first_energy = self.cg.energy();
+    }
+
     /// H-step, dual update and, when one is due, the certificate.
     fn finish_iteration(&mut self) -> Result<Option<StopReason>> {
         let start = Instant::now();
@@ -238,21 +266,22 @@ impl Level {
 
     fn check(&mut self, change: f64) -> Result<Option<StopReason>> {
         let mut certificate = self.state.certify(&self.problem);
-        let balance =
-            !self.problem.free.is_empty() && self.plan.is_balance(self.iteration, self.balanced);
+        if self.is_out_of_hand(&certificate) {
+            return Ok(self.recover());
+        }
+        let balance = self.problem.loose && self.plan.is_balance(self.iteration, self.balanced);
         if balance {
             self.balanced = self.iteration;
-            let bound = balanced_bound(
-                &mut self.state,
-                &self.problem,
-                &mut self.cg,
-                &mut self.cg_iterations,
-            )?;
+            let (z, rho) = (self.state.z.clone(), self.state.rho);
+            let multigrid = self.cg.multigrid();
+            let Balanced { bound, steps, .. } =
+                balanced_bound(&mut self.state, &self.problem, &z, rho, multigrid, ENOUGH)?;
+            self.cg_iterations += steps;
             certificate.dual_bound = certificate.dual_bound.max(bound);
         }
         if self.plan.follows_normals {
             // Another energy than at the last check.
-            self.best = Best::new(&self.state.z, &certificate);
+            self.best.replace(&self.state.z, &certificate);
         } else {
             self.best.take(&self.state.z, &certificate);
         }
@@ -262,8 +291,7 @@ impl Level {
             self.iteration,
             &certificate,
             change,
-            self.best.objective(),
-            self.best.gap(),
+            &self.best,
         );
         let rho = self
             .plan
@@ -273,10 +301,32 @@ impl Level {
             self.tuned = self.iteration;
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(rho);
-            self.state.update(&self.problem, 0.0, &mut self.cg);
-            self.first_energy = self.cg.energy();
+            self.start_z_step();
         }
         Ok(reason)
+    }
+
+    /// Whether the iterates diverge, as they may where z-steps are too inexact for their domain.
+    fn is_out_of_hand(&mut self, certificate: &Certificate) -> bool {
+        let objective = certificate.objective();
+        let last = std::mem::replace(&mut self.last_objective, objective);
+        let bounded = objective <= OUT_OF_HAND * last
+            || objective <= OUT_OF_HAND * self.problem.smoothness(&self.problem.target);
+        !(bounded && certificate.dual_residual.is_finite())
+    }
+
+    /// Back to the best surface, and on with z-steps that are more exact.
+    fn recover(&mut self) -> Option<StopReason> {
+        self.recoveries += 1;
+        if self.recoveries > MOST_RECOVERIES {
+            return Some(StopReason::Diverged);
+        }
+        self.plan.be_more_exact();
+        self.state.start_again(&self.best.z);
+        self.last_objective = self.best.objective();
+        self.start_z_step();
+        let last = self.plan.is_last(self.iteration);
+        last.then_some(StopReason::MaxIterations)
     }
 
     /// Looks for a better bound with this iterate, if that is worth it.
@@ -305,9 +355,10 @@ impl Level {
     pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
         self.problem.reweight(&self.best.z)?;
         let certificate = self.state.certify(&self.problem);
-        self.best = Best::new(&self.state.z, &certificate);
-        self.state.update(&self.problem, 0.0, &mut self.cg);
-        self.first_energy = self.cg.energy();
+        self.best.replace(&self.state.z, &certificate);
+        self.last_objective = certificate.objective();
+        self.try_affine()?;
+        self.start_z_step();
         self.z_step = 0;
         self.pass_start = self.iteration;
         self.next_climb = self.iteration;
@@ -316,8 +367,7 @@ impl Level {
             self.iteration,
             &certificate,
             f64::INFINITY,
-            self.best.objective(),
-            self.best.gap(),
+            &self.best,
         ))
     }
 }

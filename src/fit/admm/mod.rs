@@ -1,5 +1,6 @@
 //! ADMM (paper, Eq. 17 to 19): its iterate, its schedule and its certificate.
 
+mod affine;
 mod ascent;
 mod balance;
 pub(crate) mod iteration;

@@ -1,6 +1,7 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
+use super::iteration::Best;
 use super::state::Certificate;
 use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem::Problem;
@@ -49,7 +50,7 @@ const COARSEST: usize = 500;
 const BALANCE: f64 = 0.025;
 
 /// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
-/// the former is less than this share of it: without, one of four inputs takes a third more iterations.
+/// the former is less than this share of it, and does not fall: without, one of four inputs takes a third more iterations.
 const SMALL_SHARE: f64 = 0.2;
 
 /// The same where vertices are free, and the dual residual is the change of the
@@ -161,9 +162,8 @@ impl Plan {
     /// balancing alone would let ρ grow without end. There is no use for a screening
     /// length (ρ/2λ)^¼ beyond a part of the domain's size.
     fn within_bounds(&self, rho: f64, problem: &Problem) -> f64 {
-        let domain = &problem.domain;
-        let size = problem.spacing * domain.rows().max(domain.stride()) as f64;
-        if !problem.free.is_empty() {
+        let size = problem.size();
+        if problem.loose {
             // No screening length, but the ratio of dual and Hessian of a surface as large as this.
             return rho.min(10.0 * size);
         }
@@ -173,7 +173,7 @@ impl Plan {
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.
     pub(crate) fn cg_limit(&self, problem: &Problem, iteration: usize, gap: f64) -> usize {
-        if !problem.free.is_empty() {
+        if problem.loose {
             self.cg_free
         } else if iteration == 0 {
             self.cg_first
@@ -189,14 +189,14 @@ impl Plan {
     pub(crate) fn cg_reduction(&self, problem: &Problem, iteration: usize) -> f64 {
         match self.schedule {
             Schedule::Paper => SINGLE,
-            Schedule::Default if iteration == 0 || !problem.free.is_empty() => 0.0,
+            Schedule::Default if iteration == 0 || problem.loose => 0.0,
             Schedule::Default => CLOSE,
         }
     }
 
     /// Whether [`Plan::stop`] and [`Plan::next_rho`] ask for the change of the Hessians.
     pub(crate) fn measures_change(&self, problem: &Problem) -> bool {
-        self.schedule == Schedule::Paper || !problem.free.is_empty()
+        self.schedule == Schedule::Paper || problem.loose
     }
 
     /// Whether a certificate is due.
@@ -220,11 +220,18 @@ impl Plan {
         }
     }
 
+    /// Whether an affine surface is worth a try.
+    pub(crate) fn tries_affine(&self, problem: &Problem) -> bool {
+        self.schedule == Schedule::Default
+            && !self.follows_normals
+            && problem.constrained.is_empty()
+    }
+
     /// Whether an iterate of such a gap is worth the search for a better bound.
     pub(crate) fn climbs(&self, problem: &Problem, gap: f64) -> bool {
         self.schedule == Schedule::Default
             && problem.kind == Kind::Nuclear
-            && problem.free.is_empty()
+            && !problem.loose
             && gap > self.gap
             && gap < CLIMBABLE * self.gap
     }
@@ -252,6 +259,20 @@ impl Plan {
         self.schedule == Schedule::Paper || iteration >= last + last / 4
     }
 
+    /// Twice the conjugate-gradient iterations, and no over-relaxation: for a domain on which the
+    /// usual ones do not converge.
+    pub(crate) fn be_more_exact(&mut self) {
+        self.relaxation = 1.0;
+        for limit in [
+            &mut self.cg_iterations,
+            &mut self.cg_rough,
+            &mut self.cg_first,
+            &mut self.cg_free,
+        ] {
+            *limit *= 2;
+        }
+    }
+
     /// Whether there may be no further iteration.
     pub(crate) fn is_last(&self, iteration: usize) -> bool {
         iteration >= self.max_iterations
@@ -268,7 +289,7 @@ impl Plan {
     ) -> f64 {
         let (primal, dual) = match self.schedule {
             // At free vertices `CᵀY` itself is to vanish: no measure of anything.
-            Schedule::Default if !problem.free.is_empty() => (
+            Schedule::Default if problem.loose => (
                 certificate.primal_residual / certificate.primal_size,
                 FREE_BALANCE * change / certificate.dual_norm,
             ),
@@ -279,10 +300,11 @@ impl Plan {
             Schedule::Paper => (certificate.primal_residual, change),
         };
         let mut up = primal > self.imbalance * dual;
-        let down = dual > self.imbalance * primal;
-        if self.schedule == Schedule::Default && problem.free.is_empty() {
+        let mut down = dual > self.imbalance * primal;
+        if self.schedule == Schedule::Default && !problem.loose {
             let gap = certificate.objective() - certificate.dual_bound;
-            up |= certificate.dual_cost < SMALL_SHARE * gap;
+            let cheap = certificate.dual_cost < SMALL_SHARE * gap;
+            (up, down) = (up || cheap, down && !cheap);
         }
         let next = match (up, down) {
             (_, true) => rho / 2.0,
@@ -303,14 +325,16 @@ impl Plan {
         iteration: usize,
         certificate: &Certificate,
         change: f64,
-        objective: f64,
-        gap: f64,
+        best: &Best,
     ) -> Option<StopReason> {
-        if objective <= problem.rounding {
+        let (objective, rounding) = (best.objective(), best.rounding);
+        let missing = objective - best.dual_bound;
+        let certified = missing + rounding <= self.gap * objective;
+        if objective <= rounding || (missing <= rounding && !certified) {
             return Some(StopReason::Rounding);
         }
         let done = match self.schedule {
-            Schedule::Default => (gap <= self.gap).then_some(StopReason::Gap),
+            Schedule::Default => certified.then_some(StopReason::Gap),
             Schedule::Paper => {
                 // Four entries of a Hessian, as in the paper.
                 let entries = 4.0 * problem.domain.interior_len() as f64;

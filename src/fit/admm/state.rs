@@ -172,6 +172,15 @@ impl State {
         })
     }
 
+    /// From another `z`, with `H = U = 0`.
+    pub(crate) fn start_again(&mut self, z: &[f64]) {
+        self.z.copy_from_slice(z);
+        let MatrixField { mean, diff, off } = &mut self.v;
+        for coordinate in [mean, diff, off] {
+            coordinate.fill(0.0);
+        }
+    }
+
     /// Changes ρ, leaving `H` and `Y` as they are.
     pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
         self.v.rescale(problem, self.law(problem), rho / self.rho);
@@ -401,8 +410,8 @@ impl State {
 }
 
 /// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
-/// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where they overflow,
-/// as for a confidence of 1e-300, what is left is `t = 0`.
+/// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where that
+/// overflows, what is left is `t = 0`. Always finite, and never below 0.
 pub(super) fn dual_bound(
     problem: &Problem,
     inner: f64,
@@ -411,13 +420,11 @@ pub(super) fn dual_bound(
     largest: f64,
 ) -> f64 {
     let square = quadratic / (4.0 * problem.lambda) + conjugate;
-    if !(square.is_finite() && inner.is_finite()) {
-        0.0
-    } else if square > 0.0 {
-        let t = (inner / (2.0 * square)).clamp(0.0, largest);
-        t * inner - t * t * square
-    } else if largest < f64::INFINITY {
-        largest * inner.max(0.0)
+    // With NaN as the larger one of two, the other is taken.
+    let t = (inner / (2.0 * square)).max(0.0).min(largest);
+    let bound = t * inner - t * t * square;
+    if square >= 0.0 && bound > 0.0 && bound.is_finite() {
+        bound
     } else {
         0.0
     }

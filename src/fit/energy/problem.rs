@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::law::{Any, Kind, Law};
 use crate::error::{Result, try_filled};
-use crate::fit::coordinates::Coordinates;
+use crate::fit::coordinates::{Coordinates, Plane};
 use crate::fit::input::Input;
 use crate::fit::options::{Energy, Options};
 use crate::lattice::domain::{Domain, Role, Run};
@@ -13,6 +13,16 @@ use crate::lattice::stencil::{HessianMap, Ring};
 
 /// Norms up to this share of their mean count as none when an energy is reweighted.
 const REWEIGHTING: f64 = 0.3;
+
+/// A weight of this over `λh⁴` lets a vertex move by next to nothing: keeping it where it is costs
+/// less than a tenth, the norm of one Hessian being of order 1 to 1/h.
+const FIRM: f64 = 1e3;
+
+/// Weights up to this share of the largest are next to none.
+const WEAK: f64 = 1e-3;
+
+/// Fidelity up to this share of what the input's bends cost is next to none.
+const NOTHING: f64 = 0.1;
 
 /// How often norms are averaged with their neighbours' before that.
 const SPREADING: usize = 30;
@@ -28,10 +38,12 @@ pub(crate) struct Problem {
     /// `w`, and one over it; the latter is 0 at constrained cells.
     pub fidelity: PerCell<f64>,
     pub inverse_fidelity: PerCell<f64>,
-    /// Cells whose height is given.
+    /// Cells whose height stays as it is given.
     pub constrained: Vec<u32>,
     /// Cells with neither constraint nor fidelity, where `λw` is the tie break.
     pub free: Vec<u32>,
+    /// Whether there are cells with next to no fidelity, where `CᵀY` must all but vanish.
+    pub loose: bool,
     pub kind: Kind,
     /// `ω`, and what it was before any reweighting.
     pub weight: PerCell<f64>,
@@ -41,8 +53,8 @@ pub(crate) struct Problem {
     pub spacing: f64,
     /// Objectives up to this are rounding errors of zero.
     pub rounding: f64,
-    /// Slope of the plane that the coordinates take away.
-    slope: [f64; 2],
+    /// From the user's heights and back.
+    pub coordinates: Coordinates,
 }
 
 impl Problem {
@@ -79,6 +91,7 @@ impl Problem {
             fidelity: PerCell::same(&domain, 1.0),
             inverse_fidelity: PerCell::same(&domain, 1.0),
             constrained,
+            loose: false,
             free,
             kind: options.energy.kind(),
             weight: PerCell::same(&domain, 1.0),
@@ -86,11 +99,17 @@ impl Problem {
             map: HessianMap::new(spacing),
             spacing,
             rounding,
-            slope: coordinates.slope,
+            coordinates: *coordinates,
             domain,
         };
         if !alike || !problem.constrained.is_empty() {
-            problem.set_fidelity(input, options.tie_break / lambda)?;
+            // Beside given heights a tie break weighs no more than these.
+            let constrained = !problem.constrained.is_empty();
+            let mixed =
+                problem.free.len() + problem.constrained.len() < problem.domain.active().len();
+            let most = if mixed { 1.0 } else { f64::INFINITY };
+            problem.set_fidelity(input, (options.tie_break / lambda).min(most))?;
+            problem.loose |= constrained && problem.yields();
         }
         problem.take_first_normals(options.energy)?;
         Ok(problem)
@@ -110,9 +129,31 @@ impl Problem {
             fidelity[cell] = if constrained { 1.0 } else { weight };
             inverse[cell] = if constrained { 0.0 } else { 1.0 / weight };
         }
+        let largest = domain
+            .active()
+            .cells()
+            .fold(0.0f64, |m, c| m.max(fidelity[c]));
+        let weak = |cell: usize| fidelity[cell] < WEAK * largest;
+        self.loose = !self.free.is_empty() || domain.active().cells().any(weak);
+        if self.loose {
+            // Beside them, what is held firmly would drown everything else in its rounding errors.
+            // Its share of the bound stays.
+            let firm = FIRM / (self.lambda * self.spacing.powi(4));
+            let firm = |cell: &usize| fidelity[*cell] >= firm && inverse[*cell] > 0.0;
+            let cells = domain.active().cells().filter(firm);
+            self.constrained.extend(cells.map(|cell| cell as u32));
+        }
         self.fidelity = PerCell::Each(fidelity);
         self.inverse_fidelity = PerCell::Each(inverse);
         Ok(())
+    }
+
+    /// Whether constraints alone hold the surface: what fidelity costs at its worst is next to
+    /// nothing beside the bends of the input.
+    fn yields(&self) -> bool {
+        let cells = self.domain.active().cells();
+        let squares = cells.map(|cell| self.fidelity.at(cell) * self.target[cell].powi(2));
+        self.lambda * squares.sum::<f64>() < NOTHING * self.smoothness(&self.target)
     }
 
     /// The weights of an energy that has those of its input. Once more where that has
@@ -140,7 +181,8 @@ impl Problem {
                 let ring = Ring::new(z, domain, row, *run);
                 for (i, factor) in factors[run.start..run.end].iter_mut().enumerate() {
                     let [gx, gy] = ring.gradient(i, self.spacing);
-                    let (gx, gy) = (gx + self.slope[0], gy + self.slope[1]);
+                    let [sx, sy] = self.coordinates.slope();
+                    let (gx, gy) = (gx + sx, gy + sy);
                     *factor = 1.0 / (1.0 + gx * gx + gy * gy).sqrt();
                 }
             }
@@ -200,6 +242,37 @@ impl Problem {
         sum
     }
 
+    /// `λ Σ w (z − z̃)²`.
+    pub(crate) fn distance(&self, z: &[f64]) -> f64 {
+        let cells = self.domain.active().cells();
+        let squares =
+            cells.map(|cell| self.fidelity.at(cell) * (z[cell] - self.target[cell]).powi(2));
+        self.lambda * squares.sum::<f64>()
+    }
+
+    /// The affine function next to `z̃`. Exactly 0 if every height is given, for then the
+    /// coordinates are about it.
+    pub(crate) fn least_squares(&self) -> Result<Vec<f64>> {
+        let mut z = try_filled("affine surface", self.domain.cells(), 0.0)?;
+        if self.free.is_empty() && self.constrained.is_empty() {
+            return Ok(z);
+        }
+        let plane = Plane::fit(self.domain.active().cells().map(|cell| {
+            let [x, y] = position(&self.domain, cell).map(|x| self.coordinates.scale * x);
+            ([x, y, self.target[cell]], self.fidelity.at(cell))
+        }));
+        for cell in self.domain.active().cells() {
+            let place = position(&self.domain, cell).map(|x| self.coordinates.scale * x);
+            z[cell] = plane.at(place);
+        }
+        Ok(z)
+    }
+
+    /// The longer side of the domain's box.
+    pub(crate) fn size(&self) -> f64 {
+        self.spacing * self.domain.rows().max(self.domain.stride()) as f64
+    }
+
     /// For values, which do not depend on ρ.
     fn law(&self) -> Any {
         Any {
@@ -226,14 +299,11 @@ impl Problem {
     }
 
     /// Calls `write` with each vertex of `I ∪ ∂I` and its height in the user's units.
-    pub(crate) fn write_heights(
-        &self,
-        coordinates: &Coordinates,
-        z: &[f64],
-        mut write: impl FnMut((usize, usize), f64),
-    ) {
+    pub(crate) fn write_heights(&self, z: &[f64], mut write: impl FnMut((usize, usize), f64)) {
         for cell in self.domain.active().cells() {
-            let height = coordinates.outward(position(&self.domain, cell), z[cell]);
+            let height = self
+                .coordinates
+                .outward(position(&self.domain, cell), z[cell]);
             write(self.domain.lattice_vertex(cell), height);
         }
     }

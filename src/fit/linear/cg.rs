@@ -164,7 +164,7 @@ mod tests {
     use super::*;
     use crate::fit::coarse_to_fine::coarsen;
     use crate::fit::coordinates::Coordinates;
-    use crate::{Heightfield, Input, Lattice, Normalization, Options};
+    use crate::{Heightfield, Input, Lattice, Options};
 
     /// A disk with a hole, and its coarser lattices.
     fn lattices(cols: usize) -> (Heightfield, Vec<Arc<Domain>>) {
@@ -192,7 +192,7 @@ mod tests {
         for cols in [40, 80, 160] {
             let (field, domains) = lattices(cols);
             let input = Input::new(field);
-            let coordinates = Coordinates::new(&input, &domains[0], Normalization::Off);
+            let coordinates = Coordinates::new(&input, &domains[0], 1.0);
             let options = Options::default().lambda(1e4);
             let problem = Problem::new(&input, domains[0].clone(), &coordinates, &options).unwrap();
             let rho = 4.0 * problem.spacing;

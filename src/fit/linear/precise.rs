@@ -59,11 +59,11 @@ impl Precise {
             self.residual[*cell as usize] = 0.0;
         }
         let cells = || problem.domain.active().cells();
-        let goal = tolerance * largest(&self.residual);
+        let goal = tolerance * self.distance(problem, multigrid);
         let mut previous = 0.0;
         for step in 0..steps {
             let size = largest(&self.residual);
-            if size <= goal {
+            if self.distance(problem, multigrid) <= goal {
                 return step;
             }
             // Of unit size, so that nothing leaves the range of single precision.
@@ -93,6 +93,15 @@ impl Precise {
             previous = product;
         }
         steps
+    }
+
+    /// By how much the residual would move a height on its own, at most: a measure that weights of
+    /// many orders of magnitude do not upset.
+    fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
+        let inverse = &multigrid.matrix().inverse_diagonal;
+        let cells = problem.domain.active().cells();
+        let moved = cells.map(|cell| (self.residual[cell] * f64::from(inverse[cell])).abs());
+        moved.fold(0.0, f64::max)
     }
 
     /// `image = A direction`. Returns their product.

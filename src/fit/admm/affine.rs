@@ -1,0 +1,57 @@
+//! Where λ is so small that no bend pays: the affine surface of least squares, and the proof that
+//! it is optimal.
+//!
+//! ADMM takes long there, since what is to be found is a dual as smooth as the domain is large. But
+//! the optimality condition of that surface is a linear system: a stiffness κ (see `balance`) that
+//! lets nothing bend gives a dual that satisfies it, the one of least norm. Where that is a little
+//! too large for the ball, ADMM goes on from there.
+
+use super::balance::balanced_bound;
+use super::iteration::Level;
+use crate::error::Result;
+
+/// The screening length `(κ/2λ)^¼`, in sizes of the domain: bends are then a millionth of what they
+/// could be.
+const STIFF: f64 = 10.0;
+
+/// A larger gap means that the surface bends.
+const CLOSE: f64 = 0.1;
+
+/// Residual at which its dual is found, relative to the first; where fidelity is weak, what is left
+/// costs more.
+const ENOUGH: [f64; 2] = [1e-4, 1e-9];
+
+/// Most iterations for it.
+const STEPS: usize = 100;
+
+impl Level {
+    /// Takes the affine surface, and a bound about it, where it is better than the best one so far.
+    pub(super) fn try_affine(&mut self) -> Result<()> {
+        let trivial = self.best.objective() <= self.best.rounding;
+        if trivial || !self.plan.tries_affine(&self.problem) {
+            return Ok(());
+        }
+        let z = self.problem.least_squares()?;
+        let cost = [self.problem.distance(&z), self.problem.smoothness(&z)];
+        let objective = cost[0] + cost[1];
+        if objective > self.best.objective() {
+            return Ok(());
+        }
+        let stiffness = 2.0 * self.problem.lambda * (STIFF * self.problem.size()).powi(4);
+        self.cg.set_rho(stiffness);
+        let multigrid = self.cg.multigrid();
+        let (state, problem) = (&mut self.state, &self.problem);
+        let enough = (ENOUGH[usize::from(problem.loose)], STEPS);
+        let balanced = balanced_bound(state, problem, &z, stiffness, multigrid, enough)?;
+        self.cg.set_rho(self.state.rho);
+        self.cg_iterations += balanced.steps;
+        self.best.dual_bound = self.best.dual_bound.max(balanced.bound);
+        self.best.take_affine(&z, cost);
+        if objective - balanced.bound <= CLOSE * objective {
+            self.state.z = z;
+            self.state
+                .take_balanced(&self.problem, stiffness, &balanced);
+        }
+        Ok(())
+    }
+}

@@ -8,6 +8,8 @@
 //! keeps creases; `Y` more smoothly, by the rules of Loop's subdivision surfaces, for every kink of it
 //! is a residual.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::admm::state::State;
 use super::energy::problem::Problem;
 use super::input::Input;
@@ -16,8 +18,18 @@ use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, Towards};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, ROW, Towards};
 use crate::math::sym2::Sym2;
+
+/// To the neighbours W, E, NW, NE, SW and SE.
+const DIRECTIONS: [[f64; 2]; 6] = [
+    [-1.0, 0.0],
+    [1.0, 0.0],
+    [-0.5, ROW],
+    [0.5, ROW],
+    [-0.5, -ROW],
+    [0.5, -ROW],
+];
 
 /// Half of what a coarse vertex stands for: of one fine vertex, and of half of each neighbour's.
 const HALF: f64 = 2.0;
@@ -106,22 +118,21 @@ impl Input {
     /// neighbours.
     fn merged(&self, own: Option<usize>, ring: [Option<usize>; 6]) -> Merged {
         let heights = self.field.heights();
-        let pairs = [(0, 1), (2, 5), (3, 4)].map(|(a, b)| ring[a].zip(ring[b]));
         // Weights 2 and 1: those of linear interpolation, transposed.
-        let own_terms = own.map(|v| (2.0, 2.0 * self.weight(v), heights[v]));
-        let terms = own_terms
-            .into_iter()
-            .chain(pairs.into_iter().flatten().map(|(a, b)| {
-                let weight = 2.0 * self.weight(a).min(self.weight(b));
-                (2.0, weight, 0.5 * (heights[a] + heights[b]))
-            }));
-        let (mut count, mut weight, mut sum, mut plain) = (0.0, 0.0, 0.0, 0.0);
-        for (share, w, height) in terms {
-            count += share;
-            weight += w;
-            sum += w * height;
-            plain += share * height;
+        let pairs = [(0, 1), (2, 5), (3, 4)].map(|(a, b)| ring[a].zip(ring[b]).map(|_| [a, b]));
+        let mut terms: Vec<([f64; 2], f64, usize)> =
+            own.map(|v| ([0.0; 2], 2.0, v)).into_iter().collect();
+        for k in pairs.into_iter().flatten().flatten() {
+            terms.extend(ring[k].map(|v| (DIRECTIONS[k], 1.0, v)));
         }
+        let count: f64 = terms.iter().map(|(_, share, _)| share).sum();
+        let plain: f64 = terms.iter().map(|(_, share, v)| share * heights[*v]).sum();
+        let (height, weight) = match self.confidence.is_empty() {
+            true => (plain / count, count),
+            false => self
+                .plane(&terms)
+                .unwrap_or((own.map_or(plain / count, |v| heights[v]), 0.0)),
+        };
         let held = |v: &usize| self.is_constrained(*v);
         let constraints: Vec<f64> = match own.filter(held) {
             Some(own) => vec![heights[own]],
@@ -136,14 +147,31 @@ impl Input {
         Merged {
             height: if constrained {
                 constraints.iter().sum::<f64>() / constraints.len() as f64
-            } else if weight > 0.0 {
-                sum / weight
             } else {
-                own.map_or(plain / count, |own| heights[own])
+                height
             },
             confidence: weight / count,
             constrained,
         }
+    }
+
+    /// The height at the origin of the plane through vertices at places, that fits them best by
+    /// their shares and confidence, and the weight of what it says; `None` if that is nothing.
+    fn plane(&self, terms: &[([f64; 2], f64, usize)]) -> Option<(f64, f64)> {
+        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        let first = self.field.heights()[terms.first()?.2];
+        for ([x, y], share, vertex) in terms {
+            let weight = share * self.weight(*vertex);
+            let row = Vector3::new(1.0, *x, *y);
+            normal += weight * row * row.transpose();
+            right += weight * row * (self.field.heights()[*vertex] - first);
+        }
+        // Where nothing says how it slopes, hardly at all.
+        let slope = 1e-9 * normal[(0, 0)];
+        normal += Matrix3::from_diagonal(&Vector3::new(0.0, slope, slope));
+        let inverse = normal.cholesky()?.inverse();
+        let height = first + inverse.column(0).dot(&right);
+        Some((height, 1.0 / inverse[(0, 0)]))
     }
 }
 

@@ -239,6 +239,12 @@ impl Plan {
             && gap < CLIMBABLE * self.gap
     }
 
+    /// Whether an objective that has come down from one check to the next by so much is about as low
+    /// as it gets.
+    pub(crate) fn has_settled(&self, before: f64, objective: f64) -> bool {
+        before - objective <= self.gap * objective
+    }
+
     /// When the search is worth it again that after so many iterations came to such a gap: gaps
     /// hardly fall faster than with the square of the iterations.
     pub(crate) fn next_climb(&self, iteration: usize, gap: f64) -> usize {

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::raster::Raster;
+use super::sites::{Site, Sites, surround};
 use crate::error::{Result, try_filled};
 
 /// By how many standard deviations the slope across a hole may differ from those beside it.
@@ -33,7 +34,10 @@ const TYPICAL: f64 = 6.0;
 pub(super) struct Crossing {
     pub cell: usize,
     pub height: f64,
+    /// The mean of those around.
     pub confidence: f64,
+    /// How many steps from the cell there is something on all sides of it.
+    pub distance: f64,
     /// By how much the slope across differs from those beside, in height per step.
     difference: f64,
     /// The same squared, in variances of one height.
@@ -50,44 +54,35 @@ pub(super) struct Crossing {
 
 pub(super) struct Crossings<'a> {
     raster: &'a Raster,
+    /// NaN where there is none, or it says nothing.
     heights: &'a [f64],
-    confidence: &'a dyn Fn(usize) -> f64,
+    /// Of each; empty: 1 everywhere.
+    confidence: &'a [f64],
     /// Distance between neighbours, in units of height.
     spacing: f64,
     /// Around a cell in an even and in an odd row.
     sites: [Sites; 2],
 }
 
-/// Cells by their distance from a hole's: those `k` steps away are `sites[rings[k - 1]..rings[k]]`.
-struct Sites {
-    sites: Vec<Site>,
-    rings: Vec<usize>,
-}
-
-struct Site {
-    offset: isize,
-    place: [f64; 2],
-    /// Of twelve sectors, which one it lies in.
-    sector: u32,
-    /// Half of its neighbours, so that each pair comes once.
-    next: Vec<usize>,
-}
-
-const SECTORS: u32 = 12;
-
-/// For each site, to be used again.
+/// What is found around a cell, in arrays to be used again.
 #[derive(Default)]
 struct Scratch {
-    /// Heights above the plane.
+    /// Sites with a height.
+    found: Vec<usize>,
+    /// For each site: the height, then how far it is from the plane; NaN where there is none.
     residuals: Vec<f64>,
+    /// What each height contributes to the slopes beside.
     shares: Vec<Vector2<f64>>,
 }
+
+/// Keeps matrices that are singular but for rounding positive.
+const SHIFT: f64 = 1e-6;
 
 impl<'a> Crossings<'a> {
     pub(super) fn new(
         raster: &'a Raster,
         heights: &'a [f64],
-        confidence: &'a dyn Fn(usize) -> f64,
+        confidence: &'a [f64],
         width: usize,
         spacing: f64,
     ) -> Self {
@@ -103,63 +98,50 @@ impl<'a> Crossings<'a> {
     /// Those of the cells where the surface goes on, and that are not next to one where it does not.
     pub(super) fn sound(&self, cells: &[usize]) -> Result<Vec<Crossing>> {
         let mut scratch = Scratch::default();
-        let found: Vec<Option<Crossing>> = cells
-            .iter()
-            .map(|cell| self.at(*cell, &mut scratch))
-            .collect();
-        let typical = median(
-            found
-                .iter()
-                .flatten()
-                .filter(|c| c.terms >= TYPICAL)
-                .map(|c| c.spread / c.terms),
-        );
-        let blind = || found.iter().flatten().filter(|c| !c.sees);
-        let typical_stray = median(blind().map(|c| c.stray));
-        let same = SAME * self.spacing;
+        let at = |cell: &usize| self.at(*cell, &mut scratch);
+        let found: Vec<Option<Crossing>> = cells.iter().map(at).collect();
+        let known = || found.iter().flatten();
+        let typical = Typical {
+            spread: median(
+                known()
+                    .filter(|c| c.terms >= TYPICAL)
+                    .map(|c| c.spread / c.terms),
+            ),
+            stray: median(known().filter(|c| !c.sees).map(|c| c.stray)),
+        };
         let mut torn = try_filled("bridged holes", self.raster.cells(), false)?;
         for (cell, crossing) in cells.iter().zip(&found) {
-            let sound = crossing.is_some_and(|crossing| {
-                let spread = (crossing.spread + TYPICAL * typical) / (crossing.terms + TYPICAL);
-                if !crossing.sees {
-                    let fold = FOLD * crossing.reach * self.spacing;
-                    return crossing.stray <= STRAY * typical_stray + fold;
-                }
-                // A difference of two heights has twice the variance of one.
-                let explained = crossing.evidence <= UNEXPLAINED.powi(2) * 0.5 * spread;
-                crossing.height.is_finite()
-                    && (explained || crossing.difference <= same + BEND * spread.sqrt())
-            });
-            torn[*cell] = !sound;
+            torn[*cell] = !crossing.is_some_and(|c| c.is_sound(&typical, self.spacing));
         }
         let sound =
             |c: &Crossing| !torn[c.cell] && !self.raster.neighbours(c.cell).any(|n| torn[n]);
         Ok(found.into_iter().flatten().filter(sound).collect())
     }
 
-    /// What is around a cell: as far as there is something on all sides of it, and a step further.
+    /// What is around a cell: as far as there is something on all sides of it, and two steps further.
     fn at(&self, cell: usize, scratch: &mut Scratch) -> Option<Crossing> {
         let sites = &self.sites[usize::from(self.raster.is_odd(cell))];
-        let there = |site: &Site| {
-            let at = cell.wrapping_add_signed(site.offset);
-            let given = !self.heights[at].is_nan() && (self.confidence)(at) > 0.0;
-            given.then_some(at)
-        };
-        let (mut sectors, mut count) = (0u32, 0);
-        let mut far = None;
+        scratch.found.clear();
+        scratch.residuals.clear();
+        scratch.residuals.push(f64::NAN);
+        let (mut sectors, mut around) = (0, None);
         for (k, ring) in sites.rings.windows(2).enumerate() {
-            for site in sites.sites[ring[0]..ring[1]]
-                .iter()
-                .filter(|site| there(site).is_some())
-            {
-                sectors |= 1 << site.sector;
-                count += 1;
+            for (i, site) in sites.sites[..ring[1]].iter().enumerate().skip(ring[0]) {
+                let z = self.heights[cell.wrapping_add_signed(site.offset)];
+                scratch.residuals.push(z);
+                if !z.is_nan() {
+                    scratch.found.push(i);
+                    sectors |= 1 << site.sector;
+                }
             }
-            if far.is_none() && surround(sectors) {
-                far = Some(k + 3);
+            if around.is_none() && surround(sectors) {
+                around = Some(k + 1);
             }
-            if far.is_some_and(|far| k + 1 >= far) && count >= FEWEST {
-                return self.fit(cell, &sites.sites[..ring[1]], &there, scratch);
+            match around {
+                Some(distance) if k > distance && scratch.found.len() >= FEWEST => {
+                    return self.fit(cell, &sites.sites[..ring[1]], distance, scratch);
+                }
+                _ => (),
             }
         }
         None
@@ -169,126 +151,94 @@ impl<'a> Crossings<'a> {
         &self,
         cell: usize,
         sites: &[Site],
-        there: &dyn Fn(&Site) -> Option<usize>,
-        Scratch { residuals, shares }: &mut Scratch,
+        distance: usize,
+        Scratch {
+            found,
+            residuals,
+            shares,
+        }: &mut Scratch,
     ) -> Option<Crossing> {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-        let (mut n, mut confidence) = (0.0, 0.0);
-        residuals.clear();
-        let mut first = None;
-        for site in sites {
-            let Some(at) = there(site) else {
-                residuals.push(f64::NAN);
-                continue;
-            };
-            // Above the first one: nothing is lost far from 0.
-            let z = self.heights[at] - *first.get_or_insert(self.heights[at]);
-            let row = Vector3::new(1.0, site.place[0], site.place[1]);
+        let mut confidence = 0.0;
+        // Heights above one of them: nothing is lost far from 0.
+        let first = residuals[*found.first()?];
+        for i in &*found {
+            let row = sites[*i].place.push(1.0);
             normal += row * row.transpose();
-            right += row * z;
-            residuals.push(z);
-            n += 1.0;
-            confidence += (self.confidence)(at);
+            right += row * (residuals[*i] - first);
+            let at = cell.wrapping_add_signed(sites[*i].offset);
+            confidence += self.confidence.get(at).copied().unwrap_or(1.0);
         }
         let plane = normal.cholesky()?.solve(&right);
-        for (residual, site) in residuals.iter_mut().zip(sites) {
-            *residual -= plane[0] + plane[1] * site.place[0] + plane[2] * site.place[1];
+        let mut strays = 0.0;
+        for i in &*found {
+            let residual = residuals[*i] - first - plane.dot(&sites[*i].place.push(1.0));
+            residuals[*i] = residual;
+            strays += residual * residual;
         }
-        // Slopes between neighbours, less the plane's, and what each height contributes to them.
-        let (mut normal, mut right) = (Matrix2::identity() * 1e-6, Vector2::zeros());
+        // Slopes between neighbours, less the plane's.
+        let shift = Matrix2::identity() * SHIFT;
+        let (mut normal, mut right) = (shift, Vector2::zeros());
         let (mut squares, mut terms) = (0.0, 0.0);
         shares.clear();
         shares.resize(sites.len(), Vector2::zeros());
-        for (i, site) in sites.iter().enumerate() {
-            for k in site.next.iter().filter(|k| **k < sites.len()) {
-                let rise = residuals[*k] - residuals[i];
+        for i in &*found {
+            for k in sites[*i].next.iter().filter(|k| **k < sites.len()) {
+                let rise = residuals[*k] - residuals[*i];
                 if !rise.is_nan() {
-                    let step = [0, 1].map(|axis| sites[*k].place[axis] - site.place[axis]);
-                    let step = Vector2::from(step);
+                    let step = sites[*k].place - sites[*i].place;
                     normal += step * step.transpose();
                     right += step * rise;
                     shares[*k] += step;
-                    shares[i] -= step;
+                    shares[*i] -= step;
                     squares += rise * rise;
                     terms += 1.0;
                 }
             }
         }
-        let variance = shares
+        let variance = found
             .iter()
-            .fold(Matrix2::identity() * 1e-6, |sum, share| {
-                sum + share * share.transpose()
-            });
-        let strays = residuals.iter().filter(|r| !r.is_nan()).map(|r| r * r);
-        let stray = (strays.sum::<f64>() / n).sqrt();
-        let farthest = sites.last().map_or([0.0; 2], |site| site.place);
-        // A pair along each of two directions has an eigenvalue of at least a half.
-        let sees = normal.symmetric_eigenvalues().min() > 0.25;
+            .fold(shift, |sum, i| sum + shares[*i] * shares[*i].transpose());
         let difference = normal.cholesky()?.solve(&right);
+        let n = found.len() as f64;
         Some(Crossing {
             cell,
-            height: plane[0] + first?,
+            height: plane[2] + first,
             confidence: confidence / n,
+            distance: distance as f64,
             difference: difference.norm(),
             evidence: right.dot(&variance.cholesky()?.solve(&right)),
             spread: (squares - right.dot(&difference)).max(0.0),
             terms,
-            sees,
-            stray,
-            reach: farthest[0].hypot(farthest[1]),
+            // A pair along each of two directions has an eigenvalue of at least a half.
+            sees: normal.symmetric_eigenvalues().min() > 0.25,
+            stray: (strays / n).sqrt(),
+            reach: sites.last()?.place.norm(),
         })
     }
 }
 
-impl Sites {
-    fn new(raster: &Raster, odd: bool, most: usize) -> Self {
-        let steps = [raster.steps(false), raster.steps(true)];
-        let parity = |[row, _]: [isize; 2]| usize::from(odd) ^ row.rem_euclid(2) as usize;
-        let mut places: Vec<[isize; 2]> = vec![[0, 0]];
-        let mut rings = vec![1];
-        let mut from = 0;
-        for _ in 0..most {
-            for i in from..places.len() {
-                let at = places[i];
-                for [r, c] in &steps[parity(at)] {
-                    let to = [at[0] + r, at[1] + c];
-                    if !places.contains(&to) {
-                        places.push(to);
-                    }
-                }
-            }
-            from = rings[rings.len() - 1];
-            rings.push(places.len());
-        }
-        let stride = raster.stride as isize;
-        let sites = places.iter().map(|at| {
-            let place = raster.place(odd, *at);
-            let angle = place[1].atan2(place[0]) / std::f64::consts::TAU;
-            let half = steps[parity(*at)].len() / 2;
-            let next = steps[parity(*at)][..half].iter();
-            let next = next.filter_map(|[r, c]| {
-                let to = [at[0] + r, at[1] + c];
-                places.iter().position(|place| *place == to)
-            });
-            Site {
-                offset: at[0] * stride + at[1],
-                place,
-                sector: (angle.rem_euclid(1.0) * f64::from(SECTORS)) as u32 % SECTORS,
-                next: next.collect(),
-            }
-        });
-        Sites {
-            sites: sites.collect(),
-            rings,
-        }
-    }
+/// Medians over all holes.
+struct Typical {
+    /// What the spread of slopes has for each term.
+    spread: f64,
+    /// How far heights are from the plane, where slopes beside are not known.
+    stray: f64,
 }
 
-/// Whether no half of the sectors in a row is without any.
-fn surround(sectors: u32) -> bool {
-    let all = sectors | sectors << SECTORS;
-    let half = (1 << (SECTORS / 2)) - 1;
-    (0..SECTORS).all(|first| all >> first & half != 0)
+impl Crossing {
+    fn is_sound(&self, typical: &Typical, spacing: f64) -> bool {
+        let fold = FOLD * self.reach * spacing;
+        let spread = (self.spread + TYPICAL * typical.spread) / (self.terms + TYPICAL);
+        // A difference of two heights has twice the variance of one.
+        let noise = self.evidence <= UNEXPLAINED.powi(2) * 0.5 * spread;
+        let bend = self.difference <= SAME * spacing + BEND * spread.sqrt();
+        self.height.is_finite()
+            && match self.sees {
+                true => noise || bend,
+                false => self.stray <= STRAY * typical.stray + fold,
+            }
+    }
 }
 
 /// 0 of nothing.

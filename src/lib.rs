@@ -91,6 +91,7 @@ pub use fit::report::{LevelReport, Progress, Report, Seconds, StopReason};
 pub use fit::solver::{Solver, Status, fit, fit_with};
 pub use fit::surface::Surface;
 pub use flat::{dewarp, drawing, pattern, unroll};
+pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;
 pub use heights::occlusions::{OCCLUSION_THRESHOLD, Occlusions};

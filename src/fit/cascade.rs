@@ -75,24 +75,24 @@ impl Cascade {
         let mut coarse = Vec::new();
         if !trivial {
             // The lattices for multigrid come first: free heights are found with their help.
-            let found = coarser(&input)?;
+            let found = coarser(&input, &domains[0])?;
             domains.extend(found.iter().map(|(_, domain)| domain.clone()));
             coarse = found;
             if !problem.free.is_empty() {
                 plate::fill(&mut problem, &domains, &plan)?;
                 problem.take_first_normals(options.energy)?;
                 give_back(&mut input, &problem)?;
-                coarse = coarser(&input)?;
+                coarse = coarser(&input, &domains[0])?;
             }
         }
         let state = match warm {
             Some(state) => state,
             None => {
                 finer.push(problem);
-                for (input, domain) in &coarse {
-                    if plan.wants_level(domain.interior_len()) {
-                        finer.push(Problem::new(input, domain.clone(), &coordinates, options)?);
-                    }
+                let wanted =
+                    |(_, domain): &&(Input, Arc<Domain>)| plan.wants_level(domain.interior_len());
+                for (input, domain) in coarse.iter().take_while(wanted) {
+                    finer.push(Problem::new(input, domain.clone(), &coordinates, options)?);
                 }
                 problem = finer.remove(finer.len() - 1);
                 State::new(&problem, plan.first_rho(&problem))?
@@ -253,18 +253,25 @@ pub(crate) fn domain_of(input: &Input) -> Result<Domain> {
     Domain::with_occlusions(&input.field, |vertex| input.is_occluded(vertex))
 }
 
-/// The input on all coarser lattices that are of use, the finest first.
-fn coarser(input: &Input) -> Result<Vec<(Input, Arc<Domain>)>> {
+/// The input on all coarser lattices that are of use, the finest first: as long as enough stencils
+/// are left, and each stands for four of the finer ones, within a factor of 2. Where holes take most
+/// of them away, or close, the next lattice says little about the last.
+fn coarser(input: &Input, domain: &Arc<Domain>) -> Result<Vec<(Input, Arc<Domain>)>> {
     let mut found: Vec<(Input, Arc<Domain>)> = Vec::new();
     loop {
-        let next = coarsen(found.last().map_or(input, |(last, _)| last))?;
+        let (last, finer) = found.last().map_or((input, domain), |(i, d)| (i, d));
+        let next = coarsen(last, finer)?;
         match domain_of(&next) {
-            Ok(domain) if domain.interior_len() >= COARSEST_GRID => {
-                found.push((next, Arc::new(domain)));
+            Ok(coarse) if is_of_use(finer.interior_len(), coarse.interior_len()) => {
+                found.push((next, Arc::new(coarse)));
             }
             _ => return Ok(found),
         }
     }
+}
+
+fn is_of_use(fine: usize, coarse: usize) -> bool {
+    coarse >= COARSEST_GRID && (fine / 8..=3 * fine / 8).contains(&coarse)
 }
 
 /// Puts the heights that were found for free vertices where the given ones are.

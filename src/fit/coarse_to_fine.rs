@@ -8,6 +8,8 @@
 //! keeps creases; `Y` more smoothly, by the rules of Loop's subdivision surfaces, for every kink of it
 //! is a residual.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::admm::state::State;
 use super::energy::problem::Problem;
 use super::input::Input;
@@ -16,15 +18,34 @@ use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, Towards};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, ROW, Towards};
 use crate::math::sym2::Sym2;
 
-/// The input on the lattice of twice the spacing. A coarse vertex is valid where
-/// its fine vertex is; its height is the mean, by confidence, over the opposite
-/// neighbours that are both there, which leaves planes alone and halves the
-/// noise. It is constrained if its fine vertex is, or else to the mean of its
-/// constrained neighbours; torn if its own or a neighbour's surroundings are.
-pub(crate) fn coarsen(input: &Input) -> Result<Input> {
+/// To the neighbours W, E, NW, NE, SW and SE.
+const DIRECTIONS: [[f64; 2]; 6] = [
+    [-1.0, 0.0],
+    [1.0, 0.0],
+    [-0.5, ROW],
+    [0.5, ROW],
+    [-0.5, -ROW],
+    [0.5, -ROW],
+];
+
+/// Half of what a coarse vertex stands for: of one fine vertex, and of half of each neighbour's.
+const HALF: f64 = 2.0;
+
+/// The input on the lattice of twice the spacing, of which `domain` has the roles.
+///
+/// Whether a coarse vertex is there depends on all seven fine ones about it, so that a hole of one
+/// vertex, or a row of them, does not become one of four or nothing at all, as the sublattice
+/// happens to hit it. It is valid where its fine vertex is, or at least half of what it stands for.
+/// It has no stencil unless at least half of the fine ones are there; nor where its own surroundings
+/// or a neighbour's are torn.
+///
+/// Its height is the mean, by confidence, over the opposite neighbours that are both there, which
+/// leaves planes alone and halves the noise. It is constrained if its fine vertex is, or else to the
+/// mean of its constrained neighbours.
+pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     let fine = input.field.lattice();
     let lattice = Lattice::new(
         fine.rows().div_ceil(2),
@@ -32,101 +53,125 @@ pub(crate) fn coarsen(input: &Input) -> Result<Input> {
         2.0 * fine.spacing(),
     )?
     .with_origin(fine.origin())?;
+    let heights = input.field.heights();
     let vertex = |(row, col): (isize, isize)| {
         let inside = fine.contains(row, col);
-        inside.then(|| fine.index(row as usize, col as usize))
+        let index = inside.then(|| fine.index(row as usize, col as usize));
+        index.filter(|v| !heights[*v].is_nan())
     };
-    const OPPOSITE: [(Towards, Towards); 3] = [
-        (Towards::West, Towards::East),
-        (Towards::NorthWest, Towards::SouthEast),
-        (Towards::NorthEast, Towards::SouthWest),
-    ];
-    let heights = input.field.heights();
+    let has_stencil = |vertex| cell(domain, vertex, |role| role == Role::Interior).is_some();
     let mut coarse = Input::new(Heightfield::new(lattice, vec![f64::NAN; lattice.len()])?);
     let mut field = Vec::with_capacity(lattice.len());
-    let mut torn = Vec::new();
+    let mut torn = Vec::with_capacity(lattice.len());
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
-            let (r, c) = (2 * row as isize, 2 * col as isize - (row % 2) as isize);
-            let centre = vertex((r, c)).filter(|v| !heights[*v].is_nan());
-            let ring = NEIGHBOURS.map(|t| vertex(t.step(r, c)));
-            let Some(centre) = centre else {
-                field.push(f64::NAN);
-                input.push_rest(&mut coarse, &mut torn, 0.0, false, false);
-                continue;
+            let centre = (2 * row as isize, 2 * col as isize - (row % 2) as isize);
+            let around = NEIGHBOURS.map(|t| t.step(centre.0, centre.1));
+            let (own, ring) = (vertex(centre), around.map(vertex));
+            let share = |own: bool, ring: usize| f64::from(u8::from(own)) + 0.5 * ring as f64;
+            let valid = share(own.is_some(), ring.into_iter().flatten().count());
+            let stencils = around.into_iter().filter(|v| has_stencil(*v)).count();
+            let occluded = |v: usize| input.is_occluded(v);
+            torn.push(u8::from(
+                share(has_stencil(centre), stencils) < HALF
+                    || own
+                        .into_iter()
+                        .chain(ring.into_iter().flatten())
+                        .any(occluded),
+            ));
+            let merged = match own.is_some() || valid >= HALF {
+                true => input.merged(own, ring),
+                false => Merged::default(),
             };
-            let pairs = || {
-                let pair = |(a, b): (Towards, Towards)| {
-                    let (a, b) = (vertex(a.step(r, c))?, vertex(b.step(r, c))?);
-                    let sum = heights[a] + heights[b];
-                    (!sum.is_nan()).then(|| (sum, input.weight(a).min(input.weight(b))))
-                };
-                OPPOSITE.into_iter().filter_map(pair)
-            };
-            // Weights 2 and 1: those of linear interpolation, transposed.
-            let own = input.weight(centre);
-            let (mut sum, mut weight) = (2.0 * own * heights[centre], 2.0 * own);
-            let mut count = 2.0;
-            for (pair, share) in pairs() {
-                sum += share * pair;
-                weight += 2.0 * share;
-                count += 2.0;
+            field.push(merged.height);
+            if !input.confidence.is_empty() {
+                coarse.confidence.push(merged.confidence);
             }
-            let held = ring
-                .into_iter()
-                .flatten()
-                .filter(|v| input.is_constrained(*v));
-            let (mut height, mut constrained) = if weight > 0.0 {
-                (sum / weight, false)
-            } else {
-                (heights[centre], false)
-            };
-            if input.is_constrained(centre) {
-                (height, constrained) = (heights[centre], true);
-            } else {
-                let (sum, n) = held.fold((0.0, 0.0), |(sum, n), v| (sum + heights[v], n + 1.0));
-                if n > 0.0 {
-                    (height, constrained) = (sum / n, true);
-                }
+            if !input.constrained.is_empty() {
+                coarse.constrained.push(merged.constrained);
             }
-            let occluded = input.is_occluded(centre)
-                || ring.into_iter().flatten().any(|v| input.is_occluded(v));
-            field.push(height);
-            input.push_rest(
-                &mut coarse,
-                &mut torn,
-                weight / count,
-                constrained,
-                occluded,
-            );
         }
     }
     coarse.field = Heightfield::new(lattice, field)?;
-    if input.occlusions.is_some() {
-        coarse = coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)?;
+    coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)
+}
+
+/// What fine vertices come to on the coarse lattice.
+struct Merged {
+    height: f64,
+    confidence: f64,
+    constrained: bool,
+}
+
+impl Default for Merged {
+    fn default() -> Self {
+        Merged {
+            height: f64::NAN,
+            confidence: 0.0,
+            constrained: false,
+        }
     }
-    Ok(coarse)
 }
 
 impl Input {
-    /// Appends what goes with a vertex to the arrays that are there at all.
-    fn push_rest(
-        &self,
-        coarse: &mut Input,
-        torn: &mut Vec<u8>,
-        weight: f64,
-        constrained: bool,
-        occluded: bool,
-    ) {
-        if !self.confidence.is_empty() {
-            coarse.confidence.push(weight);
+    /// A vertex and its neighbours, those that are there, as one: at least it itself or two opposite
+    /// neighbours.
+    fn merged(&self, own: Option<usize>, ring: [Option<usize>; 6]) -> Merged {
+        let heights = self.field.heights();
+        // Weights 2 and 1: those of linear interpolation, transposed.
+        let pairs = [(0, 1), (2, 5), (3, 4)].map(|(a, b)| ring[a].zip(ring[b]).map(|_| [a, b]));
+        let mut terms: Vec<([f64; 2], f64, usize)> =
+            own.map(|v| ([0.0; 2], 2.0, v)).into_iter().collect();
+        for k in pairs.into_iter().flatten().flatten() {
+            terms.extend(ring[k].map(|v| (DIRECTIONS[k], 1.0, v)));
         }
-        if !self.constrained.is_empty() {
-            coarse.constrained.push(constrained);
+        let count: f64 = terms.iter().map(|(_, share, _)| share).sum();
+        let plain: f64 = terms.iter().map(|(_, share, v)| share * heights[*v]).sum();
+        let (height, weight) = match self.confidence.is_empty() {
+            true => (plain / count, count),
+            false => self
+                .plane(&terms)
+                .unwrap_or((own.map_or(plain / count, |v| heights[v]), 0.0)),
+        };
+        let held = |v: &usize| self.is_constrained(*v);
+        let constraints: Vec<f64> = match own.filter(held) {
+            Some(own) => vec![heights[own]],
+            None => ring
+                .into_iter()
+                .flatten()
+                .filter(held)
+                .map(|v| heights[v])
+                .collect(),
+        };
+        let constrained = !constraints.is_empty();
+        Merged {
+            height: if constrained {
+                constraints.iter().sum::<f64>() / constraints.len() as f64
+            } else {
+                height
+            },
+            confidence: weight / count,
+            constrained,
         }
-        if self.occlusions.is_some() {
-            torn.push(u8::from(occluded));
+    }
+
+    /// The height at the origin of the plane through vertices at places, that fits them best by
+    /// their shares and confidence, and the weight of what it says; `None` if that is nothing.
+    fn plane(&self, terms: &[([f64; 2], f64, usize)]) -> Option<(f64, f64)> {
+        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        let first = self.field.heights()[terms.first()?.2];
+        for ([x, y], share, vertex) in terms {
+            let weight = share * self.weight(*vertex);
+            let row = Vector3::new(1.0, *x, *y);
+            normal += weight * row * row.transpose();
+            right += weight * row * (self.field.heights()[*vertex] - first);
         }
+        // Where nothing says how it slopes, hardly at all.
+        let slope = 1e-9 * normal[(0, 0)];
+        normal += Matrix3::from_diagonal(&Vector3::new(0.0, slope, slope));
+        let inverse = normal.cholesky()?.inverse();
+        let height = first + inverse.column(0).dot(&right);
+        Some((height, 1.0 / inverse[(0, 0)]))
     }
 }
 
@@ -190,6 +235,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::fit::cascade::domain_of;
     use crate::fit::coordinates::Coordinates;
     use crate::{Options, Sym2};
 
@@ -199,8 +245,10 @@ mod tests {
         // Bent, so that the best-fit plane that is taken away is not everything.
         let field = Heightfield::from_fn(lattice, |x, y| x * x + 0.3 * y).unwrap();
         let field = Input::new(field);
-        let coarse_field = coarsen(&field).unwrap();
-        let domains = [&field, &coarse_field].map(|f| Arc::new(Domain::new(&f.field).unwrap()));
+        let fine_domain = Domain::new(&field.field).unwrap();
+        let coarse_field = coarsen(&field, &fine_domain).unwrap();
+        let coarse_domain = domain_of(&coarse_field).unwrap();
+        let domains = [fine_domain, coarse_domain].map(Arc::new);
         let coordinates = Coordinates::new(&field, &domains[0], 1.0);
         let options = Options::default().lambda(1e3);
         let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
@@ -247,9 +295,9 @@ mod tests {
                 2.0 * x - y + 1.0
             }
         };
-        let coarse = coarsen(&Heightfield::from_fn(lattice, plane).unwrap().into())
-            .unwrap()
-            .field;
+        let field = Heightfield::from_fn(lattice, plane).unwrap();
+        let domain = Domain::new(&field).unwrap();
+        let coarse = coarsen(&field.into(), &domain).unwrap().field;
         let mut counts = [0, 0];
         for row in 0..coarse.lattice().rows() {
             for col in 0..coarse.lattice().cols() {

@@ -1,6 +1,8 @@
 //! What a solve is about: heights, and what is known about them.
 
+use crate::error::try_filled;
 use crate::error::{Error, Result, check_shape};
+use crate::heights::bridging::{BridgedImage, Bridging, Surroundings};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 
@@ -31,16 +33,50 @@ pub struct Input {
     /// Whether a vertex must keep its height; empty: none.
     pub(crate) constrained: Vec<bool>,
     pub(crate) occlusions: Option<Occlusions>,
+    /// Whether a vertex is none of the surface's, whatever its neighbours are; empty: none.
+    outside: Vec<bool>,
+    bridging: Bridging,
+    /// Number of vertices whose height bridges a hole.
+    pub(crate) bridged: usize,
 }
 
 impl Input {
-    /// Heights to stay close to, the same everywhere.
+    /// Heights to stay close to, the same everywhere; small holes among them are
+    /// [bridged](Bridging).
     pub fn new(field: Heightfield) -> Self {
         Input {
             field,
             confidence: Vec::new(),
             constrained: Vec::new(),
             occlusions: None,
+            outside: Vec::new(),
+            bridging: Bridging::default(),
+            bridged: 0,
+        }
+    }
+
+    /// The heights of an image, as [`HeightImage::to_lattice`](crate::HeightImage::to_lattice)
+    /// samples them, where holes are bridged already: no others are on the lattice. How far a vertex
+    /// is to be trusted is sampled likewise.
+    ///
+    /// # Errors
+    /// As [`HeightImage::to_lattice`](crate::HeightImage::to_lattice).
+    pub fn from_bridged(image: &BridgedImage, spacing: Option<f64>) -> Result<Self> {
+        let field = image.image.to_lattice(spacing)?;
+        let lattice = *field.lattice();
+        let mut input = Input::new(field).with_bridging(Bridging::Off)?;
+        if !image.is_empty() {
+            let before = image.original.sampled_on(&lattice)?;
+            let heights = input.field.heights().iter().zip(before.heights());
+            input.bridged = heights
+                .filter(|(z, old)| old.is_nan() && !z.is_nan())
+                .count();
+        }
+        match &image.confidence {
+            Some(confidence) => {
+                input.with_confidence(confidence.sampled_on(&lattice)?.into_heights())
+            }
+            None => Ok(input),
         }
     }
 
@@ -57,6 +93,7 @@ impl Input {
             field = field.masked(shape)?;
         }
         Input::new(field)
+            .with_bridging(Bridging::Off)?
             .with_confidence(vec![0.0; lattice.len()])?
             .with_constraints(constraints.into_heights())
     }
@@ -110,6 +147,57 @@ impl Input {
     pub fn with_occlusions(mut self, occlusions: Occlusions) -> Result<Self> {
         self.check_length("occlusions", occlusions.vertices().len())?;
         self.occlusions = Some(occlusions);
+        Ok(self)
+    }
+
+    /// Which holes are bridged when the solve is set up; by default those of up to 4 vertices across.
+    /// In a design there is nothing to bridge.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for a width out of range.
+    pub fn with_bridging(mut self, bridging: Bridging) -> Result<Self> {
+        bridging.width()?;
+        self.bridging = bridging;
+        Ok(self)
+    }
+
+    /// The part of the surface where `keep` is not 0. No hole is bridged elsewhere.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if `keep` is not one value for each vertex.
+    pub fn masked(mut self, keep: &[u8]) -> Result<Self> {
+        self.field = self.field.masked(keep)?;
+        self.outside = keep.iter().map(|keep| *keep == 0).collect();
+        for (vertex, constrained) in self.constrained.iter_mut().enumerate() {
+            *constrained &= !self.outside[vertex];
+        }
+        Ok(self)
+    }
+
+    /// The input with its small holes bridged.
+    pub(crate) fn bridge(mut self) -> Result<Self> {
+        let width = self.bridging.width()?;
+        let surroundings = Surroundings {
+            heights: self.field.heights(),
+            confidence: &self.confidence,
+            closed: &|v| self.outside.get(v) == Some(&true) || self.is_occluded(v),
+        };
+        let bridges = surroundings.on_lattice(&self.field, width)?;
+        self.bridging = Bridging::Off;
+        self.bridged += bridges.len();
+        if bridges.is_empty() {
+            return Ok(self);
+        }
+        if self.confidence.is_empty() {
+            self.confidence = try_filled("confidence", self.field.lattice().len(), 1.0)?;
+        }
+        let lattice = *self.field.lattice();
+        let mut heights = self.field.into_heights();
+        for bridge in &bridges {
+            heights[bridge.index] = bridge.height;
+            self.confidence[bridge.index] = bridge.confidence;
+        }
+        self.field = Heightfield::new(lattice, heights)?;
         Ok(self)
     }
 

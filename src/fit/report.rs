@@ -128,6 +128,9 @@ pub struct Report {
     pub omitted: usize,
     /// Vertices where no Hessian was taken because of an occlusion.
     pub occluded: usize,
+    /// Vertices without data whose hole was [bridged](crate::Bridging): they have heights in the
+    /// surface.
+    pub bridged: usize,
     /// Vertices whose height was given for good.
     pub constrained: usize,
     /// Vertices of the solve with neither a constraint nor a fidelity term of their own.

@@ -84,6 +84,7 @@ impl Solver {
     fn set_up(input: Input, options: &Options, memory: Option<WarmStart>) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
+        let input = input.bridge()?;
         let domain = Arc::new(domain_of(&input)?);
         check_held(&input, &domain)?;
         let scale = options.normalization.factor(&input.field);
@@ -341,6 +342,7 @@ impl Solver {
             omitted: self.domain.omitted_len(),
             occluded: self.domain.occluded_len(),
             constrained: constrained.count(),
+            bridged: self.input.bridged,
             free: answers().map(|answer| answer.problem.free.len()).sum(),
             components: self.components.list.len(),
             iterations: total.iterations,

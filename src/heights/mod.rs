@@ -1,5 +1,7 @@
-//! Heights: on the lattice and on square pixels, from one to the other, and where they are torn.
+//! Heights: on the lattice and on square pixels, from one to the other, where they are torn, and
+//! small holes bridged.
 
+pub(crate) mod bridging;
 pub(crate) mod heightfield;
 pub(crate) mod normalization;
 pub(crate) mod occlusions;

@@ -26,6 +26,8 @@ pub(crate) struct Level {
     /// The iteration from which on it is worth it again, and the first one of this pass.
     next_climb: usize,
     pass_start: usize,
+    /// Whether the objective has settled for the first time in this pass.
+    settled: bool,
     /// Conjugate-gradient iterations of the z-step under way, and of its current round.
     z_step: usize,
     round: usize,
@@ -140,6 +142,7 @@ impl Level {
             ascent: None,
             next_climb,
             pass_start: 0,
+            settled: false,
             z_step: 0,
             round: 0,
             iteration: 0,
@@ -283,7 +286,9 @@ impl Level {
             // Another energy than at the last check.
             self.best.replace(&self.state.z, &certificate);
         } else {
+            let before = self.best.objective();
             self.best.take(&self.state.z, &certificate);
+            self.settle(before);
         }
         self.climb()?;
         let reason = self.plan.stop(
@@ -329,6 +334,15 @@ impl Level {
         last.then_some(StopReason::MaxIterations)
     }
 
+    /// Once the surface has settled, all that is left to find is a bound: it is looked for then,
+    /// however long levels before have taken.
+    fn settle(&mut self, before: f64) {
+        if !self.settled && self.plan.has_settled(before, self.best.objective()) {
+            self.settled = true;
+            self.next_climb = self.next_climb.min(self.iteration);
+        }
+    }
+
     /// Looks for a better bound with this iterate, if that is worth it.
     fn climb(&mut self) -> Result<()> {
         let worth = self.plan.climbs(&self.problem, self.best.gap());
@@ -362,6 +376,7 @@ impl Level {
         self.z_step = 0;
         self.pass_start = self.iteration;
         self.next_climb = self.iteration;
+        self.settled = false;
         Ok(self.plan.stop(
             &self.problem,
             self.iteration,

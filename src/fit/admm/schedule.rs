@@ -92,6 +92,11 @@ const BEGINNING: usize = 30;
 /// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
 const COARSE_GAP: f64 = 0.01;
 
+/// A coarse level that has not reached its gap by then hands over to the finer one: it costs no more
+/// than 50 iterations there, and all of them together no more than 67. Where levels start well they
+/// take 10 to 50, and up to 150 where vertices are free.
+const COARSE_ITERATIONS: usize = 200;
+
 impl Plan {
     /// The plan for the finest level.
     pub(crate) fn new(options: &Options) -> Self {
@@ -128,13 +133,18 @@ impl Plan {
 
     /// The same for a coarse level, or for one with fewer iterations left.
     pub(crate) fn on_level(&self, coarse: bool, iterations_done: usize) -> Self {
+        let left = self.max_iterations.saturating_sub(iterations_done);
         Plan {
             gap: if coarse {
                 self.gap.max(COARSE_GAP)
             } else {
                 self.gap
             },
-            max_iterations: self.max_iterations.saturating_sub(iterations_done),
+            max_iterations: if coarse {
+                left.min(COARSE_ITERATIONS)
+            } else {
+                left
+            },
             ..*self
         }
     }
@@ -234,6 +244,12 @@ impl Plan {
             && !problem.loose
             && gap > self.gap
             && gap < CLIMBABLE * self.gap
+    }
+
+    /// Whether an objective that has come down from one check to the next by so much is about as low
+    /// as it gets.
+    pub(crate) fn has_settled(&self, before: f64, objective: f64) -> bool {
+        before - objective <= self.gap * objective
     }
 
     /// When the search is worth it again that after so many iterations came to such a gap: gaps

@@ -162,6 +162,7 @@ impl ConjugateGradients {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::cascade::domain_of;
     use crate::fit::coarse_to_fine::coarsen;
     use crate::fit::coordinates::Coordinates;
     use crate::{Heightfield, Input, Lattice, Options};
@@ -169,7 +170,7 @@ mod tests {
     /// A disk with a hole, and its coarser lattices.
     fn lattices(cols: usize) -> (Heightfield, Vec<Arc<Domain>>) {
         let lattice = Lattice::new(cols, cols, 1.0 / cols as f64).unwrap();
-        let mut field = Heightfield::from_fn(lattice, |x, y| {
+        let field = Heightfield::from_fn(lattice, |x, y| {
             let hole = (x - 0.6).hypot(y + 0.4) < 0.1;
             if hole || (x - 0.5).hypot(y + 0.45) > 0.45 {
                 f64::NAN
@@ -180,9 +181,10 @@ mod tests {
         .unwrap();
         let whole = field.clone();
         let mut domains = Vec::new();
-        while let Ok(domain) = Domain::new(&field) {
+        let mut input = Input::new(field);
+        while let Ok(domain) = domain_of(&input) {
+            input = coarsen(&input, &domain).unwrap();
             domains.push(Arc::new(domain));
-            field = coarsen(&field.into()).unwrap().field;
         }
         (whole, domains)
     }

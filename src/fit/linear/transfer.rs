@@ -165,6 +165,8 @@ impl Transfer {
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use super::*;
+    use crate::Heightfield;
+    use crate::fit::cascade::domain_of;
     use crate::fit::coarse_to_fine::coarsen;
     use crate::lattice::domain::tests::arbitrary_field;
     use proptest::prelude::*;
@@ -184,12 +186,17 @@ mod tests {
         cells.map(|c| f64::from(a[c]) * f64::from(b[c])).sum()
     }
 
+    /// Of the field's lattice and of the next coarser one, if both have stencils.
+    fn domains(field: &Heightfield) -> Option<(Domain, Domain)> {
+        let fine = Domain::new(field).ok()?;
+        let coarse = coarsen(&field.into(), &fine).unwrap();
+        Some((fine, domain_of(&coarse).ok()?))
+    }
+
     proptest! {
         #[test]
         fn restriction_is_the_transposed_prolongation(field in arbitrary_field()) {
-            let fine = Domain::new(&field);
-            let coarse = Domain::new(&coarsen(&field.clone().into()).unwrap().field);
-            if let (Ok(fine), Ok(coarse)) = (fine, coarse) {
+            if let Some((fine, coarse)) = domains(&field) {
                 let transfer = Transfer::new(&fine, &coarse);
                 let (x, y) = (fill(&coarse, 0.3), fill(&fine, 0.4));
                 let (mut px, mut work) = (vec![0.0; fine.cells()], vec![0.0; fine.cells()]);
@@ -215,10 +222,11 @@ mod tests {
                     plane(x, y)
                 }
             };
-            let field = crate::Heightfield::from_fn(lattice, holed).unwrap();
-            let coarse_field = coarsen(&field.clone().into()).unwrap().field;
+            let field = Heightfield::from_fn(lattice, holed).unwrap();
             let fine = Domain::new(&field).unwrap();
-            let coarse = Domain::new(&coarse_field).unwrap();
+            let coarse_input = coarsen(&field.clone().into(), &fine).unwrap();
+            let coarse = domain_of(&coarse_input).unwrap();
+            let coarse_field = coarse_input.field;
             let mut x = vec![0.0; coarse.cells()];
             for cell in coarse.active().cells() {
                 x[cell] = coarse_field.heights()[coarse.lattice_index(cell)] as f32;

@@ -1,0 +1,252 @@
+//! Whether the surface goes on from one side of a hole to the other, and at which height.
+
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use super::raster::Raster;
+use super::sites::{Site, Sites, surround};
+use crate::error::{Result, try_filled};
+
+/// By how many standard deviations the slope across a hole may differ from those beside it.
+const UNEXPLAINED: f64 = 4.0;
+
+/// Slopes that differ by less are the same whatever the noise: keeps rounding from being a jump.
+const SAME: f64 = 0.05;
+
+/// Nor is a difference up to this share of the spread: where the surface creases within the hole, and
+/// not in its middle, there is one.
+const BEND: f64 = 0.7;
+
+/// Where no neighbours are left that slopes could be taken between, heights may be as far from the
+/// plane as is typical, times this,
+const STRAY: f64 = 3.0;
+
+/// and as far as a right-angled fold brings them, in distances from the hole.
+const FOLD: f64 = 0.35;
+
+/// Fewest heights that a plane is fitted to.
+const FEWEST: usize = 6;
+
+/// For so many differences the typical noise counts as much as a hole's own.
+const TYPICAL: f64 = 6.0;
+
+/// A hole's cell with the plane through what is around.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossing {
+    pub cell: usize,
+    pub height: f64,
+    /// The mean of those around.
+    pub confidence: f64,
+    /// How many steps from the cell there is something on all sides of it.
+    pub distance: f64,
+    /// By how much the slope across differs from those beside, in height per step.
+    difference: f64,
+    /// The same squared, in variances of one height.
+    evidence: f64,
+    /// How much slopes beside differ among each other: the sum of the squares, and their number.
+    spread: f64,
+    terms: f64,
+    /// Whether slopes beside are known in all directions.
+    sees: bool,
+    /// How far heights are from the plane (root mean square), and how far away they are taken from.
+    stray: f64,
+    reach: f64,
+}
+
+pub(super) struct Crossings<'a> {
+    raster: &'a Raster,
+    /// NaN where there is none, or it says nothing.
+    heights: &'a [f64],
+    /// Of each; empty: 1 everywhere.
+    confidence: &'a [f64],
+    /// Distance between neighbours, in units of height.
+    spacing: f64,
+    /// Around a cell in an even and in an odd row.
+    sites: [Sites; 2],
+}
+
+/// What is found around a cell, in arrays to be used again.
+#[derive(Default)]
+struct Scratch {
+    /// Sites with a height.
+    found: Vec<usize>,
+    /// For each site: the height, then how far it is from the plane; NaN where there is none.
+    residuals: Vec<f64>,
+    /// What each height contributes to the slopes beside.
+    shares: Vec<Vector2<f64>>,
+}
+
+/// Keeps matrices that are singular but for rounding positive.
+const SHIFT: f64 = 1e-6;
+
+impl<'a> Crossings<'a> {
+    pub(super) fn new(
+        raster: &'a Raster,
+        heights: &'a [f64],
+        confidence: &'a [f64],
+        width: usize,
+        spacing: f64,
+    ) -> Self {
+        Crossings {
+            raster,
+            heights,
+            confidence,
+            spacing,
+            sites: [false, true].map(|odd| Sites::new(raster, odd, width + 2)),
+        }
+    }
+
+    /// Those of the cells where the surface goes on, and that are not next to one where it does not.
+    pub(super) fn sound(&self, cells: &[usize]) -> Result<Vec<Crossing>> {
+        let mut scratch = Scratch::default();
+        let at = |cell: &usize| self.at(*cell, &mut scratch);
+        let found: Vec<Option<Crossing>> = cells.iter().map(at).collect();
+        let known = || found.iter().flatten();
+        let typical = Typical {
+            spread: median(
+                known()
+                    .filter(|c| c.terms >= TYPICAL)
+                    .map(|c| c.spread / c.terms),
+            ),
+            stray: median(known().filter(|c| !c.sees).map(|c| c.stray)),
+        };
+        let mut torn = try_filled("bridged holes", self.raster.cells(), false)?;
+        for (cell, crossing) in cells.iter().zip(&found) {
+            torn[*cell] = !crossing.is_some_and(|c| c.is_sound(&typical, self.spacing));
+        }
+        let sound =
+            |c: &Crossing| !torn[c.cell] && !self.raster.neighbours(c.cell).any(|n| torn[n]);
+        Ok(found.into_iter().flatten().filter(sound).collect())
+    }
+
+    /// What is around a cell: as far as there is something on all sides of it, and two steps further.
+    fn at(&self, cell: usize, scratch: &mut Scratch) -> Option<Crossing> {
+        let sites = &self.sites[usize::from(self.raster.is_odd(cell))];
+        scratch.found.clear();
+        scratch.residuals.clear();
+        scratch.residuals.push(f64::NAN);
+        let (mut sectors, mut around) = (0, None);
+        for (k, ring) in sites.rings.windows(2).enumerate() {
+            for (i, site) in sites.sites[..ring[1]].iter().enumerate().skip(ring[0]) {
+                let z = self.heights[cell.wrapping_add_signed(site.offset)];
+                scratch.residuals.push(z);
+                if !z.is_nan() {
+                    scratch.found.push(i);
+                    sectors |= 1 << site.sector;
+                }
+            }
+            if around.is_none() && surround(sectors) {
+                around = Some(k + 1);
+            }
+            match around {
+                Some(distance) if k > distance && scratch.found.len() >= FEWEST => {
+                    return self.fit(cell, &sites.sites[..ring[1]], distance, scratch);
+                }
+                _ => (),
+            }
+        }
+        None
+    }
+
+    fn fit(
+        &self,
+        cell: usize,
+        sites: &[Site],
+        distance: usize,
+        Scratch {
+            found,
+            residuals,
+            shares,
+        }: &mut Scratch,
+    ) -> Option<Crossing> {
+        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        let mut confidence = 0.0;
+        // Heights above one of them: nothing is lost far from 0.
+        let first = residuals[*found.first()?];
+        for i in &*found {
+            let row = sites[*i].place.push(1.0);
+            normal += row * row.transpose();
+            right += row * (residuals[*i] - first);
+            let at = cell.wrapping_add_signed(sites[*i].offset);
+            confidence += self.confidence.get(at).copied().unwrap_or(1.0);
+        }
+        let plane = normal.cholesky()?.solve(&right);
+        let mut strays = 0.0;
+        for i in &*found {
+            let residual = residuals[*i] - first - plane.dot(&sites[*i].place.push(1.0));
+            residuals[*i] = residual;
+            strays += residual * residual;
+        }
+        // Slopes between neighbours, less the plane's.
+        let shift = Matrix2::identity() * SHIFT;
+        let (mut normal, mut right) = (shift, Vector2::zeros());
+        let (mut squares, mut terms) = (0.0, 0.0);
+        shares.clear();
+        shares.resize(sites.len(), Vector2::zeros());
+        for i in &*found {
+            for k in sites[*i].next.iter().filter(|k| **k < sites.len()) {
+                let rise = residuals[*k] - residuals[*i];
+                if !rise.is_nan() {
+                    let step = sites[*k].place - sites[*i].place;
+                    normal += step * step.transpose();
+                    right += step * rise;
+                    shares[*k] += step;
+                    shares[*i] -= step;
+                    squares += rise * rise;
+                    terms += 1.0;
+                }
+            }
+        }
+        let variance = found
+            .iter()
+            .fold(shift, |sum, i| sum + shares[*i] * shares[*i].transpose());
+        let difference = normal.cholesky()?.solve(&right);
+        let n = found.len() as f64;
+        Some(Crossing {
+            cell,
+            height: plane[2] + first,
+            confidence: confidence / n,
+            distance: distance as f64,
+            difference: difference.norm(),
+            evidence: right.dot(&variance.cholesky()?.solve(&right)),
+            spread: (squares - right.dot(&difference)).max(0.0),
+            terms,
+            // A pair along each of two directions has an eigenvalue of at least a half.
+            sees: normal.symmetric_eigenvalues().min() > 0.25,
+            stray: (strays / n).sqrt(),
+            reach: sites.last()?.place.norm(),
+        })
+    }
+}
+
+/// Medians over all holes.
+struct Typical {
+    /// What the spread of slopes has for each term.
+    spread: f64,
+    /// How far heights are from the plane, where slopes beside are not known.
+    stray: f64,
+}
+
+impl Crossing {
+    fn is_sound(&self, typical: &Typical, spacing: f64) -> bool {
+        let fold = FOLD * self.reach * spacing;
+        let spread = (self.spread + TYPICAL * typical.spread) / (self.terms + TYPICAL);
+        // A difference of two heights has twice the variance of one.
+        let noise = self.evidence <= UNEXPLAINED.powi(2) * 0.5 * spread;
+        let bend = self.difference <= SAME * spacing + BEND * spread.sqrt();
+        self.height.is_finite()
+            && match self.sees {
+                true => noise || bend,
+                false => self.stray <= STRAY * typical.stray + fold,
+            }
+    }
+}
+
+/// 0 of nothing.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    let middle = values.len() / 2;
+    match values.is_empty() {
+        true => 0.0,
+        false => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
+    }
+}

@@ -1,0 +1,244 @@
+//! Small holes in what a sensor delivers: dead pixels, speckle, lost rows and columns.
+//!
+//! A vertex has a stencil only if its six neighbours are there, so that a dead one costs seven. Holes
+//! that are narrow are bridged instead: they take part without a say, on heights to start from.
+
+mod crossing;
+mod holes;
+mod raster;
+mod sites;
+
+use super::heightfield::{HeightImage, Heightfield};
+use crate::error::{Error, Result, check_shape, try_filled};
+use crossing::Crossings;
+use holes::narrow;
+use raster::Raster;
+
+/// Which holes in the data are bridged.
+///
+/// What counts is how **wide** a hole is, not how long: a row or column that is missing altogether,
+/// a slot that is open to the border and the narrow end of a notch are bridged like a single dead
+/// pixel, and so is speckle that leaves no two neighbours next to each other. A hole, or a part of
+/// it, is wider than `n` if a regular hexagon of `n + 1` vertices across fits in (in an image, a
+/// square of `n + 1` pixels a side). Nothing is continued beyond the data's outline, of which such a
+/// hexagon follows every corner.
+///
+/// A hole is not bridged where the surface on one side of it does not go on to the other side: where
+/// the slope that leads across differs, by more than noise and bends explain, from the slopes beside
+/// it. So a gap between two levels of depth stays a gap. Nor is it next to an occlusion that is
+/// known, nor where a mask says that there is no surface.
+///
+/// Bridged vertices are part of the surface. They start from the plane that fits the data around
+/// best, and have a small confidence: a fifth of the data's next to it, less further away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bridging {
+    /// None: whatever has no height stays out.
+    Off,
+    /// Holes of at most so many vertices, or pixels, across: 1 to 16.
+    UpTo(usize),
+}
+
+/// The widest holes that may be bridged: beyond that a plane says little about what is missing.
+const WIDEST: usize = 16;
+
+/// Confidence of a bridged vertex one step from data on all sides, relative to that of the data;
+/// it falls with the square of the distance, as a plane's error grows. A hundredth, or none, takes
+/// more iterations to the same surface.
+const CONFIDENCE: f64 = 0.2;
+
+impl Default for Bridging {
+    /// Up to 4 across.
+    fn default() -> Self {
+        Bridging::UpTo(4)
+    }
+}
+
+impl Bridging {
+    /// The widest hole that is bridged: 0 for none.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for a width out of range.
+    pub(crate) fn width(self) -> Result<usize> {
+        match self {
+            Bridging::Off => Ok(0),
+            Bridging::UpTo(width) if (1..=WIDEST).contains(&width) => Ok(width),
+            Bridging::UpTo(width) => {
+                let requirement = "must be a width from 1 to 16 vertices or pixels, or off";
+                Err(Error::option("bridge", width, requirement))
+            }
+        }
+    }
+}
+
+/// A vertex or pixel that is bridged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bridge {
+    pub index: usize,
+    pub height: f64,
+    pub confidence: f64,
+}
+
+/// What there is about a field: all that decides where its holes are bridged.
+pub(crate) struct Surroundings<'a> {
+    /// NaN where there is none.
+    pub heights: &'a [f64],
+    /// Of each height; empty: 1 everywhere. Heights without any say nothing.
+    pub confidence: &'a [f64],
+    /// Whether there is no surface, or an occlusion, at an index.
+    pub closed: &'a dyn Fn(usize) -> bool,
+}
+
+impl Surroundings<'_> {
+    pub(crate) fn on_lattice(&self, field: &Heightfield, width: usize) -> Result<Vec<Bridge>> {
+        let lattice = field.lattice();
+        let raster = Raster::hexagonal(lattice.rows(), lattice.cols(), width)?;
+        self.bridges(raster, width, lattice.spacing())
+    }
+
+    fn on_image(&self, image: &HeightImage, width: usize) -> Result<Vec<Bridge>> {
+        let raster = Raster::square(image.height(), image.width(), width)?;
+        self.bridges(raster, width, image.pixel_size())
+    }
+
+    fn bridges(&self, raster: Raster, width: usize, spacing: f64) -> Result<Vec<Bridge>> {
+        if width == 0 || !self.heights.iter().any(|z| z.is_nan()) {
+            return Ok(Vec::new());
+        }
+        let heights = raster.padded(self.heights, f64::NAN)?;
+        let mut holes = narrow(&raster, &heights, width)?;
+        holes.retain(|cell| !self.touches_closed(&raster, *cell));
+        // Heights of no confidence are part of the surface, but say nothing about it.
+        let mut given = heights;
+        let mut confidence = Vec::new();
+        if !self.confidence.is_empty() {
+            confidence = raster.padded(self.confidence, 0.0)?;
+            for (z, confidence) in given.iter_mut().zip(&confidence) {
+                if confidence.is_nan() || *confidence <= 0.0 {
+                    *z = f64::NAN;
+                }
+            }
+        }
+        let crossings = Crossings::new(&raster, &given, &confidence, width, spacing);
+        let mut bridges = Vec::new();
+        for crossing in crossings.sound(&holes)? {
+            bridges.push(Bridge {
+                index: raster.index(crossing.cell),
+                height: crossing.height,
+                confidence: CONFIDENCE / crossing.distance.powi(2) * crossing.confidence,
+            });
+        }
+        Ok(bridges)
+    }
+
+    fn touches_closed(&self, raster: &Raster, cell: usize) -> bool {
+        (self.closed)(raster.index(cell))
+            || raster
+                .neighbours(cell)
+                .any(|n| raster.is_inside(n) && (self.closed)(raster.index(n)))
+    }
+}
+
+/// A height image whose small holes are bridged, and how far each pixel is to be trusted.
+///
+/// ```
+/// use developable::{Bridging, HeightImage, Input, Options, fit};
+/// # fn main() -> developable::Result<()> {
+/// let mut values: Vec<f64> = (0..900).map(|i| 0.01 * ((i % 30) as f64).powi(2)).collect();
+/// for dead in (0..900).step_by(17) {
+///     values[dead] = f64::NAN;
+/// }
+/// let image = HeightImage::new(30, 30, values)?;
+/// let bridged = image.bridged(Bridging::default())?;
+/// assert_eq!(bridged.len(), 53);
+/// let surface = fit(Input::from_bridged(&bridged, None)?, &Options::default())?;
+/// let pixels = surface.heightfield().to_image(bridged.image())?;
+/// assert!(pixels.values().iter().all(|z| z.is_finite()));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct BridgedImage {
+    pub(crate) image: HeightImage,
+    /// As it was.
+    pub(crate) original: HeightImage,
+    /// Where there is more to know than that all heights count alike.
+    pub(crate) confidence: Option<HeightImage>,
+    bridged: usize,
+}
+
+impl HeightImage {
+    /// The image with its small holes bridged, before it is sampled on a lattice: a lattice vertex
+    /// has a height only if all pixels around it have one, so that what is lost among the pixels is
+    /// better bridged there. Linear cost.
+    ///
+    /// # Errors
+    /// [`Error::Option`](crate::Error::Option) for a width out of range,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn bridged(&self, bridging: Bridging) -> Result<BridgedImage> {
+        self.bridged_within(bridging, None, None)
+    }
+
+    /// The same for heights that are not to be trusted alike (an image of the same size, NaN or 0
+    /// where a height says nothing), and that are none where `keep` is 0: no hole is bridged there.
+    ///
+    /// # Errors
+    /// As [`HeightImage::bridged`]; [`Error::Shape`](crate::Error::Shape) if there is not one value
+    /// of each for every pixel.
+    pub fn bridged_within(
+        &self,
+        bridging: Bridging,
+        confidence: Option<&HeightImage>,
+        keep: Option<&[u8]>,
+    ) -> Result<BridgedImage> {
+        let given = confidence.map_or(self.values().len(), |image| image.values().len());
+        check_shape("confidence", self.height(), self.width(), given)?;
+        let kept = keep.map_or(given, <[u8]>::len);
+        check_shape("mask", self.height(), self.width(), kept)?;
+        let surroundings = Surroundings {
+            heights: self.values(),
+            confidence: confidence.map_or(&[], HeightImage::values),
+            closed: &|pixel| keep.is_some_and(|keep| keep[pixel] == 0),
+        };
+        let bridges = surroundings.on_image(self, bridging.width()?)?;
+        let mut values = self.values().to_vec();
+        let mut trust = match confidence {
+            Some(image) => image.values().to_vec(),
+            None if bridges.is_empty() => Vec::new(),
+            None => try_filled("confidence", values.len(), 1.0)?,
+        };
+        for bridge in &bridges {
+            values[bridge.index] = bridge.height;
+            trust[bridge.index] = bridge.confidence;
+        }
+        Ok(BridgedImage {
+            confidence: match trust.is_empty() {
+                true => None,
+                false => Some(self.with_values(trust)?),
+            },
+            image: self.with_values(values)?,
+            original: self.clone(),
+            bridged: bridges.len(),
+        })
+    }
+
+    fn with_values(&self, values: Vec<f64>) -> Result<HeightImage> {
+        HeightImage::new(self.width(), self.height(), values)?.with_pixel_size(self.pixel_size())
+    }
+}
+
+impl BridgedImage {
+    /// The image, with heights in bridged holes: for [`Heightfield::to_image`] on the way back.
+    pub fn image(&self) -> &HeightImage {
+        &self.image
+    }
+
+    /// Number of pixels that were bridged.
+    pub fn len(&self) -> usize {
+        self.bridged
+    }
+
+    /// Whether there was nothing to bridge.
+    pub fn is_empty(&self) -> bool {
+        self.bridged == 0
+    }
+}

@@ -1,0 +1,149 @@
+//! Vertices or pixels in rows, with a margin around them, and who neighbours whom.
+
+use crate::error::{Result, try_filled};
+use crate::lattice::hexagonal::{NEIGHBOURS, ROW};
+
+/// Cells are counted row by row over the padded box, so that neighbours lie at offsets that depend
+/// on nothing but the parity of the row.
+pub(super) struct Raster {
+    hexagonal: bool,
+    rows: usize,
+    cols: usize,
+    /// Cells beyond the data on each side, an even number.
+    margin: usize,
+    pub stride: usize,
+    pub height: usize,
+}
+
+impl Raster {
+    pub(super) fn hexagonal(rows: usize, cols: usize, width: usize) -> Result<Self> {
+        Raster::new(true, rows, cols, width)
+    }
+
+    pub(super) fn square(rows: usize, cols: usize, width: usize) -> Result<Self> {
+        Raster::new(false, rows, cols, width)
+    }
+
+    /// With room beyond the data for what is a little wider than `width`.
+    fn new(hexagonal: bool, rows: usize, cols: usize, width: usize) -> Result<Self> {
+        let margin = (width + 4).next_multiple_of(2);
+        Ok(Raster {
+            hexagonal,
+            rows,
+            cols,
+            margin,
+            stride: cols + 2 * margin,
+            height: rows + 2 * margin,
+        })
+    }
+
+    pub(super) fn cells(&self) -> usize {
+        self.stride * self.height
+    }
+
+    /// The values of the data's cells in the padded box.
+    pub(super) fn padded(&self, values: &[f64], beyond: f64) -> Result<Vec<f64>> {
+        let mut padded = try_filled("bridged holes", self.cells(), beyond)?;
+        for (row, values) in values.chunks(self.cols).enumerate() {
+            let start = (row + self.margin) * self.stride + self.margin;
+            padded[start..start + self.cols].copy_from_slice(values);
+        }
+        Ok(padded)
+    }
+
+    /// Index in the data's arrays of a cell that is not in the margin.
+    pub(super) fn index(&self, cell: usize) -> usize {
+        let (row, col) = (
+            cell / self.stride - self.margin,
+            cell % self.stride - self.margin,
+        );
+        row * self.cols + col
+    }
+
+    /// Whether a cell is not in the margin.
+    pub(super) fn is_inside(&self, cell: usize) -> bool {
+        let (row, col) = (cell / self.stride, cell % self.stride);
+        let within = |i: usize, n: usize| (self.margin..self.margin + n).contains(&i);
+        within(row, self.rows) && within(col, self.cols)
+    }
+
+    /// From one cell to another a row and column away, from an even or odd row.
+    fn offset(&self, [row, col]: [isize; 2]) -> isize {
+        row * self.stride as isize + col
+    }
+
+    /// Rows and columns to the neighbours, from a row of this parity, in the order of their angles.
+    pub(super) fn steps(&self, odd: bool) -> Vec<[isize; 2]> {
+        let row = isize::from(odd);
+        match self.hexagonal {
+            true => [1, 3, 2, 0, 4, 5]
+                .map(|k: usize| NEIGHBOURS[k].step(row, 0))
+                .map(|(r, c)| [r - row, c])
+                .to_vec(),
+            false => {
+                let around = [
+                    (0, 1),
+                    (-1, 1),
+                    (-1, 0),
+                    (-1, -1),
+                    (0, -1),
+                    (1, -1),
+                    (1, 0),
+                    (1, 1),
+                ];
+                around.map(|(r, c)| [r, c]).to_vec()
+            }
+        }
+    }
+
+    /// Offsets to the neighbours from even and from odd rows.
+    pub(super) fn offsets(&self) -> [Vec<isize>; 2] {
+        [false, true].map(|odd| {
+            self.steps(odd)
+                .into_iter()
+                .map(|s| self.offset(s))
+                .collect()
+        })
+    }
+
+    pub(super) fn is_odd(&self, cell: usize) -> bool {
+        (cell / self.stride) % 2 == 1
+    }
+
+    pub(super) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let offsets = self.steps(self.is_odd(cell));
+        let stride = self.stride as isize;
+        let moved = move |[r, c]: [isize; 2]| cell.wrapping_add_signed(r * stride + c);
+        offsets.into_iter().map(moved)
+    }
+
+    /// Where a cell some rows and columns away from one in a row of this parity lies from it, in
+    /// distances between neighbours.
+    pub(super) fn place(&self, odd: bool, [row, col]: [isize; 2]) -> [f64; 2] {
+        let shift = |odd: bool| if odd { 0.5 } else { 0.0 };
+        match self.hexagonal {
+            true => {
+                let there = odd ^ (row.rem_euclid(2) == 1);
+                [col as f64 - shift(there) + shift(odd), -(row as f64) * ROW]
+            }
+            false => [col as f64, -(row as f64)],
+        }
+    }
+
+    /// Offsets to the other cells of the smallest shapes that are two across, of which a cell is one
+    /// corner: triangles, or a square.
+    pub(super) fn pairs(&self, odd: bool) -> Vec<Vec<isize>> {
+        let steps: Vec<isize> = self
+            .steps(odd)
+            .into_iter()
+            .map(|s| self.offset(s))
+            .collect();
+        match self.hexagonal {
+            true => (0..6).map(|k| vec![steps[k], steps[(k + 1) % 6]]).collect(),
+            false => (0..8)
+                .step_by(2)
+                .map(|k| vec![steps[k], steps[k + 1], steps[(k + 2) % 8]])
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What lies around a hole's cell, ring by ring.
+
+use nalgebra::Vector2;
+
+use super::raster::Raster;
+
+/// Cells by their distance from a hole's: those `k` steps away are `sites[rings[k - 1]..rings[k]]`.
+pub(super) struct Sites {
+    pub sites: Vec<Site>,
+    pub rings: Vec<usize>,
+}
+
+pub(super) struct Site {
+    pub offset: isize,
+    pub place: Vector2<f64>,
+    /// Of twelve sectors, which one it lies in.
+    pub sector: u32,
+    /// Half of its neighbours, so that each pair comes once.
+    pub next: Vec<usize>,
+}
+
+const SECTORS: u32 = 12;
+
+/// Keeps directions on the border of two sectors on one side, in turns.
+const ROUNDING: f64 = 1e-9;
+
+impl Sites {
+    pub(super) fn new(raster: &Raster, odd: bool, most: usize) -> Self {
+        let steps = [raster.steps(false), raster.steps(true)];
+        let parity = |[row, _]: [isize; 2]| usize::from(odd) ^ row.rem_euclid(2) as usize;
+        let mut places: Vec<[isize; 2]> = vec![[0, 0]];
+        let mut rings = vec![1];
+        let mut from = 0;
+        for _ in 0..most {
+            for i in from..places.len() {
+                let at = places[i];
+                for [r, c] in &steps[parity(at)] {
+                    let to = [at[0] + r, at[1] + c];
+                    if !places.contains(&to) {
+                        places.push(to);
+                    }
+                }
+            }
+            from = rings[rings.len() - 1];
+            rings.push(places.len());
+        }
+        let stride = raster.stride as isize;
+        let sites = places.iter().map(|at| {
+            let place = raster.place(odd, *at);
+            let angle = place[1].atan2(place[0]) / std::f64::consts::TAU;
+            let half = steps[parity(*at)].len() / 2;
+            let next = steps[parity(*at)][..half].iter();
+            let next = next.filter_map(|[r, c]| {
+                let to = [at[0] + r, at[1] + c];
+                places.iter().position(|place| *place == to)
+            });
+            Site {
+                offset: at[0] * stride + at[1],
+                place: place.into(),
+                sector: ((angle + ROUNDING).rem_euclid(1.0) * f64::from(SECTORS)) as u32 % SECTORS,
+                next: next.collect(),
+            }
+        });
+        Sites {
+            sites: sites.collect(),
+            rings,
+        }
+    }
+}
+
+/// Whether no half of the sectors in a row is without any.
+pub(super) fn surround(sectors: u32) -> bool {
+    let all = sectors | sectors << SECTORS;
+    let half = (1 << (SECTORS / 2)) - 1;
+    (0..SECTORS).all(|first| all >> first & half != 0)
+}

@@ -13,10 +13,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::admm::state::State;
 use super::energy::problem::Problem;
 use super::input::Input;
-use super::linear::transfer::parents;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
+use crate::lattice::coarsening::{fine_vertex, parents};
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, ROW, Towards};
 use crate::math::sym2::Sym2;
@@ -65,7 +65,7 @@ pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     let mut torn = Vec::with_capacity(lattice.len());
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
-            let centre = (2 * row as isize, 2 * col as isize - (row % 2) as isize);
+            let centre = fine_vertex(row, col);
             let around = NEIGHBOURS.map(|t| t.step(centre.0, centre.1));
             let (own, ring) = (vertex(centre), around.map(vertex));
             let share = |own: bool, ring: usize| f64::from(u8::from(own)) + 0.5 * ring as f64;

@@ -1,6 +1,7 @@
 //! Heights: on the hexagonal lattice, and on the square pixels of an image.
 
 use crate::error::{Error, Result, check_shape, positive};
+use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
 
 /// Heights at the vertices of a [`Lattice`], in the lattice's own units.
@@ -232,6 +233,29 @@ fn apply_mask(rows: usize, cols: usize, values: &mut [f64], keep: &[u8]) -> Resu
         }
     }
     Ok(())
+}
+
+impl Domain {
+    /// Sorts the vertices of a heightfield; a vertex is valid where its height is not NaN.
+    ///
+    /// # Errors
+    /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
+    pub fn new(field: &Heightfield) -> Result<Self> {
+        Domain::with_occlusions(field, |_| false)
+    }
+
+    /// The same, where some vertices are occluded, by their index in the lattice.
+    pub(crate) fn with_occlusions(
+        field: &Heightfield,
+        occluded: impl Fn(usize) -> bool,
+    ) -> Result<Self> {
+        let heights = field.heights();
+        Domain::of(
+            *field.lattice(),
+            |vertex| !heights[vertex].is_nan(),
+            occluded,
+        )
+    }
 }
 
 #[cfg(test)]

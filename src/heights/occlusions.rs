@@ -4,7 +4,7 @@
 use super::heightfield::Heightfield;
 use crate::error::{Result, check_shape, positive};
 use crate::heights::normalization::Normalization;
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, Towards};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, OPPOSITE, Towards};
 use crate::lattice::stencil::HessianMap;
 
 /// Edges of the lattice across which a surface is torn.
@@ -150,9 +150,6 @@ impl Occlusions {
         self.len() == 0
     }
 }
-
-/// Seen from the other end, an edge to neighbour `k` is one to neighbour `OPPOSITE[k]`.
-const OPPOSITE: [usize; 6] = [1, 0, 5, 4, 3, 2];
 
 /// The triangles of which a vertex is the top, and the left end of the upper
 /// side; corners in the order opposite the sides along W–E, NW–SE and NE–SW.

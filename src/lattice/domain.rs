@@ -1,9 +1,8 @@
-//! Which vertices take part: interior, boundary, omitted; and the runs of
-//! consecutive vertices that the kernels sweep over.
+//! Which vertices take part: interior, boundary, omitted.
 
 use super::hexagonal::{Lattice, NEIGHBOURS};
+use super::runs::RowRuns;
 use crate::error::{Error, Result, try_filled};
-use crate::heights::heightfield::Heightfield;
 
 /// The part that a vertex plays (paper, Sec. 3.1 and Fig. 9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -54,22 +53,17 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Sorts the vertices of a heightfield; a vertex is valid where its height is not NaN.
+    /// Sorts the vertices of a lattice: by whether they are valid, and whether they are occluded,
+    /// in which case they have no Hessian (paper, Fig. 9), both by their index in the lattice.
     ///
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
-    pub fn new(field: &Heightfield) -> Result<Self> {
-        Domain::with_occlusions(field, |_| false)
-    }
-
-    /// The same, where the vertices that are `occluded`, by their index in the
-    /// lattice, have no Hessian (paper, Fig. 9).
-    pub(crate) fn with_occlusions(
-        field: &Heightfield,
+    pub(crate) fn of(
+        lattice: Lattice,
+        valid: impl Fn(usize) -> bool,
         occluded: impl Fn(usize) -> bool,
     ) -> Result<Self> {
-        let lattice = *field.lattice();
-        let valid = |row: usize, col: usize| !field.height(row, col).is_nan();
+        let valid = |row: usize, col: usize| valid(lattice.index(row, col));
         let no_interior = |valid| Error::NoInterior {
             rows: lattice.rows(),
             cols: lattice.cols(),
@@ -122,7 +116,7 @@ impl Domain {
         let omitted = count(Role::Omitted);
         let interior = RowRuns::new(&roles, stride, |r| r == Role::Interior);
         let active = RowRuns::new(&roles, stride, Role::is_active);
-        if interior.len == 0 {
+        if interior.len() == 0 {
             return Err(no_interior(omitted));
         }
         Ok(Domain {
@@ -151,12 +145,12 @@ impl Domain {
 
     /// Number of interior vertices, `|I|`.
     pub fn interior_len(&self) -> usize {
-        self.interior.len
+        self.interior.len()
     }
 
     /// Number of boundary vertices, `|∂I|`.
     pub fn boundary_len(&self) -> usize {
-        self.active.len - self.interior.len
+        self.active.len() - self.interior.len()
     }
 
     /// Number of valid vertices that no stencil touches.
@@ -258,70 +252,10 @@ fn bounding_box(
     bounds.map(|(top, left, bottom, right)| ((top - top % 2, left), (bottom, right)))
 }
 
-/// A run of consecutive cells in one row of the padded box.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Run {
-    pub start: usize,
-    pub end: usize,
-}
-
-/// Runs sorted by row.
-#[derive(Debug, Clone)]
-pub(crate) struct RowRuns {
-    /// `runs[first[row]..first[row + 1]]` are those of `row`.
-    first: Vec<usize>,
-    runs: Vec<Run>,
-    len: usize,
-}
-
-impl RowRuns {
-    fn new(roles: &[Role], stride: usize, belongs: impl Fn(Role) -> bool) -> Self {
-        let mut first = vec![0];
-        let mut runs: Vec<Run> = Vec::new();
-        for (row, cells) in roles.chunks(stride).enumerate() {
-            let from = *first.last().unwrap_or(&0);
-            for (col, role) in cells.iter().enumerate() {
-                let cell = row * stride + col;
-                if belongs(*role) {
-                    match runs[from..].last_mut() {
-                        Some(run) if run.end == cell => run.end += 1,
-                        _ => runs.push(Run {
-                            start: cell,
-                            end: cell + 1,
-                        }),
-                    }
-                }
-            }
-            first.push(runs.len());
-        }
-        let len = runs.iter().map(|run| run.end - run.start).sum();
-        RowRuns { first, runs, len }
-    }
-
-    /// Number of cells in all runs.
-    pub(crate) fn len(&self) -> usize {
-        self.len
-    }
-
-    /// The runs of one row of the padded box.
-    pub(crate) fn row(&self, row: usize) -> &[Run] {
-        &self.runs[self.first[row]..self.first[row + 1]]
-    }
-
-    /// All runs, row by row.
-    pub(crate) fn all(&self) -> &[Run] {
-        &self.runs
-    }
-
-    /// All cells, row by row.
-    pub(crate) fn cells(&self) -> impl Iterator<Item = usize> + Clone + '_ {
-        self.runs.iter().flat_map(|run| run.start..run.end)
-    }
-}
-
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 pub(crate) mod tests {
     use super::*;
+    use crate::heights::heightfield::Heightfield;
     use proptest::prelude::*;
 
     /// A field over a random domain: holes, islands, whatever the bits say.

@@ -139,9 +139,8 @@ impl Lattice {
 
     /// Position of vertex `(row, col)`, also beyond the lattice's edge.
     pub fn position(&self, row: usize, col: usize) -> [f64; 2] {
-        let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
         [
-            self.origin[0] + (col as f64 - shift) * self.spacing,
+            self.origin[0] + (col as f64 - shift(row)) * self.spacing,
             self.origin[1] - row as f64 * self.row_spacing(),
         ]
     }
@@ -216,6 +215,14 @@ pub(crate) const NEIGHBOURS: [Towards; 6] = [
     Towards::SouthWest,
     Towards::SouthEast,
 ];
+
+/// Seen from its other end, an edge to neighbour `k` is one to neighbour `OPPOSITE[k]`.
+pub(crate) const OPPOSITE: [usize; 6] = [1, 0, 5, 4, 3, 2];
+
+/// How far a row lies to the left of an even one, in spacings.
+pub(crate) fn shift(row: usize) -> f64 {
+    if row % 2 == 1 { 0.5 } else { 0.0 }
+}
 
 impl Towards {
     /// The neighbour of `(row, col)` in this direction.

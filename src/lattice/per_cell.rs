@@ -1,6 +1,7 @@
 //! A number for each cell, which mostly is the same for all.
 
-use super::domain::{Domain, Run};
+use super::domain::Domain;
+use super::runs::Run;
 use crate::error::{Result, try_filled};
 use crate::math::lanes::narrow;
 

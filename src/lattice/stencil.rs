@@ -17,7 +17,8 @@
 //! in the coordinates of [`Sym2`]. So `C` is three second differences and a
 //! 3×3 map, and `Cᵀ` is the transposed map and three second differences again.
 
-use super::domain::{Domain, Run};
+use super::domain::Domain;
+use super::runs::Run;
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 

@@ -11,7 +11,7 @@ use super::splats::splat;
 use super::view::{Frame, View};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::{Lattice, ROW};
+use crate::lattice::hexagonal::{Lattice, ROW, shift};
 
 /// How fine the lattice over a mesh is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -282,7 +282,7 @@ impl Buffer {
         left: Crossing,
         right: Crossing,
     ) {
-        let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
+        let shift = shift(row);
         let first = (left.along + shift).ceil().max(0.0);
         let last = (right.along + shift).floor();
         let last = last.min((self.lattice.cols() - 1) as f64);

@@ -9,7 +9,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::{Result, try_filled};
-use crate::lattice::hexagonal::Lattice;
+use crate::lattice::hexagonal::{Lattice, shift};
 
 /// How far a vertex looks, and how far below the highest point it sees, in spacings.
 const RADIUS: f64 = 1.0;
@@ -74,7 +74,7 @@ fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [
     );
     for row in rows {
         let dy = row as f64 * step - down;
-        let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
+        let shift = shift(row);
         let reach = (RADIUS * RADIUS - dy * dy).max(0.0).sqrt();
         for col in range(along + shift - reach, along + shift + reach, lattice.cols()) {
             let dx = along - (col as f64 - shift);

@@ -11,7 +11,7 @@ use crate::error::{Result, try_filled};
 use crate::fit::energy::law::{Any, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::lattice::domain::Run;
+use crate::lattice::runs::Run;
 use crate::lattice::stencil::{Ring, Rolling, weights_of};
 use crate::math::lanes;
 use crate::math::sym2::Sym2;

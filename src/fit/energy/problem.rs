@@ -7,8 +7,9 @@ use crate::error::{Result, try_filled};
 use crate::fit::coordinates::{Coordinates, Plane};
 use crate::fit::input::Input;
 use crate::fit::options::{Energy, Options};
-use crate::lattice::domain::{Domain, Role, Run};
+use crate::lattice::domain::{Domain, Role};
 use crate::lattice::per_cell::PerCell;
+use crate::lattice::runs::Run;
 use crate::lattice::stencil::{HessianMap, Ring};
 
 /// Norms up to this share of their mean count as none when an energy is reweighted.

@@ -8,10 +8,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::transfer::parents;
 use crate::error::{Result, try_filled};
+use crate::lattice::coarsening::parents;
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::NEIGHBOURS;
+use crate::lattice::hexagonal::{NEIGHBOURS, OPPOSITE};
 use crate::lattice::per_cell::PerCell;
 
 /// Weight of a neighbour in an average.
@@ -35,8 +35,6 @@ struct Average {
 }
 
 /// Of a direction in [`NEIGHBOURS`].
-const OPPOSITE: [usize; 6] = [1, 0, 5, 4, 3, 2];
-
 impl Averages {
     pub(super) fn new(domain: &Domain) -> Self {
         let boundary = |cell: &usize| domain.roles()[*cell] == Role::Boundary;

@@ -11,8 +11,9 @@
 use std::sync::Arc;
 
 use crate::error::{Result, try_filled};
-use crate::lattice::domain::{Domain, Role, Run};
+use crate::lattice::domain::{Domain, Role};
 use crate::lattice::per_cell::PerCell;
+use crate::lattice::runs::Run;
 use crate::lattice::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
 use crate::math::lanes;
 

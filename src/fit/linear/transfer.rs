@@ -7,8 +7,8 @@
 //! both factors are where the lattice ends is in `border`. Restriction is `Pᵀ`.
 
 use super::border::{Averages, Extension};
-use crate::lattice::domain::{Domain, Run};
-use crate::lattice::hexagonal::{NEIGHBOURS, Towards};
+use crate::lattice::domain::Domain;
+use crate::lattice::runs::Run;
 use crate::lattice::stencil::Ring;
 
 #[derive(Debug, Clone)]
@@ -19,26 +19,6 @@ pub(crate) struct Transfer {
     /// and odd coarse lattice rows.
     row: isize,
     col: [isize; 2],
-}
-
-/// The one or two coarse vertices that a fine vertex lies on or between.
-pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
-    let (r, c) = (row as isize, col as isize);
-    let coarse = |(r, c): (isize, isize)| {
-        let half = r.div_euclid(2);
-        let odd = half.rem_euclid(2);
-        (r % 2 == 0 && (c + odd) % 2 == 0).then(|| (half, (c + odd).div_euclid(2)))
-    };
-    if let Some(vertex) = coarse((r, c)) {
-        return [vertex, vertex];
-    }
-    let at = |towards: Towards| coarse(towards.step(r, c));
-    let [w, e, nw, ne, sw, se] = NEIGHBOURS.map(at);
-    // Exactly one pair of opposite neighbours is coarse.
-    match (w.zip(e), nw.zip(se), ne.zip(sw)) {
-        (Some((a, b)), _, _) | (_, Some((a, b)), _) | (_, _, Some((a, b))) => [a, b],
-        _ => [(-1, -1); 2],
-    }
 }
 
 impl Transfer {

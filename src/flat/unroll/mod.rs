@@ -39,7 +39,7 @@ mod sheets;
 
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::ROW;
+use crate::lattice::hexagonal::{ROW, shift};
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use arap::Limits;
@@ -256,7 +256,7 @@ pub(crate) fn unroll_mesh(mesh: Triangulation, options: &UnrollOptions) -> Resul
 fn plan(grid: Grid) -> Result<Vec<Point>> {
     let mut places = try_filled("unrolling", grid.cells(), Point::default())?;
     for row in 0..grid.rows() {
-        let shift = if row % 2 == 1 { 0.5 } else { 0.0 };
+        let shift = shift(row);
         for (col, cell) in grid.row(row).enumerate() {
             places[cell] = Point::new(col as f64 - shift, -(row as f64) * ROW);
         }

@@ -3,7 +3,7 @@
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, OPPOSITE};
 use crate::lattice::stencil::Quadratic;
 
 /// Angle and slope at each vertex of the lattice; NaN where a neighbour is missing.
@@ -64,8 +64,6 @@ impl Bend {
             inside.then(|| lattice.index(r as usize, c as usize))
         };
         let towards = (0..6).find(|towards| step(ends[0], *towards) == Some(ends[1]))?;
-        // Directions come in opposite pairs: W E, NW SE, NE SW.
-        const OPPOSITE: [usize; 6] = [1, 0, 5, 4, 3, 2];
         let normal = |from: usize, away: usize| {
             let mut place = from;
             for _ in 0..ASIDE {

@@ -6,7 +6,7 @@ use nalgebra::{Matrix6, Vector6};
 use super::NO_PATCH;
 use super::bend::Bend;
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::ROW;
+use crate::lattice::hexagonal::{ROW, shift};
 
 /// How many spacings around a vertex others are that its height is taken from.
 const REACH: usize = 3;
@@ -70,7 +70,6 @@ pub(super) fn settle(surface: &Heightfield, bend: &Bend, labels: &mut [u32]) {
 pub(crate) fn extended(surface: &Heightfield, labels: &[u32], patch: u32, vertex: usize) -> f64 {
     let lattice = surface.lattice();
     let (row, col) = (vertex / lattice.cols(), vertex % lattice.cols());
-    let shift = |row: usize| if row % 2 == 1 { 0.5 } else { 0.0 };
     let mut samples: Vec<([f64; 2], f64)> = Vec::new();
     for r in row.saturating_sub(REACH)..=(row + REACH).min(lattice.rows() - 1) {
         for c in col.saturating_sub(REACH + 1)..=(col + REACH + 1).min(lattice.cols() - 1) {

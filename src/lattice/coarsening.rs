@@ -1,0 +1,29 @@
+//! The lattice of twice the spacing: the sublattice whose vertex `(r, c)` is fine vertex
+//! `(2r, 2c − (r odd))`. Every other fine vertex is the midpoint of a coarse edge.
+
+use super::hexagonal::{NEIGHBOURS, Towards};
+
+/// The fine vertex that a coarse vertex lies on.
+pub(crate) fn fine_vertex(row: usize, col: usize) -> (isize, isize) {
+    (2 * row as isize, 2 * col as isize - (row % 2) as isize)
+}
+
+/// The one or two coarse vertices that a fine vertex lies on or between.
+pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
+    let (r, c) = (row as isize, col as isize);
+    let coarse = |(r, c): (isize, isize)| {
+        let half = r.div_euclid(2);
+        let odd = half.rem_euclid(2);
+        (r % 2 == 0 && (c + odd) % 2 == 0).then(|| (half, (c + odd).div_euclid(2)))
+    };
+    if let Some(vertex) = coarse((r, c)) {
+        return [vertex, vertex];
+    }
+    let at = |towards: Towards| coarse(towards.step(r, c));
+    let [w, e, nw, ne, sw, se] = NEIGHBOURS.map(at);
+    // Exactly one pair of opposite neighbours is coarse.
+    match (w.zip(e), nw.zip(se), ne.zip(sw)) {
+        (Some((a, b)), _, _) | (_, Some((a, b)), _) | (_, _, Some((a, b))) => [a, b],
+        _ => [(-1, -1); 2],
+    }
+}

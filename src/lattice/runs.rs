@@ -1,0 +1,64 @@
+//! Runs of consecutive cells, which the kernels sweep over.
+
+use super::domain::Role;
+
+/// A run of consecutive cells in one row of the padded box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub start: usize,
+    pub end: usize,
+}
+
+/// Runs sorted by row.
+#[derive(Debug, Clone)]
+pub(crate) struct RowRuns {
+    /// `runs[first[row]..first[row + 1]]` are those of `row`.
+    first: Vec<usize>,
+    runs: Vec<Run>,
+    len: usize,
+}
+
+impl RowRuns {
+    pub(super) fn new(roles: &[Role], stride: usize, belongs: impl Fn(Role) -> bool) -> Self {
+        let mut first = vec![0];
+        let mut runs: Vec<Run> = Vec::new();
+        for (row, cells) in roles.chunks(stride).enumerate() {
+            let from = *first.last().unwrap_or(&0);
+            for (col, role) in cells.iter().enumerate() {
+                let cell = row * stride + col;
+                if belongs(*role) {
+                    match runs[from..].last_mut() {
+                        Some(run) if run.end == cell => run.end += 1,
+                        _ => runs.push(Run {
+                            start: cell,
+                            end: cell + 1,
+                        }),
+                    }
+                }
+            }
+            first.push(runs.len());
+        }
+        let len = runs.iter().map(|run| run.end - run.start).sum();
+        RowRuns { first, runs, len }
+    }
+
+    /// Number of cells in all runs.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The runs of one row of the padded box.
+    pub(crate) fn row(&self, row: usize) -> &[Run] {
+        &self.runs[self.first[row]..self.first[row + 1]]
+    }
+
+    /// All runs, row by row.
+    pub(crate) fn all(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// All cells, row by row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        self.runs.iter().flat_map(|run| run.start..run.end)
+    }
+}

@@ -213,7 +213,7 @@ fn cameras_that_cannot_be_are_refused() {
     assert!(message(|c| c.fy = -1.0).contains("`fy`"));
     assert!(message(|c| c.cx = f64::NAN).contains("`cx`"));
     assert!(message(|c| c.cy = f64::INFINITY).contains("`cy`"));
-    assert!(message(|c| c.depth_scale = 0.0).contains("`depthScale`"));
+    assert!(message(|c| c.depth_scale = 0.0).contains("`depth_scale`"));
     // Nothing overflows into a panic.
     for scale in [1e-320, 1e-300, 1e300, 1e308] {
         let mut camera = camera();

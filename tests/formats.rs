@@ -128,7 +128,7 @@ fn recorded_scales_are_used() {
     assert_same("recorded.png", image.values(), &expected);
     let error = decode(&file("recorded-badly.png"), None).unwrap_err();
     assert_eq!(error.code(), "FORMAT");
-    assert!(error.to_string().contains("height_scale"), "{error}");
+    assert!(error.to_string().contains("heightScale"), "{error}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::error::try_filled;
 use crate::error::{Error, Result, check_shape};
-use crate::heights::bridging::{BridgedImage, Bridging, Surroundings};
+use crate::heights::bridging::{BridgedImage, Bridging, OnLattice, Surroundings};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 
@@ -62,21 +62,24 @@ impl Input {
     /// # Errors
     /// As [`HeightImage::to_lattice`](crate::HeightImage::to_lattice).
     pub fn from_bridged(image: &BridgedImage, spacing: Option<f64>) -> Result<Self> {
-        let field = image.image.to_lattice(spacing)?;
-        let lattice = *field.lattice();
-        let mut input = Input::new(field).with_bridging(Bridging::Off)?;
-        if !image.is_empty() {
-            let before = image.original.sampled_on(&lattice)?;
-            let heights = input.field.heights().iter().zip(before.heights());
-            input.bridged = heights
-                .filter(|(z, old)| old.is_nan() && !z.is_nan())
-                .count();
-        }
-        match &image.confidence {
-            Some(confidence) => {
-                input.with_confidence(confidence.sampled_on(&lattice)?.into_heights())
-            }
+        let OnLattice {
+            heights,
+            confidence,
+            bridges,
+        } = image.on_lattice(spacing)?;
+        let input = Input::new(heights).already_bridged(bridges);
+        match confidence {
+            Some(confidence) => input.with_confidence(confidence),
             None => Ok(input),
+        }
+    }
+
+    /// Where so many vertices bridge holes already, and no others are to be.
+    pub(crate) fn already_bridged(self, bridged: usize) -> Self {
+        Input {
+            bridging: Bridging::Off,
+            bridged,
+            ..self
         }
     }
 
@@ -180,7 +183,8 @@ impl Input {
         let surroundings = Surroundings {
             heights: self.field.heights(),
             confidence: &self.confidence,
-            closed: &|v| self.outside.get(v) == Some(&true) || self.is_occluded(v),
+            outside: &|v| self.outside.get(v) == Some(&true),
+            torn: &|v| self.is_occluded(v),
         };
         let bridges = surroundings.on_lattice(&self.field, width)?;
         self.bridging = Bridging::Off;

@@ -7,8 +7,8 @@ use clarabel::solver::{
     SolverStatus, SupportedConeT,
 };
 use developable::{
-    Energy, Heightfield, Input, Lattice, Normalization, Occlusions, Options, Report, StopReason,
-    Surface, fit,
+    Bridging, Energy, Heightfield, Input, Lattice, Normalization, Occlusions, Options, Report,
+    StopReason, Surface, fit,
 };
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -115,7 +115,8 @@ impl Instance {
         let constraints = heights.map(|(z, held)| if *held { *z } else { f64::NAN });
         let torn: Vec<u8> = self.torn.iter().map(|torn| u8::from(*torn)).collect();
         Input::new(self.field.clone())
-            .with_confidence(self.confidence.clone())
+            .with_bridging(Bridging::Off)
+            .and_then(|input| input.with_confidence(self.confidence.clone()))
             .and_then(|input| input.with_constraints(constraints.collect()))
             .and_then(|input| input.with_occlusions(Occlusions::from_vertices(lattice, &torn)?))
             .unwrap()

@@ -84,8 +84,10 @@ pub(crate) struct Surroundings<'a> {
     pub heights: &'a [f64],
     /// Of each height; empty: 1 everywhere. Heights without any say nothing.
     pub confidence: &'a [f64],
-    /// Whether there is no surface, or an occlusion, at an index.
-    pub closed: &'a dyn Fn(usize) -> bool,
+    /// Whether there is no surface at an index, whatever is around it.
+    pub outside: &'a dyn Fn(usize) -> bool,
+    /// Whether there is an occlusion at an index: it and its neighbours stay as they are.
+    pub torn: &'a dyn Fn(usize) -> bool,
 }
 
 impl Surroundings<'_> {
@@ -106,7 +108,7 @@ impl Surroundings<'_> {
         }
         let heights = raster.padded(self.heights, f64::NAN)?;
         let mut holes = narrow(&raster, &heights, width)?;
-        holes.retain(|cell| !self.touches_closed(&raster, *cell));
+        holes.retain(|cell| self.may_be_bridged(&raster, *cell));
         // Heights of no confidence are part of the surface, but say nothing about it.
         let mut given = heights;
         let mut confidence = Vec::new();
@@ -130,11 +132,9 @@ impl Surroundings<'_> {
         Ok(bridges)
     }
 
-    fn touches_closed(&self, raster: &Raster, cell: usize) -> bool {
-        (self.closed)(raster.index(cell))
-            || raster
-                .neighbours(cell)
-                .any(|n| raster.is_inside(n) && (self.closed)(raster.index(n)))
+    fn may_be_bridged(&self, raster: &Raster, cell: usize) -> bool {
+        let torn = |cell: usize| raster.is_inside(cell) && (self.torn)(raster.index(cell));
+        !(self.outside)(raster.index(cell)) && !torn(cell) && !raster.neighbours(cell).any(torn)
     }
 }
 
@@ -158,12 +158,20 @@ impl Surroundings<'_> {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct BridgedImage {
-    pub(crate) image: HeightImage,
+    image: HeightImage,
     /// As it was.
-    pub(crate) original: HeightImage,
+    original: HeightImage,
     /// Where there is more to know than that all heights count alike.
-    pub(crate) confidence: Option<HeightImage>,
+    confidence: Option<HeightImage>,
     bridged: usize,
+}
+
+/// A bridged image at the vertices of a lattice.
+pub(crate) struct OnLattice {
+    pub heights: Heightfield,
+    pub confidence: Option<Vec<f64>>,
+    /// Vertices that have a height because of bridged pixels.
+    pub bridges: usize,
 }
 
 impl HeightImage {
@@ -175,29 +183,37 @@ impl HeightImage {
     /// [`Error::Option`](crate::Error::Option) for a width out of range,
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn bridged(&self, bridging: Bridging) -> Result<BridgedImage> {
-        self.bridged_within(bridging, None, None)
+        self.bridged_where(bridging, None, None, None)
     }
 
-    /// The same for heights that are not to be trusted alike (an image of the same size, NaN or 0
-    /// where a height says nothing), and that are none where `keep` is 0: no hole is bridged there.
+    /// The same where more is known about the pixels: how far each height is to be trusted (NaN or 0
+    /// where it says nothing), that there is no surface where `keep` is 0, and an occlusion where
+    /// `torn` is not 0.
     ///
     /// # Errors
-    /// As [`HeightImage::bridged`]; [`Error::Shape`](crate::Error::Shape) if there is not one value
-    /// of each for every pixel.
-    pub fn bridged_within(
+    /// As [`HeightImage::bridged`]; [`Error::Shape`](crate::Error::Shape) for what is not one value
+    /// for each pixel.
+    pub fn bridged_where(
         &self,
         bridging: Bridging,
         confidence: Option<&HeightImage>,
         keep: Option<&[u8]>,
+        torn: Option<&[u8]>,
     ) -> Result<BridgedImage> {
-        let given = confidence.map_or(self.values().len(), |image| image.values().len());
-        check_shape("confidence", self.height(), self.width(), given)?;
-        let kept = keep.map_or(given, <[u8]>::len);
-        check_shape("mask", self.height(), self.width(), kept)?;
+        let given = [
+            ("confidence", confidence.map(|image| image.values().len())),
+            ("mask", keep.map(<[u8]>::len)),
+            ("occlusions", torn.map(<[u8]>::len)),
+        ];
+        for (what, found) in given {
+            let found = found.unwrap_or(self.values().len());
+            check_shape(what, self.height(), self.width(), found)?;
+        }
         let surroundings = Surroundings {
             heights: self.values(),
             confidence: confidence.map_or(&[], HeightImage::values),
-            closed: &|pixel| keep.is_some_and(|keep| keep[pixel] == 0),
+            outside: &|pixel| keep.is_some_and(|keep| keep[pixel] == 0),
+            torn: &|pixel| torn.is_some_and(|torn| torn[pixel] != 0),
         };
         let bridges = surroundings.on_image(self, bridging.width()?)?;
         let mut values = self.values().to_vec();
@@ -230,6 +246,32 @@ impl BridgedImage {
     /// The image, with heights in bridged holes: for [`Heightfield::to_image`] on the way back.
     pub fn image(&self) -> &HeightImage {
         &self.image
+    }
+
+    /// The same.
+    pub fn into_image(self) -> HeightImage {
+        self.image
+    }
+
+    /// Sampled on a lattice, as [`HeightImage::to_lattice`] does.
+    pub(crate) fn on_lattice(&self, spacing: Option<f64>) -> Result<OnLattice> {
+        let heights = self.image.to_lattice(spacing)?;
+        let lattice = *heights.lattice();
+        let mut bridges = 0;
+        if !self.is_empty() {
+            let before = self.original.sampled_on(&lattice)?;
+            let pairs = heights.heights().iter().zip(before.heights());
+            bridges = pairs.filter(|(z, old)| old.is_nan() && !z.is_nan()).count();
+        }
+        let confidence = match &self.confidence {
+            Some(image) => Some(image.sampled_on(&lattice)?.into_heights()),
+            None => None,
+        };
+        Ok(OnLattice {
+            heights,
+            confidence,
+            bridges,
+        })
     }
 
     /// Number of pixels that were bridged.

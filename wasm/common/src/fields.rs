@@ -21,7 +21,7 @@ pub struct ImageInput {
     #[serde(default, with = "preserve")]
     pub data: JsValue,
     #[serde(default, with = "preserve")]
-    mask: JsValue,
+    pub mask: JsValue,
     pub no_data: Option<f64>,
     pixel_size: Option<f64>,
     height_scale: Option<f64>,
@@ -63,7 +63,7 @@ pub struct LatticeInput {
     pub heights: JsValue,
     origin: Option<[f64; 2]>,
     #[serde(default, with = "preserve")]
-    mask: JsValue,
+    pub mask: JsValue,
     no_data: Option<f64>,
 }
 

@@ -2,7 +2,7 @@
 
 use wasm_bindgen::prelude::*;
 
-use developable::{Energy, Error, Lambda, Normalization, Options, Schedule};
+use developable::{Bridging, Energy, Error, Lambda, Normalization, Options, Schedule};
 use developable_wasm::Result;
 use developable_wasm::options::{entries, option, unknown};
 
@@ -14,6 +14,7 @@ pub struct Settings {
     pub normalization: Normalization,
     pub spacing: Option<f64>,
     pub occlusion_threshold: Option<f64>,
+    pub bridging: Bridging,
 }
 
 impl Settings {
@@ -22,6 +23,7 @@ impl Settings {
         let mut scale = Normalization::default();
         let mut spacing = None;
         let mut occlusion_threshold = None;
+        let mut bridge = Bridging::default();
         for (name, value) in entries(options)? {
             match name.as_str() {
                 "lambda" => out = out.lambda(lambda(value)?),
@@ -48,11 +50,12 @@ impl Settings {
                 "occlusionThreshold" => {
                     occlusion_threshold = Some(number("occlusionThreshold", value)?);
                 }
+                "bridge" => bridge = bridging(value)?,
                 _ => {
                     return Err(unknown(
                         &name,
                         "lambda, schedule, gap, maxIterations, normalize, energy, reweighting, \
-                         tieBreak, spacing and occlusionThreshold",
+                         tieBreak, spacing, occlusionThreshold and bridge",
                     ));
                 }
             }
@@ -62,6 +65,7 @@ impl Settings {
             normalization: scale,
             spacing,
             occlusion_threshold,
+            bridging: bridge,
         })
     }
 
@@ -83,6 +87,7 @@ impl Settings {
     pub fn leave_input(&self, other: &Settings) -> bool {
         self.spacing == other.spacing
             && self.occlusion_threshold == other.occlusion_threshold
+            && self.bridging == other.bridging
             && (self.occlusion_threshold.is_none() || self.normalization == other.normalization)
     }
 }
@@ -100,6 +105,16 @@ fn lambda(value: JsValue) -> Result<Lambda> {
 
 fn number(name: &'static str, value: JsValue) -> Result<f64> {
     option(name, value, "must be a number")
+}
+
+/// A width; `true` for the default one, `false` for none.
+fn bridging(value: JsValue) -> Result<Bridging> {
+    let requirement = "must be a width from 1 to 16 vertices or pixels, or false";
+    Ok(match value.as_bool() {
+        Some(true) => Bridging::default(),
+        Some(false) => Bridging::Off,
+        None => Bridging::UpTo(option("bridge", value, requirement)?),
+    })
 }
 
 fn normalization(value: JsValue) -> Result<Normalization> {

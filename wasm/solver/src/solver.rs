@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::results::{ImageOutput, SurfaceOutput};
 use super::settings::Settings;
 use super::source::Source;
-use developable::Status;
+use developable::{HeightImage, Status};
 use developable_wasm::Result;
 
 /// A solver and what it is about, for other options and for the way back to an image.
@@ -14,6 +14,8 @@ use developable_wasm::Result;
 pub struct Solver {
     solver: developable::Solver,
     source: Source,
+    /// The image to bring surfaces back to, small holes bridged.
+    pixels: Option<HeightImage>,
     settings: Settings,
 }
 
@@ -33,9 +35,11 @@ impl Solver {
 
     fn on(source: Source, options: &JsValue) -> Result<Solver> {
         let settings = Settings::new(options)?;
+        let (input, pixels) = source.input(&settings)?;
         Ok(Solver {
-            solver: developable::Solver::new(source.input(&settings)?, &settings.options)?,
+            solver: developable::Solver::new(input, &settings.options)?,
             source,
+            pixels,
             settings,
         })
     }
@@ -46,8 +50,9 @@ impl Solver {
         if settings.leave_input(&self.settings) {
             self.solver.restart(&settings.options)?;
         } else {
-            let input = self.source.input(&settings)?;
+            let (input, pixels) = self.source.input(&settings)?;
             self.solver.restart_with(input, &settings.options)?;
+            self.pixels = pixels;
         }
         self.settings = settings;
         Ok(())
@@ -67,8 +72,9 @@ impl Solver {
 
     fn restart_with(&mut self, source: Source, options: &JsValue) -> Result<()> {
         let settings = Settings::new(options)?;
-        let input = source.input(&settings)?;
+        let (input, pixels) = source.input(&settings)?;
         self.solver.restart_with(input, &settings.options)?;
+        self.pixels = pixels;
         self.source = source;
         self.settings = settings;
         Ok(())
@@ -93,7 +99,7 @@ impl Solver {
     pub fn surface(&self) -> Result<JsValue> {
         let surface = self.solver.surface()?;
         let field = surface.heightfield();
-        let image = match self.source.pixels() {
+        let image = match &self.pixels {
             Some(image) => Some(ImageOutput::from(&field.to_image(image)?)),
             None => None,
         };

@@ -6,11 +6,9 @@ use serde_wasm_bindgen::{from_value, preserve};
 use wasm_bindgen::prelude::*;
 
 use super::settings::Settings;
-use developable::Input;
-use developable::Occlusions;
 use developable::checks::check_confidence;
 use developable::checks::try_filled;
-use developable::{HeightImage, Heightfield};
+use developable::{Bridging, HeightImage, Heightfield, Input, Occlusions};
 use developable_wasm::fields::{ImageInput, LatticeInput, bytes, values};
 use developable_wasm::{Failure, Result};
 
@@ -39,6 +37,7 @@ pub struct Image {
     /// Of a design: its outline.
     heights: HeightImage,
     design: bool,
+    mask: Option<Vec<u8>>,
     confidence: Option<HeightImage>,
     constraints: Option<HeightImage>,
     occlusions: Option<Vec<u8>>,
@@ -50,6 +49,7 @@ pub struct Parts {
     /// Of a design: its outline.
     heights: Heightfield,
     design: bool,
+    mask: Option<Vec<u8>>,
     confidence: Option<Vec<f64>>,
     constraints: Option<Heightfield>,
     occlusions: Option<Occlusions>,
@@ -77,6 +77,7 @@ impl Source {
         Ok(Source::Image(Image {
             heights,
             design,
+            mask: bytes(&input.mask),
             confidence,
             constraints,
             occlusions: bytes(&known.occlusions),
@@ -108,13 +109,14 @@ impl Source {
         Ok(Source::Lattice(Parts {
             heights,
             design,
+            mask: bytes(&input.mask),
             confidence,
             constraints,
             occlusions: union(vertices, edges)?,
         }))
     }
 
-    /// The image to bring a surface back to.
+    /// The image that was given.
     pub fn pixels(&self) -> Option<&HeightImage> {
         match self {
             Source::Image(image) => Some(&image.heights),
@@ -122,37 +124,58 @@ impl Source {
         }
     }
 
-    /// The input of a solve.
-    pub fn input(&self, settings: &Settings) -> Result<Input> {
-        self.parts(settings.spacing)?.into_input(settings)
-    }
-
-    /// The heights on the lattice.
-    pub fn heights(&self, settings: &Settings) -> Result<Heightfield> {
-        Ok(self.parts(settings.spacing)?.heights)
-    }
-
-    fn parts(&self, spacing: Option<f64>) -> Result<Parts> {
+    /// The input of a solve, and the image to bring its surface back to.
+    pub fn input(&self, settings: &Settings) -> Result<(Input, Option<HeightImage>)> {
         match self {
-            Source::Image(image) => image.resampled(spacing),
-            Source::Lattice(_) if spacing.is_some() => Err(Failure::option(
-                "option `spacing` is for images; a lattice has the spacing of its input",
-            )),
-            Source::Lattice(parts) => Ok(parts.clone()),
+            Source::Image(image) => {
+                let (input, pixels) = image.input(settings)?;
+                Ok((input, Some(pixels)))
+            }
+            Source::Lattice(parts) => {
+                check_spacing(settings)?;
+                Ok((parts.clone().into_input(settings)?, None))
+            }
+        }
+    }
+
+    /// The heights on the lattice, no holes bridged.
+    pub fn heights(&self, settings: &Settings) -> Result<Heightfield> {
+        match self {
+            Source::Image(image) => Ok(image.heights.to_lattice(settings.spacing)?),
+            Source::Lattice(parts) => {
+                check_spacing(settings)?;
+                Ok(parts.heights.clone())
+            }
         }
     }
 }
 
+/// A spacing is for images.
+fn check_spacing(settings: &Settings) -> Result<()> {
+    match settings.spacing {
+        None => Ok(()),
+        Some(_) => Err(Failure::option(
+            "option `spacing` is for images; a lattice has the spacing of its input",
+        )),
+    }
+}
+
 impl Image {
-    fn resampled(&self, spacing: Option<f64>) -> Result<Parts> {
-        let heights = self.heights.to_lattice(spacing)?;
-        let lattice = *heights.lattice();
-        let confidence = match &self.confidence {
-            Some(image) => Some(image.sampled_on(&lattice)?.into_heights()),
-            None => None,
+    fn input(&self, settings: &Settings) -> Result<(Input, HeightImage)> {
+        let bridging = match self.design {
+            true => Bridging::Off,
+            false => settings.bridging,
         };
+        let bridged = self.heights.bridged_where(
+            bridging,
+            self.confidence.as_ref(),
+            self.mask.as_deref(),
+            self.occlusions.as_deref(),
+        )?;
+        let input = Input::from_bridged(&bridged, settings.spacing)?;
+        let lattice = *input.field().lattice();
         let constraints = match &self.constraints {
-            Some(image) => Some(image.constraints_on(&heights)?),
+            Some(image) => Some(image.constraints_on(input.field())?),
             None => None,
         };
         let occlusions = match &self.occlusions {
@@ -162,45 +185,58 @@ impl Image {
             }
             None => None,
         };
-        Ok(Parts {
-            heights,
-            design: self.design,
-            confidence,
-            constraints,
-            occlusions,
-        })
+        let input = with_known(input, self.design, constraints, occlusions, settings)?;
+        Ok((input, bridged.into_image()))
     }
 }
 
 impl Parts {
     fn into_input(self, settings: &Settings) -> Result<Input> {
-        // In the heights that were given: a design has none, and constraints are no measurements.
-        let detected = match settings.occlusion_threshold.filter(|_| !self.design) {
-            Some(threshold) => {
-                let normalization = settings.normalization;
-                Some(Occlusions::detect(&self.heights, threshold, normalization)?)
-            }
-            None => None,
-        };
-        let mut input = match (self.constraints, self.design) {
-            (Some(constraints), true) => {
-                let shape: Vec<u8> = (self.heights.heights().iter())
-                    .map(|z| u8::from(!z.is_nan()))
-                    .collect();
-                Input::design(constraints, Some(&shape))?
-            }
-            (Some(constraints), false) => {
-                Input::new(self.heights).with_constraints(constraints.into_heights())?
-            }
-            (None, _) => Input::new(self.heights),
-        };
+        let mut input = Input::new(self.heights).with_bridging(settings.bridging)?;
+        if let Some(mask) = self.mask {
+            input = input.masked(&mask)?;
+        }
         if let Some(confidence) = self.confidence {
             input = input.with_confidence(confidence)?;
         }
-        if let Some(occlusions) = union(self.occlusions, detected)? {
-            input = input.with_occlusions(occlusions)?;
+        with_known(
+            input,
+            self.design,
+            self.constraints,
+            self.occlusions,
+            settings,
+        )
+    }
+}
+
+/// An input with constraints and occlusions.
+fn with_known(
+    mut input: Input,
+    design: bool,
+    constraints: Option<Heightfield>,
+    occlusions: Option<Occlusions>,
+    settings: &Settings,
+) -> Result<Input> {
+    // In the heights that were given: a design has none, and constraints are no measurements.
+    let detected = match settings.occlusion_threshold.filter(|_| !design) {
+        Some(threshold) => {
+            let normalization = settings.normalization;
+            Some(Occlusions::detect(input.field(), threshold, normalization)?)
         }
-        Ok(input)
+        None => None,
+    };
+    input = match (constraints, design) {
+        (Some(constraints), true) => {
+            let heights = input.field().heights().iter();
+            let shape: Vec<u8> = heights.map(|z| u8::from(!z.is_nan())).collect();
+            Input::design(constraints, Some(&shape))?
+        }
+        (Some(constraints), false) => input.with_constraints(constraints.into_heights())?,
+        (None, _) => input,
+    };
+    match union(occlusions, detected)? {
+        Some(occlusions) => Ok(input.with_occlusions(occlusions)?),
+        None => Ok(input),
     }
 }
 

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use super::admm::iteration::{Best, Level};
 use super::admm::schedule::Plan;
 use super::admm::state::State;
-use super::coarse_to_fine::{coarsen, prolong};
+use super::coarsen::coarsen;
 use super::coordinates::Coordinates;
 use super::energy::problem::{Problem, position};
 use super::input::Input;
 use super::options::Options;
 use super::plate;
+use super::prolong::prolong;
 use super::report::{LevelReport, Seconds, StopReason};
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
@@ -249,10 +250,6 @@ impl Cascade {
     }
 }
 
-pub(crate) fn domain_of(input: &Input) -> Result<Domain> {
-    Domain::with_occlusions(&input.field, |vertex| input.is_occluded(vertex))
-}
-
 /// The input on all coarser lattices that are of use, the finest first: as long as enough stencils
 /// are left, and each stands for four of the finer ones, within a factor of 2. Where holes take most
 /// of them away, or close, the next lattice says little about the last.
@@ -261,7 +258,7 @@ fn coarser(input: &Input, domain: &Arc<Domain>) -> Result<Vec<(Input, Arc<Domain
     loop {
         let (last, finer) = found.last().map_or((input, domain), |(i, d)| (i, d));
         let next = coarsen(last, finer)?;
-        match domain_of(&next) {
+        match next.domain() {
             Ok(coarse) if is_of_use(finer.interior_len(), coarse.interior_len()) => {
                 found.push((next, Arc::new(coarse)));
             }

@@ -5,6 +5,7 @@ use crate::error::{Error, Result, check_shape};
 use crate::heights::bridging::{BridgedImage, Bridging, OnLattice, Surroundings};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
+use crate::lattice::domain::Domain;
 
 /// A heightfield with all that a solve may know besides: how far each height
 /// is to be trusted, which heights must be met exactly, where the surface is
@@ -175,6 +176,11 @@ impl Input {
             *constrained &= !self.outside[vertex];
         }
         Ok(self)
+    }
+
+    /// The roles of its vertices: occluded ones have no Hessian.
+    pub(crate) fn domain(&self) -> Result<Domain> {
+        Domain::with_occlusions(&self.field, |vertex| self.is_occluded(vertex))
     }
 
     /// The input with its small holes bridged.

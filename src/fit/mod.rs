@@ -3,7 +3,7 @@
 
 mod admm;
 mod cascade;
-mod coarse_to_fine;
+mod coarsen;
 mod components;
 mod coordinates;
 mod energy;
@@ -11,6 +11,7 @@ pub(crate) mod input;
 mod linear;
 pub(crate) mod options;
 mod plate;
+mod prolong;
 pub(crate) mod report;
 mod restore;
 pub(crate) mod solver;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::cascade::{Answer, Cascade, domain_of};
+use super::cascade::{Answer, Cascade};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
 use super::energy::problem::Problem;
@@ -85,7 +85,7 @@ impl Solver {
         let started = Instant::now();
         options.validate()?;
         let input = input.bridge()?;
-        let domain = Arc::new(domain_of(&input)?);
+        let domain = Arc::new(input.domain()?);
         check_held(&input, &domain)?;
         let scale = options.normalization.factor(&input.field);
         let components = Components::new(&domain)?;
@@ -166,7 +166,7 @@ impl Solver {
                 1 => (self.input.clone(), self.domain.clone()),
                 _ => {
                     let input = self.components.crop(&self.input, &self.domain, number)?;
-                    let domain = Arc::new(domain_of(&input)?);
+                    let domain = Arc::new(input.domain()?);
                     (input, domain)
                 }
             };

@@ -206,6 +206,15 @@ impl Domain {
         inside.then(|| (row + 1) as usize * self.stride + (col + 1) as usize)
     }
 
+    /// The same, if its role is wanted.
+    pub(crate) fn cell_of(
+        &self,
+        vertex: (isize, isize),
+        wanted: impl Fn(Role) -> bool,
+    ) -> Option<usize> {
+        self.cell(vertex).filter(|cell| wanted(self.roles[*cell]))
+    }
+
     /// Index in the lattice's arrays of a cell of the padded box, if it is not padding.
     pub(crate) fn lattice_index(&self, cell: usize) -> usize {
         let (row, col) = self.lattice_vertex(cell);

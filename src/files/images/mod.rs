@@ -24,7 +24,7 @@ use crate::heights::heightfield::HeightImage;
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use npy::write_npy;
-pub use photo::{PhotoFile, decode_photo, decode_photo_basic, write_photo};
+pub use photo::{PhotoFile, decode_photo_basic, write_photo};
 pub use png::write_png;
 
 /// A file format that can be read. All but the first two need the cargo feature
@@ -242,6 +242,21 @@ pub fn decode_basic(bytes: &[u8], format: Format) -> Result<Decoded> {
             format: other.title(),
             reason: "only PNG and NPY are read here; the cargo feature `images` adds it".into(),
         }),
+    }
+}
+
+/// Decodes a PNG file of any kind to RGBA bytes, 16 bits cut to 8; with the cargo feature `images`
+/// also JPEG (the way up that its Exif data state) and WebP files.
+///
+/// # Errors
+/// [`Error::Unsupported`] for other files,
+/// [`Error::Format`], [`Error::TooLarge`],
+/// [`Error::OutOfMemory`].
+pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
+    match announced(bytes, None)? {
+        #[cfg(feature = "images")]
+        other if other != Format::Png => extended::decode_photo(bytes, other),
+        format => decode_photo_basic(bytes, format),
     }
 }
 

@@ -3,7 +3,7 @@
 use ::png::{BitDepth, ColorType, Encoder, EncodingError, Transformations};
 
 use super::png::Pixels;
-use super::{Buffer, Format, announced};
+use super::{Buffer, Format};
 use crate::error::{Error, Result, try_filled};
 use crate::flat::dewarp::Photo;
 
@@ -30,25 +30,10 @@ impl PhotoFile {
     }
 }
 
-/// Decodes a PNG file of any kind to RGBA bytes, 16 bits cut to 8; with the cargo feature `images`
-/// also JPEG (the way up that its Exif data state) and WebP files.
-///
-/// # Errors
-/// [`Error::Unsupported`] for other files,
-/// [`Error::Format`], [`Error::TooLarge`],
-/// [`Error::OutOfMemory`].
-pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    match announced(bytes, None)? {
-        #[cfg(feature = "images")]
-        other if other != Format::Png => super::extended::decode_photo(bytes, other),
-        format => decode_photo_basic(bytes, format),
-    }
-}
-
 /// Decodes a PNG file to RGBA bytes, and links the decoder of PNG only.
 ///
 /// # Errors
-/// As [`decode_photo`].
+/// As [`decode_photo`](super::decode_photo).
 pub fn decode_photo_basic(bytes: &[u8], format: Format) -> Result<PhotoFile> {
     match format {
         Format::Png => decode_png(bytes),

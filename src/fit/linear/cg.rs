@@ -162,8 +162,7 @@ impl ConjugateGradients {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::cascade::domain_of;
-    use crate::fit::coarse_to_fine::coarsen;
+    use crate::fit::coarsen::coarsen;
     use crate::fit::coordinates::Coordinates;
     use crate::{Heightfield, Input, Lattice, Options};
 
@@ -182,7 +181,7 @@ mod tests {
         let whole = field.clone();
         let mut domains = Vec::new();
         let mut input = Input::new(field);
-        while let Ok(domain) = domain_of(&input) {
+        while let Ok(domain) = input.domain() {
             input = coarsen(&input, &domain).unwrap();
             domains.push(Arc::new(domain));
         }

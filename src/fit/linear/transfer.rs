@@ -146,8 +146,7 @@ impl Transfer {
 mod tests {
     use super::*;
     use crate::Heightfield;
-    use crate::fit::cascade::domain_of;
-    use crate::fit::coarse_to_fine::coarsen;
+    use crate::fit::coarsen::coarsen;
     use crate::lattice::domain::tests::arbitrary_field;
     use proptest::prelude::*;
 
@@ -170,7 +169,7 @@ mod tests {
     fn domains(field: &Heightfield) -> Option<(Domain, Domain)> {
         let fine = Domain::new(field).ok()?;
         let coarse = coarsen(&field.into(), &fine).unwrap();
-        Some((fine, domain_of(&coarse).ok()?))
+        Some((fine, coarse.domain().ok()?))
     }
 
     proptest! {
@@ -205,7 +204,7 @@ mod tests {
             let field = Heightfield::from_fn(lattice, holed).unwrap();
             let fine = Domain::new(&field).unwrap();
             let coarse_input = coarsen(&field.clone().into(), &fine).unwrap();
-            let coarse = domain_of(&coarse_input).unwrap();
+            let coarse = coarse_input.domain().unwrap();
             let coarse_field = coarse_input.field;
             let mut x = vec![0.0; coarse.cells()];
             for cell in coarse.active().cells() {

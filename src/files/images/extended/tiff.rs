@@ -8,15 +8,13 @@ use ::tiff::tags::Tag;
 use ::tiff::{ColorType, TiffError};
 use npyz::half::f16;
 
-use super::tiff_tags::{self, oriented};
+use super::tiff_tags::{self, File, failed, oriented};
 use super::{
     Channels, Decoded, Format, check_length, damaged, default_scale, grey, narrowed, room,
     unsupported,
 };
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::heights::heightfield::HeightImage;
-
-pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// More than any of its compressions can shrink.
 const RATIO: usize = 4096;
@@ -156,13 +154,6 @@ fn size_of(kind: DecodingSampleType) -> usize {
         DecodingSampleType::U16 | DecodingSampleType::I16 | DecodingSampleType::F16 => 2,
         DecodingSampleType::U32 | DecodingSampleType::I32 | DecodingSampleType::F32 => 4,
         DecodingSampleType::U64 | DecodingSampleType::I64 | DecodingSampleType::F64 => 8,
-    }
-}
-
-pub(super) fn failed(error: TiffError) -> Error {
-    match error {
-        TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
-        other => damaged(Format::Tiff, other),
     }
 }
 

@@ -1,12 +1,17 @@
 //! What a TIFF's tags say about its pixels: size, unit, no data, orientation.
 
+use std::io::Cursor;
+
+use ::tiff::TiffError;
+use ::tiff::decoder::Decoder;
 use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
 
-use super::tiff::{File, failed};
 use super::{Format, damaged, unsupported};
-use crate::error::{Result, try_filled};
+use crate::error::{Error, Result, try_filled};
 use crate::files::images::Unit;
+
+pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// Millimetres in an inch and in a centimetre.
 const INCH: f64 = 25.4;
@@ -201,4 +206,11 @@ pub(super) fn oriented<T: Copy + Default>(
         *out = values[from_row * width + from_col];
     }
     Ok((seen, (cols, rows)))
+}
+
+pub(super) fn failed(error: TiffError) -> Error {
+    match error {
+        TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
+        other => damaged(Format::Tiff, other),
+    }
 }

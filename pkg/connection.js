@@ -112,8 +112,8 @@ export class Connection {
     try {
       return /** @type {T} */ (await Promise.race([promise, ended]));
     } catch (error) {
-      // After a crash the thread's wasm is of no use to anyone.
-      if (error instanceof DevelopableError && error.code === 'TRAP') this.close(error);
+      // After a crash the thread's wasm is of no use to anyone, and memory comes back only with a thread's end.
+      if (error instanceof DevelopableError && ['TRAP', 'OUT_OF_MEMORY'].includes(error.code)) this.close(error);
       if (error instanceof Error && error.name === 'DataCloneError') {
         throw new DevelopableError('INPUT', `an argument cannot be sent to the worker: ${error.message}`);
       }

@@ -2,11 +2,13 @@
 import { DevelopableError, messageOf } from './errors.js';
 import { compile, compileOwn } from './wasm-source.js';
 
+/** @typedef {{ memory: WebAssembly.Memory }} Exports */
+
 /**
  * What wasm-bindgen makes of each wasm file, as far as it is the same for all.
  * @typedef {{
- *   default: (input: { module_or_path: WebAssembly.Module }) => Promise<unknown>,
- *   initSync: (input: { module: WebAssembly.Module }) => unknown,
+ *   default: (input: { module_or_path: WebAssembly.Module }) => Promise<Exports>,
+ *   initSync: (input: { module: WebAssembly.Module }) => Exports,
  *   reportPanics: () => void,
  * }} Glue
  */
@@ -21,6 +23,8 @@ export class Instance {
   /** @type {Promise<void> | undefined} */
   #loading;
   #ready = false;
+  /** @type {WebAssembly.Memory | undefined} */
+  #memory;
   /** @type {DevelopableError | undefined} */
   #trap;
 
@@ -59,8 +63,7 @@ export class Instance {
       const bytes = /** @type {BufferSource | WebAssembly.Module} */ (input);
       const module = bytes instanceof WebAssembly.Module ? bytes : new WebAssembly.Module(bytes);
       const glue = /** @type {G} */ (this.#glue);
-      glue.initSync({ module });
-      this.#start(glue);
+      this.#start(glue, glue.initSync({ module }));
     } catch (cause) {
       throw initError(cause);
     }
@@ -72,13 +75,16 @@ export class Instance {
     const compiled = input === undefined ? compileOwn(this.#name, this.#place) : compile(input);
     const [glue, module] = await Promise.all([this.#glue ?? this.#importGlue(), compiled]);
     if (this.#ready) return; // `initSync` was faster
-    await glue.default({ module_or_path: module });
-    this.#start(glue);
+    this.#start(glue, await glue.default({ module_or_path: module }));
   }
 
-  /** @param {G} glue */
-  #start(glue) {
+  /**
+   * @param {G} glue
+   * @param {Exports} exports
+   */
+  #start(glue, { memory }) {
     glue.reportPanics();
+    this.#memory = memory;
     this.#glue = glue;
     this.#ready = true;
   }
@@ -107,12 +113,7 @@ export class Instance {
       if (error instanceof Error && typeof code === 'string') {
         throw new DevelopableError(code, error.message);
       }
-      this.#trap = new DevelopableError(
-        'TRAP',
-        `the wasm crashed and cannot be used in this thread any more (${messageOf(error)}); ` +
-          'please report this with the input that caused it',
-        { cause: error },
-      );
+      this.#trap = crash(error, this.#memory);
       throw this.#trap;
     }
   }
@@ -120,6 +121,39 @@ export class Instance {
   /** Whether calls are still possible: false after a trap. */
   get alive() {
     return this.#trap === undefined;
+  }
+}
+
+/**
+ * Where Rust cannot have the memory that it must have, it ends as in a crash; then there is none to be had.
+ * @param {unknown} cause
+ * @param {WebAssembly.Memory} [memory]
+ */
+function crash(cause, memory) {
+  if (memory && cause instanceof WebAssembly.RuntimeError && isExhausted(memory)) {
+    const used = (memory.buffer.byteLength / 2 ** 30).toFixed(1);
+    return new DevelopableError(
+      'OUT_OF_MEMORY',
+      `there is no more memory than the ${used} GiB that the wasm has, and it cannot be used in this thread any more; ` +
+        'use a coarser spacing or a smaller input',
+      { cause },
+    );
+  }
+  return new DevelopableError(
+    'TRAP',
+    `the wasm crashed and cannot be used in this thread any more (${messageOf(cause)}); ` +
+      'please report this with the input that caused it',
+    { cause },
+  );
+}
+
+/** Whether the memory of a crashed instance could not have grown by a fourth. @param {WebAssembly.Memory} memory */
+function isExhausted(memory) {
+  try {
+    memory.grow(Math.ceil(memory.buffer.byteLength / 65536 / 4));
+    return false;
+  } catch {
+    return true;
   }
 }
 

@@ -386,7 +386,7 @@ export interface LatticeSurface extends Surface {
 /** The surface of an input of one kind or the other. */
 export type SurfaceOf<I extends HeightImage | Heightfield> = I extends HeightImage ? ImageSurface : LatticeSurface;
 
-export type ExampleName = 'cylinder' | 'cone' | 'roof' | 'oloid' | 'page';
+export type ExampleName = 'cylinder' | 'cone' | 'roof' | 'oloid' | 'page' | 'house';
 
 export interface ExampleOptions {
   /** Pixels along the longer side. Default 200. */

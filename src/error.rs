@@ -179,9 +179,10 @@ impl Error {
     }
 }
 
-/// Most cells (lattice vertices or pixels) that one input may have: 2²⁴, which
-/// the solver holds in less than the 4 GiB that a wasm32 memory can grow to.
-pub const MAX_CELLS: usize = 1 << 24;
+/// Most cells (lattice vertices or pixels) that one input may have: 5 · 2²², room for an image of
+/// 4096 × 4096 pixels and for its lattice, which has 2/√3 times as many vertices. The solver holds
+/// them in less than the 4 GiB that a wasm32 memory can grow to.
+pub const MAX_CELLS: usize = 5 << 22;
 
 /// `rows · cols`, if neither overflows nor exceeds [`MAX_CELLS`].
 pub(crate) fn checked_cells(what: &'static str, rows: usize, cols: usize) -> Result<usize> {

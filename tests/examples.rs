@@ -103,7 +103,7 @@ fn outlines_leave_room_in_the_image() {
             "{example:?} fills more than half of the image"
         );
     }
-    for example in [Example::Cylinder, Example::Roof] {
+    for example in [Example::Cylinder, Example::Roof, Example::House] {
         assert!(
             generate(example, 200, 0.0, 1)
                 .truth

@@ -4,9 +4,9 @@
 mod common;
 
 use common::unit_square;
-use developable::Heightfield;
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{Direction, PatternOptions, Run, Sheet, pattern};
+use developable::{Example, ExampleOptions, Heightfield, Lambda, Options, fit};
 
 fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
@@ -248,4 +248,43 @@ fn nonsense_is_refused() {
     let other = unit_square(30, |x, _| x);
     let error = pattern(&other, &patches, &PatternOptions::default()).unwrap_err();
     assert_eq!(error.code(), "SHAPE");
+}
+
+/// Four planes fold from one sheet; vaults meet them along curves, and are cut.
+#[test]
+fn a_house_is_three_sheets_and_three_folds_once_it_was_solved_from_noise() {
+    let options = ExampleOptions {
+        noise: 0.01,
+        ..ExampleOptions::default()
+    };
+    let input = Example::House.generate(&options).unwrap().input;
+    let field = input.to_lattice(None).unwrap();
+    let solved = fit(&field, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let (_, sheets) = sheets(solved.heightfield());
+    let patches: Vec<usize> = sheets.iter().map(|sheet| sheet.patches.len()).collect();
+    let folds: Vec<usize> = sheets.iter().map(|sheet| sheet.folds.len()).collect();
+    assert_eq!(patches, [4, 1, 1]);
+    assert_eq!(folds, [3, 0, 0], "folds without a ring");
+    // Planes of slope 0.8 that meet at a right angle in plan.
+    let hip = (1.0f64 / 1.64).acos().to_degrees();
+    for fold in &sheets[0].folds {
+        assert_eq!(fold.seam.direction, Direction::Mountain);
+        near(fold.seam.angle.to_degrees(), hip, 3.0);
+        // From the ridge's end to the corner, 0.375 in x, in y and 0.3 up.
+        near(
+            length(&fold.points),
+            (2.0f64 * 0.375 * 0.375 + 0.09).sqrt(),
+            0.03,
+        );
+    }
+    for sheet in &sheets {
+        assert!(sheet.strain < 0.003, "{}", sheet.strain);
+    }
+    // The vaults are alike, and rectangles with one side cut to a curve: as long along the arc.
+    let arc = 2.0 * 0.36 * (0.3f64 / 0.36).asin();
+    for vault in &sheets[1..] {
+        let [width, height] = extent(vault);
+        near(width.max(height), arc, 0.06);
+    }
+    near(sheets[1].area, sheets[2].area, 0.01);
 }

@@ -26,19 +26,23 @@ pub enum Example {
     /// A sheet with the proportions of A4, flat on one side and rolled up on a slanting
     /// cylinder on the other, without stretch; no data beyond its edge.
     Page,
+    /// A hip roof with a barrel vault before and behind it: its four planes fold from one sheet, and
+    /// the vaults, which meet them along curves, are sheets of their own.
+    House,
 }
 
 impl Example {
     /// All examples.
-    pub const ALL: [Example; 5] = [
+    pub const ALL: [Example; 6] = [
         Example::Cylinder,
         Example::Cone,
         Example::Roof,
         Example::Oloid,
         Example::Page,
+        Example::House,
     ];
 
-    /// The name in lower case: `"cylinder"`, `"cone"`, `"roof"`, `"oloid"`, `"page"`.
+    /// The name in lower case: `"cylinder"`, `"cone"`, `"roof"`, `"oloid"`, `"page"`, `"house"`.
     pub fn name(self) -> &'static str {
         match self {
             Example::Cylinder => "cylinder",
@@ -46,6 +50,7 @@ impl Example {
             Example::Roof => "roof",
             Example::Oloid => "oloid",
             Example::Page => "page",
+            Example::House => "house",
         }
     }
 
@@ -110,7 +115,7 @@ impl FromStr for Example {
                 Error::option(
                     "example",
                     name,
-                    "must be `cylinder`, `cone`, `roof`, `oloid` or `page`",
+                    "must be `cylinder`, `cone`, `roof`, `oloid`, `page` or `house`",
                 )
             })
     }

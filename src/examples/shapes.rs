@@ -33,6 +33,10 @@ impl Shape {
                 extent: [1.04 * A4_WIDTH / PAGE_HEIGHT, 1.0],
                 height: page,
             },
+            Example::House => Shape {
+                extent: [1.0, HOUSE_DEPTH],
+                height: house,
+            },
         }
     }
 }
@@ -66,6 +70,24 @@ fn roof(x: f64, y: f64) -> f64 {
     let (along_x, along_y) = (arc(y, 0.7, 0.5), arc(x, 0.65, 0.5));
     let tower = 0.45 - 1.3 * x.hypot(y);
     along_x.max(along_y).max(tower)
+}
+
+/// How deep the house is, whose front is 1 wide.
+const HOUSE_DEPTH: f64 = 0.75;
+
+fn house(x: f64, y: f64) -> f64 {
+    /// Height gained on the way from the eaves.
+    const PITCH: f64 = 0.8;
+    /// The vaults' radius, and half of their width at the eaves.
+    const RADIUS: f64 = 0.36;
+    const HALF: f64 = 0.3;
+    let roof = PITCH * (0.5 * HOUSE_DEPTH - y.abs()).min(0.5 - x.abs());
+    let vault = if x.abs() < HALF {
+        arc(x, RADIUS, HALF)
+    } else {
+        0.0
+    };
+    roof.max(vault)
 }
 
 /// Length of the oloid's image in units of its circles' radius: its own 3 and a margin.
@@ -309,5 +331,27 @@ mod tests {
             "a vault along y"
         );
         assert!(z(0.5, 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_house_has_four_planes_and_two_vaults() {
+        let z = house;
+        let slope = |a: [f64; 2], b: [f64; 2]| {
+            (z(b[0], b[1]) - z(a[0], a[1])) / (b[0] - a[0]).hypot(b[1] - a[1])
+        };
+        // The planes to the sides, and what is left of those in front and behind.
+        assert!((slope([0.49, 0.0], [0.4, 0.0]) - 0.8).abs() < 1e-12);
+        assert!((slope([-0.49, 0.1], [-0.4, 0.1]) - 0.8).abs() < 1e-12);
+        assert!((slope([0.0, 0.2], [0.0, 0.05]) - 0.8).abs() < 1e-12);
+        assert!((slope([0.1, -0.2], [0.1, -0.05]) - 0.8).abs() < 1e-12);
+        // Ridge and eaves.
+        assert!((z(0.1, 0.0) - 0.3).abs() < 1e-12 && (z(-0.125, 0.0) - 0.3).abs() < 1e-12);
+        assert!(z(0.4, 0.375).abs() < 1e-12 && z(0.5, 0.2).abs() < 1e-12);
+        // The vaults are circles of radius 0.36 across, straight along, and alike.
+        let vault = |x: f64| z(x, 0.37);
+        assert_eq!(vault(0.1), z(0.1, -0.37));
+        assert!((vault(0.1) - z(0.1, 0.3)).abs() < 1e-12);
+        let sagitta = vault(0.0) - vault(0.2);
+        assert!((sagitta - (0.36 - (0.36f64.powi(2) - 0.04).sqrt())).abs() < 1e-12);
     }
 }

@@ -193,7 +193,7 @@ test('files are read and written', async () => {
 });
 
 test('every example can be solved', async () => {
-  for (const name of /** @type {const} */ (['cylinder', 'cone', 'roof', 'oloid', 'page'])) {
+  for (const name of /** @type {const} */ (['cylinder', 'cone', 'roof', 'oloid', 'page', 'house'])) {
     const { input, truth } = await developable.example(name, { size: 40, noise: 0.02, seed: 7 });
     assert.equal(input.data.length, input.width * input.height);
     assert.equal(truth.length, input.data.length);

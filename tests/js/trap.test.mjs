@@ -5,8 +5,8 @@ import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
 import { DevelopableWorker } from '../../pkg/index.js';
 import { wasmFile } from './support/paths.mjs';
-import { image, plane } from './support/shapes.mjs';
-import { trapping } from './support/wasm-surgery.mjs';
+import { cylinder, image, noisy, plane } from './support/shapes.mjs';
+import { limited, trapping } from './support/wasm-surgery.mjs';
 
 const ramp = image(12, 10, plane);
 const sound = await readFile(wasmFile);
@@ -40,4 +40,21 @@ test('a worker is replaced after a trap', async () => {
   assert.equal(worker.connected, true);
   await assert.rejects(worker.fit(ramp), { code: 'TRAP' });
   worker.dispose();
+});
+
+test('where memory is short there is an error that says so, and the next call works', async () => {
+  const input = image(150, 150, noisy(cylinder(150), 1));
+  const outcomes = new Set();
+  // From too little for the input to enough for all.
+  for (let kib = 256; kib <= 16384; kib = Math.ceil(1.35 * kib)) {
+    const worker = new DevelopableWorker({ wasm: limited(sound, kib) });
+    const outcome = await worker.fit(input).then(() => 'done', (error) => {
+      assert.match(error.message, /memory/);
+      return error.code;
+    });
+    outcomes.add(outcome);
+    if (kib > 500) assert.equal((await worker.fit(ramp)).report.stopReason, 'rounding');
+    worker.dispose();
+  }
+  assert.deepEqual([...outcomes].sort(), ['OUT_OF_MEMORY', 'done']);
 });

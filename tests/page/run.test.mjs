@@ -30,7 +30,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   assert.ok(Math.abs(terms - objective) < 1e-3 * objective, `${terms} against ${objective}`);
 });
 
-for (const name of ['page', 'roof', 'oloid', 'cone', 'cylinder']) {
+for (const name of ['page', 'house', 'roof', 'oloid', 'cone', 'cylinder']) {
   pageTest(`${name}: the result is smoother than the input, and closer to the truth`, async (page) => {
     const radio = page.locator(`input[name="example"][value="${name}"]`);
     if (!(await radio.isChecked())) await runBy(page, () => radio.check());

@@ -14,7 +14,7 @@ import { join } from 'node:path';
 const noise = 0.005;
 
 /** Share of the square over the longer side that has data. */
-const shares = { roof: 1, cylinder: 1, cone: 0.724, oloid: 0.398, page: 0.606 };
+const shares = { roof: 1, cylinder: 1, cone: 0.724, oloid: 0.398, page: 0.606, house: 0.75 };
 
 /**
  * An example of about so many vertices. Its pixels are taken for the hexagonal lattice's vertices:

@@ -30,6 +30,33 @@ export function trapping(module, name) {
 }
 
 /**
+ * The same module, but that its memory does not grow to more than this.
+ * @param {Uint8Array} module
+ * @param {number} kib beyond what it has at the start
+ * @returns {Uint8Array<ArrayBuffer>}
+ */
+export function limited(module, kib) {
+  for (let at = 8; at < module.length; ) {
+    const [size, start] = integer(module, at + 1);
+    if (module[at] === 5) {
+      // One memory, with or without a limit: its flags, and its size at the start.
+      const [least] = integer(module, start + 2);
+      const content = [1, 1, ...leb128(least), ...leb128(least + Math.ceil(kib / 64))];
+      return Uint8Array.from([
+        ...module.subarray(0, at), 5, ...leb128(content.length), ...content, ...module.subarray(start + size),
+      ]);
+    }
+    at = start + size;
+  }
+  throw new Error('the module has no memory of its own');
+}
+
+/** @param {number} value @returns {number[]} */
+function leb128(value) {
+  return value < 128 ? [value] : [(value & 127) | 128, ...leb128(value >> 7)];
+}
+
+/**
  * @param {Uint8Array} bytes
  * @param {number} start
  * @param {string} wanted

@@ -1,6 +1,7 @@
 /**
  * Error codes. Those of the Rust crate (`Error::code`):
- * - `EMPTY`, `SHAPE`, `NOT_FINITE`, `NO_INTERIOR`, `OVERFLOW`, `TOO_LARGE`: something about the heights;
+ * - `EMPTY`, `SHAPE`, `NOT_FINITE`, `NO_INTERIOR`, `OVERFLOW`, `UNDERFLOW`, `TOO_LARGE`: something about the
+ *   heights;
  * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `OPTION`: an option is unknown, of the wrong type or out of range;
  * - `FORMAT`, `UNSUPPORTED`: something about a file;
@@ -16,8 +17,8 @@
  * - `WORKER`: the worker could not be started or died.
  */
 export type ErrorCode =
-  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'OPTION' | 'OVERFLOW' | 'TOO_LARGE'
-  | 'OUT_OF_MEMORY'
+  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'OPTION' | 'OVERFLOW' | 'UNDERFLOW'
+  | 'TOO_LARGE' | 'OUT_OF_MEMORY'
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';
 

@@ -96,10 +96,20 @@ pub enum Error {
 
     /// The energy of the input is not a finite number.
     #[error(
-        "the energy overflows: the heights are too large for a lattice spacing of {spacing}; \
+        "the energy overflows: the heights are too large for a lattice spacing of {spacing:e}; \
          check the units of the heights and of the spacing"
     )]
     Overflow {
+        /// The lattice spacing, in the input's units.
+        spacing: f64,
+    },
+
+    /// The energy of the input is so small that its squares would be lost.
+    #[error(
+        "the energy underflows: the heights are too small for a lattice spacing of {spacing:e}; \
+         check the units of the heights and of the spacing"
+    )]
+    Underflow {
         /// The lattice spacing, in the input's units.
         spacing: f64,
     },
@@ -158,6 +168,7 @@ impl Error {
             Error::Underdetermined { .. } => "UNDERDETERMINED",
             Error::Option { .. } => "OPTION",
             Error::Overflow { .. } => "OVERFLOW",
+            Error::Underflow { .. } => "UNDERFLOW",
             Error::TooLarge { .. } => "TOO_LARGE",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Format { .. } => "FORMAT",

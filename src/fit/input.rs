@@ -7,6 +7,10 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 
+/// Least and most confidence: from one to the other is as far as double precision carries both.
+const LEAST: f64 = 1e-6;
+const MOST: f64 = 1e6;
+
 /// A heightfield with all that a solve may know besides: how far each height
 /// is to be trusted, which heights must be met exactly, where the surface is
 /// torn. A plain [`Heightfield`] is an input as well.
@@ -103,19 +107,23 @@ impl Input {
     }
 
     /// How far each height is to be trusted: factors of its fidelity term, 1
-    /// being the default and 0 no fidelity at all.
+    /// being the default and 0 no fidelity at all. They range from 10⁻⁶ to 10⁶;
+    /// smaller ones count as 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex,
-    /// [`Error::NotFinite`] or [`Error::Option`] if one is not finite or below
-    /// 0 where there is a height.
-    pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
+    /// [`Error::NotFinite`] or [`Error::Option`] if one is not finite, below 0
+    /// or above 10⁶ where there is a height.
+    pub fn with_confidence(mut self, mut confidence: Vec<f64>) -> Result<Self> {
         self.check_length("confidence", confidence.len())?;
         check_confidence(
             &confidence,
             self.field.heights(),
             self.field.lattice().cols(),
         )?;
+        for weight in confidence.iter_mut().filter(|weight| **weight < LEAST) {
+            *weight = 0.0;
+        }
         self.confidence = confidence;
         Ok(self)
     }
@@ -244,7 +252,7 @@ impl Input {
     }
 }
 
-/// Makes sure that every height, in rows of `cols`, has a confidence that is finite and not below 0.
+/// Makes sure that every height, in rows of `cols`, has a confidence within its range.
 pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
     for (i, (weight, height)) in confidence.iter().zip(heights).enumerate() {
         if height.is_nan() {
@@ -259,11 +267,11 @@ pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Res
                 advice: "0 means that a height is not to be trusted at all",
             });
         }
-        if *weight < 0.0 {
+        if !(0.0..=MOST).contains(weight) {
             return Err(Error::option(
                 "confidence",
-                format!("{weight} at row {}, column {}", i / cols, i % cols),
-                "must not be below 0",
+                format!("{weight:e} at row {}, column {}", i / cols, i % cols),
+                "must lie between 0 and 1e6; a height that must be met is a constraint",
             ));
         }
     }

@@ -228,7 +228,8 @@ impl Options {
 
     /// Weight, in place of λ, of the squared distance from the thin plate
     /// through the constraints, at vertices that have no fidelity term of their
-    /// own: without it minimisers need not be unique. Default 0.01.
+    /// own: without it minimisers need not be unique. Beside vertices that have
+    /// one, at most λ counts. Default 0.01.
     pub fn tie_break(mut self, weight: f64) -> Self {
         self.tie_break = weight;
         self

@@ -19,9 +19,10 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
     let lattice = domain.lattice();
     let roles = domain.roles();
     let stride = domain.stride();
+    // In spacings, whose squares neither over- nor underflow.
     let position = |cell: usize| {
         let (row, col) = domain.lattice_vertex(cell);
-        lattice.position(row, col)
+        lattice.position(row, col).map(|x| x / lattice.spacing())
     };
     let distance = |a: usize, b: usize| {
         let ([ax, ay], [bx, by]) = (position(a), position(b));
@@ -31,7 +32,7 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
     const NONE: usize = usize::MAX;
     /// How far a quadratic is trusted, in spacings.
     const REACH: f64 = 4.0;
-    let reach = (REACH * lattice.spacing()).powi(2);
+    let reach = REACH * REACH;
     let mut source = vec![NONE; domain.cells()];
     let mut queue = VecDeque::new();
     for cell in domain.interior().cells() {
@@ -82,7 +83,8 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
                     .map(|o| heights[domain.lattice_index(from.wrapping_add_signed(o))]);
                 let centre = heights[domain.lattice_index(from)];
                 let ([x, y], [x0, y0]) = (position(cell), position(from));
-                Quadratic::fit(centre, ring, lattice.spacing()).at([x - x0, y - y0])
+                let z = Quadratic::fit(centre, ring, 1.0).at([x - x0, y - y0]);
+                if z.is_finite() { z } else { own(index) }
             }
         };
     }

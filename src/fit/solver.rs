@@ -75,8 +75,9 @@ impl Solver {
     /// # Errors
     /// [`Error::Option`] for an option out of range, [`Error::NoInterior`] if
     /// there is nothing to solve, [`Error::Underdetermined`] if a part of the
-    /// surface is not held in place, [`Error::Overflow`] if the heights are too
-    /// large for their energy to be computed, [`Error::OutOfMemory`].
+    /// surface is not held in place, [`Error::Overflow`] or [`Error::Underflow`] if
+    /// the heights are too large or too small for their energy to be computed,
+    /// [`Error::OutOfMemory`].
     pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
         Solver::set_up(input.into(), options, None)
     }

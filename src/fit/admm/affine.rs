@@ -15,7 +15,7 @@ use crate::error::Result;
 const STIFF: f64 = 10.0;
 
 /// A larger gap means that the surface bends.
-const CLOSE: f64 = 0.1;
+pub(super) const NEARLY: f64 = 0.1;
 
 /// Residual at which its dual is found, relative to the first; where fidelity is weak, what is left
 /// costs more.
@@ -47,7 +47,7 @@ impl Level {
         self.cg_iterations += balanced.steps;
         self.best.dual_bound = self.best.dual_bound.max(balanced.bound);
         self.best.take_affine(&z, cost);
-        if objective - balanced.bound <= CLOSE * objective {
+        if objective - balanced.bound <= NEARLY * objective {
             self.state.z = z;
             self.state
                 .take_balanced(&self.problem, stiffness, &balanced);

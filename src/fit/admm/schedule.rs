@@ -1,6 +1,7 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
+use super::affine::NEARLY;
 use super::iteration::Best;
 use super::state::Certificate;
 use crate::fit::energy::law::Kind;
@@ -28,6 +29,8 @@ pub(crate) struct Plan {
     /// ρ changes when one relative residual exceeds the other by this factor.
     imbalance: f64,
     gap: f64,
+    /// Whether there are finer levels.
+    coarse: bool,
     max_iterations: usize,
     /// Whether the weights are those of the surface itself.
     pub follows_normals: bool,
@@ -112,6 +115,7 @@ impl Plan {
             check_first: 5,
             imbalance: 3.0,
             gap: options.gap,
+            coarse: false,
             max_iterations: options.max_iterations,
             follows_normals: options.energy == Energy::SecondForm,
         };
@@ -140,6 +144,7 @@ impl Plan {
             } else {
                 self.gap
             },
+            coarse,
             max_iterations: if coarse {
                 left.min(COARSE_ITERATIONS)
             } else {
@@ -345,7 +350,13 @@ impl Plan {
     ) -> Option<StopReason> {
         let (objective, rounding) = (best.objective(), best.rounding);
         let missing = objective - best.dual_bound;
-        let certified = missing + rounding <= self.gap * objective;
+        // An affine surface is worth a try on the next lattice before this one has proved it.
+        let wanted = if best.affine && self.coarse {
+            NEARLY
+        } else {
+            self.gap
+        };
+        let certified = missing + rounding <= wanted * objective;
         if objective <= rounding || (missing <= rounding && !certified) {
             return Some(StopReason::Rounding);
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::law::{Any, Kind, Law};
-use crate::error::{Result, try_filled};
+use crate::error::{Error, Result, try_filled};
 use crate::fit::coordinates::{Coordinates, Plane};
 use crate::fit::input::Input;
 use crate::fit::options::{Energy, Options};
@@ -15,12 +15,16 @@ use crate::lattice::stencil::{HessianMap, Ring};
 /// Norms up to this share of their mean count as none when an energy is reweighted.
 const REWEIGHTING: f64 = 0.3;
 
+/// Heights and Hessians are at most so large, and the spacing; and at least one over it.
+const LARGEST: f64 = 1e130;
+const FARTHEST: f64 = 1e50;
+
 /// A weight of this over `λh⁴` lets a vertex move by next to nothing: keeping it where it is costs
 /// less than a tenth, the norm of one Hessian being of order 1 to 1/h.
 const FIRM: f64 = 1e3;
 
 /// Weights up to this share of the largest are next to none.
-const WEAK: f64 = 1e-3;
+const WEAK: f64 = 5e-3;
 
 /// Fidelity up to this share of what the input's bends cost is next to none.
 const NOTHING: f64 = 0.1;
@@ -83,6 +87,7 @@ impl Problem {
             }
         }
         let spacing = coordinates.scale * domain.lattice().spacing();
+        check_range(&domain, &target, largest, spacing)?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
         let rounding =
             16.0 * f64::EPSILON * largest / (spacing * spacing) * domain.interior_len() as f64;
@@ -308,6 +313,30 @@ impl Problem {
             write(self.domain.lattice_vertex(cell), height);
         }
     }
+}
+
+/// Whether the squares of heights and Hessians, summed and times any λ, can be told from 0 and from
+/// infinity. Heights that differ from a plane by rounding errors only are fine.
+///
+/// # Errors
+/// [`Error::Overflow`] or [`Error::Underflow`].
+fn check_range(domain: &Domain, target: &[f64], largest: f64, h: f64) -> Result<()> {
+    let spacing = domain.lattice().spacing();
+    let cells = || domain.active().cells();
+    let finite = cells().all(|cell| target[cell].is_finite());
+    let bend = cells().fold(0.0f64, |m, cell| m.max(target[cell].abs()));
+    let hessian = |height: f64| height / (h * h);
+    let affine = bend <= 16.0 * f64::EPSILON * largest;
+    // As what a NaN is not.
+    let small_enough = h >= 1.0 / FARTHEST && largest.max(hessian(largest)) <= LARGEST;
+    if !(finite && small_enough) {
+        return Err(Error::Overflow { spacing });
+    }
+    let large_enough = affine || bend.min(hessian(bend)) >= 1.0 / LARGEST;
+    if h > FARTHEST || !large_enough {
+        return Err(Error::Underflow { spacing });
+    }
+    Ok(())
 }
 
 /// The mean over each interior cell (weight 2) and its interior neighbours (weight 1).

@@ -14,12 +14,12 @@
 
 mod colours;
 
-use crate::analysis::Curvatures;
-use crate::dewarp::Extent;
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::flat::dewarp::Extent;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::normalization::{Normalization, bounds};
-use crate::patches::{NO_PATCH, PatchOptions, Patches};
+use crate::shape::analysis::Curvatures;
+use crate::shape::patches::{NO_PATCH, PatchOptions, Patches};
 
 /// Brightness where no light falls.
 const AMBIENT: f64 = 0.15;

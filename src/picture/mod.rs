@@ -29,8 +29,11 @@ const AMBIENT: f64 = 0.15;
 const INSIDE: f64 = 0.5 - 1e-9;
 
 /// How far beyond its outermost vertices a surface is continued, in units of the coarser of
-/// spacing and pixel: images are larger than their lattice by up to half a pixel and one row.
-const REACH: f64 = 1.5;
+/// spacing and pixel: as far as there are points of its own between vertices.
+const REACH: f64 = 0.5 + 1e-9;
+
+/// The same beyond the lattice's first and last row: an image may end a row and half a pixel later.
+const ROW_REACH: f64 = 1.5;
 
 /// What a picture shows of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -314,10 +317,13 @@ impl<'a> Frame<'a> {
     /// nearest; none where there is no surface.
     fn corners(&self, [x, y]: [f64; 2]) -> Option<Corners> {
         let lattice = self.surface.lattice();
-        let [min, max] = self.bounds;
-        let inside = [x.max(min[0]).min(max[0]), y.max(min[1]).min(max[1])];
-        let reach = REACH * lattice.spacing().max(self.pixel[0]);
-        if (x - inside[0]).abs().max((y - inside[1]).abs()) > reach {
+        let unit = lattice.spacing().max(self.pixel[0]);
+        let ([_, top], [min, max]) = (lattice.origin(), self.bounds);
+        let bottom = top - (lattice.rows() - 1) as f64 * lattice.row_spacing();
+        let row = y.max(bottom).min(top);
+        let inside = [x.max(min[0]).min(max[0]), row.max(min[1]).min(max[1])];
+        let beyond = (x - inside[0]).abs().max((row - inside[1]).abs());
+        if (y - row).abs() > ROW_REACH * unit || beyond > REACH * unit {
             return None;
         }
         let triangle = lattice.locate(inside);

@@ -161,6 +161,30 @@ fn holes_are_transparent_and_the_rest_is_opaque_up_to_its_border() {
 }
 
 #[test]
+fn an_island_ends_where_its_vertices_do() {
+    let [width, height] = [30usize, 30usize];
+    let values = (0..width * height).map(|i| {
+        let [x, y] = [(i % width) as f64 - 14.5, (i / width) as f64 - 14.5];
+        if x.hypot(y) < 9.0 { x } else { f64::NAN }
+    });
+    let image = HeightImage::new(width, height, values.collect()).unwrap();
+    let surface = image.to_lattice(None).unwrap();
+    let options = PictureOptions::default().extent(Extent::of(&image));
+    for scale in [1, 4] {
+        let picture = Picture::new(&surface, &options.width(scale * width)).unwrap();
+        for (i, pixel) in pixels(&picture).enumerate() {
+            let place = |n: usize| (n as f64 + 0.5) / scale as f64 - 15.0;
+            let from = place(i % picture.width()).hypot(place(i / picture.width()));
+            if from < 8.0 {
+                assert_eq!(pixel[3], 255, "{i}");
+            } else if from > 9.8 {
+                assert_eq!(pixel, [0; 4], "{i}");
+            }
+        }
+    }
+}
+
+#[test]
 fn nothing_is_drawn_where_there_is_nothing() {
     let nothing = surface(|_, _| f64::NAN);
     let picture = Picture::new(&nothing, &PictureOptions::default()).unwrap();

@@ -107,9 +107,9 @@ fn a_cap_has_the_colour_of_one_over_its_radius_squared() {
         drawn(Curvature::Gaussian, Some(0.5 * gaussian)),
         [103.0, 0.0, 31.0],
     );
-    // The surface's longer side is 20.5 (and rows are √3/4 apart): a fifth of the scale's ends is
-    // that of another colour's place, (2 · 30 / 20.5)⁻² of the way.
-    let place = 5.0 + 5.0 * (20.5f64 / 60.0).powi(2);
+    // The surface is 20.25 wide, as is the sphere at the scale's ends, with 4 / 20.25² instead of
+    // 1/r²; from white to the next of the five colours up to red it is a fifth of the way.
+    let place = 5.0 + 5.0 * (20.25f64 / (2.0 * radius)).powi(2);
     let share = place - 5.0;
     near(
         drawn(Curvature::Gaussian, None),

@@ -1,4 +1,5 @@
 /** The promise API, over a worker of its own. Documented in `index.d.ts`. */
+import { contextOf, put } from './canvas.js';
 import { Connection } from './connection.js';
 import { controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
@@ -7,7 +8,7 @@ import { asFiles, asMesh, asPicture } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, dewarpOptions, extentOf } from './sheet-input.js';
+import { asPhoto, extentOf, placedOptions } from './sheet-input.js';
 import { orAborted, solve } from './solve.js';
 import { asText, plainCopy, reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
@@ -232,6 +233,26 @@ export class DevelopableWorker {
 
   /**
    * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').PictureOptions} [given]
+   */
+  async picture(input, given) {
+    const options = placedOptions('picture', input, given);
+    const { field, buffers } = detached(asField(input));
+    return this.#request((remote) => remote.picture(transfer(field, buffers), options));
+  }
+
+  /**
+   * @param {import('./types.js').Canvas} canvas
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./types.js').PictureOptions} [given]
+   */
+  async draw(canvas, input, given) {
+    const context = contextOf(canvas);
+    put(context, await this.picture(input, given));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
    * @param {import('./types.js').RulingOptions} [given]
    */
   async rulings(input, given) {
@@ -288,7 +309,7 @@ export class DevelopableWorker {
    * @param {import('./types.js').DewarpOptions} [given]
    */
   async dewarp(input, photo, given) {
-    const options = dewarpOptions(input, given);
+    const options = placedOptions('dewarp', input, given);
     const { field, buffers } = detached(asField(input));
     const { width, height, data } = asPhoto(photo);
     const own = new Uint8Array(data);

@@ -1,10 +1,10 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
-  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
+  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
   ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
-  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
+  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
-  SolverOptions, Surface, Unrolling, UnrollOptions, WritePdfOptions,
+  SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -20,7 +20,7 @@ export function init(input?: InitInput): Promise<void>;
  *   mesh with textures;
  * - `images`: all other height images, and photos in JPEG and WebP;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
- * - `unroll`: `analyze`, `patches`, `rulings`, `unroll` and `dewarp`;
+ * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
  * - `patterns`: `pattern`, `writeSvg`, `writePdf` and `writeDxf`.
  *
  * Where nothing can be awaited, `developable/sync` has `initSync` and `loadSync`.
@@ -130,6 +130,10 @@ export function paint<F extends Heightfield>(input: F, picture: Picture, options
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Analysis;
 /** The smooth patches of a surface, and the creases between them. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): PatchMap;
+/** A surface as a picture, seen from above. Where pixels are larger than the lattice's spacing, it is sampled. */
+export function picture(input: HeightImage | Heightfield, options?: PictureOptions): SurfacePicture;
+/** The same on a canvas, which becomes as large as the picture. */
+export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): void;
 /** The rulings of a surface: where it does not bend, and straight lines along that. */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
 /** Lays a surface flat, as rigidly as it goes. */

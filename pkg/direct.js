@@ -7,7 +7,7 @@ import { asFiles, asMesh } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, dewarpOptions } from './sheet-input.js';
+import { asPhoto, placedOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
 export { DevelopableError } from './errors.js';
@@ -284,6 +284,20 @@ export function patches(input, given) {
   return sheets.call((wasm) => wasm.patches(field, options));
 }
 
+/** @type {typeof import('./direct.js').picture} */
+export function picture(input, given) {
+  const options = placedOptions('picture', input, given);
+  const field = asField(input);
+  return sheets.call((wasm) => wasm.picture(field, options));
+}
+
+/** @type {typeof import('./direct.js').draw} */
+export function draw(canvas, input, given) {
+  const options = placedOptions('picture', input, given);
+  const field = asField(input);
+  sheets.call((wasm) => wasm.draw(canvas, field, options));
+}
+
 /** @type {typeof import('./direct.js').rulings} */
 export function rulings(input, given) {
   const field = asField(input);
@@ -326,7 +340,7 @@ export function writeDxf(drawing) {
 
 /** @type {typeof import('./direct.js').dewarp} */
 export function dewarp(input, photo, given) {
-  const options = dewarpOptions(input, given);
+  const options = placedOptions('dewarp', input, given);
   const [field, pixels] = [asField(input), asPhoto(photo)];
   return sheets.call((wasm) => wasm.dewarp(field, pixels, options));
 }

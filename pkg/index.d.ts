@@ -1,10 +1,10 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
-  Analysis, AnalyzeOptions, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
+  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
   ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
-  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, Progress,
+  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
-  SolverOptions, Surface, SurfaceOf, Unrolling, UnrollOptions, WritePdfOptions,
+  SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
 export * from './types.js';
 
@@ -22,7 +22,7 @@ export interface WorkerOptions {
   imagesWasm?: InitInput;
   /** Where the wasm is that reads, samples and writes meshes (but for OBJ out), likewise. */
   meshesWasm?: InitInput;
-  /** Where the wasm is that analyses, unrolls and dewarps, likewise. */
+  /** Where the wasm is that analyses, draws, unrolls and dewarps, likewise. */
   unrollWasm?: InitInput;
   /** Where the wasm is that makes patterns and writes them, likewise. */
   patternsWasm?: InitInput;
@@ -121,6 +121,10 @@ export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, 
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
 /** The smooth patches of a surface, and the creases between them. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
+/** A surface as a picture, seen from above. Where pixels are larger than the lattice's spacing, it is sampled. */
+export function picture(input: HeightImage | Heightfield, options?: PictureOptions): Promise<SurfacePicture>;
+/** The same on a canvas, which becomes as large as the picture. */
+export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
 /** The rulings of a surface: where it does not bend, and straight lines along that. */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
 /** Lays a surface flat, as rigidly as it goes. */
@@ -171,6 +175,8 @@ export class DevelopableWorker {
   paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
   analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
   patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
+  picture(input: HeightImage | Heightfield, options?: PictureOptions): Promise<SurfacePicture>;
+  draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
   rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
   unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
   pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;

@@ -60,6 +60,10 @@ export const paint = (input, picture, options) => worker().paint(input, picture,
 export const analyze = (input, options) => worker().analyze(input, options);
 /** @type {typeof import('./index.js').patches} */
 export const patches = (input, options) => worker().patches(input, options);
+/** @type {typeof import('./index.js').picture} */
+export const picture = (input, options) => worker().picture(input, options);
+/** @type {typeof import('./index.js').draw} */
+export const draw = (canvas, input, options) => worker().draw(canvas, input, options);
 /** @type {typeof import('./index.js').rulings} */
 export const rulings = (input, options) => worker().rulings(input, options);
 /** @type {typeof import('./index.js').unroll} */

@@ -184,6 +184,12 @@ export const service = {
     return transfer(result, buffersOf(result.labels));
   },
 
+  /** @type {(input: Input, options?: import('./types.js').PictureOptions) => Promise<import('./types.js').SurfacePicture>} */
+  async picture(input, options) {
+    await loaded('unroll');
+    return direct.picture(heights(input), options);
+  },
+
   /** @type {(input: Input, options?: import('./types.js').RulingOptions) => Promise<import('./types.js').RulingField>} */
   async rulings(input, options) {
     await loaded('unroll');

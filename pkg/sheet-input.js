@@ -33,14 +33,16 @@ export function asPhoto(photo) {
 }
 
 /**
- * The options of a dewarping, with the part of the plane that the photo shows where the surface
- * knows the image it was made from.
+ * The options of a call about photos or pictures, with the part of the plane that they show where the surface knows the
+ * image it was made from.
+ * @template {{ extent?: import('./types.js').DewarpOptions['extent'] }} T
+ * @param {'dewarp' | 'picture'} call
  * @param {Heights} input
- * @param {import('./types.js').DewarpOptions} [given]
- * @returns {import('./types.js').DewarpOptions}
+ * @param {T | undefined} given
+ * @returns {Partial<T>}
  */
-export function dewarpOptions(input, given) {
-  const options = optionsOf('dewarp', given);
+export function placedOptions(call, input, given) {
+  const options = optionsOf(call, given);
   return options.extent === undefined ? { ...options, extent: extentOf(input) } : options;
 }
 

@@ -443,6 +443,51 @@ export interface PatchMap {
   bend: number;
 }
 
+/** An `HTMLCanvasElement` or an `OffscreenCanvas`, with a 2d context or none yet. */
+export interface Canvas {
+  width: number;
+  height: number;
+  getContext(kind: '2d'): object | null;
+}
+
+export interface PictureOptions extends PatchOptions {
+  /**
+   * - `'shaded'`: matt steel under one light;
+   * - `'curvature'`: from blue (below 0) over white to red (above 0); grey where there is none, beside
+   *   borders;
+   * - `'patches'`: a colour for each patch, darker where they meet; `bend`, `fold` and `smallest` are
+   *   for this one.
+   *
+   * Default `'shaded'`.
+   */
+  style?: 'shaded' | 'curvature' | 'patches';
+  /**
+   * For `'shaded'`, towards the light: x to the right, y up, z towards the viewer and above 0; of any
+   * length. Brightness is 0.15 + 0.85 times the cosine of the angle to the normal. Default: above to
+   * the left.
+   */
+  light?: readonly [number, number, number];
+  /** Which one: `'gaussian'`, or `'kappa2'`, as `analyze` gives them. Default `'gaussian'`. */
+  curvature?: 'gaussian' | 'kappa2';
+  /**
+   * The curvature at the ends of the colours, in units of the surface; beyond it they stay the same.
+   * Default: that of a sphere as wide as the longer side of the surface.
+   */
+  limit?: number;
+  /** Pixels across; those down follow. Default: one for each lattice spacing. */
+  width?: number;
+  /**
+   * The part of the plane that is drawn: left, bottom, right, top. Default: that of the height
+   * image, also of the one that a surface was made from; of other lattices, half a spacing around
+   * their vertices.
+   */
+  extent?: readonly [number, number, number, number];
+}
+
+/** RGBA bytes, transparent where there is no surface: an `ImageData`, or the same as a plain object in Node. */
+export type SurfacePicture = DecodedPhoto &
+  (typeof globalThis extends { ImageData: { prototype: infer I } } ? I : unknown);
+
 export interface RulingOptions {
   /** Distance between lines, as seen from above. Default: ten lattice spacings. */
   separation?: number;

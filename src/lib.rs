@@ -35,7 +35,7 @@
 //! [`HeightImage`] (square pixels) → [`HeightImage::to_lattice`] → [`Heightfield`] (on a
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
 //! [`Heightfield::to_image`], or [`files`]; [`analysis`], [`patches`] and
-//! [`rulings`] for what it is like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
+//! [`rulings`] for what it is like and [`picture`] for what it looks like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
 //! laid flat, and [`pattern`] and [`drawing`] for sheets to cut out and fold.
 //!
 //! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
@@ -80,6 +80,7 @@ mod flat;
 mod heights;
 mod lattice;
 mod math;
+pub mod picture;
 mod scene;
 mod shape;
 

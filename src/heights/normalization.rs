@@ -25,6 +25,12 @@ impl Normalization {
 
 /// Longer side of the bounding box of the valid vertices.
 fn longer_side(field: &Heightfield) -> f64 {
+    let [min, max] = bounds(field);
+    (max[0] - min[0]).max(max[1] - min[1])
+}
+
+/// Lower left and upper right corner of the bounding box of the valid vertices.
+pub(crate) fn bounds(field: &Heightfield) -> [[f64; 2]; 2] {
     let lattice = field.lattice();
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for row in 0..lattice.rows() {
@@ -35,5 +41,5 @@ fn longer_side(field: &Heightfield) -> f64 {
             }
         }
     }
-    (max[0] - min[0]).max(max[1] - min[1])
+    [min, max]
 }

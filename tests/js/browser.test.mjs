@@ -146,3 +146,81 @@ inPage('what cannot be loaded, or crashes, is an error with a code', async (page
   })()`);
   assert.deepEqual(codes, ['INIT', 'INIT', 'WORKER', 'TRAP'].map((code) => `DevelopableError ${code}`));
 }, [/404/]);
+
+inPage('a picture comes onto each kind of canvas, from the page and from a worker', async (page) => {
+  const result = await page.evaluate(`(async () => {
+    await Promise.all([direct.init(), direct.load('unroll')]);
+    const { input } = await developable.example('page', { size: 60 });
+    input.data.fill(NaN, 0, 300);
+    const surface = await developable.fit(input);
+    const element = () => document.createElement('canvas');
+    const kinds = { element, offscreen: () => new OffscreenCanvas(3, 3) };
+    const found = { differing: [] };
+    for (const style of ['shaded', 'curvature', 'patches']) {
+      const picture = direct.picture(surface, { style, width: 90 });
+      const made = await developable.picture(surface, { style, width: 90 });
+      for (const one of [picture, made]) {
+        if (!(one instanceof ImageData) || one.width !== 90) found.differing.push(style + ' is no picture');
+      }
+      for (const [kind, canvas] of Object.entries(kinds)) {
+        for (const [api, { draw }] of Object.entries({ direct, developable })) {
+          const drawn = canvas();
+          await draw(drawn, surface, { style, width: 90 });
+          const { width, height } = picture;
+          const there = drawn.getContext('2d').getImageData(0, 0, width, height).data;
+          const same = drawn.width === width && drawn.height === height && there.every((byte, i) => byte === picture.data[i]);
+          if (!same || made.data.some((byte, i) => byte !== picture.data[i])) found.differing.push([style, kind, api].join());
+        }
+      }
+      const { data } = picture;
+      found[style] = [data[3], data[4 * 45 + 3], new Set(new Uint32Array(data.buffer)).size > 1, data.buffer.byteLength === data.length];
+    }
+    return found;
+  })()`);
+  // Nothing in the first rows of pixels, something elsewhere, memory of its own.
+  const each = [0, 0, true, true];
+  assert.deepEqual(result, { differing: [], shaded: each, curvature: each, patches: each });
+});
+
+inPage('a canvas that cannot be drawn on is refused, and the next one is drawn on', async (page) => {
+  const codes = await page.evaluate(`(async () => {
+    await Promise.all([direct.init(), direct.load('unroll')]);
+    const element = () => document.createElement('canvas');
+    const [taken, given, sent] = [element(), element(), new OffscreenCanvas(4, 4)];
+    taken.getContext('bitmaprenderer');
+    given.transferControlToOffscreen();
+    new MessageChannel().port1.postMessage(sent, [sent]);
+    const canvases = [taken, given, sent, document.body, null, { getContext: () => ({}) }, element()];
+    const codes = [];
+    for (const canvas of canvases) {
+      for (const { draw } of [direct, developable]) {
+        codes.push((await outcome((async () => draw(canvas, plane(8, 8)))())).code ?? 'drawn');
+      }
+    }
+    return codes;
+  })()`);
+  assert.deepEqual(codes, [...new Array(12).fill('INPUT'), 'drawn', 'drawn']);
+});
+
+inPage('photos are ImageData, in and out', async (page) => {
+  const result = await page.evaluate(`(async () => {
+    await Promise.all([direct.init(), direct.load('files', 'unroll')]);
+    const [width, height] = [24, 16];
+    const photo = new ImageData(width, height);
+    photo.data.forEach((_, i) => { photo.data[i] = i % 4 === 3 ? 255 : (7 * i) % 256; });
+    const level = { width, height, data: new Float64Array(width * height) };
+    const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
+    const found = {};
+    for (const [name, api] of Object.entries({ direct, developable })) {
+      const { data } = await api.readPhoto(await api.writePhoto(photo));
+      const flat = await api.dewarp(level, photo);
+      const shown = new ImageData(flat.data, flat.width);
+      const hex = await api.fit(level);
+      const { colors } = await api.paint(hex, photo);
+      const first = photo.data.slice(0, 3).map((byte, i) => Math.round(255 * colors[i]) - byte);
+      found[name] = [same(data, photo.data), shown.width === flat.width, flat.data.some((byte) => byte > 0), Math.max(...first)];
+    }
+    return found;
+  })()`);
+  assert.deepEqual(result, { direct: [true, true, true, 0], developable: [true, true, true, 0] });
+});

@@ -69,6 +69,7 @@ const calls = {
   paint: { args: { input: shaded, picture: photo }, options: 'paint' },
   analyze: { args: { input: hex }, options: 'analyze' },
   patches: { args: { input: hex }, options: 'patches' },
+  picture: { args: { input: hex }, options: 'picture' },
   rulings: { args: { input: hex }, options: 'rulings' },
   unroll: { args: { input: hex }, options: 'unroll' },
   pattern: { args: { input: hex }, options: 'pattern' },
@@ -112,7 +113,7 @@ function* hostileArguments(name) {
 /** @param {Record<string, any>} api */
 function everyFunction(api) {
   const functions = Object.keys(api).filter((name) => typeof api[name] === 'function');
-  const others = ['init', 'load', 'Solver', 'DevelopableError', 'DevelopableWorker', 'open', 'dispose'];
+  const others = ['init', 'load', 'Solver', 'DevelopableError', 'DevelopableWorker', 'open', 'draw', 'dispose'];
   assert.deepEqual(functions.filter((name) => !(name in calls) && !others.includes(name)), []);
   return Object.keys(calls);
 }
@@ -142,6 +143,16 @@ for (const [kind, api] of /** @type {[string, Record<string, any>][]} */ ([['dir
     });
   }
 }
+
+test('there is no canvas in Node, whatever is passed as one', async () => {
+  for (const [what, value] of [...hostileValues(), /** @type {[string, unknown]} */ (['a look-alike', { width: 1, height: 1, getContext: boom }])]) {
+    for (const api of [direct, promise]) {
+      const call = async () => api.draw(/** @type {any} */ (value), bent);
+      await assert.rejects(call, { name: 'DevelopableError', code: 'INPUT', message: /HTMLCanvasElement/ }, what);
+    }
+  }
+  assert.ok(direct.picture(bent).width);
+});
 
 test('a solver takes anything', async () => {
   const solver = new direct.Solver(bent);

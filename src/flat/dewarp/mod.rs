@@ -114,7 +114,7 @@ impl Extent {
     }
 
     /// Width and height, of which there has to be some.
-    fn sides(&self) -> Result<[f64; 2]> {
+    pub(crate) fn sides(&self) -> Result<[f64; 2]> {
         let sides = [0, 1].map(|k| self.max[k] - self.min[k]);
         if sides.iter().all(|side| side.is_finite() && *side > 0.0) {
             Ok(sides)

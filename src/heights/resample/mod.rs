@@ -196,7 +196,7 @@ impl Heightfield {
 
     /// Slope of the least-squares plane through a vertex and near its valid neighbours; `None`
     /// where these lie on one line.
-    fn gradient(&self, row: usize, col: usize) -> Option<[f64; 2]> {
+    pub(crate) fn gradient(&self, row: usize, col: usize) -> Option<[f64; 2]> {
         let lattice = self.lattice();
         let ([x, y], h) = (lattice.position(row, col), lattice.spacing());
         let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.0, 0.0, 0.0, 0.0, 0.0);

@@ -1,4 +1,6 @@
-//! Surfaces measured, laid flat, and photos of them made flat.
+//! Surfaces measured, drawn, laid flat, and photos of them made flat.
+
+mod picture;
 
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};
 use serde::Serialize;

@@ -1,0 +1,65 @@
+//! Colours as sRGB bytes: those of the page, so that pictures look like it.
+
+/// What has no value of its own, as curvature beside a border.
+pub(super) const NO_VALUE: [u8; 3] = [150, 155, 160];
+
+/// Blue, white, red: ColorBrewer's RdBu, whose ends are told apart also by the colour-blind.
+const DIVERGING: [[f64; 3]; 11] = [
+    [5.0, 48.0, 97.0],
+    [33.0, 102.0, 172.0],
+    [67.0, 147.0, 195.0],
+    [146.0, 197.0, 222.0],
+    [209.0, 229.0, 240.0],
+    [247.0, 247.0, 247.0],
+    [253.0, 219.0, 199.0],
+    [244.0, 165.0, 130.0],
+    [214.0, 96.0, 77.0],
+    [178.0, 24.0, 43.0],
+    [103.0, 0.0, 31.0],
+];
+
+/// Told apart by hue and lightness, then again from the start.
+const PATCHES: [[u8; 3]; 12] = [
+    [86, 148, 206],
+    [240, 160, 75],
+    [107, 178, 106],
+    [214, 108, 120],
+    [160, 134, 204],
+    [222, 200, 88],
+    [92, 184, 184],
+    [198, 122, 176],
+    [164, 140, 110],
+    [140, 196, 240],
+    [246, 190, 170],
+    [172, 210, 130],
+];
+
+/// What is left of a patch's colour on a crease.
+const CREASE: f64 = 0.4;
+
+/// The colour of a value from −1 to 1; beyond, that of the end.
+pub(super) fn diverging(value: f64) -> [u8; 3] {
+    let last = DIVERGING.len() - 1;
+    let place = 0.5 * (value.clamp(-1.0, 1.0) + 1.0) * last as f64;
+    let from = (place as usize).min(last - 1);
+    let share = place - from as f64;
+    std::array::from_fn(|k| {
+        let [low, high] = [DIVERGING[from][k], DIVERGING[from + 1][k]];
+        (low + share * (high - low)).round() as u8
+    })
+}
+
+/// Steel of a brightness from 0 to 1: bluish in the shade, white in the light.
+pub(super) fn steel(tone: f64) -> [u8; 3] {
+    let tint = 0.1 * (1.0 - tone);
+    [1.0 - tint, 1.0, 1.0 + 1.3 * tint].map(|share| (255.0 * tone * share).round() as u8)
+}
+
+pub(super) fn patch(label: u32) -> [u8; 3] {
+    PATCHES[label as usize % PATCHES.len()]
+}
+
+/// A patch's colour where it creases.
+pub(super) fn crease(label: u32) -> [u8; 3] {
+    patch(label).map(|channel| (CREASE * f64::from(channel)).round() as u8)
+}

@@ -16,11 +16,11 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 165_000 },
+  { name: 'solver', limit: 195_000 },
   { name: 'files', limit: 250_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 285_000 },
-  { name: 'unroll', limit: 150_000 },
+  { name: 'unroll', limit: 165_000 },
   { name: 'patterns', limit: 220_000 },
 ];
 

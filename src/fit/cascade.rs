@@ -45,6 +45,8 @@ pub(crate) struct Answer {
     pub problem: Problem,
     pub state: State,
     pub best: Best,
+    /// The penalty at the start.
+    pub first_rho: f64,
     pub reason: StopReason,
     pub levels: Vec<LevelReport>,
     pub passes: usize,
@@ -58,7 +60,7 @@ impl Cascade {
         domain: Arc<Domain>,
         scale: f64,
         options: &Options,
-        warm: impl FnOnce(&Problem) -> Result<Option<State>>,
+        warm: impl FnOnce(&Problem, &Plan) -> Result<Option<State>>,
     ) -> Result<Self> {
         let plan = Plan::new(options);
         let coordinates = Coordinates::new(&input, &domain, scale);
@@ -72,7 +74,7 @@ impl Cascade {
             });
         }
         let trivial = objective <= problem.rounding && problem.free.is_empty();
-        let warm = warm(&problem)?;
+        let warm = warm(&problem, &plan)?;
         let mut coarse = Vec::new();
         if !trivial {
             // The lattices for multigrid come first: free heights are found with their help.
@@ -209,6 +211,7 @@ impl Cascade {
             problem: self.problem().clone(),
             state,
             best,
+            first_rho: self.level.first_rho,
             reason: self.reason.unwrap_or(StopReason::Cancelled),
             levels: self.levels(),
             passes: self.passes,
@@ -221,6 +224,7 @@ impl Cascade {
         let levels = self.levels();
         Answer {
             seconds: self.seconds + self.level.seconds,
+            first_rho: self.level.first_rho,
             problem: self.level.problem,
             state: self.level.state,
             best: self.level.best,

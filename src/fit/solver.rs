@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::admm::schedule::Plan;
 use super::cascade::{Answer, Cascade};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
@@ -16,7 +17,7 @@ use super::report::{LevelReport, Progress, Report, Seconds, StopReason};
 use super::restore::restore_omitted;
 use super::surface::Surface;
 use super::totals::{Totals, add_levels};
-use super::warm_start::{WORTH_KEEPING, WarmStart};
+use super::warm_start::WarmStart;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
@@ -61,8 +62,8 @@ pub struct Solver {
     running: Option<Cascade>,
     /// `P(z̃)` of each part, if there are several.
     energies: Vec<f64>,
-    /// What the parts to come may start from.
-    memory: Option<WarmStart>,
+    /// The last answer: what the parts to come, and the next restart, may start from.
+    memory: Option<Arc<WarmStart>>,
     status: Status,
     started: Instant,
     setup: f64,
@@ -82,7 +83,7 @@ impl Solver {
         Solver::set_up(input.into(), options, None)
     }
 
-    fn set_up(input: Input, options: &Options, memory: Option<WarmStart>) -> Result<Self> {
+    fn set_up(input: Input, options: &Options, memory: Option<Arc<WarmStart>>) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
         let input = input.bridge()?;
@@ -122,8 +123,9 @@ impl Solver {
         Ok(solver)
     }
 
-    /// Solves the same input again with other options, from where it stands:
-    /// for a slider. On an error nothing has changed.
+    /// Solves the same input again with other options, from the last answer if
+    /// that is close enough: for a slider. A solve that is overtaken before its
+    /// end leaves nothing behind. On an error nothing has changed.
     ///
     /// # Errors
     /// As [`Solver::new`].
@@ -131,30 +133,29 @@ impl Solver {
         self.restart_with(self.input.clone(), options)
     }
 
-    /// Solves another input, on a lattice of the same shape, from where it
-    /// stands: slightly other heights, another mask. On a lattice of another
-    /// shape it starts from nothing. On an error nothing has changed.
+    /// Solves another input, on a lattice of the same shape, from the last
+    /// answer if that is close enough: slightly other heights, another mask. On
+    /// a lattice of another shape it starts from nothing. On an error nothing
+    /// has changed.
     ///
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
         let input = input.into();
         let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
-        let same = shape(input.field.lattice()) == shape(self.input.field.lattice())
-            && options.energy.kind() == self.options.energy.kind();
-        let ratio = options.lambda.value() / self.options.lambda.value();
-        let memory = if same && WORTH_KEEPING.contains(&ratio) {
-            let mut answers = self.answers.clone();
-            if let Some(running) = self.running.as_ref().filter(|c| c.levels_left() == 0) {
-                answers.push(running.answer()?);
-            }
-            Some(WarmStart {
+        let same = shape(input.field.lattice()) == shape(self.input.field.lattice());
+        let memory = if !same {
+            None
+        } else if self.next_number().is_none() {
+            Some(Arc::new(WarmStart {
                 domain: self.domain.clone(),
                 components: self.components.clone(),
-                answers,
-            })
+                answers: self.answers.clone(),
+                lambda: self.options.lambda.value(),
+            }))
         } else {
-            None
+            // What was overtaken is no answer yet.
+            self.memory.clone()
         };
         *self = Solver::set_up(input, options, memory)?;
         Ok(())
@@ -172,8 +173,8 @@ impl Solver {
                 }
             };
             let corner = self.components.corner(number);
-            let warm = |problem: &Problem| match &self.memory {
-                Some(memory) => memory.state(problem, corner),
+            let warm = |problem: &Problem, plan: &Plan| match &self.memory {
+                Some(memory) => memory.state(problem, plan, corner),
                 None => Ok(None),
             };
             let component = Cascade::new(input, domain, self.scale, &self.options, warm)?;

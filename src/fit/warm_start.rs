@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use super::admm::schedule::Plan;
 use super::admm::state::State;
 use super::cascade::Answer;
 use super::components::Components;
@@ -10,25 +11,37 @@ use super::energy::problem::{Problem, position};
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
-/// Factors from one λ to the next within which the last answer is a better start
-/// than a coarse lattice: measured on four surfaces, three λ and two levels of noise.
-pub(super) const WORTH_KEEPING: RangeInclusive<f64> = 0.4..=3.0;
+/// Factors from one λ to the next within which the last answer may be a better start than a coarse
+/// lattice.
+const NEAR: RangeInclusive<f64> = 0.4..=3.0;
 
-/// What an earlier solve has found, to start from.
+/// What the last solve that was not overtaken has found, to start from.
 #[derive(Debug, Clone)]
 pub(super) struct WarmStart {
     pub domain: Arc<Domain>,
     pub components: Components,
     pub answers: Vec<Answer>,
+    pub lambda: f64,
 }
 
 impl WarmStart {
-    /// The state to start from, unless nothing of it is known. `corner` is the
+    /// The state to start from, unless a coarse lattice is a better start. `corner` is the
     /// vertex of the whole lattice that is `(0, 0)` of the problem's.
-    pub(super) fn state(&self, problem: &Problem, corner: (usize, usize)) -> Result<Option<State>> {
-        let Some(rho) = self.answers.first().map(|answer| answer.state.rho) else {
+    pub(super) fn state(
+        &self,
+        problem: &Problem,
+        plan: &Plan,
+        corner: (usize, usize),
+    ) -> Result<Option<State>> {
+        let ratio = problem.lambda / self.lambda;
+        let Some(first) = self.answers.first() else {
             return Ok(None);
         };
+        if problem.kind != first.problem.kind || !NEAR.contains(&ratio) {
+            return Ok(None);
+        }
+        // The last penalty is one for ending a solve, not for beginning it.
+        let rho = first.first_rho;
         let mut state = State::new(problem, rho)?;
         let mut found = 0;
         for cell in problem.domain.active().cells() {
@@ -51,7 +64,10 @@ impl WarmStart {
         for cell in &problem.constrained {
             state.z[*cell as usize] = problem.target[*cell as usize];
         }
-        Ok((found > 0).then_some(state))
+        if found == 0 || !problem.loose && plan.is_far(&state.certify(problem)) {
+            return Ok(None);
+        }
+        Ok(Some(state))
     }
 
     /// The answer that has a vertex of the whole lattice, and its cell there.

@@ -57,7 +57,8 @@ pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
 }
 
 /// `f32` from `f64`. These two are loops of their own: V8's optimising compiler (Node 20) gets some
-/// vectorised conversions within larger ones wrong.
+/// vectorised conversions within larger ones wrong. No other loop over cells may convert, but by
+/// [`single`] and [`double`].
 #[inline(never)]
 pub(crate) fn narrow(from: &[f64], to: &mut [f32]) {
     for (to, from) in to.iter_mut().zip(from) {
@@ -71,6 +72,19 @@ pub(crate) fn widen(from: &[f32], to: &mut [f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = f64::from(*from);
     }
+}
+
+/// One `f32` from `f64`, where speed does not matter: a call, so that the loop around it is not
+/// vectorised.
+#[inline(never)]
+pub(crate) fn single(value: f64) -> f32 {
+    value as f32
+}
+
+/// One `f64` from `f32`, likewise.
+#[inline(never)]
+pub(crate) fn double(value: f32) -> f64 {
+    f64::from(value)
 }
 
 #[cfg(test)]

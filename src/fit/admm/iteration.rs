@@ -19,6 +19,8 @@ pub(crate) struct Level {
     pub problem: Problem,
     pub state: State,
     pub best: Best,
+    /// The penalty at the start.
+    pub first_rho: f64,
     pub seconds: Seconds,
     pub(super) plan: Plan,
     pub(super) cg: ConjugateGradients,
@@ -38,7 +40,7 @@ pub(crate) struct Level {
     balanced: usize,
     tuned: usize,
     pub(super) cg_iterations: usize,
-    /// Objective at the last check, and how often it went out of hand.
+    /// Objective at the last check (of a start, it says nothing), and how often it went out of hand.
     last_objective: f64,
     recoveries: usize,
 }
@@ -132,6 +134,7 @@ impl Level {
         let mut best = Best::of_input(&problem);
         best.take(&state.z, &certificate);
         let mut level = Level {
+            first_rho: state.rho,
             problem,
             state,
             best,
@@ -149,7 +152,7 @@ impl Level {
             balanced: 0,
             tuned: 0,
             cg_iterations: 0,
-            last_objective: certificate.objective(),
+            last_objective: f64::MAX,
             recoveries: 0,
         };
         if may_be_affine {
@@ -328,7 +331,7 @@ impl Level {
         }
         self.plan.be_more_exact();
         self.state.start_again(&self.best.z);
-        self.last_objective = self.best.objective();
+        self.last_objective = f64::MAX;
         self.start_z_step();
         let last = self.plan.is_last(self.iteration);
         last.then_some(StopReason::MaxIterations)
@@ -370,7 +373,7 @@ impl Level {
         self.problem.reweight(&self.best.z)?;
         let certificate = self.state.certify(&self.problem);
         self.best.replace(&self.state.z, &certificate);
-        self.last_objective = certificate.objective();
+        self.last_objective = f64::MAX;
         self.try_affine()?;
         self.start_z_step();
         self.z_step = 0;

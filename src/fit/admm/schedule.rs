@@ -86,6 +86,10 @@ const CELLS: f64 = 10.0;
 /// Most of what a search for a better bound divides the gap by.
 const CLIMBABLE: f64 = 100.0;
 
+/// A start is far from a gap if its own is this many times the root of it: over six surfaces, four λ
+/// and two gaps, nearer ones take about half of the iterations, these as many or more.
+const FAR: f64 = 3.0;
+
 /// Iterations without over-relaxation on a new lattice.
 const SETTLING: usize = 5;
 
@@ -184,6 +188,14 @@ impl Plan {
         }
         let length = (SCREENING * size).min(CELLS * problem.spacing);
         rho.min(2.0 * problem.lambda * length.powi(4))
+    }
+
+    /// Whether a start is so far from the optimum that a coarse lattice is a better one.
+    pub(crate) fn is_far(&self, start: &Certificate) -> bool {
+        let objective = start.objective();
+        let gap = (objective - start.dual_bound) / objective;
+        // Where NaN is far.
+        !(gap <= FAR * self.gap.sqrt())
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.

@@ -261,7 +261,7 @@ impl State {
             rolling,
             terms,
         } = self;
-        let [squares, ..] = &mut terms[0];
+        let [[squares, ..], [row_of_residual, ..]] = terms;
         let mut change = 0.0;
         let (z, rho) = (z.as_slice(), *rho);
         let domain = &problem.domain;
@@ -303,12 +303,13 @@ impl State {
                     let n = run.end - run.start;
                     let z = &z[run.start..][..n];
                     let target = &problem.target[run.start..][..n];
-                    let residual = &mut residual[run.start..][..n];
+                    let wide = &mut row_of_residual[..n];
                     let weight = problem.fidelity.run(domain, row, *run);
                     for i in 0..n {
                         let value = fidelity * (weight[i] * (target[i] - z[i])) + sum.at(i);
-                        residual[i] = (scale * value) as f32;
+                        wide[i] = scale * value;
                     }
+                    lanes::narrow(wide, &mut residual[run.start..][..n]);
                 }
             },
         );

@@ -87,7 +87,7 @@ impl Problem {
             }
         }
         let spacing = coordinates.scale * domain.lattice().spacing();
-        check_range(&domain, &target, largest, spacing)?;
+        check_range(&domain, input.field().heights(), &target, largest, spacing)?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
         let rounding =
             16.0 * f64::EPSILON * largest / (spacing * spacing) * domain.interior_len() as f64;
@@ -320,19 +320,26 @@ impl Problem {
 ///
 /// # Errors
 /// [`Error::Overflow`] or [`Error::Underflow`].
-fn check_range(domain: &Domain, target: &[f64], largest: f64, h: f64) -> Result<()> {
+fn check_range(
+    domain: &Domain,
+    heights: &[f64],
+    target: &[f64],
+    largest: f64,
+    h: f64,
+) -> Result<()> {
     let spacing = domain.lattice().spacing();
     let cells = || domain.active().cells();
     let finite = cells().all(|cell| target[cell].is_finite());
     let bend = cells().fold(0.0f64, |m, cell| m.max(target[cell].abs()));
     let hessian = |height: f64| height / (h * h);
-    let affine = bend <= 16.0 * f64::EPSILON * largest;
+    let affine = bend <= 16.0 * f64::EPSILON * largest && largest >= 1.0 / LARGEST;
+    let zero = bend == 0.0 && cells().all(|cell| heights[domain.lattice_index(cell)] == 0.0);
     // As what a NaN is not.
     let small_enough = h >= 1.0 / FARTHEST && largest.max(hessian(largest)) <= LARGEST;
     if !(finite && small_enough) {
         return Err(Error::Overflow { spacing });
     }
-    let large_enough = affine || bend.min(hessian(bend)) >= 1.0 / LARGEST;
+    let large_enough = affine || zero || bend.min(hessian(bend)) >= 1.0 / LARGEST;
     if h > FARTHEST || !large_enough {
         return Err(Error::Underflow { spacing });
     }

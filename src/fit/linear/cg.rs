@@ -28,6 +28,8 @@ pub(crate) struct ConjugateGradients {
     correction: Vec<f32>,
     direction: Vec<f32>,
     image: Vec<f32>,
+    /// A row in double precision.
+    row: Vec<f64>,
     multigrid: Multigrid,
     /// Heights of size 1 in the system's scale.
     unit: f64,
@@ -48,6 +50,7 @@ impl ConjugateGradients {
             correction: zeros()?,
             direction: zeros()?,
             image: zeros()?,
+            row: vec![0.0; problem.domain.stride()],
             multigrid: Multigrid::new(problem, domains, rho)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
             energy: 0.0,
@@ -95,17 +98,19 @@ impl ConjugateGradients {
         let squares = problem.domain.active().cells().map(|cell| {
             let weight = 2.0 * problem.lambda * problem.fidelity.at(cell);
             let b = weight * self.residual_scale() * problem.target[cell];
-            b * b * f64::from(matrix.inverse_diagonal[cell])
+            b * b * lanes::double(matrix.inverse_diagonal[cell])
         });
         (self.energy / squares.sum::<f64>()).sqrt()
     }
 
     /// Adds the correction found so far to `z`.
-    pub(crate) fn correct(&self, domain: &Domain, z: &mut [f64]) {
+    pub(crate) fn correct(&mut self, domain: &Domain, z: &mut [f64]) {
         for run in domain.active().all() {
             let correction = part(&self.correction, *run);
-            for (z, delta) in part_mut(z, *run).iter_mut().zip(correction) {
-                *z += self.unit * f64::from(*delta);
+            let wide = &mut self.row[..correction.len()];
+            lanes::widen(correction, wide);
+            for (z, delta) in part_mut(z, *run).iter_mut().zip(wide) {
+                *z += self.unit * *delta;
             }
         }
     }

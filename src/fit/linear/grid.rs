@@ -87,7 +87,7 @@ impl Grid {
             PerCell::Same(row) => row.fill((typical / self.diagonal) as f32),
             PerCell::Each(values) => {
                 for cell in self.domain.active().cells() {
-                    values[cell] = (each(cell) / self.diagonal) as f32;
+                    values[cell] = lanes::single(each(cell) / self.diagonal);
                 }
             }
         }
@@ -97,7 +97,7 @@ impl Grid {
             for &Run { start, end } in self.domain.active().row(row) {
                 for cell in start..end {
                     let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
-                    let count = |cell: usize| f64::from(self.stencils.at(cell));
+                    let count = |cell: usize| lanes::double(self.stencils.at(cell));
                     let others: f64 = around.filter(|n| interior(*n)).map(count).sum();
                     let centre = if interior(cell) {
                         count(cell) * as_centre
@@ -105,7 +105,7 @@ impl Grid {
                         0.0
                     };
                     let entry = each(cell) + centre + others * own;
-                    self.inverse_diagonal[cell] = (self.diagonal / entry) as f32;
+                    self.inverse_diagonal[cell] = lanes::single(self.diagonal / entry);
                 }
             }
         }

@@ -18,6 +18,7 @@ use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
+use crate::math::lanes;
 
 /// Smoothing steps before and after the coarse correction.
 const STEPS: usize = 2;
@@ -136,7 +137,8 @@ impl Multigrid {
                     constrained,
                 }) => {
                     let each = |cell: usize| {
-                        typical * f64::from(fidelity[cell]) + spring * f64::from(constrained[cell])
+                        typical * lanes::double(fidelity[cell])
+                            + spring * lanes::double(constrained[cell])
                     };
                     floor.grid.set(rho, typical, each);
                 }
@@ -206,7 +208,7 @@ impl Shares {
         let zeros = || try_filled("multigrid", domain.cells(), 0.0);
         let (mut fidelity, mut constrained) = (zeros()?, zeros()?);
         for cell in domain.active().cells() {
-            fidelity[cell] = weights[cell] as f32;
+            fidelity[cell] = lanes::single(weights[cell]);
         }
         for cell in &problem.constrained {
             fidelity[*cell as usize] = 0.0;

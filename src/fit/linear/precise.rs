@@ -9,6 +9,7 @@ use super::multigrid::Multigrid;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::lattice::stencil::{Ring, Rolling, weights_of};
+use crate::math::lanes;
 
 /// Conjugate gradients for `A x = b`, `A = 2λw + ρCᵀC`, over the cells that are
 /// not constrained.
@@ -68,11 +69,11 @@ impl Precise {
             }
             // Of unit size, so that nothing leaves the range of single precision.
             for cell in cells() {
-                self.single[cell] = (self.residual[cell] / size) as f32;
+                self.single[cell] = lanes::single(self.residual[cell] / size);
             }
             let unit = size / multigrid.matrix().diagonal;
             let preconditioned = multigrid.precondition(&mut self.single);
-            let value = |cell: usize| unit * f64::from(preconditioned[cell]);
+            let value = |cell: usize| unit * lanes::double(preconditioned[cell]);
             let product: f64 = cells().map(|c| self.residual[c] * value(c)).sum();
             let beta = if step > 0 { product / previous } else { 0.0 };
             for cell in cells() {
@@ -100,7 +101,7 @@ impl Precise {
     fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
         let inverse = &multigrid.matrix().inverse_diagonal;
         let cells = problem.domain.active().cells();
-        let moved = cells.map(|cell| (self.residual[cell] * f64::from(inverse[cell])).abs());
+        let moved = cells.map(|cell| (self.residual[cell] * lanes::double(inverse[cell])).abs());
         moved.fold(0.0, f64::max)
     }
 

@@ -5,6 +5,7 @@ use super::laplacian::Laplacian;
 use super::multigrid::GlobalStep;
 use super::pieces::{Pieces, Point};
 use crate::error::{Result, try_filled};
+use crate::math::lanes;
 
 /// Iterations of conjugate gradients in each global step, which with a V-cycle each is nearly exact;
 /// what they leave is in the next step's right-hand side.
@@ -64,7 +65,7 @@ pub(super) fn relax(pieces: &Pieces, places: &mut [Point], limits: Limits) -> Re
         course.iterations += 1;
         let [right_x, right_y] = step.right();
         for ((x, y), pull) in right_x.iter_mut().zip(right_y).zip(&pull) {
-            (*x, *y) = (pull.re as f32, pull.im as f32);
+            (*x, *y) = (lanes::single(pull.re), lanes::single(pull.im));
         }
         let [dx, dy] = step.solve(INNER);
         let next = 0.5 + (0.25 + momentum * momentum).sqrt();
@@ -72,7 +73,7 @@ pub(super) fn relax(pieces: &Pieces, places: &mut [Point], limits: Limits) -> Re
         momentum = next;
         let corrections = dx.iter().zip(dy);
         for ((place, last), (dx, dy)) in places.iter_mut().zip(&mut last).zip(corrections) {
-            let moved = *place + Point::new(f64::from(*dx), f64::from(*dy));
+            let moved = *place + Point::new(lanes::double(*dx), lanes::double(*dy));
             *place = moved + (moved - *last) * ahead;
             *last = moved;
         }

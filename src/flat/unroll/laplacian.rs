@@ -34,7 +34,7 @@ impl Laplacian {
             for cell in grid.row(row) {
                 let [down, side] = &pieces.of[cell];
                 let sw = cell.wrapping_add_signed(offsets.south_west);
-                let [down, side] = [down.weights, side.weights].map(|w| w.map(|v| v as f32));
+                let [down, side] = [down.weights, side.weights].map(|w| w.map(lanes::single));
                 out.south_west[cell] += down[0];
                 out.east[sw] += down[1];
                 out.south_east[cell] += down[2] + side[0];

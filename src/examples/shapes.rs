@@ -342,8 +342,8 @@ mod tests {
         // The planes to the sides, and what is left of those in front and behind.
         assert!((slope([0.49, 0.0], [0.4, 0.0]) - 0.8).abs() < 1e-12);
         assert!((slope([-0.49, 0.1], [-0.4, 0.1]) - 0.8).abs() < 1e-12);
-        assert!((slope([0.0, 0.2], [0.0, 0.05]) - 0.8).abs() < 1e-12);
-        assert!((slope([0.1, -0.2], [0.1, -0.05]) - 0.8).abs() < 1e-12);
+        assert!((slope([0.0, 0.15], [0.0, 0.05]) - 0.8).abs() < 1e-12);
+        assert!((slope([0.1, -0.15], [0.1, -0.05]) - 0.8).abs() < 1e-12);
         // Ridge and eaves.
         assert!((z(0.1, 0.0) - 0.3).abs() < 1e-12 && (z(-0.125, 0.0) - 0.3).abs() < 1e-12);
         assert!(z(0.4, 0.375).abs() < 1e-12 && z(0.5, 0.2).abs() < 1e-12);

@@ -18,6 +18,9 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
+/// What it costs to set a level up, in conjugate-gradient iterations on it.
+const SET_UP: usize = 10;
+
 /// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
 const COARSEST_GRID: usize = 20;
 
@@ -27,6 +30,8 @@ pub(crate) struct Cascade {
     level: Level,
     /// The problems of the finer levels, the finest first.
     finer: Vec<Problem>,
+    /// The start of the next one of them, once the level under way is done.
+    carried: Option<State>,
     /// The domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
     /// The levels done, the coarsest first.
@@ -112,6 +117,7 @@ impl Cascade {
         let mut component = Cascade {
             level,
             finer,
+            carried: None,
             domains,
             coarser: Vec::new(),
             plan,
@@ -130,38 +136,24 @@ impl Cascade {
     /// done; then tells why.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 && self.reason.is_none() {
-            if let Some(reason) = self.level.advance(left)? {
+            if let Some(state) = self.carried.take() {
+                *left = left.saturating_sub(SET_UP);
+                self.enter_level(state)?;
+            } else if let Some(reason) = self.level.advance(left)? {
                 self.finish_level(reason)?;
             }
         }
         Ok(self.reason)
     }
 
-    /// Goes on to finer levels, and further passes, as long as they have nothing to do.
+    /// Goes on to the finer level, in steps of their own, or to further passes, as long as they have
+    /// nothing to do.
     fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
-        while let Some(fine) = self.finer.pop() {
-            self.coarser.push(self.level.report());
-            self.seconds = self.seconds + self.level.seconds;
-            let done = self.coarser.iter().map(|level| level.iterations).sum();
-            let plan = self.plan.on_level(!self.finer.is_empty(), done);
-            let rho = self.plan.finer_rho(self.level.state.rho, &fine);
-            let state = prolong(&self.level.problem, &self.level.state, &fine, rho)?;
-            // Levels take about as many iterations as the one before.
-            let next_climb = 2 * self.level.report().iterations / 3;
-            let may_be_affine = self.level.best.affine;
-            let (level, stop) = Level::new(
-                fine,
-                state,
-                plan,
-                &self.domains[self.finer.len()..],
-                next_climb,
-                may_be_affine,
-            )?;
-            self.level = level;
-            match stop {
-                Some(next) => reason = next,
-                None => return Ok(()),
-            }
+        if let Some(fine) = self.finer.last() {
+            let rho = self.plan.finer_rho(self.level.state.rho, fine);
+            let state = prolong(&self.level.problem, &self.level.state, fine, rho)?;
+            self.carried = Some(state);
+            return Ok(());
         }
         while self.passes_left > 0 && matches!(reason, StopReason::Gap | StopReason::Residuals) {
             self.passes_left -= 1;
@@ -173,6 +165,27 @@ impl Cascade {
         }
         self.reason = Some(reason);
         Ok(())
+    }
+
+    /// Begins with the next finer level.
+    fn enter_level(&mut self, state: State) -> Result<()> {
+        let Some(fine) = self.finer.pop() else {
+            return Ok(());
+        };
+        self.coarser.push(self.level.report());
+        self.seconds = self.seconds + self.level.seconds;
+        let done = self.coarser.iter().map(|level| level.iterations).sum();
+        let plan = self.plan.on_level(!self.finer.is_empty(), done);
+        // Levels take about as many iterations as the one before.
+        let next_climb = 2 * self.level.report().iterations / 3;
+        let may_be_affine = self.level.best.affine;
+        let domains = &self.domains[self.finer.len()..];
+        let (level, stop) = Level::new(fine, state, plan, domains, next_climb, may_be_affine)?;
+        self.level = level;
+        match stop {
+            Some(reason) => self.finish_level(reason),
+            None => Ok(()),
+        }
     }
 
     /// Why it stopped, if it has.

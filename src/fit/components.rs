@@ -1,6 +1,8 @@
 //! The connected parts of a domain. The energy of one knows nothing of the
 //! others, so each is solved for itself: none slows the others down.
 
+use std::ops::Range;
+
 use super::input::Input;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
@@ -33,12 +35,12 @@ impl Components {
         let mut forest = Forest::new(domain)?;
         let stride = domain.stride();
         for row in 1..=domain.rows() {
-            let offsets = domain.neighbour_offsets(row);
+            let [west, east, above, above_east, below, below_east] = domain.neighbour_offsets(row);
             for run in domain.interior().row(row) {
-                for cell in run.start..run.end {
-                    for offset in offsets {
-                        forest.join(cell as u32, cell.wrapping_add_signed(offset) as u32);
-                    }
+                // All that the stencils of a run touch: a piece of its row, and of those beside it.
+                for (first, last) in [(west, east), (above, above_east), (below, below_east)] {
+                    let end = run.end.wrapping_add_signed(last);
+                    forest.join_all(run.start, run.start.wrapping_add_signed(first)..end);
                 }
             }
         }
@@ -233,6 +235,17 @@ impl Forest {
             cell = self.parents[cell as usize];
         }
         cell
+    }
+
+    /// Joins a cell with each of others, which mostly are with it already.
+    fn join_all(&mut self, cell: usize, others: Range<usize>) {
+        let mut root = self.root(cell as u32);
+        for other in others {
+            if self.parents[other] != root {
+                self.join(root, other as u32);
+                root = self.root(root);
+            }
+        }
     }
 
     /// The smaller root stays one, so that the result does not depend on the order.

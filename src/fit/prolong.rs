@@ -8,7 +8,7 @@ use super::admm::state::State;
 use super::energy::problem::Problem;
 use crate::error::Result;
 use crate::lattice::coarsening::parents;
-use crate::lattice::domain::Role;
+use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOURS, Towards};
 use crate::math::sym2::Sym2;
 
@@ -19,24 +19,41 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
     let mut state = State::new(fine, rho)?;
     // At the same ρ, `V` is linear in `Y` and `H`.
     let v = from.v_at(coarse, rho)?;
-    let active = |vertex| coarse.domain.cell_of(vertex, Role::is_active);
-    let interior = |vertex| coarse.domain.cell_of(vertex, |role| role == Role::Interior);
-    for i in fine.domain.active().cells() {
-        let (row, col) = fine.domain.lattice_vertex(i);
-        let [a, b] = parents(row, col);
-        if let (Some(a), Some(b)) = (active(a), active(b)) {
-            state.z[i] = 0.5 * (from.z[a] + from.z[b]);
-        }
-        if fine.domain.roles()[i] == Role::Interior {
-            let (mut sum, mut total) = (Sym2::default(), 0.0);
-            for (vertex, weight) in loop_weights(a, b) {
-                if let Some(cell) = interior(vertex) {
-                    sum = sum + v.get(cell).scale(weight);
-                    total += weight;
-                }
+    let roles = coarse.domain.roles();
+    let domain = &fine.domain;
+    let (top, left) = domain.corner();
+    for row in 1..=domain.rows() {
+        let sources =
+            [0, 1].map(|col| Sources::new(&coarse.domain, parents(top + row - 1, left + col)));
+        for i in domain
+            .active()
+            .row(row)
+            .iter()
+            .flat_map(|run| run.start..run.end)
+        {
+            let col = i - row * domain.stride() - 1;
+            let sources = &sources[col % 2];
+            let cell = |offset: isize| sources.cell(col / 2, offset, &coarse.domain);
+            let (a, b) = (cell(0), cell(sources.other));
+            if let (Some(a), Some(b)) = (a, b)
+                && roles[a].is_active()
+                && roles[b].is_active()
+            {
+                state.z[i] = 0.5 * (from.z[a] + from.z[b]);
             }
-            if total > 0.0 {
-                state.v.set(i, sum.scale(1.0 / total));
+            if domain.roles()[i] == Role::Interior {
+                let (mut sum, mut total) = (Sym2::default(), 0.0);
+                for (offset, weight) in &sources.weights {
+                    if let Some(cell) = cell(*offset)
+                        && roles[cell] == Role::Interior
+                    {
+                        sum = sum + v.get(cell).scale(*weight);
+                        total += weight;
+                    }
+                }
+                if total > 0.0 {
+                    state.v.set(i, sum.scale(1.0 / total));
+                }
             }
         }
     }
@@ -44,6 +61,43 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
         state.z[*cell as usize] = fine.target[*cell as usize];
     }
     Ok(state)
+}
+
+/// Where every other fine vertex of a row takes from, which is alike for all of them.
+struct Sources {
+    /// Cell of the first one's first parent in the coarse box, were it wide enough, and its column.
+    first: isize,
+    col: isize,
+    /// From there to the other parent, and to all that `V` comes from, with their weights.
+    other: isize,
+    weights: Vec<(isize, f64)>,
+}
+
+impl Sources {
+    fn new(coarse: &Domain, [a, b]: [(isize, isize); 2]) -> Self {
+        let stride = coarse.stride() as isize;
+        let offset = |(row, col): (isize, isize)| (row - a.0) * stride + col - a.1;
+        let (row, col) = (
+            a.0 - coarse.corner().0 as isize + 1,
+            a.1 - coarse.corner().1 as isize + 1,
+        );
+        Sources {
+            first: row * stride + col,
+            col,
+            other: offset(b),
+            weights: loop_weights(a, b)
+                .map(|(v, weight)| (offset(v), weight))
+                .collect(),
+        }
+    }
+
+    /// The coarse cell at an offset from the first parent of the `k`-th vertex, if it is there.
+    /// Steps lead no further than to a neighbour, so that those out of the box end in its padding.
+    fn cell(&self, k: usize, offset: isize, coarse: &Domain) -> Option<usize> {
+        let inside = (0..coarse.stride() as isize).contains(&(self.col + k as isize));
+        let cell = usize::try_from(self.first + k as isize + offset).ok()?;
+        (inside && cell < coarse.cells()).then_some(cell)
+    }
 }
 
 /// Coarse vertices that a fine one between `a` and `b` takes from, and their weights (Loop 1987):
@@ -68,7 +122,7 @@ mod tests {
     use super::*;
     use crate::fit::coarsen::coarsen;
     use crate::fit::coordinates::Coordinates;
-    use crate::{Domain, Heightfield, Input, Lattice, Options};
+    use crate::{Heightfield, Input, Lattice, Options};
 
     #[test]
     fn a_constant_dual_and_a_plane_carry_over_unchanged() {

@@ -39,8 +39,21 @@ fn momentum(k: usize) -> f32 {
     (k as f32 / (k as f32 + 3.0)).clamp(0.7, 0.95)
 }
 
+/// What a look costs, in conjugate-gradient iterations.
+pub(crate) const LOOK: usize = 5;
+
+/// How far a search has come: bounds wanted, found, and found last, and looks so far.
+#[derive(Debug, Clone, Default)]
+struct Search {
+    goal: f64,
+    best: f64,
+    last: f64,
+    looks: usize,
+}
+
 #[derive(Debug, Clone)]
 pub(crate) struct Ascent {
+    search: Search,
     /// `Y` after the last step, and further on in its direction, where the next one starts.
     last: Matrices<f32>,
     ahead: Matrices<f32>,
@@ -78,6 +91,7 @@ impl Ascent {
             mobility = PerCell::Each(each);
         }
         Ok(Ascent {
+            search: Search::default(),
             last: matrices()?,
             ahead: matrices()?,
             base: zeros()?,
@@ -89,35 +103,46 @@ impl Ascent {
         })
     }
 
-    /// The best bound on the way from the iterate's dual, or the `bound` known already, until it
-    /// reaches the `goal` or will not.
+    /// Begins a search for a better bound, from the iterate's dual: until it reaches the `goal` or
+    /// will not. The `bound` is the best one so far.
     ///
     /// # Errors
     /// Out of memory.
-    pub(crate) fn climb(
+    pub(crate) fn begin(
         &mut self,
         state: &mut State,
         problem: &Problem,
         bound: f64,
         goal: f64,
-    ) -> Result<f64> {
+    ) -> Result<()> {
         self.start(state, problem)?;
-        let [least, most] = LOOKS;
-        let mut best = bound;
-        let mut last = f64::NEG_INFINITY;
-        for look in 0..most {
-            for step in 0..STEPS {
-                self.step(&problem.domain, momentum(look * STEPS + step));
-            }
-            let next = self.bound(state, problem);
-            best = best.max(next);
-            let in_reach = goal - next <= REACH * (next - last);
-            if best >= goal || look + 1 >= least && !in_reach {
-                break;
-            }
-            last = next;
+        self.search = Search {
+            goal,
+            best: bound,
+            last: f64::NEG_INFINITY,
+            looks: 0,
+        };
+        Ok(())
+    }
+
+    /// A few steps more, which cost about [`LOOK`] conjugate-gradient iterations; the best bound
+    /// once the search is over.
+    pub(crate) fn look(&mut self, state: &mut State, problem: &Problem) -> Option<f64> {
+        let before = self.search.looks * STEPS;
+        for step in before..before + STEPS {
+            self.step(&problem.domain, momentum(step));
         }
-        Ok(best)
+        let next = self.bound(state, problem);
+        let [least, most] = LOOKS;
+        let search = &mut self.search;
+        search.looks += 1;
+        search.best = search.best.max(next);
+        let in_reach = search.goal - next <= REACH * (next - search.last);
+        search.last = next;
+        let over = search.best >= search.goal
+            || search.looks >= least && !in_reach
+            || search.looks >= most;
+        over.then_some(search.best)
     }
 
     /// From the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
@@ -312,7 +337,12 @@ mod tests {
             .cells()
             .map(|cell| problem.target[cell].powi(2))
             .sum();
-        let bound = ascent.climb(&mut state, &problem, 0.0, inside).unwrap();
+        ascent.begin(&mut state, &problem, 0.0, inside).unwrap();
+        let bound = loop {
+            if let Some(bound) = ascent.look(&mut state, &problem) {
+                break bound;
+            }
+        };
         assert!(
             bound > 0.9 * inside && bound <= inside,
             "{bound} of {inside}"

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::ascent::Ascent;
+use super::ascent::{Ascent, LOOK};
 use super::balance::{Balanced, ENOUGH, balanced_bound};
 use super::schedule::Plan;
 use super::state::{Certificate, State};
@@ -25,6 +25,8 @@ pub(crate) struct Level {
     pub(super) plan: Plan,
     pub(super) cg: ConjugateGradients,
     ascent: Option<Ascent>,
+    /// A check whose search for a better bound is under way, and how much `z` changed before it.
+    checking: Option<(Certificate, f64)>,
     /// The iteration from which on it is worth it again, and the first one of this pass.
     next_climb: usize,
     pass_start: usize,
@@ -143,6 +145,7 @@ impl Level {
             first_energy: 0.0,
             cg,
             ascent: None,
+            checking: None,
             next_climb,
             pass_start: 0,
             settled: false,
@@ -159,10 +162,7 @@ impl Level {
             level.try_affine()?;
         }
         level.start_z_step();
-        level.climb()?;
-        let reason = level
-            .plan
-            .stop(&level.problem, 0, &certificate, 0.0, &level.best);
+        let reason = level.settle_check(certificate, 0.0)?;
         level.seconds.setup = start.elapsed().as_secs_f64();
         Ok((level, reason))
     }
@@ -184,6 +184,15 @@ impl Level {
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 {
             let start = Instant::now();
+            if self.checking.is_some() {
+                *left = left.saturating_sub(LOOK);
+                let reason = self.look();
+                self.seconds.certificate += start.elapsed().as_secs_f64();
+                if reason.is_some() {
+                    return Ok(reason);
+                }
+                continue;
+            }
             let done = self.run_z_step(left);
             self.seconds.z_step += start.elapsed().as_secs_f64();
             if done {
@@ -293,25 +302,58 @@ impl Level {
             self.best.take(&self.state.z, &certificate);
             self.settle(before);
         }
-        self.climb()?;
+        self.settle_check(certificate, change)
+    }
+
+    /// Decides after a check, at once or after a search for a better bound.
+    fn settle_check(
+        &mut self,
+        certificate: Certificate,
+        change: f64,
+    ) -> Result<Option<StopReason>> {
+        if self.begin_climb()? {
+            self.checking = Some((certificate, change));
+            return Ok(None);
+        }
+        Ok(self.decide(&certificate, change))
+    }
+
+    /// Goes on with the search; a reason to stop may come of what it has found.
+    fn look(&mut self) -> Option<StopReason> {
+        let (Some(ascent), Some((certificate, change))) = (&mut self.ascent, self.checking.take())
+        else {
+            return None;
+        };
+        let Some(bound) = ascent.look(&mut self.state, &self.problem) else {
+            self.checking = Some((certificate, change));
+            return None;
+        };
+        self.best.dual_bound = bound;
+        let iterations = self.iteration - self.pass_start;
+        self.next_climb = self.pass_start + self.plan.next_climb(iterations, self.best.gap());
+        self.decide(&certificate, change)
+    }
+
+    /// Whether to stop, and the penalty from here on.
+    fn decide(&mut self, certificate: &Certificate, change: f64) -> Option<StopReason> {
         let reason = self.plan.stop(
             &self.problem,
             self.iteration,
-            &certificate,
+            certificate,
             change,
             &self.best,
         );
         let rho = self
             .plan
-            .next_rho(&self.problem, self.state.rho, &certificate, change);
-        let due = self.plan.may_tune(self.iteration, self.tuned);
+            .next_rho(&self.problem, self.state.rho, certificate, change);
+        let due = self.iteration > 0 && self.plan.may_tune(self.iteration, self.tuned);
         if reason.is_none() && due && rho != self.state.rho {
             self.tuned = self.iteration;
             self.state.set_rho(&self.problem, rho);
             self.cg.set_rho(rho);
             self.start_z_step();
         }
-        Ok(reason)
+        reason
     }
 
     /// Whether the iterates diverge, as they may where z-steps are too inexact for their domain.
@@ -346,14 +388,14 @@ impl Level {
         }
     }
 
-    /// Looks for a better bound with this iterate, if that is worth it.
-    fn climb(&mut self) -> Result<()> {
+    /// Begins to look for a better bound with this iterate, if that is worth it.
+    fn begin_climb(&mut self) -> Result<bool> {
         let worth = self.plan.climbs(&self.problem, self.best.gap());
         let due = self.iteration >= self.next_climb || self.plan.is_last(self.iteration);
         // Of another energy at each check, no bound is kept.
         let due = due || self.plan.follows_normals;
         if !worth || !due {
-            return Ok(());
+            return Ok(false);
         }
         let bound = self.best.dual_bound;
         let goal = self.plan.bound_wanted(self.best.objective());
@@ -361,10 +403,8 @@ impl Level {
             Some(ascent) => ascent,
             none => none.insert(Ascent::new(&self.problem)?),
         };
-        self.best.dual_bound = ascent.climb(&mut self.state, &self.problem, bound, goal)?;
-        let iterations = self.iteration - self.pass_start;
-        self.next_climb = self.pass_start + self.plan.next_climb(iterations, self.best.gap());
-        Ok(())
+        ascent.begin(&mut self.state, &self.problem, bound, goal)?;
+        Ok(true)
     }
 
     /// Another pass, in which every vertex's norm is weighted by one over its

@@ -20,6 +20,9 @@ const REACH: f64 = 3.0;
 /// Marks a pixel that no plane has reached.
 const NO_SOURCE: u32 = u32::MAX;
 
+/// Marks a pixel within a triangle.
+const WITHIN: u32 = u32::MAX - 1;
+
 impl HeightImage {
     /// Samples the image at the vertices of a lattice of the given spacing
     /// (`None`: the pixel size), whose vertex `(0, 0)` is the centre of the
@@ -85,20 +88,29 @@ impl Heightfield {
         let reach = REACH * self.lattice().spacing().max(like.pixel_size());
         let mut values = try_filled("height image", pixels, f64::NAN)?;
         let mut sources = try_filled("height image", pixels, NO_SOURCE)?;
-        let mut queue = VecDeque::new();
-
+        let triangle_of = |i: usize| self.triangle_at(like.position(i / width, i % width));
+        let mut missing = Vec::new();
         for (i, own) in like.values().iter().enumerate() {
             if own.is_nan() {
                 continue;
             }
-            if let Some(triangle) = self.triangle_at(like.position(i / width, i % width)) {
-                values[i] = self.linear(&triangle);
-                if values[i].is_finite() {
-                    sources[i] = self.heaviest(&triangle);
-                    queue.push_back(i);
-                }
+            values[i] = triangle_of(i).map_or(f64::NAN, |triangle| self.linear(&triangle));
+            if values[i].is_finite() {
+                sources[i] = WITHIN;
+            } else {
+                missing.push(i);
             }
         }
+
+        // From pixels beside one that has no height, which are few: those at the lattice's border.
+        let beside = |i: &usize| neighbours(like, *i).filter(|k| sources[*k] == WITHIN);
+        let mut border: Vec<usize> = missing.iter().flat_map(beside).collect();
+        border.sort_unstable();
+        border.dedup();
+        for i in &border {
+            sources[*i] = triangle_of(*i).map_or(NO_SOURCE, |triangle| self.heaviest(&triangle));
+        }
+        let mut queue = VecDeque::from(border);
 
         // Breadth first into the pixels without a height yet, each taking over its predecessor's
         // vertex: never across a gap in `like`, and every pixel is visited once.
@@ -116,16 +128,12 @@ impl Heightfield {
             }
         }
 
-        for (i, own) in like.values().iter().enumerate() {
-            if own.is_nan() || sources[i] != NO_SOURCE {
-                continue;
-            }
+        for i in missing.into_iter().filter(|i| sources[*i] == NO_SOURCE) {
             // Not connected to a whole triangle: perhaps a corner of its own triangle has a plane.
             let p = like.position(i / width, i % width);
-            values[i] = self
-                .triangle_at(p)
+            values[i] = triangle_of(i)
                 .and_then(|t| self.continued(self.heaviest(&t), p, reach))
-                .unwrap_or(*own);
+                .unwrap_or(like.values()[i]);
         }
         HeightImage::new(width, like.height(), values)?.with_pixel_size(like.pixel_size())
     }

@@ -1,0 +1,33 @@
+//! How much one step of a solve does: whoever waits for it waits no longer than that.
+#![cfg(not(target_arch = "wasm32"))]
+
+use developable::{Example, ExampleOptions, Options, Solver, Status};
+
+#[test]
+fn finer_lattices_and_searches_for_a_bound_are_begun_and_pursued_in_steps_of_their_own() {
+    let sample = Example::Roof.generate(&ExampleOptions::default()).unwrap();
+    let field = sample.input.to_lattice(None).unwrap();
+    let mut solver = Solver::new(&field, &Options::default().gap(1e-3)).unwrap();
+    let levels = solver.progress().level;
+    assert!(levels >= 2);
+    let (mut entries, mut looks) = (0, 0);
+    let mut before = solver.progress();
+    while solver.advance(1).unwrap() == Status::Running {
+        let now = solver.progress();
+        let steps = [
+            now.iteration - before.iteration,
+            now.cg_iterations - before.cg_iterations,
+        ];
+        assert!(steps[0] <= 1 && steps[1] <= 1, "{steps:?}");
+        if now.level != before.level {
+            assert_eq!(now.level + 1, before.level);
+            assert_eq!(steps, [0, 0], "a level is entered, and nothing else");
+            entries += 1;
+        } else if steps == [0, 0] {
+            looks += 1;
+        }
+        before = now;
+    }
+    assert_eq!(entries, levels);
+    assert!(looks >= 4, "{looks}");
+}

@@ -27,6 +27,7 @@ fn cases() -> Vec<(&'static str, Case)> {
     vec![
         ("cylinder_image", cylinder_image()),
         ("holed_page", holed_page()),
+        ("dead_pixels", dead_pixels()),
         ("roof_small", roof(24, json!("small"))),
         ("roof_medium", roof(24, json!("medium"))),
         ("roof_big", roof(24, json!("big"))),
@@ -66,6 +67,20 @@ fn holed_page() -> Case {
     Case { input, options }
 }
 
+/// A quarter of whose pixels is missing, and a column.
+fn dead_pixels() -> Case {
+    let mut noise = Noise(5);
+    let input = image(26, 22, 0.5, |x, y| {
+        let dead = noise.next() < -0.5 || (x - 7.25).abs() < 0.1;
+        let across = x + 0.3 * y - 8.0;
+        (!dead).then(|| 0.06 * across * across + 0.05 * noise.next())
+    });
+    Case {
+        input,
+        options: settings(),
+    }
+}
+
 /// Two planes and a cone, lower envelope, straight on the lattice and with an
 /// island. Finer lattices are solved from coarse to fine.
 fn roof(size: usize, lambda: serde_json::Value) -> Case {
@@ -80,6 +95,8 @@ fn roof(size: usize, lambda: serde_json::Value) -> Case {
     let options = Settings {
         lambda,
         gap: 1e-3,
+        // The moat is two cells wide.
+        bridge: Some(false),
         ..settings()
     };
     Case { input, options }
@@ -120,6 +137,7 @@ fn settings() -> Settings {
         max_iterations: 20_000,
         normalize: true,
         spacing: None,
+        bridge: None,
     }
 }
 

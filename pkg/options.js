@@ -88,6 +88,7 @@ const solver = {
   reweighting: whole,
   tieBreak: number,
   occlusionThreshold: number,
+  bridge: either(flag, number),
 };
 
 const directions = ['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'];

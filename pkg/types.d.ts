@@ -231,6 +231,14 @@ export interface SolverOptions {
    * no heights to find any in.
    */
   occlusionThreshold?: number;
+  /**
+   * Holes up to this width are bridged, in pixels of an image or vertices of a lattice, 1 to 16:
+   * dead pixels, speckle, lost rows and columns. What counts is a hole's narrow side; large holes,
+   * what a mask takes out, and gaps between two levels of depth stay. Bridged places are part of
+   * the surface and of its image; `report.bridged` counts them. `true` is the default, 4; `false`
+   * bridges none. A design has none.
+   */
+  bridge?: number | boolean;
 }
 
 export interface OcclusionOptions {
@@ -304,6 +312,8 @@ export interface Report {
   omitted: number;
   /** Vertices where no Hessian was taken because of an occlusion. */
   occluded: number;
+  /** Vertices without data whose hole was bridged. */
+  bridged: number;
   /** Vertices whose height was given for good. */
   constrained: number;
   /** Vertices of the solve with neither a constraint nor a fidelity term of their own. */

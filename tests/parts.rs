@@ -5,7 +5,9 @@ mod common;
 
 use common::conic::Instance;
 use common::{cut, max_difference, noisy, unit_square};
-use developable::{Heightfield, Lattice, Normalization, Options, Solver, Status, StopReason, fit};
+use developable::{
+    Bridging, Heightfield, Input, Lattice, Normalization, Options, Solver, Status, StopReason, fit,
+};
 
 fn bumps(x: f64, y: f64) -> f64 {
     0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
@@ -37,16 +39,23 @@ fn options(gap: f64) -> Options {
         .normalization(Normalization::Off)
 }
 
+/// Narrow straits are none to be bridged.
+fn apart(field: &Heightfield) -> Input {
+    Input::new(field.clone())
+        .with_bridging(Bridging::Off)
+        .unwrap()
+}
+
 #[test]
 fn together_as_alone() {
     for cols in [20, 90] {
         let field = archipelago(cols, 1);
-        let together = fit(&field, &options(1e-6)).unwrap();
+        let together = fit(apart(&field), &options(1e-6)).unwrap();
         assert_eq!(together.report().components, 3);
         let (mut objective, mut bound) = (0.0, 0.0);
         for number in 0..3 {
             let own = cut(&field, |x, y| island(x, y) == Some(number));
-            let alone = fit(&own, &options(1e-6)).unwrap();
+            let alone = fit(apart(&own), &options(1e-6)).unwrap();
             assert_eq!(alone.report().components, 1);
             objective += alone.report().objective;
             bound += alone.report().dual_bound;

@@ -153,6 +153,7 @@ export function parse(args) {
       reweighting: number('reweight', values),
       tieBreak: number('tie-break', values),
       occlusionThreshold: values.occlusions === 'auto' ? THRESHOLD : number('occlusions', values, 'auto or '),
+      bridge: values.bridge === 'none' ? false : number('bridge', values, 'none or '),
     },
   };
   const asIs = values['as-is'] === true;

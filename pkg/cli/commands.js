@@ -23,7 +23,7 @@ const mesh = ['view', 'resolution', 'intrinsics', 'ray'];
 /** @satisfies {readonly Flag[]} */
 const energy = ['lambda', 'energy', 'reweight', 'tie-break', 'no-normalize', 'gap', 'schedule', 'max-iterations'];
 /** @satisfies {readonly Flag[]} */
-const known = ['confidence', 'constraints', 'free', 'occlusion-mask', 'occlusions'];
+const known = ['confidence', 'constraints', 'free', 'occlusion-mask', 'occlusions', 'bridge'];
 /** @satisfies {readonly Flag[]} */
 const general = ['help', 'version'];
 

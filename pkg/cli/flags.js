@@ -115,6 +115,11 @@ export const sections = {
         option: 'occlusionThreshold',
         help: "look for more such places: where it bends by more than T; auto is the authors' value, 4e4",
       },
+      bridge: {
+        value: 'N',
+        help: 'holes are bridged that are up to so many pixels across their narrow side, 1 to 16 (default 4), or none; ' +
+          'not between two levels of depth',
+      },
       threshold: { value: 'T', help: 'where it bends by more than T, it is torn (default 4e4)' },
     },
   },

@@ -1,11 +1,12 @@
-//! Which holes are narrow: those that a hexagon, or a square, does not fit in.
+//! Which holes are narrow: those that a hexagon, or an octagon of pixels, does not fit in.
 
 use super::raster::Raster;
 use crate::error::{Result, try_filled};
 
 /// The cells without a height that lie in no empty hexagon of `width + 1` across (morphological
 /// closing; beyond the data all is empty). For an even width that is a cell and what is `width / 2`
-/// steps around it, for an odd one a triangle and what is around that; on pixels likewise squares.
+/// steps around it, for an odd one a triangle and what is around that; on pixels likewise an octagon
+/// about one pixel or four.
 pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<Vec<usize>> {
     let radius = width / 2;
     let filled: Vec<usize> = (0..raster.cells())
@@ -35,9 +36,9 @@ fn reached(raster: &Raster, seeds: Vec<usize>, steps: usize) -> Result<Vec<bool>
     for cell in &seeds {
         reached[*cell] = true;
     }
-    let offsets = raster.offsets();
     let mut front = seeds;
-    for _ in 0..steps {
+    for k in 1..=steps {
+        let offsets = raster.step_offsets(k);
         let mut next = Vec::new();
         for cell in front {
             // The margin's own border leads nowhere.

@@ -96,13 +96,15 @@ impl Raster {
         }
     }
 
-    /// Offsets to the neighbours from even and from odd rows.
-    pub(super) fn offsets(&self) -> [Vec<isize>; 2] {
+    /// Offsets to the cells that the `k`-th step outwards leads to, counted from 1, from even and from
+    /// odd rows. On pixels every other step goes along rows and columns alone: eight corners are rounder
+    /// than four.
+    pub(super) fn step_offsets(&self, k: usize) -> [Vec<isize>; 2] {
         [false, true].map(|odd| {
-            self.steps(odd)
-                .into_iter()
-                .map(|s| self.offset(s))
-                .collect()
+            let straight =
+                |[r, c]: &[isize; 2]| self.hexagonal || k.is_multiple_of(2) || r * c == 0;
+            let steps = self.steps(odd).into_iter().filter(straight);
+            steps.map(|step| self.offset(step)).collect()
         })
     }
 

@@ -194,8 +194,7 @@ impl Plan {
     pub(crate) fn is_far(&self, start: &Certificate) -> bool {
         let objective = start.objective();
         let gap = (objective - start.dual_bound) / objective;
-        // Where NaN is far.
-        !(gap <= FAR * self.gap.sqrt())
+        gap.is_nan() || gap > FAR * self.gap.sqrt()
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.

@@ -188,8 +188,8 @@ fn huge_declared_sizes_are_refused_before_they_are_allocated() {
             "{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n"
         ))
     };
-    assert_eq!(code(&shaped("(4096, 4096)")), "FORMAT");
-    assert_eq!(code(&shaped("(4096, 4097)")), "TOO_LARGE");
+    assert_eq!(code(&shaped("(4096, 5120)")), "FORMAT");
+    assert_eq!(code(&shaped("(4096, 5121)")), "TOO_LARGE");
     assert_eq!(
         code(&shaped("(18446744073709551615, 18446744073709551615)")),
         "TOO_LARGE"

@@ -272,7 +272,7 @@ export interface DetectedOcclusions {
   image?: Uint8Array;
 }
 
-export type StopReason = 'gap' | 'residuals' | 'rounding' | 'maxIterations' | 'cancelled';
+export type StopReason = 'gap' | 'residuals' | 'rounding' | 'maxIterations' | 'cancelled' | 'diverged';
 
 export interface Progress {
   /** How many finer lattices are still to come; 0 on the finest, whose figures alone are certified. */
@@ -285,8 +285,8 @@ export interface Progress {
   objective: number;
   /** Best certified lower bound of the optimum so far. */
   dualBound: number;
-  /** `(objective - dualBound) / objective`. */
-  gap: number;
+  /** `(objective - dualBound) / objective`; `null` where the objective is a rounding error. */
+  gap: number | null;
   /** ADMM penalty. */
   rho: number;
   /** Seconds since the solver was made or restarted. */
@@ -330,16 +330,19 @@ export interface Report {
   energy: Energy;
   /** Reweighted passes that were made after the first solve; the figures are the last one's. */
   reweighting: number;
-  /** Value of the energy at the returned surface, in normalised coordinates. */
+  /** Value of the energy at the returned surface, in normalised coordinates; always finite. */
   objective: number;
   /** `lambda * sum (z - input)^2`, with the confidences as factors. */
   fidelity: number;
   /** `sum of nuclear norms of the Hessians`, or what `energy` has in its place. */
   nuclearNorm: number;
-  /** Certified lower bound of the optimum. */
+  /** Certified lower bound of the optimum; always finite, and 0 where nothing better is known. */
   dualBound: number;
-  /** `(objective - dualBound) / objective`: how far from the optimum the result can be at most; 0 for `'rounding'`. */
-  gap: number;
+  /**
+   * `(objective - dualBound) / objective`: how far from the optimum the result can be at most. `null` for
+   * `'rounding'`, and where the objective is no more than a rounding error: then a share of it says nothing.
+   */
+  gap: number | null;
   /** Lambda that was used, as a number. */
   lambda: number;
   /** Last ADMM penalty. */

@@ -83,6 +83,20 @@ pub enum Error {
         vertices: usize,
     },
 
+    /// Two things that must be of one surface are of two.
+    #[error(
+        "{what} are those of another surface: they differ at row {row}, column {col}; take those of \
+         this very surface"
+    )]
+    Mismatch {
+        /// What belongs to another surface, for example `"patches"`.
+        what: &'static str,
+        /// Row of the first vertex where that shows.
+        row: usize,
+        /// Column of it.
+        col: usize,
+    },
+
     /// An option is outside its range.
     #[error("option `{name}` is {value}, but {requirement}")]
     Option {
@@ -166,6 +180,7 @@ impl Error {
             Error::NotFinite { .. } => "NOT_FINITE",
             Error::NoInterior { .. } => "NO_INTERIOR",
             Error::Underdetermined { .. } => "UNDERDETERMINED",
+            Error::Mismatch { .. } => "MISMATCH",
             Error::Option { .. } => "OPTION",
             Error::Overflow { .. } => "OVERFLOW",
             Error::Underflow { .. } => "UNDERFLOW",

@@ -70,6 +70,7 @@
 //! Statistical Learning via the Alternating Direction Method of Multipliers,
 //! Foundations and Trends in Machine Learning 3(1), 2011.
 
+#![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 mod error;

@@ -7,9 +7,10 @@ import { count, percentAtMost, seconds } from './format.js';
 export const STOP_REASONS = {
   gap: 'the wanted gap was certified',
   residuals: 'the residuals were small enough (the paper’s rule)',
-  rounding: 'nothing left to bend: the optimum, up to rounding',
+  rounding: 'nothing left to gain: the optimum, up to rounding',
   maxIterations: 'the most iterations allowed',
   cancelled: 'cancelled; this is the best surface so far',
+  diverged: 'the iterations diverged; this is the best surface before',
 };
 
 /** What is marked on the input, by how many there are. */
@@ -54,12 +55,12 @@ const USEFUL = 0.5;
  */
 export function verdict({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
-  const within = gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
+  const within = gap !== null && gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
   if (stopReason === 'cancelled') {
     return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
   }
-  if (stopReason === 'rounding') return `Flat up to rounding: this is the optimum, found in ${time}.`;
-  return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time}, too early for a useful certificate.`;
+  if (stopReason === 'rounding') return `This is the optimum up to rounding, found in ${time}.`;
+  return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time} without a useful certificate.`;
 }
 
 /**

@@ -32,11 +32,13 @@ export async function fit(task, signal) {
   }
   await writeWhole(files, signal);
   announce(task.output, report);
+  const certainty = report.gap === null ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;
   if (report.stopReason === 'maxIterations') {
     process.stderr.write(
-      `developable: warning: stopped after ${report.iterations} iterations with a gap of ` +
-        `${percent(report.gap)}; --max-iterations allows more\n`,
+      `developable: warning: stopped after ${report.iterations} iterations ${certainty}; --max-iterations allows more\n`,
     );
+  } else if (report.stopReason === 'diverged') {
+    process.stderr.write(`developable: warning: the iterations diverged; the best surface before is ${certainty}\n`);
   }
 }
 

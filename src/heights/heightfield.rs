@@ -68,8 +68,16 @@ impl Heightfield {
         self.heights
     }
 
-    /// The height of one vertex.
+    /// The height of one vertex; NaN if it has none.
+    ///
+    /// # Panics
+    /// If the lattice has no such vertex.
     pub fn height(&self, row: usize, col: usize) -> f64 {
+        let (rows, cols) = (self.lattice.rows(), self.lattice.cols());
+        assert!(
+            row < rows && col < cols,
+            "no vertex at row {row}, column {col} of a lattice of {rows} rows by {cols} columns"
+        );
         self.heights[self.lattice.index(row, col)]
     }
 }

@@ -157,7 +157,7 @@ impl Lattice {
         (0..self.rows as isize).contains(&row) && (0..self.cols as isize).contains(&col)
     }
 
-    /// Index of a vertex in row-major arrays.
+    /// Index in row-major arrays of a vertex, which must be one of the lattice's: no check is made.
     pub fn index(&self, row: usize, col: usize) -> usize {
         row * self.cols + col
     }

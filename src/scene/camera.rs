@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::mesh::Mesh;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::HeightImage;
+use crate::math::lanes;
 
 /// What a depth is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -86,7 +87,7 @@ impl Intrinsics {
         for (i, value) in depths.values().iter().enumerate() {
             let (col, row) = ((i % width) as f64, (i / width) as f64);
             let share = |at: f64, of: usize| (at + 0.5) / of as f64;
-            uvs[i] = [share(col, width) as f32, (1.0 - share(row, height)) as f32];
+            uvs[i] = [share(col, width), 1.0 - share(row, height)].map(lanes::single);
             if *value > 0.0 {
                 positions[i] = self.point(col, row, *value);
             }

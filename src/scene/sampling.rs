@@ -12,6 +12,7 @@ use super::view::{Frame, View};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, ROW, shift};
+use crate::math::lanes;
 
 /// How fine the lattice over a mesh is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -303,7 +304,7 @@ impl Buffer {
             if nearest.is_nan() || height > nearest {
                 self.heights[index] = height;
                 self.triangles[index] = triangle;
-                self.weights[index] = weights.map(|w| w as f32);
+                self.weights[index] = weights.map(lanes::single);
             }
         }
     }

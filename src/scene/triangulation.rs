@@ -5,6 +5,7 @@ use super::view::Frame;
 use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, Towards};
+use crate::math::lanes;
 
 /// Marks a lattice vertex that no triangle uses.
 const UNUSED: u32 = u32::MAX;
@@ -195,7 +196,7 @@ fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
     let mut normals = room(sums.len())?;
     normals.extend(sums.into_iter().map(|[x, y, z]: [f64; 3]| {
         let length = x.hypot(y).hypot(z);
-        [x, y, z].map(|v| (v / length) as f32)
+        [x, y, z].map(|v| lanes::single(v / length))
     }));
     Ok(normals)
 }

@@ -113,7 +113,7 @@ function drawMoments(canvas, moments, along, target) {
   drawLegend(context, energy, bounds);
   for (const curve of bounds) drawCurve(context, energy, curve);
 
-  const least = Math.min(target, ...fine.map((m) => m.gap).filter((gap) => gap > 0));
+  const least = Math.min(target, ...fine.map((m) => m.gap ?? 0).filter((gap) => gap > 0));
   /** @type {Axes} */
   const gap = {
     ...common, title: 'Gap in %', yRange: [50 * least, 150],
@@ -142,7 +142,7 @@ function gapsByLevel(moments, along, finest) {
     if ((moment.level === 0) !== finest) continue;
     if (points.length > 0 && moment.level !== level) points.push([moment[along], NaN]);
     level = moment.level;
-    points.push([moment[along], 100 * moment.gap]);
+    points.push([moment[along], 100 * (moment.gap ?? NaN)]);
   }
   return points;
 }

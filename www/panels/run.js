@@ -47,15 +47,16 @@ export function runPanel(session) {
       text.textContent = `coarse lattice, ${count(level)} finer to come, ${seconds(elapsed)}`;
       return;
     }
-    if (Number.isNaN(first) && gap < 1) {
+    const known = gap !== null && gap < 1;
+    if (known && Number.isNaN(first)) {
       first = gap;
       begin = levels > 0 ? COARSE : 0;
     }
-    if (first > 0) {
+    if (known && first > 0) {
       const share = begin + (1 - begin) * reached(gap, first, session.settings.gap);
       bar.value = Math.max(bar.value, share);
     }
-    const state = gap < 1 ? `gap ${percentAtMost(gap)}` : 'no certificate yet';
+    const state = known ? `gap ${percentAtMost(gap)}` : 'no certificate yet';
     text.textContent = `${state} after ${count(iteration)} iterations, ${seconds(elapsed)}`;
   });
   session.on('result', ({ surface: { report } }) => {

@@ -1,13 +1,14 @@
 //! A mesh's numbers in fewer bits, as most formats have them.
 
 use crate::error::{Error, Result, try_filled};
+use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
 /// The positions, as seen from an origin, in 32 bits.
 pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Result<Vec<[f32; 3]>> {
     let mut positions = try_filled(what, mesh.positions().len(), [0f32; 3])?;
     for (row, (narrow, wide)) in positions.iter_mut().zip(mesh.positions()).enumerate() {
-        *narrow = std::array::from_fn(|k| (wide[k] - origin[k]) as f32);
+        *narrow = std::array::from_fn(|k| lanes::single(wide[k] - origin[k]));
         if let Some(col) = narrow.iter().position(|v| !v.is_finite()) {
             return Err(Error::NotFinite {
                 what,

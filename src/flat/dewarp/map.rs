@@ -5,6 +5,7 @@ use super::trim::largest_rectangle;
 use super::{DewarpOptions, Extent};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::flat::unroll::Unrolling;
+use crate::math::lanes;
 
 /// For every pixel of a flat image its place in the photo.
 #[derive(Debug, Clone, PartialEq)]
@@ -196,7 +197,7 @@ impl WarpMap {
                         let sum: f64 = (corners.iter().zip(weights))
                             .map(|(corner, weight)| weight * corner.place[k])
                             .sum();
-                        (sum / area) as f32
+                        lanes::single(sum / area)
                     });
                 }
             }

@@ -35,6 +35,7 @@ use super::unroll::UnrollReport;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
+use crate::math::lanes;
 pub use map::WarpMap;
 pub use photo::Photo;
 
@@ -108,7 +109,7 @@ impl Extent {
         for (i, uv) in uvs.iter_mut().enumerate() {
             let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
             let place = [(x - self.min[0]) / width, (y - self.min[1]) / height];
-            *uv = place.map(|share| share.clamp(0.0, 1.0) as f32);
+            *uv = place.map(|share| lanes::single(share.clamp(0.0, 1.0)));
         }
         Ok(uvs)
     }

@@ -33,7 +33,7 @@ mod shape;
 mod spots;
 
 use super::unroll::UnrollOptions;
-use crate::error::{Result, check_shape, positive};
+use crate::error::{Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
 use layout::arranged;
@@ -169,7 +169,8 @@ pub struct Spot {
 /// the sheets on either side.
 ///
 /// # Errors
-/// [`Error::Shape`](crate::Error::Shape) if the patches are those of another lattice,
+/// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch) if the
+/// patches are those of another surface,
 /// [`Error::Option`](crate::Error::Option) for a gap that is not positive and finite, and what
 /// [`unroll`](super::unroll::unroll) has to say.
 pub fn pattern(
@@ -177,13 +178,7 @@ pub fn pattern(
     patches: &Patches,
     options: &PatternOptions,
 ) -> Result<Vec<Sheet>> {
-    let lattice = surface.lattice();
-    check_shape(
-        "patches",
-        lattice.rows(),
-        lattice.cols(),
-        patches.labels().len(),
-    )?;
+    patches.check_of(surface)?;
     let gap = positive("gap", options.gap)?;
     let net = Net::new(surface, patches, &options.unrolling)?;
     let arrangement = arranged(&net, gap);

@@ -31,8 +31,9 @@ pub(crate) mod extend;
 mod flood;
 mod merge;
 
-use crate::error::{Result, positive, try_filled};
+use crate::error::{Error, Result, check_shape, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use bend::Bend;
@@ -101,6 +102,7 @@ pub struct Patch {
 /// A surface cut along its creases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patches {
+    lattice: Lattice,
     labels: Vec<u32>,
     patches: Vec<Patch>,
     creases: Vec<Crease>,
@@ -137,6 +139,7 @@ impl Patches {
         let patches = sorted(&mesh, &mut labels)?;
         let creases = crease::creases(surface, &mesh, &bend, &labels);
         Ok(Patches {
+            lattice: *surface.lattice(),
             labels,
             patches,
             creases,
@@ -147,6 +150,28 @@ impl Patches {
     /// The patch of each vertex, row by row; [`NO_PATCH`] where there is none.
     pub fn labels(&self) -> &[u32] {
         &self.labels
+    }
+
+    /// Whether they may be those of a surface: its lattice, and patches where it has heights and
+    /// nowhere else.
+    ///
+    /// # Errors
+    /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch).
+    pub(crate) fn check_of(&self, surface: &Heightfield) -> Result<()> {
+        let lattice = surface.lattice();
+        check_shape("patches", lattice.rows(), lattice.cols(), self.labels.len())?;
+        let differs = |i: usize| {
+            *lattice != self.lattice
+                || (self.labels[i] == NO_PATCH) != surface.heights()[i].is_nan()
+        };
+        match (0..lattice.len()).find(|i| differs(*i)) {
+            None => Ok(()),
+            Some(i) => Err(Error::Mismatch {
+                what: "patches",
+                row: i / lattice.cols(),
+                col: i % lattice.cols(),
+            }),
+        }
     }
 
     /// The patches, that with the largest area first.

@@ -12,6 +12,7 @@ use super::photo::PhotoFile;
 use super::{Decoded, Format, coloured, suggested_scale};
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::HeightImage;
+use crate::math::lanes;
 
 pub use exr::write_exr;
 pub use npz::{NpzArray, decode_npz, npz_arrays};
@@ -140,7 +141,7 @@ fn picture(format: Format, size: (usize, usize), samples: &[u8], stride: usize) 
 fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f32>> {
     let mut heights = try_filled(what, image.values().len(), 0f32)?;
     for (i, (narrow, z)) in heights.iter_mut().zip(image.values()).enumerate() {
-        *narrow = *z as f32;
+        *narrow = lanes::single(*z);
         if narrow.is_infinite() {
             return Err(Error::NotFinite {
                 what,

@@ -270,7 +270,7 @@ pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Res
         if !(0.0..=MOST).contains(weight) {
             return Err(Error::option(
                 "confidence",
-                format!("{weight:e} at row {}, column {}", i / cols, i % cols),
+                format!("{weight:?} at row {}, column {}", i / cols, i % cols),
                 "must lie between 0 and 1e6; a height that must be met is a constraint",
             ));
         }

@@ -184,7 +184,7 @@ test('a mask or a value takes pixels out', async () => {
   const marked = ramp.data.slice();
   marked[5] = -9999;
   await writeFile(join(folder, 'marked.npy'), direct.writeNpy({ ...ramp, data: marked }));
-  await silently(fit('marked.npy', '-o', 'out.npy', '--no-data', '-9999'));
+  await silently(fit('marked.npy', '-o', 'out.npy', '--no-data', '-9999', '--bridge', 'none'));
   const { data } = await load('out.npy');
   assert.ok(data.every((z, i) => Number.isNaN(z) === (i === 5)));
 });
@@ -192,7 +192,7 @@ test('a mask or a value takes pixels out', async () => {
 test('an array on the lattice stays there', async () => {
   for (const name of ['hex.npy', 'hex.png']) {
     for (const output of ['out.npy', 'out.png']) {
-      await silently(fit(name, '-o', output, '--lattice', 'hex', '--spacing', '0.5'));
+      await silently(fit(name, '-o', output, '--lattice', 'hex', '--spacing', '0.5', '--bridge', 'none'));
       const { width, height, data, heightScale } = await load(output);
       assert.deepEqual([width, height], [26, 22]);
       const found = data.map((z) => z * heightScale);

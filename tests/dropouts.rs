@@ -78,7 +78,7 @@ impl Mask {
                 (x.hypot(y) / (2.0 * width) - turn).rem_euclid(1.0) < 0.5
             }
             Mask::Corridors { side } => {
-                let wall = row % side == 0 || col % side == 0;
+                let wall = row.is_multiple_of(side) || col.is_multiple_of(side);
                 !wall || row % side == side / 2 || col % side == side / 2
             }
         }

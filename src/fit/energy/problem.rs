@@ -89,8 +89,8 @@ impl Problem {
         let spacing = coordinates.scale * domain.lattice().spacing();
         check_range(&domain, input.field().heights(), &target, largest, spacing)?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
-        let rounding =
-            16.0 * f64::EPSILON * largest / (spacing * spacing) * domain.interior_len() as f64;
+        let norm = 16.0 * f64::EPSILON * largest / (spacing * spacing);
+        let count = domain.interior_len() as f64;
         let mut problem = Problem {
             lambda,
             target,
@@ -104,7 +104,7 @@ impl Problem {
             first_weight: PerCell::same(&domain, 1.0),
             map: HessianMap::new(spacing),
             spacing,
-            rounding,
+            rounding: norm * count,
             coordinates: *coordinates,
             domain,
         };
@@ -118,6 +118,11 @@ impl Problem {
             problem.loose |= constrained && problem.yields();
         }
         problem.take_first_normals(options.energy)?;
+        if problem.kind == Kind::SquaredNuclear {
+            // Σ (s + δ)² − s² by Cauchy and Schwarz.
+            let squares = problem.smoothness(&problem.target);
+            problem.rounding = norm * (2.0 * (count * squares).sqrt() + count * norm);
+        }
         Ok(problem)
     }
 

@@ -116,6 +116,27 @@ test('a jump stays where the surface is torn there', () => {
   assert.deepEqual(edges.heights, torn.heights);
 });
 
+test('small holes are bridged, at the pixels and on the lattice', () => {
+  const dead = (/** @type {number} */ x, /** @type {number} */ y) => Math.floor(7 * x + 11 * y) % 6 === 0;
+  const truth = cylinder(40);
+  const holed = (/** @type {number} */ x, /** @type {number} */ y) => (dead(x, y) ? NaN : truth(x, y));
+  const pixels = image(40, 40, holed);
+  const bridged = direct.fit(pixels);
+  const missing = pixels.data.filter(Number.isNaN).length;
+  const there = bridged.image.data.filter((z) => !Number.isNaN(z)).length;
+  assert.ok(missing > 200 && bridged.report.bridged > missing / 2);
+  assert.ok(there > 1600 - missing / 10, `${there} of 1600 pixels, ${missing} were missing`);
+  const off = direct.fit(pixels, { bridge: false });
+  assert.equal(off.report.bridged, 0);
+  const holes = (/** @type {Float64Array} */ data) => Array.from(data, Number.isNaN);
+  assert.deepEqual(holes(off.image.data), holes(pixels.data));
+  const vertices = direct.fit(lattice(40, 40, (x, y) => holed(x, -y)), { bridge: 2 });
+  assert.ok(vertices.report.bridged > 100);
+  const mask = Uint8Array.from(pixels.data, (z) => Number(!Number.isNaN(z)));
+  assert.equal(direct.fit({ ...pixels, mask }).report.bridged, 0);
+  assert.throws(() => direct.fit(pixels, { bridge: 17 }), error('OPTION', /bridge.*from 1 to 16/s));
+});
+
 test('occlusions are found at the jump and nowhere else', () => {
   const found = direct.occlusions(step, { threshold: 100 });
   assert.deepEqual([found.rows, found.cols, found.spacing, found.origin], [24, 30, 1, [0, 0]]);

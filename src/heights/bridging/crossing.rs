@@ -211,7 +211,7 @@ impl<'a> Crossings<'a> {
             spread: (squares - right.dot(&difference)).max(0.0),
             terms,
             // A pair along each of two directions has an eigenvalue of at least a half.
-            sees: normal.symmetric_eigenvalues().min() > 0.25,
+            sees: least_eigenvalue(&normal) > 0.25,
             stray: (strays / n).sqrt(),
             reach: sites.last()?.place.norm(),
         })
@@ -239,6 +239,10 @@ impl Crossing {
                 false => self.stray <= STRAY * typical.stray + fold,
             }
     }
+}
+
+fn least_eigenvalue(m: &Matrix2<f64>) -> f64 {
+    0.5 * (m.trace() - (m[(0, 0)] - m[(1, 1)]).hypot(2.0 * m[(0, 1)]))
 }
 
 /// 0 of nothing.

@@ -42,8 +42,7 @@ pub enum Bridging {
 const WIDEST: usize = 16;
 
 /// Confidence of a bridged vertex one step from data on all sides, relative to that of the data;
-/// it falls with the square of the distance, as a plane's error grows. A hundredth, or none, takes
-/// more iterations to the same surface.
+/// it falls with the distance. A hundredth, or none, takes more iterations to the same surface.
 const CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {
@@ -126,7 +125,7 @@ impl Surroundings<'_> {
             bridges.push(Bridge {
                 index: raster.index(crossing.cell),
                 height: crossing.height,
-                confidence: CONFIDENCE / crossing.distance.powi(2) * crossing.confidence,
+                confidence: CONFIDENCE / crossing.distance * crossing.confidence,
             });
         }
         Ok(bridges)

@@ -13,6 +13,8 @@ pub(super) struct Raster {
     margin: usize,
     pub stride: usize,
     pub height: usize,
+    /// To the neighbours, from even and from odd rows.
+    offsets: [Vec<isize>; 2],
 }
 
 impl Raster {
@@ -27,14 +29,20 @@ impl Raster {
     /// With room beyond the data for what is a little wider than `width`.
     fn new(hexagonal: bool, rows: usize, cols: usize, width: usize) -> Result<Self> {
         let margin = (width + 4).next_multiple_of(2);
-        Ok(Raster {
+        let mut raster = Raster {
             hexagonal,
             rows,
             cols,
             margin,
             stride: cols + 2 * margin,
             height: rows + 2 * margin,
-        })
+            offsets: Default::default(),
+        };
+        raster.offsets = [false, true].map(|odd| {
+            let steps = raster.steps(odd).into_iter();
+            steps.map(|step| raster.offset(step)).collect()
+        });
+        Ok(raster)
     }
 
     pub(super) fn cells(&self) -> usize {
@@ -113,10 +121,8 @@ impl Raster {
     }
 
     pub(super) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
-        let offsets = self.steps(self.is_odd(cell));
-        let stride = self.stride as isize;
-        let moved = move |[r, c]: [isize; 2]| cell.wrapping_add_signed(r * stride + c);
-        offsets.into_iter().map(moved)
+        let offsets = &self.offsets[usize::from(self.is_odd(cell))];
+        offsets.iter().map(move |o| cell.wrapping_add_signed(*o))
     }
 
     /// Where a cell some rows and columns away from one in a row of this parity lies from it, in

@@ -31,3 +31,21 @@ fn finer_lattices_and_searches_for_a_bound_are_begun_and_pursued_in_steps_of_the
     assert_eq!(entries, levels);
     assert!(looks >= 4, "{looks}");
 }
+
+#[test]
+fn before_the_first_iteration_the_surface_is_the_input() {
+    let sample = Example::Roof.generate(&ExampleOptions::default()).unwrap();
+    let field = sample.input.to_lattice(None).unwrap();
+    let mut solver = Solver::new(&field, &Options::default()).unwrap();
+    let surface = solver.surface().unwrap();
+    let pairs = surface.heightfield().heights().iter().zip(field.heights());
+    // But for the few vertices that no stencil touches, which are restored.
+    let other = pairs.filter(|(a, b)| (*a - *b).abs() > 1e-12).count();
+    assert_eq!(other, surface.report().omitted);
+    assert_eq!(surface.report().fidelity, 0.0);
+    while solver.progress().iteration == 0 {
+        solver.advance(1).unwrap();
+    }
+    let begun = solver.surface().unwrap();
+    assert!(begun.report().objective < surface.report().objective);
+}

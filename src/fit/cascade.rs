@@ -247,8 +247,16 @@ impl Cascade {
         }
     }
 
-    /// A coarse level's iterate on the finest lattice, or the input if that is better.
+    /// A coarse level's iterate on the finest lattice, or the input if that is better, or if there
+    /// has been no iteration yet.
     fn carry_to_finest(&self) -> Result<Option<(State, Best)>> {
+        if let Some(finest) = self.finer.first()
+            && self.coarser.is_empty()
+            && self.level.report().iterations == 0
+        {
+            let start = State::new(finest, self.level.state.rho)?;
+            return Ok(Some((start, Best::of_input(finest))));
+        }
         let mut state: Option<State> = None;
         let mut coarse = &self.level.problem;
         for fine in self.finer.iter().rev() {

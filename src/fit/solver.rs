@@ -293,8 +293,8 @@ impl Solver {
 
     /// The best surface so far, in the input's units, omitted vertices
     /// restored. While the solve is running it is reported as cancelled; from a
-    /// coarse level it is carried to the finest one, and certified there; parts
-    /// that are still to come are as in the input, without the free vertices
+    /// coarse level it is carried to the finest one, and certified there; before the first iteration
+    /// it is the input; parts that are still to come are as in the input, without the free vertices
     /// that have no height there.
     ///
     /// # Errors

@@ -34,6 +34,7 @@ fn cases() -> Vec<(&'static str, Case)> {
         ("roof_on_levels", roof(56, json!("medium"))),
         ("tiny_lattice", tiny_lattice()),
         ("paper_schedule", paper_schedule()),
+        ("strips_and_weights", strips_and_weights()),
     ]
 }
 
@@ -129,6 +130,30 @@ fn paper_schedule() -> Case {
     Case { input, options }
 }
 
+/// Runs of every length from 1 to some dozens, weights of many sizes and vertices without any: all
+/// that is converted between single and double precision, often enough to be optimised.
+fn strips_and_weights() -> Case {
+    let mut noise = Noise(5);
+    let (rows, cols) = (36, 40);
+    let mut input = lattice(rows, cols, 0.02, |x, y| {
+        let (col, row) = ((x / 0.02 + 0.6) as usize, (-y / 0.0173) as usize);
+        let slit = row % 9 < 6 && (col * col / 7) % 11 == row % 4;
+        let height = 0.2 * (5.0 * x).sin() * (4.0 * y).cos() + 0.01 * noise.next();
+        (!slit).then_some(height)
+    });
+    if let Input::Lattice { confidence, .. } = &mut input {
+        let weight = |i: usize| [1.0, 0.5, 1e-4, 30.0, 0.0, 2.0, 1e3][(5 * i / 3) % 7];
+        *confidence = Some((0..rows * cols).map(weight).collect());
+    }
+    let options = Settings {
+        gap: 1e-4,
+        max_iterations: 120,
+        bridge: Some(false),
+        ..settings()
+    };
+    Case { input, options }
+}
+
 fn settings() -> Settings {
     Settings {
         lambda: json!("medium"),
@@ -182,6 +207,7 @@ fn lattice(
         cols,
         spacing,
         heights,
+        confidence: None,
     }
 }
 

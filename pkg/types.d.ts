@@ -285,8 +285,8 @@ export interface Progress {
   objective: number;
   /** Best certified lower bound of the optimum so far. */
   dualBound: number;
-  /** `(objective - dualBound) / objective`; `null` where the objective is a rounding error. */
-  gap: number | null;
+  /** `(objective - dualBound) / objective`; `undefined` where the objective is a rounding error. */
+  gap: number | undefined;
   /** ADMM penalty. */
   rho: number;
   /** Seconds since the solver was made or restarted. */
@@ -339,10 +339,10 @@ export interface Report {
   /** Certified lower bound of the optimum; always finite, and 0 where nothing better is known. */
   dualBound: number;
   /**
-   * `(objective - dualBound) / objective`: how far from the optimum the result can be at most. `null` for
+   * `(objective - dualBound) / objective`: how far from the optimum the result can be at most. `undefined` for
    * `'rounding'`, and where the objective is no more than a rounding error: then a share of it says nothing.
    */
-  gap: number | null;
+  gap: number | undefined;
   /** Lambda that was used, as a number. */
   lambda: number;
   /** Last ADMM penalty. */

@@ -6,7 +6,7 @@ mod common;
 use common::unit_square;
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{Direction, PatternOptions, Run, Sheet, pattern};
-use developable::{Example, ExampleOptions, Heightfield, Lambda, Options, fit};
+use developable::{Example, ExampleOptions, Heightfield, Lambda, Lattice, Options, fit};
 
 fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
@@ -287,4 +287,35 @@ fn a_house_is_three_sheets_and_three_folds_once_it_was_solved_from_noise() {
         near(width.max(height), arc, 0.06);
     }
     near(sheets[1].area, sheets[2].area, 0.01);
+}
+
+/// Patches belong to one surface; on another of the same shape their creases lead nowhere.
+#[test]
+fn patches_of_another_surface_are_refused() {
+    let lattice = Lattice::new(40, 40, 0.025).unwrap();
+    let roof = |x: f64, _: f64| -0.5 * (x - 0.52).abs();
+    let whole = Heightfield::from_fn(lattice, roof).unwrap();
+    let island = Heightfield::from_fn(lattice, |x, y| {
+        if (x - 0.5).hypot(y + 0.4) < 0.3 {
+            roof(x, y)
+        } else {
+            f64::NAN
+        }
+    });
+    let island = island.unwrap();
+    let larger = Heightfield::new(
+        Lattice::new(40, 40, 0.05).unwrap(),
+        whole.heights().to_vec(),
+    );
+    let options = PatternOptions::default();
+    for (of, on) in [
+        (&whole, &island),
+        (&island, &whole),
+        (&whole, &larger.unwrap()),
+    ] {
+        let patches = Patches::new(of, &PatchOptions::default()).unwrap();
+        let error = pattern(on, &patches, &options).unwrap_err();
+        assert_eq!(error.code(), "MISMATCH", "{error}");
+        assert!(pattern(of, &patches, &options).is_ok());
+    }
 }

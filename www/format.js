@@ -43,10 +43,10 @@ export function superscript(n) {
 
 /**
  * A bound in percent, if there is one. Rounded up, for what is certified must not be overstated.
- * @param {number | null} share
+ * @param {number | undefined} share
  */
 export function percentAtMost(share) {
-  if (share === null || !Number.isFinite(share)) return '–';
+  if (share === undefined || !Number.isFinite(share)) return '–';
   const percent = 100 * share;
   if (percent <= 0) return `0${BREAKLESS}%`;
   const unit = 10 ** (Math.floor(Math.log10(percent)) - 1);

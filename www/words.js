@@ -55,7 +55,7 @@ const USEFUL = 0.5;
  */
 export function verdict({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
-  const within = gap !== null && gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
+  const within = gap !== undefined && gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
   if (stopReason === 'cancelled') {
     return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
   }

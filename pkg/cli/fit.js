@@ -32,7 +32,7 @@ export async function fit(task, signal) {
   }
   await writeWhole(files, signal);
   announce(task.output, report);
-  const certainty = report.gap === null ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;
+  const certainty = report.gap === undefined ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;
   if (report.stopReason === 'maxIterations') {
     process.stderr.write(
       `developable: warning: stopped after ${report.iterations} iterations ${certainty}; --max-iterations allows more\n`,

@@ -27,7 +27,7 @@ export function progressLine() {
     shown,
     /** @param {import('../types.js').Progress} progress */
     show({ level, iteration, gap, elapsed }) {
-      const state = level > 0 ? `coarse lattice, ${level} finer to come` : gap === null ? 'gap unknown' : `gap ${percent(gap)}`;
+      const state = level > 0 ? `coarse lattice, ${level} finer to come` : gap === undefined ? 'gap unknown' : `gap ${percent(gap)}`;
       terminal.write(`\r\x1b[Kiteration ${iteration}, ${state}, ${elapsed.toFixed(1)} s`);
     },
     clear() {
@@ -43,7 +43,7 @@ export function progressLine() {
 export function announce(output, { interior, boundary, omitted, iterations, gap, seconds }) {
   if (!terminal.isTTY) return;
   const vertices = interior + boundary + omitted;
-  const quality = gap === null ? 'the optimum up to rounding' : `within ${percent(gap)} of the optimum`;
+  const quality = gap === undefined ? 'the optimum up to rounding' : `within ${percent(gap)} of the optimum`;
   terminal.write(
     `${output}: ${vertices} vertices, ${quality} ` +
       `after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`,

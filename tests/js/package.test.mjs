@@ -113,9 +113,9 @@ test('TypeScript users get types, with each kind of module resolution', async ()
 
     export function solveHere(): number {
       using solver = new direct.Solver({ rows: 3, cols: 3, spacing: 1, heights: new Float32Array(9) });
-      while (solver.advance(10)) if (solver.progress().gap < 0.1) solver.cancel();
+      while (solver.advance(10)) if ((solver.progress().gap ?? 1) < 0.1) solver.cancel();
       try {
-        return solver.surface().report.gap;
+        return solver.surface().report.gap ?? NaN;
       } catch (error) {
         if (error instanceof DevelopableError && error.code === 'DISPOSED') return NaN;
         throw error;

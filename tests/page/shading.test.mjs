@@ -122,6 +122,9 @@ test('each λ and each way to stop has words of its own', () => {
   assert.equal(verdict(report).replaceAll('\u00a0', ' '), 'Certified to within 0.9 % of the optimum in 0.42 s.');
   assert.match(verdict({ ...report, stopReason: 'cancelled' }), /^Cancelled/);
   assert.match(verdict({ ...report, stopReason: 'cancelled', gap: 1 }), /too early/);
+  for (const stopReason of /** @type {const} */ (['gap', 'rounding', 'maxIterations', 'diverged', 'cancelled'])) {
+    assert.doesNotMatch(verdict({ ...report, stopReason, gap: undefined }), /[Cc]ertified|within|NaN/);
+  }
 });
 
 /** A lattice with the value of a function at each vertex. @param {(x: number, y: number) => number} value */

@@ -32,7 +32,7 @@ function certificate(report) {
   return {
     title: 'Certificate',
     lines: [
-      line('Gap', percentAtMost(report.gap), report.gap === null ? 'The objective is a rounding error: no share of it says anything.' : 'At most this share of the objective is above the optimum.'),
+      line('Gap', percentAtMost(report.gap), report.gap === undefined ? 'The objective is a rounding error: no share of it says anything.' : 'At most this share of the objective is above the optimum.'),
       line('Objective', number(report.objective, 5), 'The energy of the result: the sum of the next two.'),
       line('Fidelity', number(report.fidelity, 4), 'λ times the squared distances from the input.'),
       line('Nuclear norms', number(report.nuclearNorm, 4), 'Bending and creasing; what makes it developable.', report.energy === 'nuclear'),

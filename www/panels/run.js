@@ -47,7 +47,7 @@ export function runPanel(session) {
       text.textContent = `coarse lattice, ${count(level)} finer to come, ${seconds(elapsed)}`;
       return;
     }
-    const known = gap !== null && gap < 1;
+    const known = gap !== undefined && gap < 1;
     if (known && Number.isNaN(first)) {
       first = gap;
       begin = levels > 0 ? COARSE : 0;

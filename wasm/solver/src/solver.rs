@@ -1,7 +1,6 @@
 //! The solver, in steps.
 
-use serde::Serialize;
-use serde_wasm_bindgen::Serializer;
+use serde_wasm_bindgen::to_value;
 use wasm_bindgen::prelude::*;
 
 use super::results::{ImageOutput, SurfaceOutput};
@@ -88,7 +87,7 @@ impl Solver {
 
     /// Figures of the last check.
     pub fn progress(&self) -> Result<JsValue> {
-        Ok(with_nulls(&self.solver.progress())?)
+        Ok(to_value(&self.solver.progress())?)
     }
 
     /// Stops.
@@ -104,7 +103,7 @@ impl Solver {
             Some(image) => Some(ImageOutput::from(&field.to_image(image)?)),
             None => None,
         };
-        Ok(with_nulls(&SurfaceOutput {
+        Ok(to_value(&SurfaceOutput {
             rows: field.lattice().rows(),
             cols: field.lattice().cols(),
             spacing: field.lattice().spacing(),
@@ -114,9 +113,4 @@ impl Solver {
             report: surface.report(),
         })?)
     }
-}
-
-/// What is not known is `null` in JS, not a missing property.
-fn with_nulls(value: &impl Serialize) -> std::result::Result<JsValue, serde_wasm_bindgen::Error> {
-    value.serialize(&Serializer::new().serialize_missing_as_null(true))
 }

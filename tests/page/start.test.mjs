@@ -6,7 +6,7 @@ import { brokenStartTest } from './support/page.mjs';
 
 /** @type {{ what: string, spoil: (page: Page) => Promise<unknown>, says: RegExp }[]} */
 const cases = [
-  { what: 'the wasm', spoil: (page) => page.route('**/*.wasm', (route) => route.abort()), says: /wasm/i },
+  { what: 'the wasm', spoil: (page) => page.route(/\.wasm$|\/inline\//, (route) => route.abort()), says: /wasm/i },
   { what: 'the package', spoil: (page) => page.route('**/pkg/**', (route) => route.abort()), says: /pkg|import/i },
   { what: 'WebAssembly', spoil: (page) => page.addInitScript('delete globalThis.WebAssembly'), says: /no WebAssembly/ },
   { what: 'web workers', spoil: (page) => page.addInitScript('delete globalThis.Worker'), says: /no web workers/ },

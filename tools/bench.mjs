@@ -3,7 +3,7 @@
  * `npm run bench -- NAME...` makes some of the tables, `--quick` smaller ones, `--write` writes
  * BENCHMARKS.md, and `--input FILE` adds a file of your own.
  */
-import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parse } from './bench/arguments.mjs';
@@ -34,14 +34,18 @@ await main(async () => {
 
   for (const table of made) console.log(asText(table));
   console.log(`\n${where}\n${((performance.now() - start) / 1000).toFixed(0)} s`);
-  if (write) await writeFile(join(root, 'BENCHMARKS.md'), page(where, made));
+  if (write) {
+    const choices = await readFile(join(root, 'benches/choices.md'), 'utf8');
+    await writeFile(join(root, 'BENCHMARKS.md'), page(where, made, choices));
+  }
 });
 
 /**
  * @param {string} where
  * @param {import('./bench/text.mjs').Table[]} made
+ * @param {string} choices what is not made anew
  */
-function page(where, made) {
+function page(where, made, choices) {
   const date = new Date().toISOString().slice(0, 10);
   const head = `# Benchmarks
 
@@ -51,5 +55,5 @@ Times change from machine to machine; what to look at are the ratios, all of whi
 one run. Each measurement has a process of its own and is ${rule}. Everything runs in one thread.
 Inputs are the library's own examples under noise, so that nothing else is needed to repeat this.
 `;
-  return [head.trimEnd(), ...made.map(asMarkdown)].join('\n\n').concat('\n');
+  return [head.trimEnd(), ...made.map(asMarkdown), choices.trimEnd()].join('\n\n').concat('\n');
 }

@@ -14,6 +14,7 @@ const MOST_PASSES: usize = 20;
 /// Weight λ of the fidelity term, stated for coordinates normalised to the
 /// unit square. The presets are the paper's (Sec. 5).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Lambda {
     /// 10⁵: for heavy, widespread noise, or for few large patches.
     Small,
@@ -72,6 +73,7 @@ impl FromStr for Lambda {
 
 /// How the iterations are run and when they stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Schedule {
     /// A fixed handful of conjugate-gradient iterations in each z-step,
     /// over-relaxation, balancing of the relative residuals; stops at the
@@ -104,6 +106,7 @@ impl FromStr for Schedule {
     derive(serde::Serialize),
     serde(rename_all = "camelCase")
 )]
+#[non_exhaustive]
 pub enum Energy {
     /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15).
     #[default]

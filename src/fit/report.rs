@@ -9,6 +9,7 @@ use super::options::Energy;
     derive(serde::Serialize),
     serde(rename_all = "camelCase")
 )]
+#[non_exhaustive]
 pub enum StopReason {
     /// The certified relative gap reached [`Options::gap`](crate::Options::gap).
     Gap,

@@ -25,6 +25,7 @@ use crate::lattice::hexagonal::Lattice;
 
 /// Whether a [`Solver`] has more to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Status {
     /// [`Solver::advance`] should be called again.
     Running,

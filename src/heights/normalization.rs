@@ -4,6 +4,7 @@ use super::heightfield::Heightfield;
 
 /// How the input's coordinates become the energy's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Normalization {
     /// One factor for x, y and z that makes the longer side of the valid
     /// vertices' bounding box 1; results come back in the user's units.

@@ -6,6 +6,7 @@ use crate::error::{Error, Result, try_filled};
 
 /// The part that a vertex plays (paper, Sec. 3.1 and Fig. 9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Role {
     /// It has no height.
     #[default]

@@ -61,6 +61,7 @@ pub enum Style {
 
 /// Curvatures that tell how far a surface is from developable; see [`Curvatures`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Curvature {
     /// The discrete Gaussian curvature, in `1/length²`.
     #[default]

@@ -9,6 +9,7 @@ use crate::math::lanes;
 
 /// What a depth is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Depth {
     /// The distance along the camera's axis, as depth cameras and depth buffers
     /// mostly give it.

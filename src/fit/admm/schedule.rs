@@ -48,46 +48,41 @@ const COARSEST: usize = 500;
 
 /// Relative residuals are balanced at primal = BALANCE · dual: the dual residual is
 /// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound
-/// least, since `ascent` takes them away. Over three λ on a scan, 0.15 took 530, 190 and 90
-/// iterations to a gap of 0.1 %, 0.05 290, 150 and 80, this 210, 150 and 90.
+/// least, since `ascent` takes them away.
 const BALANCE: f64 = 0.025;
 
 /// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
-/// the former is less than this share of it, and does not fall: without, one of four inputs takes a third more iterations.
+/// the former is less than this share of it, and does not fall.
 const SMALL_SHARE: f64 = 0.2;
 
-/// The same where vertices are free, and the dual residual is the change of the
-/// Hessians: fewest iterations over four sets of constraints; 1 took four times as many.
+/// The same where vertices are free, and the dual residual is the change of the Hessians.
 const FREE_BALANCE: f64 = 10.0;
 
-/// Above this gap a second conjugate-gradient iteration per z-step pays: without, from 15, 15 and 15
-/// ADMM iterations over three λ to 25, 20 and 20. Below, it saves hardly more iterations than it costs.
+/// Above this gap a second conjugate-gradient iteration per z-step pays. Below, it saves hardly more
+/// iterations than it costs.
 const ROUGH: f64 = 0.03;
 
-/// It is not needed where the first one has come this close, by the residual's squares: a seventh of
-/// them all on a page of a million vertices.
+/// It is not needed where the first one has come this close, by the residual's squares.
 const CLOSE: f64 = 0.005;
 
 /// The squares of a residual that single precision carries on from, relative to its first.
 const SINGLE: f64 = 1e-6;
 
-/// From one level to the next: with 0.7 the finest takes 15, 15 and 20 iterations, with 0.35 15, 20
-/// and 15, with this 15 each.
+/// What ρ is multiplied by from one level to the next.
 const FINER: f64 = 0.5;
 
 /// Longest screening length of the z-step, in sizes of the domain.
 const SCREENING: f64 = 0.1;
 
 /// The same in cells: its fourth power is the condition number. Longer ones move the surface
-/// faster and its bound more slowly. 8 takes a third more iterations at λ = 1e5, or with a million
-/// vertices; up to 16 there is no difference.
+/// faster and its bound more slowly.
 const CELLS: f64 = 10.0;
 
 /// Most of what a search for a better bound divides the gap by.
 const CLIMBABLE: f64 = 100.0;
 
-/// A start is far from a gap if its own is this many times the root of it: over six surfaces, four λ
-/// and two gaps, nearer ones take about half of the iterations, these as many or more.
+/// A start is far from a gap if its own is this many times the root of it: from there it is no
+/// faster than from coarse lattices.
 const FAR: f64 = 3.0;
 
 /// Iterations without over-relaxation on a new lattice.
@@ -99,9 +94,8 @@ const BEGINNING: usize = 30;
 /// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
 const COARSE_GAP: f64 = 0.01;
 
-/// A coarse level that has not reached its gap by then hands over to the finer one: it costs no more
-/// than 50 iterations there, and all of them together no more than 67. Where levels start well they
-/// take 10 to 50, and up to 150 where vertices are free.
+/// A coarse level that has not reached its gap by then hands over to the finer one: more iterations
+/// would save the finer one less than they cost.
 const COARSE_ITERATIONS: usize = 200;
 
 impl Plan {

@@ -32,6 +32,7 @@ pub struct Label {
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "lowercase")
 )]
+#[non_exhaustive]
 pub enum LabelKind {
     /// The number of a patch.
     Patch,

@@ -84,7 +84,7 @@ pub struct Drawing {
     /// The sheets, in their order; none lies on another.
     pub sheets: Vec<DrawnSheet>,
     /// What it comes to.
-    pub summary: Summary,
+    pub summary: Totals,
 }
 
 /// A sheet as it is drawn: turned so that its box is small, if that is worth it, never mirrored.
@@ -130,7 +130,7 @@ pub struct Line {
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "camelCase")
 )]
-pub struct Summary {
+pub struct Totals {
     /// Number of sheets.
     pub sheets: usize,
     /// Creases that are cut, at least in part.
@@ -354,7 +354,7 @@ impl Line {
     }
 }
 
-fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> Summary {
+fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> Totals {
     let folds = |direction: Direction| -> f64 {
         let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
         let own = lines.filter(|line| line.direction == direction);
@@ -368,7 +368,7 @@ fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> 
         };
         length(cut) + closing
     };
-    Summary {
+    Totals {
         sheets: drawn.len(),
         seams,
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),

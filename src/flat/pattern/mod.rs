@@ -144,6 +144,7 @@ pub struct Seam {
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "lowercase")
 )]
+#[non_exhaustive]
 pub enum Direction {
     /// A ridge: the fold points to the viewer.
     Mountain,

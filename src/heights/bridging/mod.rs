@@ -31,6 +31,7 @@ use raster::Raster;
 /// Bridged vertices are part of the surface. They start from the plane that fits the data around
 /// best, and have a small confidence: a fifth of the data's next to it, less further away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Bridging {
     /// None: whatever has no height stays out.
     Off,

@@ -1,0 +1,78 @@
+//! What several integration tests share.
+#![allow(dead_code)] // each test uses a part of it
+
+pub mod conic;
+#[cfg(feature = "formats")]
+pub mod files;
+
+use developable::{Heightfield, Lattice};
+
+/// Reproducible noise, uniform in −1..1.
+pub struct Noise(u64);
+
+impl Noise {
+    pub fn new(seed: u64) -> Self {
+        Noise(seed)
+    }
+
+    pub fn sample(&mut self) -> f64 {
+        // A 64-bit linear congruential generator; its upper bits are good enough for noise.
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// The lattice over the unit square with about `cols` columns, centred heights from `f`.
+pub fn unit_square(cols: usize, f: impl Fn(f64, f64) -> f64) -> Heightfield {
+    let lattice = Lattice::covering([0.0, 0.0], [1.0, 1.0], 1.0 / cols as f64).unwrap();
+    Heightfield::from_fn(lattice, f).unwrap()
+}
+
+/// The field with noise of the given amplitude.
+pub fn noisy(field: &Heightfield, amplitude: f64, seed: u64) -> Heightfield {
+    let mut noise = Noise::new(seed);
+    let heights = field.heights().iter();
+    let heights = heights.map(|z| z + amplitude * noise.sample()).collect();
+    Heightfield::new(*field.lattice(), heights).unwrap()
+}
+
+/// The field without the vertices where `keep` is false.
+pub fn cut(field: &Heightfield, keep: impl Fn(f64, f64) -> bool) -> Heightfield {
+    let lattice = *field.lattice();
+    Heightfield::new(
+        lattice,
+        (0..lattice.len())
+            .map(|i| {
+                let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+                if keep(x, y) {
+                    field.heights()[i]
+                } else {
+                    f64::NAN
+                }
+            })
+            .collect(),
+    )
+    .unwrap()
+}
+
+/// Largest absolute difference where both have a height.
+pub fn max_difference(a: &Heightfield, b: &Heightfield) -> f64 {
+    let pairs = a.heights().iter().zip(b.heights());
+    pairs
+        .filter(|(a, b)| !a.is_nan() && !b.is_nan())
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Root mean square of the difference where both have a height.
+pub fn rms_difference(a: &Heightfield, b: &Heightfield) -> f64 {
+    let pairs = a.heights().iter().zip(b.heights());
+    let squares: Vec<f64> = pairs
+        .filter(|(a, b)| !a.is_nan() && !b.is_nan())
+        .map(|(a, b)| (a - b).powi(2))
+        .collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}

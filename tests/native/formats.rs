@@ -1,0 +1,416 @@
+//! Files in and out: those of other programs, exact round trips, damage.
+
+use developable::dewarp::Photo;
+use developable::files::images::{
+    Decoded, Format, decode, decode_photo, write_npy, write_photo, write_png,
+};
+use developable::files::wavefront::write_obj;
+use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
+use proptest::prelude::*;
+
+use crate::common::files;
+
+use files::{file, holes, of_every_type, ramp, read};
+
+fn assert_same(name: &str, found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len(), "{name}");
+    for (i, (a, b)) in found.iter().zip(expected).enumerate() {
+        assert!(
+            a == b || a.is_nan() && b.is_nan(),
+            "{name}, value {i}: {a} instead of {b}"
+        );
+    }
+}
+
+#[test]
+fn numpy_arrays_of_every_type_and_byte_order() {
+    for (name, data_type, expected) in of_every_type() {
+        for order in if name.ends_with('1') {
+            &["le"][..]
+        } else {
+            &["le", "be"]
+        } {
+            let name = format!("{name}-{order}.npy");
+            let found = read(&name);
+            assert_eq!((found.width, found.height), (4, 3), "{name}");
+            assert_eq!(
+                (found.format, found.data_type),
+                (Format::Npy, data_type),
+                "{name}"
+            );
+            assert_eq!((found.pixel_size, found.height_scale), (1.0, 1.0), "{name}");
+            assert_same(&name, &found.values, &expected);
+        }
+    }
+    for name in ["fortran.npy", "third-axis.npy", "version2.npy"] {
+        assert_same(name, &read(name).values, &holes());
+    }
+    let bools: Vec<f64> = ramp().iter().map(|v| f64::from(v % 3.0 == 0.0)).collect();
+    assert_same("bool.npy", &read("bool.npy").values, &bools);
+    assert_eq!(read("bool.npy").data_type, "bool");
+}
+
+#[test]
+fn numpy_files_that_are_no_height_image_say_why() {
+    for (name, code, hint) in [
+        ("vector.npy", "UNSUPPORTED", "two-dimensional"),
+        ("cube.npy", "UNSUPPORTED", "[2, 3, 4]"),
+        ("complex.npy", "UNSUPPORTED", "<c16"),
+        ("text.npy", "UNSUPPORTED", "<U2"),
+        ("record.npy", "UNSUPPORTED", "records"),
+        ("object.npy", "UNSUPPORTED", "|O"),
+        ("empty.npy", "EMPTY", "empty"),
+    ] {
+        let error = decode(&file(name), None).unwrap_err();
+        assert_eq!(error.code(), code, "{name}: {error}");
+        assert!(error.to_string().contains(hint), "{name}: {error}");
+    }
+    let infinite = read("infinite.npy");
+    assert_eq!(infinite.values[1], f64::INFINITY);
+    assert_eq!(infinite.into_image().unwrap_err().code(), "NOT_FINITE");
+}
+
+#[test]
+fn grey_images_of_another_program() {
+    let grey8: Vec<f64> = ramp().iter().map(|v| v * 2.0).collect();
+    let without = |holes: &[usize]| {
+        let mut values = grey8.clone();
+        holes.iter().for_each(|i| values[*i] = f64::NAN);
+        values
+    };
+    for (name, expected) in [
+        ("grey8.png", grey8.clone()),
+        ("grey8-alpha.png", without(&[1])),
+        ("transparent-level.png", without(&[6])),
+        ("rgb-grey.png", grey8.clone()),
+        ("palette-grey.png", grey8.clone()),
+        ("rgba-grey.png", without(&[1])),
+        (
+            "grey1.png",
+            ramp()
+                .iter()
+                .map(|v| if v % 3.0 == 0.0 { 255.0 } else { 0.0 })
+                .collect(),
+        ),
+    ] {
+        let found = read(name);
+        assert_eq!(
+            (found.width, found.height, found.format),
+            (4, 3, Format::Png),
+            "{name}"
+        );
+        assert_eq!(found.data_type, "u8", "{name}");
+        assert_eq!(found.height_scale, 1.0 / 255.0, "{name}"); // a quarter of 4 pixels
+        assert_same(name, &found.values, &expected);
+    }
+    let grey16 = read("grey16.png");
+    assert_eq!(
+        (grey16.data_type, grey16.height_scale),
+        ("u16", 1.0 / 65535.0)
+    );
+    let expected: Vec<f64> = ramp().iter().map(|v| v * 700.0).collect();
+    assert_same("grey16.png", &grey16.values, &expected);
+
+    let error = decode(&file("rgb-colour.png"), None).unwrap_err();
+    assert_eq!(error.code(), "UNSUPPORTED");
+    assert!(error.to_string().contains("row 2, column 1"), "{error}");
+}
+
+#[test]
+fn recorded_scales_are_used() {
+    let found = read("recorded.png");
+    assert_eq!((found.pixel_size, found.height_scale), (0.25, 0.5));
+    let image = found.into_image().unwrap();
+    let mut expected: Vec<f64> = ramp().iter().map(|v| v * 700.0 * 0.5 - 100.0).collect();
+    expected[0] = f64::NAN; // level 2100
+    assert_same("recorded.png", image.values(), &expected);
+    let error = decode(&file("recorded-badly.png"), None).unwrap_err();
+    assert_eq!(error.code(), "FORMAT");
+    assert!(error.to_string().contains("heightScale"), "{error}");
+}
+
+#[test]
+fn files_cut_short_anywhere_are_errors() {
+    let image = HeightImage::new(4, 3, holes()).unwrap();
+    let ours = [
+        write_png(&image).unwrap(),
+        write_npy(3, 4, &holes()).unwrap(),
+    ];
+    let theirs = [
+        "grey16.png",
+        "recorded.png",
+        "palette-grey.png",
+        "f4-be.npy",
+        "fortran.npy",
+    ];
+    for bytes in theirs.map(file).iter().chain(&ours) {
+        for length in 0..bytes.len() {
+            for format in [None, Format::detect(bytes)] {
+                let error = decode(&bytes[..length], format).unwrap_err();
+                assert!(!error.to_string().is_empty());
+                assert!(
+                    matches!(error, Error::Format { .. }) || length < 8 && format.is_none(),
+                    "{length} of {}: {error}",
+                    bytes.len()
+                );
+            }
+        }
+        assert!(decode(bytes, None).is_ok());
+    }
+}
+
+/// A PNG file that stops after a header of its own choice, checksum included.
+fn png_header(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    drop(encoder.write_header().unwrap());
+    bytes
+}
+
+fn npy_header(text: &str) -> Vec<u8> {
+    let mut bytes = b"\x93NUMPY\x01\0".to_vec();
+    bytes.extend((text.len() as u16).to_le_bytes());
+    bytes.extend(text.as_bytes());
+    bytes
+}
+
+#[test]
+fn huge_declared_sizes_are_refused_before_they_are_allocated() {
+    let code = |bytes: &[u8]| decode(bytes, None).unwrap_err().code();
+    assert_eq!(code(&png_header(0x7fff_ffff, 0x7fff_ffff)), "TOO_LARGE");
+    assert_eq!(code(&png_header(4096, 4096)), "FORMAT");
+    assert_eq!(code(&png_header(1, MAX_CELLS as u32)), "FORMAT");
+    let shaped = |shape: &str| {
+        npy_header(&format!(
+            "{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n"
+        ))
+    };
+    assert_eq!(code(&shaped("(4096, 5120)")), "FORMAT");
+    assert_eq!(code(&shaped("(4096, 5121)")), "TOO_LARGE");
+    assert_eq!(
+        code(&shaped("(18446744073709551615, 18446744073709551615)")),
+        "TOO_LARGE"
+    );
+    assert_eq!(code(&shaped("(4294967296, 4294967297)")), "TOO_LARGE");
+    assert_eq!(
+        code(&shaped("(99999999999999999999999999, 0)")),
+        "TOO_LARGE"
+    );
+    assert_eq!(code(&shaped("(-1, 4)")), "FORMAT");
+    assert_eq!(code(&shaped("()")), "UNSUPPORTED");
+    assert_eq!(code(&npy_header(&"(".repeat(9000))), "UNSUPPORTED");
+    // Version 2 can claim a header of 4 GiB.
+    assert_eq!(code(b"\x93NUMPY\x02\0\xff\xff\xff\xff{"), "FORMAT");
+    assert_eq!(code(b"\x93NUMPY\x09\0\xff\xff{}"), "UNSUPPORTED");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Damage anywhere gives a value or an error, whichever it deserves.
+    #[test]
+    fn flipped_bytes_never_panic(
+        which in 0usize..5,
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let names = ["grey16.png", "rgba-grey.png", "recorded.png", "f4-be.npy", "record.npy"];
+        let mut bytes = file(names[which]);
+        for (place, byte) in damage {
+            let length = bytes.len();
+            bytes[place.index(length)] = byte;
+        }
+        let _ = decode(&bytes, None).and_then(Decoded::into_image);
+    }
+
+    #[test]
+    fn npy_round_trips_are_exact(
+        (cols, values) in (1usize..9).prop_flat_map(|cols| {
+            (Just(cols), (1usize..9).prop_flat_map(move |rows| {
+                prop::collection::vec(prop::num::f64::ANY, rows * cols)
+            }))
+        }),
+    ) {
+        let bytes = write_npy(values.len() / cols, cols, &values).unwrap();
+        let found = decode(&bytes, Some(Format::Npy)).unwrap();
+        prop_assert_eq!((found.width, found.height), (cols, values.len() / cols));
+        prop_assert_eq!(found.data_type, "f64");
+        for (a, b) in found.values.iter().zip(&values) {
+            prop_assert!(a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan());
+        }
+    }
+
+    #[test]
+    fn png_round_trips_are_exact_to_half_a_level(
+        (cols, values) in (1usize..9).prop_flat_map(|cols| {
+            (Just(cols), (1usize..9).prop_flat_map(move |rows| {
+                let height = prop_oneof![4 => -1.0f64..1.0, 1 => Just(f64::NAN)];
+                prop::collection::vec(height, rows * cols)
+            }))
+        }),
+        size in prop_oneof![Just(1.0), 1e-12f64..1e-3, 1e3f64..1e12],
+        offset in prop_oneof![Just(0.0), -1e6f64..1e6],
+        pixel_size in 1e-3f64..1e3,
+    ) {
+        let values: Vec<f64> = values.iter().map(|v| v * size + offset).collect();
+        let image = HeightImage::new(cols, values.len() / cols, values.clone())
+            .and_then(|i| i.with_pixel_size(pixel_size))
+            .unwrap();
+        let back = decode(&write_png(&image).unwrap(), None).unwrap();
+        prop_assert_eq!(back.data_type, "u16");
+        let back = back.into_image().unwrap();
+        prop_assert_eq!(back.pixel_size(), pixel_size);
+        prop_assert_eq!((back.width(), back.height()), (image.width(), image.height()));
+        let range = 2.0 * size;
+        let tolerance = 0.501 * range / 65534.0 + 1e-15 * (offset.abs() + size);
+        for (a, b) in back.values().iter().zip(&values) {
+            prop_assert!(a.is_nan() && b.is_nan() || (a - b).abs() <= tolerance, "{} {}", a, b);
+        }
+    }
+}
+
+#[test]
+fn flat_empty_and_extreme_images_survive_png() {
+    let back = |values: &[f64]| {
+        let image = HeightImage::new(values.len(), 1, values.to_vec()).unwrap();
+        let decoded = decode(&write_png(&image).unwrap(), None).unwrap();
+        decoded.into_image().unwrap().into_values()
+    };
+    for z in [0.0, 7.25, -1e-20, 0.1, -123456.789, f64::MAX, 5e-324] {
+        let found = back(&[z, f64::NAN, z]);
+        assert!((found[0] - z).abs() <= 1e-15 * z.abs(), "{z}: {}", found[0]);
+        assert_eq!(found[0], found[2]);
+        assert!(found[1].is_nan());
+    }
+    // One level below the lowest height there is no number left for the offset.
+    assert!((back(&[f64::MIN])[0] / f64::MIN - 1.0).abs() < 2e-5);
+    assert!(back(&[f64::NAN; 3]).iter().all(|z| z.is_nan()));
+    let wide = back(&[-1e308, 1e308, 0.9e308]);
+    assert!((wide[2] / 0.9e308 - 1.0).abs() < 1e-4);
+    assert!((wide[0] / 1e308 + 1.0).abs() < 1e-4 && (wide[1] / 1e308 - 1.0).abs() < 1e-4);
+    let narrow = back(&[1.0, 1.0 + f64::EPSILON]);
+    assert!(narrow.iter().all(|z| (z - 1.0).abs() < 1e-15));
+}
+
+#[test]
+fn another_reader_sees_our_png_as_plain_16_bit_grey() {
+    let image = HeightImage::new(2, 2, vec![-1.0, 1.0, f64::NAN, 0.0]).unwrap();
+    let bytes = write_png(&image).unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes))
+        .read_info()
+        .unwrap();
+    let mut levels = vec![0; 8];
+    reader.next_frame(&mut levels).unwrap();
+    assert_eq!(levels, [0, 1, 255, 255, 0, 0, 128, 0]);
+}
+
+/// A surface that a flip or turn would change, with a hole.
+fn surface() -> Heightfield {
+    let lattice = Lattice::new(5, 6, 0.3)
+        .unwrap()
+        .with_origin([1.0, 2.0])
+        .unwrap();
+    let mut heights = Heightfield::from_fn(lattice, |x, y| 0.5 * x + 2.0 * y)
+        .unwrap()
+        .into_heights();
+    heights[lattice.index(0, 5)] = f64::NAN;
+    Heightfield::new(lattice, heights).unwrap()
+}
+
+fn load_obj(bytes: &[u8]) -> tobj::Mesh {
+    let options = tobj::LoadOptions::default();
+    let no_material = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
+    let (models, _) = tobj::load_obj_buf(&mut &bytes[..], &options, no_material).unwrap();
+    assert_eq!(models.len(), 1);
+    models.into_iter().next().unwrap().mesh
+}
+
+#[test]
+fn another_reader_sees_the_surface_in_our_obj() {
+    let surface = surface();
+    let mesh = load_obj(&write_obj(&surface).unwrap());
+    // 4 strips of 2 · 5 triangles; the missing corner takes the one that touches it.
+    assert_eq!(mesh.indices.len() / 3, 40 - 1);
+    assert_eq!(mesh.positions.len() / 3, 30 - 1);
+    assert_eq!(mesh.normals.len(), mesh.positions.len());
+    let vertex =
+        |i: u32| -> [f64; 3] { std::array::from_fn(|k| mesh.positions[3 * i as usize + k]) };
+    let mut area = 0.0;
+    for t in mesh.indices.chunks_exact(3) {
+        let [a, b, c] = [vertex(t[0]), vertex(t[1]), vertex(t[2])];
+        let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        assert!(twice > 0.0, "counter-clockwise seen from +z");
+        area += twice / 2.0;
+        for [x, y, z] in [a, b, c] {
+            assert!((z - 0.5 * x - 2.0 * y).abs() < 1e-6, "{x} {y} {z}");
+        }
+    }
+    let triangle = 3f64.sqrt() / 4.0 * 0.09;
+    assert!((area - 39.0 * triangle).abs() < 1e-6);
+    let length = (1.0 + 0.25 + 4.0f64).sqrt();
+    for n in mesh.normals.chunks_exact(3) {
+        for (found, exact) in n.iter().zip([-0.5, -2.0, 1.0]) {
+            assert!((*found - exact / length).abs() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn obj_positions_read_back_exactly() {
+    let surface = surface();
+    let text = String::from_utf8(write_obj(&surface).unwrap()).unwrap();
+    let written: Vec<[f64; 3]> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("v "))
+        .map(|line| {
+            let numbers: Vec<f64> = line.split(' ').map(|n| n.parse().unwrap()).collect();
+            numbers.try_into().unwrap()
+        })
+        .collect();
+    let lattice = surface.lattice();
+    let expected: Vec<[f64; 3]> = (0..lattice.len())
+        .filter(|i| surface.heights()[*i].is_finite())
+        .map(|i| {
+            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+            [x, y, surface.heights()[i]]
+        })
+        .collect();
+    assert_eq!(written, expected);
+}
+
+#[test]
+fn writers_refuse_what_they_cannot_write() {
+    let code = |r: Result<Vec<u8>>| r.unwrap_err().code();
+    assert_eq!(code(write_npy(0, 3, &[])), "EMPTY");
+    assert_eq!(code(write_npy(2, 3, &[0.0; 5])), "SHAPE");
+    assert_eq!(code(write_npy(1 << 20, 1 << 20, &[])), "TOO_LARGE");
+    let lattice = Lattice::new(4, 1, 1.0).unwrap();
+    let column = Heightfield::new(lattice, vec![0.0; 4]).unwrap();
+    assert_eq!(code(write_obj(&column)), "UNSUPPORTED");
+}
+
+#[test]
+fn photos_come_back_as_they_were_and_other_kinds_become_colours() {
+    let rgba: Vec<u8> = (0..4 * 35).map(|i| (i * 37 % 256) as u8).collect();
+    let written = write_photo(&Photo::new(7, 5, &rgba).unwrap()).unwrap();
+    let photo = decode_photo(&written).unwrap();
+    assert_eq!((photo.width, photo.height), (7, 5));
+    assert_eq!(photo.rgba, rgba);
+    for name in [
+        "grey1.png",
+        "grey16.png",
+        "grey8-alpha.png",
+        "rgb-colour.png",
+        "palette-grey.png",
+    ] {
+        let photo = decode_photo(&file(name)).unwrap();
+        assert_eq!(photo.rgba.len(), 4 * photo.width * photo.height, "{name}");
+    }
+    let colour = decode_photo(&file("rgb-colour.png")).unwrap();
+    assert!(
+        colour.rgba.chunks(4).any(|p| p[0] != p[1]) && colour.rgba.chunks(4).all(|p| p[3] == 255)
+    );
+    assert_eq!(decode_photo(b"no png").unwrap_err().code(), "UNSUPPORTED");
+    let cut = &written[..written.len() - 20];
+    assert_eq!(decode_photo(cut).unwrap_err().code(), "FORMAT");
+}

@@ -1,0 +1,446 @@
+//! Height and depth images: those of other programs, exact round trips, damage.
+
+use developable::files::images::{
+    Decoded, Format, Unit, decode, decode_npz, decode_photo, npz_arrays, write_exr, write_tiff,
+};
+use developable::{Error, HeightImage};
+use proptest::prelude::*;
+
+use crate::common::files;
+
+use files::{file, holes, of_every_type, ramp, read};
+
+fn times(factor: f64) -> Vec<f64> {
+    ramp().iter().map(|v| v * factor).collect()
+}
+
+fn without(mut values: Vec<f64>, pixel: usize) -> Vec<f64> {
+    values[pixel] = f64::NAN;
+    values
+}
+
+fn same(a: f64, b: f64) -> bool {
+    a == b || a.is_nan() && b.is_nan()
+}
+
+/// A file of 3 rows of 4 with these values.
+fn check(name: &str, data_type: &str, expected: &[f64]) -> Decoded {
+    let found = read(name);
+    assert_eq!((found.width, found.height), (4, 3), "{name}");
+    assert_eq!(found.data_type, data_type, "{name}");
+    let wrong = (0..12).find(|i| !same(found.values[*i], expected[*i]));
+    assert_eq!(wrong, None, "{name}: {:?}", found.values);
+    found
+}
+
+fn refused(name: &str, code: &str, hint: &str) {
+    let error = decode(&file(name), None).unwrap_err();
+    assert_eq!(error.code(), code, "{name}: {error}");
+    assert!(error.to_string().contains(hint), "{name}: {error}");
+}
+
+fn refused_for_its_size(bytes: &[u8], what: &str) {
+    let error = decode(bytes, None).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            Error::Format { .. }
+                | Error::TooLarge { .. }
+                | Error::Empty { .. }
+                | Error::Unsupported { .. }
+        ),
+        "{what}: {error:?}"
+    );
+}
+
+#[test]
+fn tiffs_of_every_type() {
+    for (name, data_type, expected) in of_every_type() {
+        let found = check(&format!("{name}.tif"), data_type, &expected);
+        assert_eq!(
+            (found.format, found.pixel_size, found.unit),
+            (Format::Tiff, 1.0, None)
+        );
+        // A quarter of 4 pixels for the whole range of integers; floats are heights.
+        let bits: i32 = data_type[1..].parse().unwrap();
+        let scale = match &name[..1] {
+            "f" => 1.0,
+            _ => 1.0 / (2f64.powi(bits) - 1.0),
+        };
+        assert_eq!(found.height_scale, scale, "{name}");
+    }
+}
+
+#[test]
+fn tiffs_of_every_layout() {
+    for name in ["f4-be", "big", "strips", "tiles", "deflate"] {
+        check(&format!("{name}.tif"), "f32", &holes());
+    }
+    check("lzw.tif", "u16", &times(700.0));
+    check("pages.tif", "f32", &ramp());
+    for name in ["packbits", "rgb-grey"] {
+        check(&format!("{name}.tif"), "u8", &times(2.0));
+    }
+    for name in ["rgba-grey", "grey-alpha"] {
+        check(&format!("{name}.tif"), "u8", &without(times(2.0), 1));
+    }
+    let inverted: Vec<f64> = ramp().iter().map(|v| 255.0 - 2.0 * v).collect();
+    check("white-is-zero.tif", "u8", &inverted);
+    refused("rgb-colour.tif", "UNSUPPORTED", "row 2, column 1");
+    refused("complex.tif", "UNSUPPORTED", "TIFF");
+}
+
+#[test]
+fn tiffs_are_seen_the_way_their_orientation_says() {
+    for orientation in 2..=8 {
+        check(&format!("orientation{orientation}.tif"), "f32", &ramp());
+    }
+}
+
+#[test]
+fn tiffs_say_how_large_a_pixel_is_and_what_is_no_data() {
+    let close = |name: &str, size: f64, unit| {
+        let found = check(name, "f32", &holes());
+        assert!((found.pixel_size - size).abs() < 1e-12, "{name}");
+        assert_eq!(found.unit, unit, "{name}");
+    };
+    close("dpi.tif", 0.1, Some(Unit::Millimetre)); // 254 to the inch
+    close("per-cm.tif", 0.2, Some(Unit::Millimetre)); // 50 to the centimetre
+    close("geo-metres.tif", 0.5, Some(Unit::Metre));
+    close("geo.tif", 0.5, None);
+    close("no-data.tif", 1.0, None);
+    refused("unequal.tif", "UNSUPPORTED", "0.254 wide and 0.127 high");
+    refused("geo-unequal.tif", "UNSUPPORTED", "0.5 wide and 0.25 high");
+    refused("geo-degrees.tif", "UNSUPPORTED", "degrees");
+}
+
+#[test]
+fn exrs_of_every_compression_and_channel() {
+    for name in [
+        "none",
+        "rle",
+        "zips",
+        "zip",
+        "piz",
+        "luminance",
+        "only",
+        "among",
+        "rgb-grey",
+    ] {
+        let found = check(&format!("{name}.exr"), "f32", &holes());
+        assert_eq!((found.format, found.height_scale), (Format::Exr, 1.0));
+    }
+    check("half.exr", "f16", &holes());
+    check("uint.exr", "u32", &ramp());
+    check("alpha.exr", "f32", &without(ramp(), 1));
+    refused("rgb-colour.exr", "UNSUPPORTED", "row 0, column 0");
+    refused("neither.exr", "UNSUPPORTED", "`u`, `v`");
+}
+
+#[test]
+fn pfms_of_either_byte_order() {
+    for name in ["le.pfm", "be.pfm", "grey.pfm"] {
+        assert_eq!(check(name, "f32", &holes()).format, Format::Pfm);
+    }
+    refused("colour.pfm", "UNSUPPORTED", "row 0, column 0");
+    let scaled = decode(b"Pf\n1 2\n-2.5\n\0\0\x80\x3f\0\0\0\x40", None).unwrap();
+    assert_eq!((scaled.height_scale, scaled.values), (2.5, vec![2.0, 1.0]));
+}
+
+#[test]
+fn npz_archives_by_name() {
+    assert_eq!(check("one.npz", "f32", &holes()).format, Format::Npz);
+    check("deflated.npz", "f64", &holes());
+    refused(
+        "several.npz",
+        "UNSUPPORTED",
+        "`depth`, `confidence`, `name`",
+    );
+    refused("none.npz", "UNSUPPORTED", "no arrays");
+    let several = file("several.npz");
+    let chosen = decode_npz(&several, Some("confidence")).unwrap();
+    assert_eq!((chosen.data_type, chosen.values), ("u8", ramp()));
+    let error = decode_npz(&several, Some("colour")).unwrap_err();
+    assert!(error.to_string().contains("no array `colour`"), "{error}");
+    let error = decode_npz(&several, Some("name")).unwrap_err();
+    assert!(error.to_string().contains("array `name`"), "{error}");
+    let arrays = npz_arrays(&several).unwrap();
+    let told: Vec<_> = arrays
+        .iter()
+        .map(|a| (a.name.as_str(), a.shape.as_slice(), a.data_type.as_str()))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("depth", &[3, 4][..], "f64"),
+            ("confidence", &[3, 4], "u8"),
+            ("name", &[1], "<U1")
+        ]
+    );
+}
+
+#[test]
+fn pictures_are_read_where_they_are_grey() {
+    // Blocks of 8 by 8 with one level each, which JPEG keeps to a level or so.
+    for (name, tolerance) in [
+        ("grey.jpg", 1.0),
+        ("progressive.jpg", 1.0),
+        ("rgb-grey.jpg", 1.0),
+        ("lossy.webp", 4.0),
+    ] {
+        let found = read(name);
+        assert_eq!((found.width, found.height), (16, 16), "{name}");
+        assert_eq!((found.data_type, found.height_scale), ("u8", 4.0 / 255.0));
+        for (i, level) in found.values.iter().enumerate() {
+            let expected = 4.0 * ramp()[i / 128 * 4 + i % 16 / 8];
+            assert!(
+                (level - expected).abs() <= tolerance,
+                "{name}, {i}: {level}"
+            );
+        }
+    }
+    assert_eq!(check("grey.webp", "u8", &times(2.0)).format, Format::WebP);
+    check("alpha.webp", "u8", &without(times(2.0), 1));
+    refused("colour.webp", "UNSUPPORTED", "row 2, column 1");
+    refused("colour.jpg", "UNSUPPORTED", "row 0, column 0");
+}
+
+#[test]
+fn jpegs_are_seen_the_way_their_exif_says() {
+    for orientation in 2..=8 {
+        let name = format!("exif{orientation}.jpg");
+        let found = read(&name);
+        assert_eq!((found.width, found.height), (24, 16), "{name}");
+        for (i, level) in found.values.iter().enumerate() {
+            let expected = 4.0 * ramp()[i / 24 / 8 * 4 + i % 24 / 8];
+            assert!((level - expected).abs() <= 1.0, "{name}, {i}: {level}");
+        }
+    }
+    // Damage to what Exif says is none to the picture.
+    let mut bytes = file("exif6.jpg");
+    let at = bytes.windows(4).position(|w| w == b"Exif").unwrap();
+    bytes[at + 6..at + 8].copy_from_slice(b"??");
+    let found = decode(&bytes, None).unwrap();
+    assert_eq!((found.width, found.height), (16, 24));
+}
+
+#[test]
+fn photos_have_their_colours() {
+    let colour = |name: &str, i: usize| {
+        let photo = decode_photo(&file(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(photo.rgba.len(), 4 * photo.width * photo.height, "{name}");
+        <[u8; 4]>::try_from(&photo.rgba[4 * i..][..4]).unwrap()
+    };
+    let grey = |i: usize| 2 * ramp()[i] as u8;
+    assert_eq!(colour("colour.webp", 9), [200, 10, 10, 255]);
+    assert_eq!(
+        colour("colour.webp", 10),
+        [grey(10), grey(10), grey(10), 255]
+    );
+    assert_eq!(colour("alpha.webp", 1)[3], 0);
+    assert_eq!(colour("alpha.webp", 11), [grey(11), grey(11), grey(11), 90]);
+    // Red falls as green and blue grow: in steps of 8 pixels, as `make-images.py` has them.
+    let [r, g, b, a] = colour("colour.jpg", 0);
+    assert!(r > 230 && g < 25 && b < 25 && a == 255, "{r} {g} {b}");
+    for name in ["grey.jpg", "grey.webp", "progressive.jpg"] {
+        let values = read(name).values;
+        let found = (0..values.len()).map(|i| colour(name, i));
+        for ([r, g, b, a], value) in found.zip(values) {
+            assert_eq!((r, g, b, a), (r, r, r, 255), "{name}");
+            assert_eq!(f64::from(r), value, "{name}");
+        }
+    }
+    // The way up is that of the heights.
+    let seen = decode_photo(&file("exif6.jpg")).unwrap();
+    let heights = read("exif6.jpg");
+    assert_eq!((seen.width, seen.height), (heights.width, heights.height));
+    let reds: Vec<f64> = seen.rgba.chunks(4).map(|p| p[0].into()).collect();
+    assert_eq!(reds, heights.values);
+    let refused = |name: &str| decode_photo(&file(name)).unwrap_err().code();
+    assert_eq!(refused("half.exr"), "UNSUPPORTED");
+    for name in ["colour.jpg", "colour.webp"] {
+        let bytes = file(name);
+        for length in 0..bytes.len() - 2 {
+            assert!(
+                decode_photo(&bytes[..length]).is_err(),
+                "{name} cut to {length}"
+            );
+        }
+    }
+}
+
+/// A file of each kind, as small as it gets.
+const ALL: [&str; 21] = [
+    "f4-be.tif",
+    "big.tif",
+    "tiles.tif",
+    "lzw.tif",
+    "packbits.tif",
+    "geo-metres.tif",
+    "rgba-grey.tif",
+    "none.exr",
+    "rle.exr",
+    "zip.exr",
+    "piz.exr",
+    "among.exr",
+    "le.pfm",
+    "one.npz",
+    "deflated.npz",
+    "grey.jpg",
+    "progressive.jpg",
+    "exif6.jpg",
+    "grey.webp",
+    "alpha.webp",
+    "lossy.webp",
+];
+
+#[test]
+fn files_cut_short_anywhere_are_errors() {
+    for name in ALL {
+        let bytes = file(name);
+        let whole = decode(&bytes, None).unwrap();
+        let mut harmless = 0;
+        for length in 0..bytes.len() {
+            match decode(&bytes[..length], None) {
+                Ok(part) => {
+                    // Padding and metadata at the end may be missed by nobody.
+                    assert!(
+                        part.values
+                            .iter()
+                            .zip(&whole.values)
+                            .all(|(a, b)| same(*a, *b)),
+                        "{name} {length}"
+                    );
+                    harmless += 1;
+                }
+                Err(error) => assert!(
+                    matches!(error, Error::Format { .. } | Error::Unsupported { .. }),
+                    "{name}, {length}: {error:?}"
+                ),
+            }
+        }
+        assert!(
+            harmless < 16,
+            "{name}: {harmless} of {} lengths",
+            bytes.len()
+        );
+    }
+}
+
+#[test]
+fn sizes_that_cannot_be_are_refused() {
+    let code = |bytes: &[u8]| decode(bytes, None).unwrap_err().code();
+    assert_eq!(code(b"Pf\n0 4\n-1\n"), "EMPTY");
+    assert_eq!(code(b"Pf\n99999 99999\n-1\n"), "TOO_LARGE");
+    assert_eq!(code(b"Pf\n4096 4096\n-1\n"), "FORMAT");
+    assert_eq!(code(b"Pf\n-1 4\n-1\n"), "FORMAT");
+    assert_eq!(code(b"Pf\n1 1\n0\n\0\0\0\0"), "FORMAT");
+    assert_eq!(code(b"Pf\n99999999999999999999 1\n-1\n"), "FORMAT");
+
+    // Width and length are the values of the tags 256 and 257, of type LONG or SHORT.
+    let sized = |width: u32, height: u32| {
+        let mut bytes = file("f4.tif");
+        for (tag, value) in [(256u16, width), (257, height)] {
+            let place = bytes
+                .windows(2)
+                .position(|pair| pair == tag.to_le_bytes())
+                .unwrap();
+            bytes[place + 2..place + 4].copy_from_slice(&4u16.to_le_bytes());
+            bytes[place + 8..place + 12].copy_from_slice(&value.to_le_bytes());
+        }
+        bytes
+    };
+    for (width, height) in [
+        (u32::MAX, u32::MAX),
+        (65_535, 65_535),
+        (4096, 4096),
+        (0, 3),
+        (4, 0),
+        (4096, 3),
+        (3, 4096),
+    ] {
+        refused_for_its_size(&sized(width, height), &format!("{width} × {height}"));
+    }
+
+    // The data window of an EXR is named in its header: four 32-bit integers.
+    let windowed = |right: i32, bottom: i32| {
+        let mut bytes = file("zip.exr");
+        let name = b"dataWindow\0box2i\0";
+        let place = bytes.windows(name.len()).position(|w| w == name).unwrap() + name.len() + 4;
+        bytes[place + 8..place + 12].copy_from_slice(&right.to_le_bytes());
+        bytes[place + 12..place + 16].copy_from_slice(&bottom.to_le_bytes());
+        bytes
+    };
+    for (right, bottom) in [
+        (i32::MAX, i32::MAX),
+        (99_999, 99_999),
+        (4095, 4095),
+        (-1, 2),
+        (3, -1),
+        (3, i32::MAX),
+    ] {
+        refused_for_its_size(&windowed(right, bottom), &format!("{right}, {bottom}"));
+    }
+}
+
+fn heights() -> impl Strategy<Value = (usize, Vec<f32>)> {
+    (1usize..9).prop_flat_map(|cols| {
+        (1usize..9).prop_flat_map(move |rows| {
+            let height = prop_oneof![
+                4 => prop::num::f32::NORMAL | prop::num::f32::SUBNORMAL | prop::num::f32::ZERO,
+                1 => Just(f32::NAN)
+            ];
+            (Just(cols), prop::collection::vec(height, rows * cols))
+        })
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    /// Damage anywhere gives a value or an error, whichever it deserves.
+    #[test]
+    fn flipped_bytes_never_panic(
+        which in 0..ALL.len(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let mut bytes = file(ALL[which]);
+        for (place, byte) in damage {
+            let length = bytes.len();
+            bytes[place.index(length)] = byte;
+        }
+        let _ = decode(&bytes, None).and_then(Decoded::into_image);
+        let _ = npz_arrays(&bytes);
+    }
+
+    #[test]
+    fn round_trips_are_exact_for_32_bits((cols, values) in heights(), side in 1e-3f64..1e3) {
+        let rows = values.len() / cols;
+        let image = HeightImage::new(cols, rows, values.iter().map(|z| f64::from(*z)).collect())
+            .and_then(|image| image.with_pixel_size(side))
+            .unwrap();
+        for (bytes, format) in [
+            (write_tiff(&image).unwrap(), Format::Tiff),
+            (write_exr(&image).unwrap(), Format::Exr),
+        ] {
+            let back = decode(&bytes, Some(format)).unwrap();
+            prop_assert_eq!((back.width, back.height, back.data_type), (cols, rows, "f32"));
+            prop_assert_eq!((back.pixel_size, back.height_scale), (side, 1.0));
+            for (a, b) in back.values.iter().zip(image.values()) {
+                prop_assert!(same(*a, *b), "{} {}", a, b);
+            }
+        }
+    }
+}
+
+#[test]
+fn heights_beyond_32_bits_are_refused() {
+    let image = HeightImage::new(2, 1, vec![1.0, 1e39]).unwrap();
+    for error in [
+        write_tiff(&image).unwrap_err(),
+        write_exr(&image).unwrap_err(),
+    ] {
+        assert_eq!(error.code(), "NOT_FINITE");
+        assert!(error.to_string().contains("column 1"), "{error}");
+    }
+}

@@ -1,0 +1,47 @@
+//! The library as its users see it: one program for all of these tests, for linking each alone
+//! takes longer than compiling it.
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+#[path = "../fixtures/case.rs"]
+mod case;
+#[path = "../fixtures/check.rs"]
+mod check;
+
+mod camera;
+mod clouds;
+mod confidence;
+mod design;
+mod dewarp;
+#[cfg(feature = "patterns")]
+mod drawing;
+mod dropouts;
+mod energies;
+mod examples;
+mod fixtures;
+#[cfg(feature = "formats")]
+mod formats;
+mod honesty;
+#[cfg(feature = "images")]
+mod images;
+mod invariance;
+#[cfg(feature = "meshes")]
+mod meshes;
+mod occlusions;
+mod optimum;
+mod parts;
+mod patches;
+mod pattern;
+mod recovery;
+mod resample;
+mod reweighting;
+mod rulings;
+mod sampling;
+mod steps;
+#[cfg(all(feature = "formats", feature = "meshes"))]
+mod surfaces;
+#[cfg(all(feature = "formats", feature = "meshes"))]
+mod textures;
+mod unroll;
+mod warm;

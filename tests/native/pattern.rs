@@ -1,0 +1,318 @@
+//! Surfaces cut into sheets that lie flat.
+
+use crate::common::unit_square;
+use developable::patches::{PatchOptions, Patches};
+use developable::pattern::{Direction, PatternOptions, Run, Sheet, pattern};
+use developable::{Example, ExampleOptions, Heightfield, Lambda, Lattice, Options, fit};
+
+fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
+    let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
+    let sheets = pattern(surface, &patches, &PatternOptions::default()).unwrap();
+    (patches, sheets)
+}
+
+/// Width and height of what the outlines enclose.
+fn extent(sheet: &Sheet) -> [f64; 2] {
+    let points = || (sheet.outlines.iter().flatten()).flat_map(|run| &run.points);
+    [0, 1].map(|k| {
+        let values = || points().map(|p| p[k]);
+        values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+    })
+}
+
+fn length(points: &[[f64; 2]]) -> f64 {
+    let pieces = points.windows(2);
+    pieces
+        .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+        .sum()
+}
+
+/// Both sides of each crease that is cut, by its number.
+fn cuts(sheets: &[Sheet], crease: usize) -> Vec<&Run> {
+    let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
+    runs.filter(|run| run.seam.is_some_and(|seam| seam.crease == crease))
+        .collect()
+}
+
+fn near(found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} {expected} ±{tolerance}"
+    );
+}
+
+#[test]
+fn a_folded_card_is_as_large_as_the_flat_one() {
+    // Folded across, along, and at a slant, at any place between the vertices.
+    for (turn, offset) in [
+        (0.0, 0.0),
+        (0.0, 0.0037),
+        (90.0, 0.0021),
+        (30.0, 0.004),
+        (77.0, 0.001),
+    ] {
+        for slope in [0.5, -1.3f64] {
+            let (sin, cos) = f64::to_radians(turn).sin_cos();
+            let card = unit_square(100, |x, y| {
+                let across = cos * (x - 0.5 - offset) + sin * (y - 0.5);
+                -slope * across.abs()
+            });
+            let (_, sheets) = sheets(&card);
+            assert_eq!(sheets.len(), 1);
+            let sheet = &sheets[0];
+            assert_eq!((sheet.patches.len(), sheet.folds.len()), (2, 1));
+            assert!(
+                sheet.strain < 1e-5 && sheet.gap < 1e-4,
+                "{} {}",
+                sheet.strain,
+                sheet.gap
+            );
+            let fold = &sheet.folds[0];
+            let direction = if slope > 0.0 {
+                Direction::Mountain
+            } else {
+                Direction::Valley
+            };
+            assert_eq!(fold.seam.direction, direction);
+            near(fold.seam.angle, 2.0 * slope.abs().atan(), 0.01);
+            assert_eq!(fold.points.len(), 2, "{turn} {offset}: {:?}", fold.points);
+            let lattice = card.lattice();
+            let width = (lattice.cols() - 1) as f64 * lattice.spacing();
+            let height = (lattice.rows() - 1) as f64 * lattice.row_spacing();
+            let steep = (1.0 + slope * slope).sqrt();
+            let [w, h] = extent(sheet);
+            if turn == 0.0 {
+                near(w, width * steep, 0.002 * w);
+                near(h, height, 0.002);
+                near(length(&fold.points), height, 0.002);
+                assert_eq!(
+                    sheet.outlines[0]
+                        .iter()
+                        .map(|r| r.points.len())
+                        .sum::<usize>(),
+                    5,
+                    "{sheet:?}"
+                );
+            } else if turn == 90.0 {
+                near(w, width, 0.002);
+                near(h, height * steep, 0.002 * h);
+                near(length(&fold.points), width, 0.002);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_zigzag_stays_in_one_piece() {
+    // Four strips, three folds.
+    let (patches, sheets) = sheets(&unit_square(100, |x, _| {
+        let t = 4.0 * (x - 0.003);
+        0.1 * (t - 2.0 * (0.5 * t).round()).abs()
+    }));
+    assert_eq!(patches.patches().len(), 4);
+    assert_eq!(sheets.len(), 1);
+    assert_eq!(sheets[0].patches, [0, 1, 2, 3]);
+    let directions: Vec<Direction> = sheets[0].folds.iter().map(|f| f.seam.direction).collect();
+    assert_eq!(
+        directions
+            .iter()
+            .filter(|d| **d == Direction::Valley)
+            .count(),
+        1
+    );
+    assert_eq!(directions.len(), 3);
+    // As wide as its strips together, over the 102 columns that cover the square.
+    let slope = (1.0f64 + 0.16).sqrt();
+    near(extent(&sheets[0])[0], 1.01 * slope, 0.002 * slope);
+}
+
+#[test]
+fn a_pyramid_is_cut_along_one_of_its_edges() {
+    // Four faces around an apex that lacks a part of a full turn.
+    let (patches, sheets) = sheets(&unit_square(100, |x, y| {
+        -0.8 * (x - 0.503).abs().max((y - 0.502).abs())
+    }));
+    assert_eq!(patches.patches().len(), 4);
+    assert_eq!(sheets.len(), 1);
+    assert_eq!(sheets[0].folds.len(), 3);
+    assert!(sheets[0].strain < 5e-4, "{}", sheets[0].strain);
+    let cut = (0..4)
+        .find(|c| sheets[0].folds.iter().all(|f| f.seam.crease != *c))
+        .unwrap();
+    let sides = cuts(&sheets, cut);
+    assert_eq!(sides.len(), 2);
+    for side in &sides {
+        near(length(&side.points), patches.creases()[cut].length, 0.01);
+        // Straight, but for the last two cells: four patches meet there, and nodes are of three.
+        let apex = [side.points[0], *side.points.last().unwrap()];
+        let away = |p: &[f64; 2]| {
+            apex.map(|q| length(&[*p, q]))
+                .into_iter()
+                .fold(1.0, f64::min)
+        };
+        assert!(
+            side.points.iter().all(|p| away(p) < 0.025),
+            "{:?}",
+            side.points
+        );
+    }
+    near(length(&sides[0].points), length(&sides[1].points), 0.002);
+}
+
+#[test]
+fn vaults_that_meet_in_a_curve_come_apart() {
+    // A barrel vault through a lower one: the creases are curved, and no flat sheet has both sides.
+    let arc = |v: f64| (0.49 - (v - 0.5).powi(2)).sqrt();
+    let (patches, sheets) = sheets(&unit_square(100, move |x, y| (arc(x) - 0.05).max(arc(y))));
+    assert_eq!(patches.patches().len(), 3);
+    assert_eq!(
+        sheets.len(),
+        3,
+        "{:?}",
+        sheets.iter().map(|s| &s.patches).collect::<Vec<_>>()
+    );
+    for sheet in &sheets {
+        assert!(sheet.folds.is_empty());
+        assert!(sheet.strain < 0.001);
+    }
+    for (number, crease) in patches.creases().iter().enumerate() {
+        let sides = cuts(&sheets, number);
+        assert_eq!(sides.len(), 2);
+        let [a, b] = [0, 1].map(|k| length(&sides[k].points));
+        near(a / b, 1.0, 0.002);
+        near(a / crease.length, 1.0, 0.01);
+    }
+}
+
+#[test]
+fn a_vertex_with_a_full_turn_around_it_is_folded_flat() {
+    // The vertex of a Miura fold: its four angles are α, π − α, π − α and α.
+    let fold = unit_square(120, |x, y| {
+        0.5 * (x - 0.452 + 0.4 * (y - 0.481).abs()).abs()
+    });
+    let (patches, sheets) = sheets(&fold);
+    assert_eq!(patches.patches().len(), 4);
+    assert_eq!(sheets.len(), 1);
+    let sheet = &sheets[0];
+    // As Maekawa's theorem has it, two more of the one kind than of the other.
+    let valleys = sheet
+        .folds
+        .iter()
+        .filter(|f| f.seam.direction == Direction::Valley);
+    assert_eq!((sheet.folds.len(), valleys.count()), (4, 3));
+    let shape: Vec<usize> = sheet.outlines.iter().map(Vec::len).collect();
+    assert_eq!(shape, [1], "one line around it all");
+    assert!(
+        sheet.gap < 0.001 && sheet.strain < 0.001,
+        "{} {}",
+        sheet.gap,
+        sheet.strain
+    );
+    // All four meet at the same slope.
+    let steep = (1.0f64 + 0.25 * 1.16).sqrt();
+    near(sheet.area, steep, 0.02);
+}
+
+#[test]
+fn holes_and_tears_are_cut() {
+    // A flat sheet with a hole, and a step that no fold bridges.
+    let holed = crate::common::cut(&unit_square(80, |_, _| 0.0), |x, y| {
+        (x - 0.5).hypot(y - 0.5) > 0.2
+    });
+    let (_, found) = sheets(&holed);
+    assert_eq!((found.len(), found[0].outlines.len()), (1, 2));
+    let around = |k: usize| -> f64 { found[0].outlines[k].iter().map(|r| length(&r.points)).sum() };
+    near(around(0), 4.0, 0.05);
+    near(around(1), std::f64::consts::TAU * 0.2, 0.08);
+    let step = unit_square(80, |x, _| if x > 0.503 { 0.3 } else { 0.0 });
+    let (patches, found) = sheets(&step);
+    if patches.patches().len() > 1 {
+        assert!(found.iter().all(|sheet| sheet.folds.is_empty()));
+    }
+}
+
+#[test]
+fn nonsense_is_refused() {
+    let field = unit_square(20, |x, _| 0.5 * (x - 0.5).abs());
+    let patches = Patches::new(&field, &PatchOptions::default()).unwrap();
+    for gap in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let options = PatternOptions::default().gap(gap);
+        assert_eq!(
+            pattern(&field, &patches, &options).unwrap_err().code(),
+            "OPTION"
+        );
+    }
+    let other = unit_square(30, |x, _| x);
+    let error = pattern(&other, &patches, &PatternOptions::default()).unwrap_err();
+    assert_eq!(error.code(), "SHAPE");
+}
+
+/// Four planes fold from one sheet; vaults meet them along curves, and are cut.
+#[test]
+fn a_house_is_three_sheets_and_three_folds_once_it_was_solved_from_noise() {
+    let options = ExampleOptions {
+        noise: 0.01,
+        ..ExampleOptions::default()
+    };
+    let input = Example::House.generate(&options).unwrap().input;
+    let field = input.to_lattice(None).unwrap();
+    let solved = fit(&field, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let (_, sheets) = sheets(solved.heightfield());
+    let patches: Vec<usize> = sheets.iter().map(|sheet| sheet.patches.len()).collect();
+    let folds: Vec<usize> = sheets.iter().map(|sheet| sheet.folds.len()).collect();
+    assert_eq!(patches, [4, 1, 1]);
+    assert_eq!(folds, [3, 0, 0], "folds without a ring");
+    // Planes of slope 0.8 that meet at a right angle in plan.
+    let hip = (1.0f64 / 1.64).acos().to_degrees();
+    for fold in &sheets[0].folds {
+        assert_eq!(fold.seam.direction, Direction::Mountain);
+        near(fold.seam.angle.to_degrees(), hip, 3.0);
+        // From the ridge's end to the corner, 0.375 in x, in y and 0.3 up.
+        near(
+            length(&fold.points),
+            (2.0f64 * 0.375 * 0.375 + 0.09).sqrt(),
+            0.03,
+        );
+    }
+    for sheet in &sheets {
+        assert!(sheet.strain < 0.003, "{}", sheet.strain);
+    }
+    // The vaults are alike, and rectangles with one side cut to a curve: as long along the arc.
+    let arc = 2.0 * 0.36 * (0.3f64 / 0.36).asin();
+    for vault in &sheets[1..] {
+        let [width, height] = extent(vault);
+        near(width.max(height), arc, 0.06);
+    }
+    near(sheets[1].area, sheets[2].area, 0.01);
+}
+
+/// Patches belong to one surface; on another of the same shape their creases lead nowhere.
+#[test]
+fn patches_of_another_surface_are_refused() {
+    let lattice = Lattice::new(40, 40, 0.025).unwrap();
+    let roof = |x: f64, _: f64| -0.5 * (x - 0.52).abs();
+    let whole = Heightfield::from_fn(lattice, roof).unwrap();
+    let island = Heightfield::from_fn(lattice, |x, y| {
+        if (x - 0.5).hypot(y + 0.4) < 0.3 {
+            roof(x, y)
+        } else {
+            f64::NAN
+        }
+    });
+    let island = island.unwrap();
+    let larger = Heightfield::new(
+        Lattice::new(40, 40, 0.05).unwrap(),
+        whole.heights().to_vec(),
+    );
+    let options = PatternOptions::default();
+    for (of, on) in [
+        (&whole, &island),
+        (&island, &whole),
+        (&whole, &larger.unwrap()),
+    ] {
+        let patches = Patches::new(of, &PatchOptions::default()).unwrap();
+        let error = pattern(on, &patches, &options).unwrap_err();
+        assert_eq!(error.code(), "MISMATCH", "{error}");
+        assert!(pattern(of, &patches, &options).is_ok());
+    }
+}

@@ -6,12 +6,15 @@ import { buildInline } from './build/inline.mjs';
 import { buildVendor } from './build/vendor.mjs';
 import { compileWasm, packWasm } from './build/wasm.mjs';
 
-/** Sets up what is missing and builds. */
-export async function build() {
-  const { env } = await setupBuild(compileWasm);
+/**
+ * Sets up what is missing and builds.
+ * @param {import('./build/wasm.mjs').Build} [kind]
+ */
+export async function build(kind) {
+  const { env } = await setupBuild((found) => compileWasm(found, kind));
   await buildVendor();
-  await packWasm(env);
+  await packWasm(env, kind);
   await buildInline();
 }
 
-if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) await main(build);
+if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) await main(() => build());

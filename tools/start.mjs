@@ -1,10 +1,13 @@
-/** `npm start`: sets up, builds, and serves the page until Ctrl-C. */
+/**
+ * `npm start`: sets up, builds, and serves the page until Ctrl-C. `npm run dev` does so with a build that
+ * is quick to repeat.
+ */
 import { build } from './build.mjs';
 import { main, Problem } from './util/problem.mjs';
 
 await main(async () => {
   const ports = candidates(process.env.PORT);
-  await build();
+  await build(process.argv.includes('--quick') ? 'quick' : 'release');
   const server = await open(ports);
   console.log(`\nThe page is at ${server.url} (Ctrl-C ends this)`);
   for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) {

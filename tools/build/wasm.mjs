@@ -24,29 +24,42 @@ const files = [
   { name: 'patterns', limit: 220_000 },
 ];
 
+/**
+ * `quick`: for whoever changes the code and looks at the page. Only what has changed is compiled, in
+ * pieces; the wasm is a little larger and slower.
+ * @typedef {'release' | 'quick'} Build
+ */
+
 /** @param {Env} env */
 export async function buildWasm(env) {
   await compileWasm(env);
   await packWasm(env);
 }
 
+/** The package's crates, as cargo is told. */
+export const crates = files.flatMap(({ name }) => ['--package', `developable-wasm-${name}`]);
+
 /**
  * Compiles the crates, in one call and one folder, so that what they share is compiled once.
  * @param {Env} env without need of wasm-bindgen
+ * @param {Build} [kind]
  */
-export async function compileWasm(env) {
-  const crates = files.flatMap(({ name }) => ['--package', `developable-wasm-${name}`]);
-  await must('cargo', ['build', '--release', '--target', target, ...crates], env);
+export async function compileWasm(env, kind = 'release') {
+  const pieces = ['developable', 'developable-wasm-images'].map((name) => `package.${name}.codegen-units=64`);
+  const settings = kind === 'quick' ? ['incremental=true', ...pieces] : [];
+  const config = settings.flatMap((setting) => ['--config', `profile.release.${setting}`]);
+  await must('cargo', ['build', '--release', '--target', target, ...crates, ...config], env);
 }
 
 /**
  * Makes the package's files of the modules that have changed: in a new folder beside the old one, so
  * that who reads there finds one or the other.
  * @param {Env} env
+ * @param {Build} [kind]
  */
-export async function packWasm(env) {
+export async function packWasm(env, kind = 'release') {
   const from = join(await targetFolder(env), target, 'release');
-  const tools = await fingerprint(env);
+  const tools = await fingerprint(env, kind);
   const modules = await Promise.all(files.map(async ({ name }) => {
     const module = join(from, `developable_wasm_${name}.wasm`);
     const origin = createHash('sha256').update(tools).update(await readFile(module)).digest('hex');
@@ -59,7 +72,7 @@ export async function packWasm(env) {
       const pending = modules[Symbol.iterator]();
       // As many at a time as there are cores: wasm-opt has but one thread.
       await Promise.all(Array.from({ length: availableParallelism() }, async () => {
-        for (const module of pending) await pack(draft, module, env);
+        for (const module of pending) await pack(draft, module, env, kind);
       }));
       // `mkdtemp` lets nobody else in.
       await chmod(draft, 0o755);
@@ -69,15 +82,16 @@ export async function packWasm(env) {
       await rm(draft, { recursive: true, force: true });
     }
   }
-  for (const { name, limit } of files) await checkSize(name, limit);
+  if (kind === 'release') for (const { name, limit } of files) await checkSize(name, limit);
 }
 
 /**
  * @param {string} folder
  * @param {{ name: string, module: string, origin: string, current: boolean }} file
  * @param {Env} env
+ * @param {Build} kind
  */
-async function pack(folder, { name, module, origin, current }, env) {
+async function pack(folder, { name, module, origin, current }, env, kind) {
   if (current) {
     for (const part of await readdir(pkgWasm)) {
       if (part === basename(made('', name)) || new RegExp(`^${name}(_bg)?\\.`).test(part)) {
@@ -87,9 +101,11 @@ async function pack(folder, { name, module, origin, current }, env) {
     return;
   }
   await must('wasm-bindgen', ['--target', 'web', '--out-dir', folder, '--out-name', name, module], env);
-  const packed = join(folder, `${name}_bg.wasm`);
-  // Beyond -O1 it takes twice as long for a file of the same size, gzipped.
-  await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], env);
+  if (kind === 'release') {
+    const packed = join(folder, `${name}_bg.wasm`);
+    // Beyond -O1 it takes twice as long for a file of the same size, gzipped.
+    await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], env);
+  }
   await writeFile(made(folder, name), origin);
 }
 
@@ -106,12 +122,13 @@ const wasmOpt = join(root, 'node_modules/binaryen/bin/wasm-opt');
 /**
  * What the result depends on besides the module: the two tools, and this file.
  * @param {Env} env
+ * @param {Build} kind
  */
-async function fingerprint(env) {
+async function fingerprint(env, kind) {
   const bindgen = await run('wasm-bindgen', ['--version'], { env });
   const binaryen = await readFile(join(root, 'node_modules/binaryen/package.json'));
   const own = await readFile(new URL(import.meta.url));
-  return createHash('sha256').update(bindgen.output).update(binaryen).update(own).digest();
+  return createHash('sha256').update(bindgen.output).update(binaryen).update(own).update(kind).digest();
 }
 
 /** @param {Env} env */

@@ -1,5 +1,6 @@
 /** Checks and tests of the JavaScript. */
 import { readdir } from 'node:fs/promises';
+import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { stripVTControlCharacters } from 'node:util';
 import { root } from '../util/paths.mjs';
@@ -32,7 +33,9 @@ async function nodeTest(folder, env) {
   const names = await readdir(join(root, folder)).catch(() => /** @type {string[]} */ ([]));
   const files = names.filter((name) => name.endsWith('.test.mjs')).map((name) => `${folder}/${name}`);
   if (files.length === 0) throw new Problem(`there is no test in ${folder}`);
-  const output = await check(process.execPath, ['--test', '--test-reporter=spec', ...files.sort()], env);
+  // They wait for workers and browsers; Node by itself would leave one core idle.
+  const options = ['--test', '--test-reporter=spec', `--test-concurrency=${availableParallelism()}`];
+  const output = await check(process.execPath, [...options, ...files.sort()], env);
   const skipped = Number(/\bskipped (\d+)\s*$/m.exec(stripVTControlCharacters(output))?.[1] ?? 0);
   if (process.env.CI && skipped > 0) throw new Problem(`${skipped} tests in ${folder} were skipped`);
 }

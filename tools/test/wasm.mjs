@@ -3,6 +3,7 @@ import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { stripVTControlCharacters } from 'node:util';
+import { crates } from '../build/wasm.mjs';
 import { target } from '../setup/wasm-target.mjs';
 import { without } from '../util/env.mjs';
 import { root } from '../util/paths.mjs';
@@ -44,7 +45,10 @@ export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) 
  * @param {Env} env
  */
 async function cargoTest(name, env) {
-  const output = await check('cargo', ['test', '--target', target, '--test', name], {
+  // The package's crates are named so that cargo gives the library the features that it has in them.
+  const features = ['--no-default-features', '--features', 'developable/formats'];
+  const which = ['--package', 'developable', ...crates, ...features, '--test', name];
+  const output = await check('cargo', ['test', '--release', '--target', target, ...which], {
     ...env,
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: 'wasm-bindgen-test-runner',
     WASM_BINDGEN_TEST_TIMEOUT: '300',

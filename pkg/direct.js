@@ -7,7 +7,7 @@ import { asFiles, asMesh } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, placedOptions } from './sheet-input.js';
+import { asPhoto, placeOf, placedOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
 export { DevelopableError } from './errors.js';
@@ -250,10 +250,10 @@ export function readMesh(bytes, given) {
 
 /** @type {typeof import('./direct.js').sampleMesh} */
 export function sampleMesh(mesh, given) {
-  const { textures, ...bare } = asMesh(mesh);
+  const { textures, camera, ...bare } = asMesh(mesh);
   const options = optionsOf('sampleMesh', given);
   const { textureOf, ...seen } = meshes.call((wasm) => wasm.sampleMesh(bare, options));
-  return inColour(seen, textureOf, textures);
+  return inColour({ ...seen, ...(camera && { camera }) }, textureOf, textures);
 }
 
 /** @type {typeof import('./direct.js').paint} */
@@ -265,8 +265,11 @@ export function paint(input, picture, options) {
 /** @type {typeof import('./direct.js').backProject} */
 export function backProject(input, intrinsics) {
   const image = asImage(input);
-  const camera = optionsOf('camera', intrinsics);
-  return meshes.call((wasm) => wasm.backProject(image, camera));
+  const camera = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
+  const mesh = meshes.call((wasm) => wasm.backProject(image, camera));
+  // A photo of another size has other numbers.
+  const { width, height } = image;
+  return { ...mesh, camera: { width, height, ...camera } };
 }
 
 /** @type {typeof import('./direct.js').analyze} */
@@ -342,7 +345,8 @@ export function writeDxf(drawing) {
 export function dewarp(input, photo, given) {
   const options = placedOptions('dewarp', input, given);
   const [field, pixels] = [asField(input), asPhoto(photo)];
-  return sheets.call((wasm) => wasm.dewarp(field, pixels, options));
+  const placed = { ...options, ...placeOf(field, options) };
+  return sheets.call((wasm) => wasm.dewarp(field, pixels, placed));
 }
 
 /** @type {typeof import('./direct.js').writePhoto} */

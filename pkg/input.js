@@ -26,7 +26,7 @@ const COMMON = /** @type {const} */ (['kind', 'mask', 'noData', 'confidence', 'c
 const IMAGE = /** @type {const} */ ([...COMMON, 'width', 'height', 'data', 'pixelSize', 'heightScale']);
 
 const LATTICE = /** @type {const} */ ([
-  ...COMMON, 'rows', 'cols', 'spacing', 'origin', 'heights', 'brokenEdges', 'frame', 'colors', 'uvs', 'texture',
+  ...COMMON, 'rows', 'cols', 'spacing', 'origin', 'heights', 'brokenEdges', 'frame', 'camera', 'colors', 'uvs', 'texture',
 ]);
 
 /** What results have that are inputs in turn: of `read`, and of `fit`. */
@@ -158,7 +158,7 @@ function pixels({ width, height, mask, noData, pixelSize, heightScale }) {
 }
 
 /** A lattice without what is at its vertices. @param {Said} said */
-function vertices({ rows, cols, spacing, origin, mask, noData, frame, colors, uvs, texture }) {
+function vertices({ rows, cols, spacing, origin, mask, noData, frame, camera, colors, uvs, texture }) {
   const size = { rows: count('rows', rows), cols: count('cols', cols) };
   const total = cells('the lattice', size.rows, size.cols);
   return {
@@ -169,6 +169,7 @@ function vertices({ rows, cols, spacing, origin, mask, noData, frame, colors, uv
     mask: flags('mask', mask),
     noData: optional('noData', noData),
     frame: frame === undefined ? undefined : asFrame(frame),
+    camera: camera === undefined ? undefined : asCamera(camera),
     colors: each('colors', 3, total, optionalFloats('colors', colors)),
     uvs: each('uvs', 2, total, optionalFloats('uvs', uvs)),
     texture: texture === undefined ? undefined : asBytes(texture),
@@ -187,6 +188,15 @@ function asFrame(given) {
 }
 
 /**
+ * What took a photo. It may be the intrinsics of depths.
+ * @param {unknown} given
+ * @returns {import('./types.js').PhotoCamera}
+ */
+export function asCamera(given) {
+  return /** @type {import('./types.js').PhotoCamera} */ (optionsOf('photoCamera', /** @type {object} */ (given)));
+}
+
+/**
  * A list of so many finite numbers.
  * @param {string} name
  * @param {number} length
@@ -202,14 +212,20 @@ function tuple(name, length, given) {
 }
 
 /**
- * What a surface has from its input: the axes of a view, colours, texture coordinates and texture.
+ * What a surface has from its input: the axes of a view, the camera, colours, texture coordinates and texture.
  * @param {Image | Lattice} field
- * @returns {Partial<Pick<Heightfield, 'frame' | 'colors' | 'uvs' | 'texture'>>}
+ * @returns {Partial<Pick<Heightfield, 'frame' | 'camera' | 'colors' | 'uvs' | 'texture'>>}
  */
 export function carriedOf(field) {
   if (field.kind === 'image') return {};
-  const { frame, colors, uvs, texture } = field;
-  return { ...(frame && { frame }), ...(colors && { colors }), ...(uvs && { uvs }), ...(texture && { texture }) };
+  const { frame, camera, colors, uvs, texture } = field;
+  return {
+    ...(frame && { frame }),
+    ...(camera && { camera }),
+    ...(colors && { colors }),
+    ...(uvs && { uvs }),
+    ...(texture && { texture }),
+  };
 }
 
 /**

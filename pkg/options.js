@@ -49,6 +49,15 @@ const numbers = (length, what) => ({
   },
 });
 
+/** @type {(length: number, row: Kind, what: string) => Kind} */
+const rows = (length, row, what) => ({
+  must: `must be ${what}`,
+  take: (value) => {
+    const list = Array.isArray(value) ? Array.from({ length }, (_, i) => row.take(value[i])) : [];
+    return list.length === Object(value).length && !list.includes(undefined) ? list : undefined;
+  },
+});
+
 /** @type {(a: Kind, b: Kind) => Kind} */
 const either = (a, b) => ({
   must: `${a.must.replace(/ or (?=\S+$)/, ', ')} or ${b.must.replace('must be ', '')}`,
@@ -74,6 +83,8 @@ const resampled = { spacing: number };
 const handOver = { transfer: flag };
 const control = { signal, onAbort: choice('reject', 'keep'), onProgress: callback };
 const extent = numbers(4, 'four numbers: left, bottom, right and top');
+const lens = { fx: number, fy: number, cx: number, cy: number, width: whole, height: whole, k1: number, k2: number, p1: number, p2: number, k3: number };
+const camera = { ...lens, depthScale: number, depth: choice('planar', 'ray'), margin: whole };
 const patching = { bend: number, fold: number, smallest: number };
 const unrolling = { tolerance: number, maxIterations: whole };
 
@@ -108,7 +119,12 @@ export const OPTIONS = {
     view: either(choice(...directions), numbers(3, 'a vector of three numbers')),
     resolution: whole,
   },
-  camera: { fx: number, fy: number, cx: number, cy: number, depthScale: number, depth: choice('planar', 'ray') },
+  camera,
+  photoCamera: {
+    ...camera,
+    rotation: rows(3, numbers(3, 'three numbers'), 'three rows of three numbers: a rotation matrix'),
+    translation: numbers(3, 'three numbers'),
+  },
   paint: { extent },
   analyze: { ...resampled, threshold: number, reference: anything },
   patches: { ...resampled, ...patching },
@@ -125,7 +141,7 @@ export const OPTIONS = {
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
   pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
-  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, extent },
+  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, extent, camera: anything },
   writeObj: { materials: text },
   writePdf: { paper: choice('a4', 'letter') },
   writeGlb: { texture: anything },

@@ -1,6 +1,6 @@
 /** What is laid flat, and photos of it: checked as far as JS has to. */
 import { DevelopableError } from './errors.js';
-import { cells, count } from './input.js';
+import { asCamera, cells, count } from './input.js';
 import { optionsOf } from './options.js';
 import { record, typeOf, viewOf } from './values.js';
 
@@ -43,7 +43,39 @@ export function asPhoto(photo) {
  */
 export function placedOptions(call, input, given) {
   const options = optionsOf(call, given);
-  return options.extent === undefined ? { ...options, extent: extentOf(input) } : options;
+  if (options.extent !== undefined) return options;
+  const extent = extentOf(input);
+  return extent === undefined ? options : { ...options, extent };
+}
+
+/**
+ * What says where in a photo the points of a field are: a camera, texture coordinates or a part of the plane.
+ * @param {import('./input.js').Image | import('./input.js').Lattice} field
+ * @param {import('./types.js').DewarpOptions} options
+ */
+export function placeOf(field, { camera, extent }) {
+  if (camera !== undefined && extent !== undefined) {
+    throw new DevelopableError('OPTION', 'option `extent` is for photos taken straight from above: leave it or `camera` out');
+  }
+  if (field.kind === 'image') {
+    if (camera === undefined) return {};
+    throw new DevelopableError(
+      'OPTION',
+      'option `camera` is for what a camera has seen, and the heights are those of an image: make a mesh of its depths ' +
+        'with `backProject`, and heights of that with `sampleMesh`',
+    );
+  }
+  const { frame, uvs, camera: own } = field;
+  if (extent !== undefined) return {};
+  const seen = camera ?? own;
+  if (seen !== undefined) return { camera: asCamera(seen), frame };
+  if (uvs !== undefined) return { uvs };
+  if (frame === undefined) return {};
+  throw new DevelopableError(
+    'INPUT',
+    'nothing says where in the photo the points of this mesh are: pass the `camera` that took it, a mesh with texture ' +
+      'coordinates, or the `extent` that a photo taken straight from above shows',
+  );
 }
 
 /**

@@ -76,6 +76,8 @@ export interface Heightfield extends Known {
   brokenEdges?: Uint8Array;
   /** The axes of these coordinates in space, which a written mesh is turned back to. Default: x, y and z. */
   frame?: Frame;
+  /** The camera that has seen the depths, which a photo from the same place is laid on by. */
+  camera?: PhotoCamera;
   /** Red, green, blue of each vertex, from 0 to 1, for written meshes. */
   colors?: Float32Array;
   /** Texture coordinates of each vertex, from the left and from the bottom of the picture, likewise. */
@@ -111,9 +113,11 @@ export interface Mesh {
   textureOf?: Int32Array;
   /** Names of materials and textures that a file names and that were not given with it. */
   missing?: string[];
+  /** The camera that has seen it, if it is what one has. */
+  camera?: PhotoCamera;
 }
 
-/** A pinhole camera without distortion, in pixels: the centre of the top left one is (0, 0), rows count down. */
+/** A pinhole camera, in pixels: the centre of the top left one is (0, 0), rows count down. */
 export interface Intrinsics {
   /** Focal length in columns. */
   fx: number;
@@ -127,6 +131,29 @@ export interface Intrinsics {
   depthScale?: number;
   /** `'planar'`: distance along the axis, as most cameras give it; `'ray'`: from the camera itself. Default `'planar'`. */
   depth?: 'planar' | 'ray';
+  /** Width of the images that these numbers are for, which others of the same proportions are finer or coarser than. */
+  width?: number;
+  /** Their height. Default for both: the image that they are used with. */
+  height?: number;
+  /** Distortion by the lens, with OpenCV's coefficients: radial k1, k2, k3, tangential p1, p2. Default 0. */
+  k1?: number;
+  k2?: number;
+  p1?: number;
+  p2?: number;
+  k3?: number;
+  /** Pixels of depths that are taken away on both sides of a jump, where sensors see mixtures of both. Default 2. */
+  margin?: number;
+}
+
+/** The camera of a photo, and where it is beside that of the depths. */
+export interface PhotoCamera extends Intrinsics {
+  /**
+   * Rows of a rotation matrix R: a point p of the depths' camera is at R p + t for this one, x to the right, y down,
+   * z ahead, as OpenCV has it. Default: none.
+   */
+  rotation?: readonly (readonly [number, number, number])[];
+  /** The t of that, in the unit of the lengths. Default [0, 0, 0]. */
+  translation?: readonly [number, number, number];
 }
 
 export interface ReadMeshOptions {
@@ -369,6 +396,8 @@ export interface Surface {
   image?: SurfaceImage;
   /** The input's. */
   frame?: Frame;
+  /** The input's. */
+  camera?: PhotoCamera;
   /** The input's. */
   colors?: Float32Array;
   /** The input's. */
@@ -785,10 +814,15 @@ export interface DewarpOptions extends UnrollOptions {
   trim?: boolean;
   /**
    * The part of the plane that the photo shows: left, bottom, right, top. Default: that of the
-   * height image, also of the one that a surface was made from; of other lattices, what their
+   * height image, also of the one that a surface was made from; of heights on a lattice, what their
    * vertices cover.
    */
   extent?: readonly [number, number, number, number];
+  /**
+   * The camera that took the photo, for heights that were sampled from a mesh in a camera's axes. Default: the one that
+   * has seen the depths; of other meshes, their texture coordinates say where in the photo they are.
+   */
+  camera?: PhotoCamera;
 }
 
 /** A flat image, transparent where there is no sheet; `new ImageData(data, width)` shows it. */

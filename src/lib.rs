@@ -102,7 +102,7 @@ pub use lattice::hessian::HessianOperator;
 pub use lattice::hexagonal::Lattice;
 pub use lattice::stencil::Quadratic;
 pub use math::sym2::Sym2;
-pub use scene::camera::{Depth, Intrinsics};
+pub use scene::camera::{Camera, Depth, Distortion, Intrinsics, Pose};
 pub use scene::mesh::Mesh;
 pub use scene::sampling::{Hit, Resolution, Samples, sample};
 pub use scene::triangulation::Triangulation;

@@ -1,11 +1,6 @@
-//! Depth cameras: from depths at the pixels of an image to a mesh in space.
+//! Cameras: where in an image a point in space is seen, and what lies behind a pixel.
 
-use nalgebra::Vector3;
-
-use super::mesh::Mesh;
-use crate::error::{Error, Result, positive, try_filled};
-use crate::heights::heightfield::HeightImage;
-use crate::math::lanes;
+use crate::error::{Error, Result, positive};
 
 /// What a depth is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -19,12 +14,63 @@ pub enum Depth {
     Ray,
 }
 
-/// A pinhole camera without distortion, in pixels.
+/// Distortion by a lens, with the coefficients of OpenCV and most calibration programs: radial
+/// `k1, k2, k3` and tangential `p1, p2` (D. C. Brown, Close-range camera calibration, 1971).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[allow(missing_docs)]
+pub struct Distortion {
+    pub k1: f64,
+    pub k2: f64,
+    pub p1: f64,
+    pub p2: f64,
+    pub k3: f64,
+}
+
+impl Distortion {
+    /// Where the lens shows what an ideal one would show at `[x, y]`, both in focal lengths from the
+    /// axis. Nothing beyond the radius at which the polynomial turns back.
+    fn distorted(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        let r = x * x + y * y;
+        let growth = 1.0 + r * (3.0 * self.k1 + r * (5.0 * self.k2 + r * 7.0 * self.k3));
+        let [dx, dy] = self.tangential(x, y);
+        let radial = self.radial(r);
+        (growth > 0.0).then_some([x * radial + dx, y * radial + dy])
+    }
+
+    /// The inverse, by fixed-point iteration. Nothing where that finds none.
+    fn undistorted(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        if *self == Distortion::default() {
+            return Some([x, y]);
+        }
+        let mut ideal = [x, y];
+        for _ in 0..50 {
+            let [dx, dy] = self.tangential(ideal[0], ideal[1]);
+            let radial = self.radial(ideal[0] * ideal[0] + ideal[1] * ideal[1]);
+            ideal = [(x - dx) / radial, (y - dy) / radial];
+        }
+        let [u, v] = self.distorted(ideal)?;
+        ((u - x).hypot(v - y) < 1e-9).then_some(ideal)
+    }
+
+    fn radial(&self, r: f64) -> f64 {
+        1.0 + r * (self.k1 + r * (self.k2 + r * self.k3))
+    }
+
+    fn tangential(&self, x: f64, y: f64) -> [f64; 2] {
+        let (xy, r) = (2.0 * x * y, x * x + y * y);
+        [
+            self.p1 * xy + self.p2 * (r + 2.0 * x * x),
+            self.p1 * (r + 2.0 * y * y) + self.p2 * xy,
+        ]
+    }
+}
+
+/// A pinhole camera, in pixels.
 ///
 /// The centre of the top left pixel is at `(0, 0)`, columns count to the right
 /// and rows down, as in OpenCV and the files of most cameras: a point `x` to the
 /// right of the axis, `y` below it and `z` ahead is seen at
-/// `(fx·x/z + cx, fy·y/z + cy)`.
+/// `(fx·x/z + cx, fy·y/z + cy)`, but for the lens's distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intrinsics {
     /// Focal length in columns.
@@ -35,161 +81,232 @@ pub struct Intrinsics {
     pub cx: f64,
     /// Row of the axis.
     pub cy: f64,
-    /// Length of one step of the image's values: 0.001 makes metres of millimetres.
+    /// Width and height of the images that these numbers are for; those of other sizes show the same,
+    /// finer or coarser. `None`: whatever image they are used with.
+    pub size: Option<[usize; 2]>,
+    /// What the lens does.
+    pub distortion: Distortion,
+    /// Length of one step of a depth image's values: 0.001 makes metres of millimetres.
     pub depth_scale: f64,
-    /// What the image's values are.
+    /// What a depth image's values are.
     pub depth: Depth,
+    /// Pixels of a depth image that are taken away on both sides of a jump, where sensors give depths
+    /// between the two that belong to nothing (flying pixels). Default 2.
+    pub margin: usize,
 }
 
-/// How much farther one pixel's point may be than its neighbour's, in the distance between the two
-/// across the line of sight.
-const STEEPEST: f64 = 10.0;
-
 impl Intrinsics {
-    /// A camera whose image holds planar depths in the unit of the result.
+    /// A camera without distortion whose depth images hold planar depths in the unit of the result.
     pub fn new(fx: f64, fy: f64, cx: f64, cy: f64) -> Self {
         Intrinsics {
             fx,
             fy,
             cx,
             cy,
+            size: None,
+            distortion: Distortion::default(),
             depth_scale: 1.0,
             depth: Depth::Planar,
+            margin: 2,
         }
     }
 
-    /// What the camera has seen, as a mesh: each pixel is a vertex, by the same
-    /// index, and neighbouring ones are joined by triangles.
-    ///
-    /// The axes are those of the camera as [`Frame`](crate::Frame)s have them:
-    /// x to the right, y up, z towards the viewer, the origin at the camera's
-    /// centre. So looking along `-z` is looking along the camera's axis.
-    ///
-    /// A depth that is NaN, 0 or below is none: its vertex lies at the origin,
-    /// and no triangle uses it. Two pixels are not joined where one point lies
-    /// behind the other by more than ten times their distance across the line of
-    /// sight, for that is a jump: a surface that steep (seen at less than 5.7°)
-    /// is lost. Of the two ways to cut a square of pixels the one with the
-    /// shorter diagonal is taken, unless it leaves fewer triangles.
-    ///
-    /// The pixels have texture coordinates for a picture with the same outline.
-    /// The image's own pixel size does not matter. Costs `O(pixels)`.
+    /// A camera that looks at the middle of its images, with a field of view (in degrees) across
+    /// their longer side.
     ///
     /// # Errors
-    /// [`Error::Option`] for a number of the camera that is out of range,
-    /// [`Error::NotFinite`] if a point is too far away for a number,
-    /// [`Error::Unsupported`] if no three neighbours can be joined,
-    /// [`Error::OutOfMemory`].
-    pub fn back_project(&self, depths: &HeightImage) -> Result<Mesh> {
+    /// [`Error::Option`] for an angle that is not between 0 and 180 degrees, [`Error::Empty`].
+    pub fn with_field_of_view(degrees: f64, size: [usize; 2]) -> Result<Self> {
+        if !(degrees > 0.0 && degrees < 180.0) {
+            let requirement = "must be above 0 and below 180 degrees";
+            return Err(Error::option("field_of_view", degrees, requirement));
+        }
+        if size.contains(&0) {
+            return Err(Error::Empty { what: "photo" });
+        }
+        let [width, height] = size.map(|n| n as f64);
+        let focal = width.max(height) / 2.0 / (degrees.to_radians() / 2.0).tan();
+        let mut camera = Intrinsics::new(focal, focal, (width - 1.0) / 2.0, (height - 1.0) / 2.0);
+        camera.size = Some(size);
+        Ok(camera)
+    }
+
+    /// The same camera for images of another size that show the same: `cx' + ½ = (cx + ½)·s`.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for a number that is out of range or a centre outside the image,
+    /// [`Error::Unsupported`] where the two sizes have not the same proportions, to 2 %, for such an
+    /// image does not show the same.
+    pub fn for_size(&self, size: [usize; 2]) -> Result<Self> {
         self.check()?;
-        let (width, height) = (depths.width(), depths.height());
-        let mut positions = try_filled("mesh", width * height, [0.0; 3])?;
-        let mut uvs = try_filled("mesh", width * height, [0f32; 2])?;
-        for (i, value) in depths.values().iter().enumerate() {
-            let (col, row) = ((i % width) as f64, (i / width) as f64);
-            let share = |at: f64, of: usize| (at + 0.5) / of as f64;
-            uvs[i] = [share(col, width), 1.0 - share(row, height)].map(lanes::single);
-            if *value > 0.0 {
-                positions[i] = self.point(col, row, *value);
-            }
+        let own = self.size.unwrap_or(size);
+        if own.contains(&0) || size.contains(&0) {
+            return Err(Error::Empty { what: "image" });
         }
-        let grid = Grid {
-            width,
-            values: depths.values(),
-            points: &positions,
-        };
-        let mut triangles = Vec::new();
-        for row in 1..height {
-            for col in 1..width {
-                let found = grid.square(row * width + col);
-                triangles.try_reserve(2).map_err(|_| Error::OutOfMemory {
-                    what: "mesh",
-                    bytes: triangles.len() * size_of::<[u32; 3]>(),
-                })?;
-                triangles.extend(found.into_iter().flatten());
-            }
-        }
-        if triangles.is_empty() {
+        let [sx, sy] = [0, 1].map(|k| size[k] as f64 / own[k] as f64);
+        if (sx / sy - 1.0).abs() > 0.02 {
             return Err(Error::Unsupported {
-                format: "depth image",
-                reason:
-                    "no three neighbouring pixels have depths without a jump between them; are \
-                         the focal lengths in pixels, and is the depth scale right?"
-                        .into(),
+                format: "photo",
+                reason: other_proportions(own, size),
             });
         }
-        Mesh::new(positions, triangles)?.with_uvs(uvs)
+        for (name, centre, side) in [("cx", self.cx, own[0]), ("cy", self.cy, own[1])] {
+            if !(-0.5..=side as f64 - 0.5).contains(&centre) {
+                return Err(Error::option(
+                    name,
+                    centre,
+                    "must lie inside the image; are the numbers for images of another size? Then give \
+                     that size with them",
+                ));
+            }
+        }
+        Ok(Intrinsics {
+            fx: self.fx * sx,
+            fy: self.fy * sy,
+            cx: (self.cx + 0.5) * sx - 0.5,
+            cy: (self.cy + 0.5) * sy - 0.5,
+            size: Some(size),
+            ..*self
+        })
+    }
+
+    /// Where a point in space is seen, if it lies ahead: its column and row. The axes are x to the
+    /// right, y up and z towards the viewer, the origin the camera's centre.
+    pub fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
+        if !(z < 0.0) {
+            return None;
+        }
+        let [u, v] = self.distortion.distorted([x / -z, y / z])?;
+        Some([self.fx * u + self.cx, self.fy * v + self.cy])
+    }
+
+    /// The point in space that a pixel shows at a depth, in the same axes. Nothing where the lens
+    /// cannot have shown it.
+    pub(super) fn point(&self, col: f64, row: f64, value: f64) -> Option<[f64; 3]> {
+        let seen = [(col - self.cx) / self.fx, (row - self.cy) / self.fy];
+        let [x, y] = self.distortion.undistorted(seen)?;
+        let depth = value * self.depth_scale;
+        let ahead = match self.depth {
+            Depth::Planar => depth,
+            Depth::Ray => depth / x.hypot(y).hypot(1.0),
+        };
+        Some([x * ahead, -y * ahead, -ahead])
     }
 
     fn check(&self) -> Result<()> {
         positive("fx", self.fx)?;
         positive("fy", self.fy)?;
         positive("depth_scale", self.depth_scale)?;
-        for (name, value) in [("cx", self.cx), ("cy", self.cy)] {
+        let Distortion { k1, k2, p1, p2, k3 } = self.distortion;
+        let names = ["cx", "cy", "k1", "k2", "p1", "p2", "k3"];
+        for (name, value) in names.iter().zip([self.cx, self.cy, k1, k2, p1, p2, k3]) {
             if !value.is_finite() {
                 return Err(Error::option(name, value, "must be a finite number"));
             }
         }
         Ok(())
     }
+}
 
-    fn point(&self, col: f64, row: f64, value: f64) -> [f64; 3] {
-        let (x, y) = ((col - self.cx) / self.fx, (row - self.cy) / self.fy);
-        let depth = value * self.depth_scale;
-        let ahead = match self.depth {
-            Depth::Planar => depth,
-            Depth::Ray => depth / x.hypot(y).hypot(1.0),
-        };
-        [x * ahead, -y * ahead, -ahead]
+fn other_proportions(own: [usize; 2], size: [usize; 2]) -> String {
+    let turned = own[0] as f64 * size[0] as f64 / (own[1] as f64 * size[1] as f64);
+    let what = if (turned - 1.0).abs() < 0.02 {
+        "it lies on its side: turn it as the camera's images are"
+    } else {
+        "it shows another part of the scene: give a photo that was not cropped, or the camera of this one"
+    };
+    format!(
+        "it has {} × {} pixels where the camera's images have {} × {}: {what}",
+        size[0], size[1], own[0], own[1]
+    )
+}
+
+/// Where one camera is beside another: a point at `p` for the one is at `R p + t` for the other, in
+/// the axes that calibrations are given in: x to the right, y down, z ahead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// `R`, by rows.
+    pub rotation: [[f64; 3]; 3],
+    /// `t`, in the unit of the depths.
+    pub translation: [f64; 3],
+}
+
+impl Default for Pose {
+    /// At the same place.
+    fn default() -> Self {
+        Pose {
+            rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            translation: [0.0; 3],
+        }
     }
 }
 
-/// The points of an image's pixels.
-struct Grid<'a> {
-    width: usize,
-    values: &'a [f64],
-    points: &'a [[f64; 3]],
+/// A camera that takes photos, beside the one that saw the depths or at the same place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// What it is like. The photo may have another size than these numbers are for.
+    pub intrinsics: Intrinsics,
+    /// Where it is, seen from the camera of the depths.
+    pub pose: Pose,
 }
 
-impl Grid<'_> {
-    /// The triangles of the square whose lower right corner is a pixel, counter-clockwise as the
-    /// camera sees them.
-    fn square(&self, last: usize) -> [Option<[u32; 3]>; 2] {
-        let [a, b] = [last - self.width - 1, last - self.width];
-        let [c, d] = [last - 1, last];
-        let falling = [[a, c, d], [a, d, b]].map(|t| self.triangle(t));
-        let rising = [[a, c, b], [b, c, d]].map(|t| self.triangle(t));
-        let count = |cut: &[Option<_>; 2]| cut.iter().flatten().count();
-        match count(&falling).cmp(&count(&rising)) {
-            std::cmp::Ordering::Less => rising,
-            std::cmp::Ordering::Greater => falling,
-            _ if self.distance(a, d) <= self.distance(b, c) => falling,
-            _ => rising,
+impl Camera {
+    /// A camera at the place of the one that saw the depths, such as a phone's.
+    pub fn new(intrinsics: Intrinsics) -> Self {
+        Camera {
+            intrinsics,
+            pose: Pose::default(),
         }
     }
 
-    fn triangle(&self, corners: [usize; 3]) -> Option<[u32; 3]> {
-        let [a, b, c] = corners;
-        let whole = corners.iter().all(|i| self.values[*i] > 0.0)
-            && [(a, b), (b, c), (c, a)]
-                .iter()
-                .all(|(from, to)| self.joined(*from, *to));
-        whole.then(|| corners.map(|i| i as u32))
+    /// The same camera somewhere else.
+    pub fn at(self, pose: Pose) -> Self {
+        Camera { pose, ..self }
     }
 
-    /// Whether there is no jump between two pixels.
-    fn joined(&self, from: usize, to: usize) -> bool {
-        let [from, to] = [from, to].map(|i| Vector3::from(self.points[i]));
-        // In proportion to the distance from the camera, so that nothing over- or underflows.
-        let size = from.amax().max(to.amax());
-        let (from, to) = (from / size, to / size);
-        let sight = (from + to).normalize();
-        let way = to - from;
-        let along = way.dot(&sight);
-        along.abs() <= STEEPEST * (way - sight * along).norm()
+    /// The same camera for photos of a size.
+    ///
+    /// # Errors
+    /// Those of [`Intrinsics::for_size`]; [`Error::Option`] for a pose whose rotation is none.
+    pub fn for_size(&self, size: [usize; 2]) -> Result<Self> {
+        let [a, b, c] = self.pose.rotation;
+        let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+        let unit = [a, b, c]
+            .iter()
+            .all(|row| (dot(*row, *row) - 1.0).abs() < 1e-3);
+        let square = [(a, b), (b, c), (c, a)]
+            .iter()
+            .all(|(p, q)| dot(*p, *q).abs() < 1e-3);
+        let cross = [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ];
+        if !(unit && square && dot(cross, c) > 0.0) {
+            let requirement = "must be a rotation matrix: orthonormal, without a reflection";
+            let found = format!("{:?}", self.pose.rotation);
+            return Err(Error::option("rotation", found, requirement));
+        }
+        if !self.pose.translation.iter().all(|t| t.is_finite()) {
+            let found = format!("{:?}", self.pose.translation);
+            return Err(Error::option("translation", found, "must be finite"));
+        }
+        Ok(Camera {
+            intrinsics: self.intrinsics.for_size(size)?,
+            pose: self.pose,
+        })
     }
 
-    fn distance(&self, from: usize, to: usize) -> f64 {
-        (Vector3::from(self.points[from]) - Vector3::from(self.points[to])).norm()
+    /// Where a point in space is seen, as [`Intrinsics::project`] says; the point is in the axes of the
+    /// camera of the depths.
+    pub fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
+        let Pose {
+            rotation,
+            translation,
+        } = self.pose;
+        let moved: [f64; 3] = std::array::from_fn(|k| {
+            rotation[k][0] * x - rotation[k][1] * y - rotation[k][2] * z + translation[k]
+        });
+        self.intrinsics.project([moved[0], -moved[1], -moved[2]])
     }
 }

@@ -1,6 +1,7 @@
 //! What is no heightfield: meshes, point clouds, cameras, and the views under which they become one.
 
 pub(crate) mod camera;
+mod depth;
 pub(crate) mod mesh;
 pub(crate) mod sampling;
 mod splats;

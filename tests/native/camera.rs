@@ -162,7 +162,12 @@ fn a_ball_is_a_ball() {
 #[test]
 fn jumps_are_not_bridged() {
     let step = |ray: Point| Some(if ray[0] < 0.0 { 1.0 } else { 2.0 });
-    let mesh = camera().back_project(&image(step, Depth::Planar)).unwrap();
+    let image_of_step = image(step, Depth::Planar);
+    let bare = Intrinsics {
+        margin: 0,
+        ..camera()
+    };
+    let mesh = bare.back_project(&image_of_step).unwrap();
     let far = |i: &u32| mesh.positions()[*i as usize][2] < -1.5;
     let sides = mesh
         .triangles()
@@ -171,6 +176,9 @@ fn jumps_are_not_bridged() {
     assert!(sides.into_iter().all(|n| n == 0 || n == 3));
     // One column of squares less.
     assert_eq!(mesh.triangles().len(), 2 * (WIDTH - 2) * (HEIGHT - 1));
+    // Two pixels less on either side.
+    let mesh = camera().back_project(&image_of_step).unwrap();
+    assert_eq!(mesh.triangles().len(), 2 * (WIDTH - 6) * (HEIGHT - 1));
 
     // A surface is lost where it is steeper than ten to one against the line of sight.
     let slope = |steep: f64| move |ray: Point| Some(1.0 / (1.0 - steep * (ray[0] - 0.1)));
@@ -214,6 +222,8 @@ fn cameras_that_cannot_be_are_refused() {
     assert!(message(|c| c.cx = f64::NAN).contains("`cx`"));
     assert!(message(|c| c.cy = f64::INFINITY).contains("`cy`"));
     assert!(message(|c| c.depth_scale = 0.0).contains("`depth_scale`"));
+    assert!(message(|c| c.cx = 80.0).contains("images of another size"));
+    assert!(message(|c| c.size = Some([60, 80])).contains("lies on its side"));
     // Nothing overflows into a panic.
     for scale in [1e-320, 1e-300, 1e300, 1e308] {
         let mut camera = camera();
@@ -222,7 +232,7 @@ fn cameras_that_cannot_be_are_refused() {
             assert!(["NOT_FINITE", "UNSUPPORTED"].contains(&error.code()));
         }
     }
-    let nothing = HeightImage::new(4, 4, vec![0.0; 16]).unwrap();
+    let nothing = HeightImage::new(80, 60, vec![0.0; 4800]).unwrap();
     let error = camera().back_project(&nothing).unwrap_err();
     assert!(
         error.to_string().contains("no three neighbouring pixels"),

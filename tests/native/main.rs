@@ -34,6 +34,7 @@ mod parts;
 mod patches;
 mod pattern;
 mod recovery;
+mod registration;
 mod resample;
 mod reweighting;
 mod rulings;

@@ -1,11 +1,11 @@
 //! From the pixels of the flat image to places in the photo.
 
 use super::photo::Photo;
+use super::registration::Places;
 use super::trim::largest_rectangle;
-use super::{DewarpOptions, Extent};
+use super::{DewarpOptions, Registration, Verdict};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
-use crate::flat::unroll::Unrolling;
-use crate::math::lanes;
+use crate::flat::unroll::{UnrollReport, Unrolling};
 
 /// For every pixel of a flat image its place in the photo.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,31 +24,31 @@ const NOWHERE: [f32; 2] = [f32::NAN; 2];
 const NO_PART: u32 = u32::MAX;
 
 impl WarpMap {
-    /// The map for a photo of `photo` (width and height) pixels that shows an extent of the plane.
+    /// The map for a photo of `photo` (width and height) pixels, in which the surface's points are
+    /// where the registration says: an [`Extent`](super::Extent) of the plane, a camera, texture
+    /// coordinates.
     ///
-    /// Within each triangle of the sheet the map is linear. Where parts of the sheet lie on each
+    /// Within each triangle of the sheet the point of the surface is linear, and so is the place in
+    /// the photo but for a camera's perspective. Where parts of the sheet lie on each
     /// other the larger one is seen; where one lies on itself, the upper left triangle of the
     /// surface. Costs `O(pixels + triangles)`.
     ///
     /// # Errors
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::Empty`] for an
-    /// extent or a photo without area, [`Error::TooLarge`] for an image of more than
+    /// extent or a photo without area, those of [`Camera::for_size`](crate::Camera::for_size),
+    /// [`Error::TooLarge`] for an image of more than
     /// [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::Unsupported`] if no pixel's centre lies on
     /// the sheet, [`Error::OutOfMemory`].
-    pub fn new(
+    pub fn new<'a>(
         sheet: &Unrolling,
-        extent: Extent,
+        registration: impl Into<Registration<'a>>,
         photo: [usize; 2],
         options: &DewarpOptions,
     ) -> Result<Self> {
-        let sides = extent.sides()?;
-        if photo.contains(&0) {
-            return Err(Error::Empty { what: "photo" });
-        }
-        let per_unit = [0, 1].map(|k| photo[k] as f64 / sides[k]);
+        let places = Places::new(registration.into(), photo)?;
         let resolution = match options.dots {
             Some(dots) => positive("dots", dots)?,
-            None => (per_unit[0] * per_unit[1]).sqrt(),
+            None => resolution(sheet, &places)?,
         };
         let (min, max) = bounds(sheet.places());
         // A hair less, so that a sheet of exactly n pixels has n, however it rounds.
@@ -67,21 +67,18 @@ impl WarpMap {
         for triangle in mesh.triangles() {
             let part = sheet.parts()[triangle[0] as usize];
             let corners = triangle.map(|v| {
-                let ([x, y], [px, py, _]) =
-                    (sheet.places()[v as usize], mesh.positions()[v as usize]);
+                let [x, y] = sheet.places()[v as usize];
+                let vertex = mesh.vertices()[v as usize] as usize;
                 Corner {
                     // Whole numbers at pixels' centres, downwards.
                     at: [
                         (x - min[0]) * resolution - 0.5,
                         (max[1] - y) * resolution - 0.5,
                     ],
-                    place: [
-                        (px - extent.min[0]) * per_unit[0] - 0.5,
-                        (extent.max[1] - py) * per_unit[1] - 0.5,
-                    ],
+                    from: places.of_vertex(vertex, mesh.positions()[v as usize]),
                 }
             });
-            map.fill(corners, part, &mut parts);
+            map.fill(corners, part, &places, &mut parts);
         }
         if parts.iter().all(|part| *part == NO_PART) {
             return Err(Error::Unsupported {
@@ -119,6 +116,59 @@ impl WarpMap {
     /// centre of the upper left one. NaN where there is no sheet.
     pub fn places(&self) -> &[[f32; 2]] {
         &self.places
+    }
+
+    /// How far places in the photo are from those in the flat image after the best turn, scaling and
+    /// shift, as the root of the mean square in shares of the root of the sheet's area: what the
+    /// photo itself is wrong by as a picture of the page.
+    pub fn displacement(&self) -> f64 {
+        // Over complex numbers: the least squares of |p - (a q + b)|².
+        let pairs = || {
+            (self.places.iter().enumerate())
+                .filter(|(_, place)| !place[0].is_nan())
+                .map(|(i, place)| {
+                    let q = [(i % self.width) as f64, (i / self.width) as f64];
+                    (q, place.map(f64::from))
+                })
+        };
+        let count = pairs().count() as f64;
+        let (mut from, mut to) = ([0.0; 2], [0.0; 2]);
+        for (q, p) in pairs() {
+            for k in 0..2 {
+                from[k] += q[k] / count;
+                to[k] += p[k] / count;
+            }
+        }
+        let (mut qq, mut pp, mut pq) = (0.0, 0.0, [0.0; 2]);
+        for (q, p) in pairs() {
+            let [q, p] = [
+                [q[0] - from[0], q[1] - from[1]],
+                [p[0] - to[0], p[1] - to[1]],
+            ];
+            qq += q[0] * q[0] + q[1] * q[1];
+            pp += p[0] * p[0] + p[1] * p[1];
+            pq[0] += p[0] * q[0] + p[1] * q[1];
+            pq[1] += p[1] * q[0] - p[0] * q[1];
+        }
+        let fitted = pq[0] * pq[0] + pq[1] * pq[1];
+        if qq == 0.0 || fitted == 0.0 {
+            return 0.0;
+        }
+        // In pixels of the flat image.
+        let rest = (pp - fitted / qq).max(0.0) * qq * qq / fitted;
+        (rest / count).sqrt() / count.sqrt()
+    }
+
+    /// Whether the flat image is to be trusted: stretched if the sheet is, see
+    /// [`Verdict::of`]; flat if the photo itself is right to 0.2 %, as
+    /// [`WarpMap::displacement`] measures it.
+    pub fn verdict(&self, sheet: &UnrollReport) -> Verdict {
+        const FLAT: f64 = 0.002;
+        match Verdict::of(sheet) {
+            Verdict::Stretched => Verdict::Stretched,
+            _ if self.displacement() < FLAT => Verdict::Flat,
+            _ => Verdict::Unrolled,
+        }
     }
 
     /// The flat image: RGBA bytes, row by row, transparent where there is no sheet or no photo.
@@ -164,7 +214,7 @@ impl WarpMap {
     }
 
     /// Writes the places of the pixels in a triangle.
-    fn fill(&mut self, corners: [Corner; 3], part: u32, parts: &mut [u32]) {
+    fn fill(&mut self, corners: [Corner; 3], part: u32, places: &Places, parts: &mut [u32]) {
         let [a, b, c] = corners.map(|corner| corner.at);
         let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
             (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
@@ -192,13 +242,16 @@ impl WarpMap {
                 }
                 let i = row * self.width + col;
                 if part < parts[i] {
-                    parts[i] = part;
-                    self.places[i] = [0, 1].map(|k| {
+                    let from = [0, 1, 2].map(|k| {
                         let sum: f64 = (corners.iter().zip(weights))
-                            .map(|(corner, weight)| weight * corner.place[k])
+                            .map(|(corner, weight)| weight * corner.from[k])
                             .sum();
-                        lanes::single(sum / area)
+                        sum / area
                     });
+                    if let Some(place) = places.of(from) {
+                        parts[i] = part;
+                        self.places[i] = place;
+                    }
                 }
             }
         }
@@ -221,11 +274,45 @@ impl WarpMap {
     }
 }
 
-/// A corner of a triangle: where it is in the flat image and in the photo, in pixels.
+/// A corner of a triangle: where it is in the flat image, in pixels, and what its place in the photo
+/// comes from.
 #[derive(Clone, Copy)]
 struct Corner {
     at: [f64; 2],
-    place: [f64; 2],
+    from: [f64; 3],
+}
+
+/// As many pixels per unit of length as the photo has on the mean over the sheet.
+fn resolution(sheet: &Unrolling, places: &Places) -> Result<f64> {
+    if let Places::Plane([across, up], _) = places {
+        return Ok((across * up).sqrt());
+    }
+    let mesh = sheet.mesh();
+    let area = |[a, b, c]: [[f64; 2]; 3]| {
+        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    };
+    let (mut seen, mut flat) = (0.0, 0.0);
+    for triangle in mesh.triangles() {
+        let corners = triangle.map(|v| {
+            let vertex = mesh.vertices()[v as usize] as usize;
+            places.of(places.of_vertex(vertex, mesh.positions()[v as usize]))
+        });
+        if let [Some(a), Some(b), Some(c)] = corners {
+            seen += area([a, b, c].map(|place| place.map(f64::from)));
+            flat += area(triangle.map(|v| sheet.places()[v as usize]));
+        }
+    }
+    let resolution = (seen / flat).sqrt();
+    if resolution > 0.0 && resolution.is_finite() {
+        return Ok(resolution);
+    }
+    Err(Error::Unsupported {
+        format: "photo",
+        reason:
+            "nothing of the surface is in it: the camera looks elsewhere, or there are no texture \
+                 coordinates"
+                .into(),
+    })
 }
 
 fn bounds(places: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {

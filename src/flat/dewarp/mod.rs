@@ -1,7 +1,8 @@
 //! Photos of bent pages made flat: resampled along the [unrolled](mod@super::unroll) surface.
 //!
-//! The photo and the surface show the same scene from the same place, so that what the photo shows
-//! at a pixel lies on the surface above that point of the plane ([`Extent`]). The flat image has
+//! A [`Registration`] says where in the photo the surface's points are: photo and heights were both
+//! taken straight from above ([`Extent`]), a camera took the photo, or there are texture coordinates.
+//! The flat image has
 //! the sheet's true proportions, stays upright, and is transparent where there is no sheet. The
 //! [`WarpMap`] is an output too: it carries coordinates from the flat image back to the photo.
 //!
@@ -29,6 +30,7 @@
 
 mod map;
 mod photo;
+mod registration;
 mod trim;
 
 use super::unroll::UnrollReport;
@@ -38,6 +40,7 @@ use crate::lattice::hexagonal::Lattice;
 use crate::math::lanes;
 pub use map::WarpMap;
 pub use photo::Photo;
+pub use registration::Registration;
 
 /// What of a flat image is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

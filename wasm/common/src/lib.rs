@@ -5,6 +5,7 @@
 
 pub mod arrays;
 pub mod bytes;
+pub mod camera;
 pub mod fields;
 pub mod file;
 pub mod frame;

@@ -4,16 +4,20 @@ mod picture;
 
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};
 use serde::Serialize;
-use serde_wasm_bindgen::{preserve, to_value};
+use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
+use developable::Frame;
 use developable::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
 use developable::checks::try_filled;
-use developable::dewarp::{DewarpOptions, Verdict, WarpMap};
+use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
 use developable::rulings::{Ruling, Rulings, TraceOptions};
 use developable::unroll::{UnrollReport, Unrolling, unroll};
 use developable_wasm::Result;
+use developable_wasm::arrays::groups;
+use developable_wasm::camera::photo_camera;
+use developable_wasm::frame::FrameFields;
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
@@ -150,15 +154,19 @@ struct DewarpedOutput {
 pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValue> {
     let mut settings = Settings::default();
     let mut wanted = DewarpOptions::default();
-    let mut extent = None;
+    let (mut extent, mut camera, mut uvs) = (None, None, JsValue::UNDEFINED);
+    let mut frame = Frame::default();
     for (name, value) in entries(&options)? {
         match name.as_str() {
+            "camera" => camera = Some(photo_camera(&value)?),
+            "frame" => frame = from_value::<FrameFields>(value)?.into(),
+            "uvs" => uvs = value,
             "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
             "trim" => wanted = wanted.trim(option("trim", value, "must be true or false")?),
             "extent" => extent = Some(extent_from(value)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "dots, trim, extent, tolerance, maxIterations and spacing";
+                let known = "dots, trim, camera, extent, tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
@@ -168,8 +176,18 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
     let sheet: Unrolling = unroll(&scene.surface, &settings.unrolling)?;
-    let extent = extent.unwrap_or(scene.extent);
-    let map = WarpMap::new(&sheet, extent, [photo.width(), photo.height()], &wanted)?;
+    let uvs: Option<Vec<[f32; 2]>> = groups(&uvs)?;
+    let registration = match (camera, &uvs) {
+        (Some(camera), _) => Registration::Camera(camera, frame),
+        (None, Some(uvs)) => Registration::Uvs(uvs),
+        (None, None) => extent.unwrap_or(scene.extent).into(),
+    };
+    let map = WarpMap::new(
+        &sheet,
+        registration,
+        [photo.width(), photo.height()],
+        &wanted,
+    )?;
     let flat = map.image(&photo)?;
     Ok(to_value(&DewarpedOutput {
         width: map.width(),
@@ -178,7 +196,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         corner: map.corner(),
         data: flat.as_slice().into(),
         map: map.places().as_flattened().into(),
-        verdict: Verdict::of(sheet.report()),
+        verdict: map.verdict(sheet.report()),
         report: *sheet.report(),
     })?)
 }

@@ -1,0 +1,84 @@
+//! Where in a photo the points of a surface are.
+
+use super::Extent;
+use crate::error::{Error, Result};
+use crate::math::lanes;
+use crate::scene::camera::Camera;
+use crate::scene::view::Frame;
+
+/// What says where in a photo each point of a surface is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Registration<'a> {
+    /// Photo and heights were taken straight from above: a point is where the photo's share of its
+    /// extent is.
+    Extent(Extent),
+    /// A camera took the photo: a point of the *fitted* surface is where the camera sees it, which the
+    /// noisy point was not. The frame is that of the surface, in the axes of the camera that saw the
+    /// depths (those of [`Samples::frame`](crate::Samples::frame)).
+    Camera(Camera, Frame),
+    /// Texture coordinates at each vertex of the surface's lattice, as shares from the left and from
+    /// the bottom, NaN where there are none: those of a textured scan, by [`Samples::carry`](crate::Samples::carry).
+    Uvs(&'a [[f32; 2]]),
+}
+
+impl From<Extent> for Registration<'_> {
+    fn from(extent: Extent) -> Self {
+        Registration::Extent(extent)
+    }
+}
+
+/// The same for a photo of so many pixels.
+pub(super) enum Places<'a> {
+    /// Pixels for each unit across and up, and the upper left corner.
+    Plane([f64; 2], [f64; 2]),
+    Camera(Camera, Frame),
+    Uvs(&'a [[f32; 2]], [f64; 2]),
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn new(registration: Registration<'a>, photo: [usize; 2]) -> Result<Self> {
+        if photo.contains(&0) {
+            return Err(Error::Empty { what: "photo" });
+        }
+        let size = photo.map(|n| n as f64);
+        match registration {
+            Registration::Extent(extent) => {
+                let sides = extent.sides()?;
+                let corner = [extent.min[0], extent.max[1]];
+                Ok(Places::Plane([0, 1].map(|k| size[k] / sides[k]), corner))
+            }
+            Registration::Camera(camera, frame) => {
+                Ok(Places::Camera(camera.for_size(photo)?, frame))
+            }
+            Registration::Uvs(uvs) => Ok(Places::Uvs(uvs, size)),
+        }
+    }
+
+    /// What is interpolated over a triangle, for a vertex of the lattice at a point: it is linear
+    /// there, which places in a photo through a camera are not.
+    pub(super) fn of_vertex(&self, vertex: usize, point: [f64; 3]) -> [f64; 3] {
+        match self {
+            Places::Plane(..) => point,
+            Places::Camera(_, frame) => frame.unview(point),
+            Places::Uvs(uvs, _) => {
+                let [u, v] = uvs.get(vertex).copied().unwrap_or([f32::NAN; 2]);
+                [u.into(), v.into(), 0.0]
+            }
+        }
+    }
+
+    /// The place in the photo, in pixels, `[0, 0]` the centre of the upper left one. Nothing behind
+    /// the camera and where there are no texture coordinates.
+    pub(super) fn of(&self, [x, y, z]: [f64; 3]) -> Option<[f32; 2]> {
+        let place = match self {
+            Places::Plane([across, up], [left, top]) => {
+                [(x - left) * across - 0.5, (top - y) * up - 0.5]
+            }
+            Places::Camera(camera, _) => camera.project([x, y, z])?,
+            Places::Uvs(_, [width, height]) => [x * width - 0.5, (1.0 - y) * height - 0.5],
+        };
+        let place = place.map(lanes::single);
+        place.iter().all(|v| v.is_finite()).then_some(place)
+    }
+}

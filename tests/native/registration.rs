@@ -1,0 +1,337 @@
+//! A phone's depths and photo of a bent page: where on the page is what the flat image shows?
+
+use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
+use developable::unroll::{UnrollOptions, unroll};
+use developable::{
+    Camera, Distortion, Error, HeightImage, Heightfield, Intrinsics, Pose, Resolution, View, sample,
+};
+
+type Point = [f64; 3];
+
+/// An A4 page in metres, curled about an axis along its height, tilted before a camera.
+struct Scene {
+    radius: f64,
+    tilt: f64,
+    away: f64,
+    lens: Distortion,
+    /// Where the camera of the photo is beside that of the depths: to its right, in metres.
+    baseline: f64,
+}
+
+const PAGE: [f64; 2] = [0.21, 0.297];
+const DEPTHS: [usize; 2] = [256, 192];
+const PHOTO: [usize; 2] = [1600, 1200];
+const FOCAL: f64 = 205.0;
+
+/// A phone's: the numbers are for the depths.
+fn intrinsics(lens: Distortion) -> Intrinsics {
+    Intrinsics {
+        size: Some(DEPTHS),
+        distortion: lens,
+        ..Intrinsics::new(FOCAL, FOCAL, 126.0, 97.0)
+    }
+}
+
+impl Scene {
+    fn new(radius: f64, tilt: f64) -> Self {
+        Scene {
+            radius,
+            tilt: tilt.to_radians(),
+            away: 0.43,
+            lens: Distortion::default(),
+            baseline: 0.0,
+        }
+    }
+
+    /// The point that a ray from `origin` meets first, as a place on the page: its arc and its height.
+    /// The axes are x to the right, y down, z ahead.
+    fn meets(&self, origin: Point, ray: Point) -> Option<(f64, [f64; 2])> {
+        // Into the page's own axes: turned about the horizontal.
+        let (sin, cos) = self.tilt.sin_cos();
+        let turn = |[x, y, z]: Point| [x, cos * y + sin * z, cos * z - sin * y];
+        let o = turn([origin[0], origin[1], origin[2] - self.away]);
+        let d = turn(ray);
+        // The cylinder's axis is behind the page: x² + (z − r)² = r².
+        let centre = self.radius;
+        let a = d[0] * d[0] + d[2] * d[2];
+        let b = o[0] * d[0] + (o[2] - centre) * d[2];
+        let c = o[0] * o[0] + (o[2] - centre).powi(2) - self.radius.powi(2);
+        let root = (b * b - a * c).sqrt();
+        let t = (-b - root) / a;
+        let p: Point = std::array::from_fn(|k| o[k] + t * d[k]);
+        let arc = self.radius * p[0].atan2(centre - p[2]);
+        let inside = arc.abs() <= PAGE[0] / 2.0 && p[1].abs() <= PAGE[1] / 2.0;
+        (root.is_finite() && inside).then_some((t, [arc, p[1]]))
+    }
+
+    /// The ray of a pixel of an image `scale` times as fine as the depths, by bisection of Brown's
+    /// polynomial along the radius (there is no tangential part).
+    fn ray(&self, [col, row]: [f64; 2], scale: f64) -> Point {
+        let x = ((col + 0.5) / scale - 0.5 - 126.0) / FOCAL;
+        let y = ((row + 0.5) / scale - 0.5 - 97.0) / FOCAL;
+        let seen = x.hypot(y);
+        let lens = |r: f64| r * (1.0 + self.lens.k1 * r * r + self.lens.k2 * r.powi(4));
+        let (mut low, mut high) = (0.0, 2.0 * seen);
+        for _ in 0..60 {
+            let middle = (low + high) / 2.0;
+            if lens(middle) < seen {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        let stretch = if seen > 0.0 { low / seen } else { 1.0 };
+        [x * stretch, y * stretch, 1.0]
+    }
+
+    fn depths(&self) -> HeightImage {
+        let value = |i: usize| {
+            let at = [(i % DEPTHS[0]) as f64, (i / DEPTHS[0]) as f64];
+            self.meets([0.0; 3], self.ray(at, 1.0))
+                .map_or(0.0, |(t, _)| t)
+        };
+        let values = (0..DEPTHS[0] * DEPTHS[1]).map(value).collect();
+        HeightImage::new(DEPTHS[0], DEPTHS[1], values).unwrap()
+    }
+
+    fn camera(&self) -> Camera {
+        let mut pose = Pose::default();
+        pose.translation[0] = -self.baseline;
+        Camera::new(intrinsics(self.lens)).at(pose)
+    }
+
+    /// What the depths give, and how they are turned.
+    fn surface(&self, view: View) -> (Heightfield, developable::Frame) {
+        let mesh = intrinsics(self.lens).back_project(&self.depths()).unwrap();
+        let seen = sample(&mesh, view, Resolution::Auto).unwrap();
+        (seen.heightfield().clone(), *seen.frame())
+    }
+
+    /// Distances between places on the page and in the flat image after the best similarity, root of
+    /// the mean square, in shares of the page's width.
+    fn error(&self, map: &WarpMap) -> f64 {
+        let scale = PHOTO[0] as f64 / DEPTHS[0] as f64;
+        let origin = [self.baseline, 0.0, 0.0];
+        let mut pairs = Vec::new();
+        for (i, place) in map.places().iter().enumerate() {
+            if place[0].is_nan() {
+                continue;
+            }
+            let ray = self.ray(place.map(f64::from), scale);
+            if let Some((_, truth)) = self.meets(origin, ray) {
+                let flat = [(i % map.width()) as f64, (i / map.width()) as f64];
+                pairs.push((truth, flat));
+            }
+        }
+        assert!(pairs.len() > 10_000, "{}", pairs.len());
+        similarity(&pairs) / PAGE[0]
+    }
+}
+
+/// The root of the mean square of what is left after the best similarity, in units of the first.
+fn similarity(pairs: &[([f64; 2], [f64; 2])]) -> f64 {
+    let n = pairs.len() as f64;
+    let mean = |pick: fn(&([f64; 2], [f64; 2])) -> [f64; 2]| {
+        [0, 1].map(|k| pairs.iter().map(|pair| pick(pair)[k]).sum::<f64>() / n)
+    };
+    let (p0, q0) = (mean(|pair| pair.0), mean(|pair| pair.1));
+    let (mut qq, mut re, mut im) = (0.0, 0.0, 0.0);
+    let centred = || {
+        pairs
+            .iter()
+            .map(|(p, q)| ([p[0] - p0[0], p[1] - p0[1]], [q[0] - q0[0], q[1] - q0[1]]))
+    };
+    for (p, q) in centred() {
+        qq += q[0] * q[0] + q[1] * q[1];
+        re += p[0] * q[0] + p[1] * q[1];
+        im += p[1] * q[0] - p[0] * q[1];
+    }
+    let (re, im) = (re / qq, im / qq);
+    let rest = |(p, q): ([f64; 2], [f64; 2])| {
+        (p[0] - re * q[0] + im * q[1]).powi(2) + (p[1] - im * q[0] - re * q[1]).powi(2)
+    };
+    (centred().map(rest).sum::<f64>() / n).sqrt()
+}
+
+fn map_of(scene: &Scene, view: View) -> (WarpMap, Verdict) {
+    let (surface, frame) = scene.surface(view);
+    let sheet = unroll(&surface, &UnrollOptions::default()).unwrap();
+    let registration = Registration::Camera(scene.camera(), frame);
+    let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+    let verdict = map.verdict(sheet.report());
+    (map, verdict)
+}
+
+#[test]
+fn a_tilted_curled_page_is_where_the_camera_saw_it() {
+    for view in [
+        View::BestFit,
+        View::Along([0.0, 0.0, -1.0]),
+        View::Along([0.2, 0.3, -1.0]),
+    ] {
+        let scene = Scene::new(0.12, 25.0);
+        let (map, verdict) = map_of(&scene, view);
+        assert!(scene.error(&map) < 0.002, "{view:?}: {}", scene.error(&map));
+        assert_eq!(verdict, Verdict::Unrolled);
+    }
+}
+
+#[test]
+fn the_lens_and_the_place_of_the_photos_camera_count() {
+    let mut scene = Scene::new(0.12, 20.0);
+    scene.lens = Distortion {
+        k1: 0.12,
+        k2: -0.05,
+        ..Distortion::default()
+    };
+    scene.baseline = 0.025;
+    let (map, _) = map_of(&scene, View::BestFit);
+    let right = scene.error(&map);
+    assert!(right < 0.002, "{right}");
+    // Left out, either shows.
+    for (lens, baseline) in [(Distortion::default(), 0.025), (scene.lens, 0.0)] {
+        let (surface, frame) = scene.surface(View::BestFit);
+        let sheet = unroll(&surface, &UnrollOptions::default()).unwrap();
+        let wrong = Scene {
+            lens,
+            baseline,
+            ..scene
+        }
+        .camera();
+        let registration = Registration::Camera(wrong, frame);
+        let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+        let error = scene.error(&map);
+        assert!(error > 2.0 * right, "{error} {right}");
+    }
+}
+
+#[test]
+fn a_page_is_flat_only_if_the_photo_is_right_as_it_is() {
+    let flat = 1e4;
+    let (_, facing) = map_of(&Scene::new(flat, 0.0), View::BestFit);
+    assert_eq!(facing, Verdict::Flat);
+    // A plane that is seen at a slant: its photo is a trapezium.
+    let tilted = Scene::new(flat, 20.0);
+    let (map, verdict) = map_of(&tilted, View::BestFit);
+    assert_eq!(verdict, Verdict::Unrolled);
+    assert!(tilted.error(&map) < 0.001, "{}", tilted.error(&map));
+}
+
+#[test]
+fn texture_coordinates_are_as_good() {
+    let scene = Scene::new(0.12, 25.0);
+    let mesh = intrinsics(scene.lens)
+        .back_project(&scene.depths())
+        .unwrap();
+    let seen = sample(&mesh, View::BestFit, Resolution::Auto).unwrap();
+    let uvs = seen.carry(&mesh, mesh.uvs().unwrap()).unwrap();
+    let sheet = unroll(seen.heightfield(), &UnrollOptions::default()).unwrap();
+    let registration = Registration::Uvs(&uvs);
+    let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+    assert!(scene.error(&map) < 0.002, "{}", scene.error(&map));
+}
+
+#[test]
+fn cameras_that_cannot_be_are_refused() {
+    let scene = Scene::new(0.12, 25.0);
+    let (surface, frame) = scene.surface(View::BestFit);
+    let sheet = unroll(&surface, &UnrollOptions::default()).unwrap();
+    let error = |camera: Camera, photo: [usize; 2]| {
+        let registration = Registration::Camera(camera, frame);
+        let options = DewarpOptions::default();
+        WarpMap::new(&sheet, registration, photo, &options)
+            .unwrap_err()
+            .to_string()
+    };
+    let camera = scene.camera();
+    assert!(error(camera, [1200, 1600]).contains("lies on its side"));
+    assert!(error(camera, [1600, 900]).contains("another part of the scene"));
+    let mut outside = camera;
+    outside.intrinsics.cx = 800.0;
+    assert!(error(outside, PHOTO).contains("images of another size"));
+    let mirrored = Pose {
+        rotation: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        ..Pose::default()
+    };
+    assert!(error(camera.at(mirrored), PHOTO).contains("rotation"));
+    let mut behind = Pose::default();
+    behind.translation[2] = -2.0;
+    assert!(error(camera.at(behind), PHOTO).contains("the camera looks elsewhere"));
+    assert!(matches!(
+        Intrinsics::with_field_of_view(180.0, PHOTO),
+        Err(Error::Option { .. })
+    ));
+}
+
+#[test]
+fn a_field_of_view_is_across_the_longer_side() {
+    let camera = Intrinsics::with_field_of_view(90.0, [400, 300]).unwrap();
+    assert!((camera.fx - 200.0).abs() < 1e-12 && camera.fx == camera.fy);
+    // The middle of the image, and its right edge at 45°.
+    assert_eq!(camera.project([0.0, 0.0, -1.0]), Some([199.5, 149.5]));
+    let [col, row] = camera.project([2.0, 0.0, -2.0]).unwrap();
+    assert!((col - 399.5).abs() < 1e-9 && (row - 149.5).abs() < 1e-9);
+    // Up is towards lower rows; behind is nowhere.
+    assert!(camera.project([0.0, 1.0, -2.0]).unwrap()[1] < 149.0);
+    assert_eq!(camera.project([0.0, 0.0, 1.0]), None);
+}
+
+/// Sensors see a mixture of page and table at the page's outline.
+#[test]
+fn flying_pixels_are_taken_away() {
+    let scene = Scene::new(0.12, 0.0);
+    let (page, table) = (scene.depths(), 0.6);
+    let [width, height] = DEPTHS;
+    let there = |col: usize, row: usize| page.values()[row * width + col] > 0.0;
+    let depth = |col: usize, row: usize| {
+        if there(col, row) {
+            page.values()[row * width + col]
+        } else {
+            table
+        }
+    };
+    let values: Vec<f64> = (0..width * height)
+        .map(|i| {
+            let (col, row) = (i % width, i / width);
+            let inner = (1..width - 1).contains(&col) && (1..height - 1).contains(&row);
+            let mut around = vec![depth(col, row)];
+            if inner {
+                around.extend([
+                    depth(col - 1, row),
+                    depth(col + 1, row),
+                    depth(col, row - 1),
+                    depth(col, row + 1),
+                ]);
+            }
+            around.iter().sum::<f64>() / around.len() as f64
+        })
+        .collect();
+    let mixed = HeightImage::new(width, height, values.clone()).unwrap();
+    let camera = intrinsics(scene.lens);
+    let far_off = |margin: usize| {
+        let mesh = Intrinsics { margin, ..camera }
+            .back_project(&mixed)
+            .unwrap();
+        let mut wrong = 0;
+        for triangle in mesh.triangles() {
+            for v in triangle.map(|v| v as usize) {
+                let (col, row) = (v % width, v / width);
+                wrong += usize::from((values[v] - depth(col, row)).abs() > 0.005);
+            }
+        }
+        wrong
+    };
+    assert!(far_off(0) > 100, "{}", far_off(0));
+    assert_eq!(far_off(2), 0);
+    // Most of the page is still there.
+    let mesh = camera.back_project(&mixed).unwrap();
+    let mut used = vec![false; width * height];
+    for v in mesh.triangles().as_flattened() {
+        used[*v as usize] = true;
+    }
+    let kept = (0..used.len())
+        .filter(|i| used[*i] && page.values()[*i] > 0.0)
+        .count();
+    let all = page.values().iter().filter(|d| **d > 0.0).count();
+    assert!(kept as f64 > 0.85 * all as f64, "{kept} of {all}");
+}

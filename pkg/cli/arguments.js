@@ -12,6 +12,8 @@ import { split, usage } from './flags.js';
  * @typedef {import('../types.js').SolverOptions} SolverOptions
  * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json' | '.mtl'} Extension
  *
+ * @typedef {{ numbers?: import('../types.js').Intrinsics, file?: string, ray: boolean }} CameraTask numbers, or a file of them
+ *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
  * @property {string[]} written all files that are to be written
@@ -20,10 +22,11 @@ import { split, usage } from './flags.js';
  * @property {string} [array] of an NPZ file
  * @property {string} [mask]
  * @property {'square' | 'hex' | 'mesh'} lattice where the values are: pixels, the lattice, or a mesh to be sampled
- * @property {import('../types.js').Intrinsics} [camera] of depths that are to be sampled as a mesh
+ * @property {CameraTask} [camera] of depths that are to be sampled as a mesh
  * @property {import('../types.js').SampleMeshOptions['view']} [view]
  * @property {number} [resolution]
  * @property {number} [spacing]
+ * @property {number} [pixelSize]
  * @property {number} [heightScale]
  * @property {number} [noData]
  * @property {boolean} normalize
@@ -48,7 +51,7 @@ import { split, usage } from './flags.js';
  *   command: 'pattern', patching: import('../types.js').PatchOptions, scale?: number, tabs?: number, paper?: 'a4' | 'letter',
  * }} PatternTask
  * @typedef {SheetTask & {
- *   command: 'dewarp', texture: string, dots?: number, trim: boolean, map?: string,
+ *   command: 'dewarp', texture?: string, photoCamera?: string, dots?: number, trim: boolean, map?: string,
  * }} DewarpTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
@@ -96,7 +99,8 @@ export function parse(args) {
   const { output = '', report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
   if (values.output === undefined && !telling.includes(command)) throw usage('the output is missing: -o FILE', command);
-  const read = { mask, confidence, constraints, texture, 'occlusion mask': values['occlusion-mask'] };
+  const photoCamera = values['photo-camera'];
+  const read = { mask, confidence, constraints, texture, camera: photoCamera, 'occlusion mask': values['occlusion-mask'] };
   const kind = kindOf(input, values);
   checkKind(kind, command, values);
   if (report !== undefined) apart({ report }, { output, input, map, ...read });
@@ -117,6 +121,7 @@ export function parse(args) {
     view: values.view === undefined ? undefined : view(values.view),
     resolution: number('resolution', values),
     spacing: number('spacing', values),
+    pixelSize: number('pixel-size', values),
     heightScale: number('height-scale', values),
     noData: number('no-data', values),
     normalize: !values['no-normalize'],
@@ -181,9 +186,12 @@ export function parse(args) {
     case 'pattern':
       return { command, ...fitting, asIs, patching: patching(values), ...drawing(values, about.extension) };
     case 'dewarp':
-      if (texture === undefined) throw usage('the photo is missing: --texture PHOTO');
+      if (texture === undefined && kind !== 'mesh') throw usage('the photo is missing: --texture PHOTO');
+      if (photoCamera !== undefined && kind === 'image') {
+        throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
+      }
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
-      return { command, ...fitting, asIs, texture, dots: number('dots', values), trim: values.trim === true, map };
+      return { command, ...fitting, asIs, texture, photoCamera, dots: number('dots', values), trim: values.trim === true, map };
     default:
       return { command, ...fitting };
   }
@@ -231,8 +239,8 @@ export function isMesh(input) {
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */
 const strangers = {
   image: ['view', 'resolution', 'ray'],
-  mesh: ['lattice', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'ray'],
-  depths: ['lattice', 'height-scale', 'confidence', 'constraints', 'free', 'occlusion-mask'],
+  mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'ray'],
+  depths: ['lattice', 'pixel-size', 'height-scale', 'confidence', 'constraints', 'free', 'occlusion-mask'],
 };
 
 const plurals = { image: 'meshes and depths', mesh: 'images', depths: 'heights, and the input is depths' };
@@ -262,17 +270,18 @@ function checkKind(kind, command, values) {
 }
 
 /**
- * Four or five numbers with commas between them.
+ * Four or five numbers with commas between them, or a file.
  * @param {Values} values
- * @returns {import('../types.js').Intrinsics}
+ * @returns {CameraTask}
  */
-function intrinsics({ intrinsics: text = '', ray }) {
+function intrinsics({ intrinsics: text = '', ray = false }) {
+  if (/\.(json|csv|txt)$/i.test(text)) return { file: text, ray };
   const numbers = list(text);
   if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) {
-    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale, but is "${text}"`);
+    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .csv or .txt, but is "${text}"`);
   }
   const [fx, fy, cx, cy, depthScale] = numbers;
-  return { fx, fy, cx, cy, depthScale, depth: ray ? 'ray' : 'planar' };
+  return { numbers: { fx, fy, cx, cy, depthScale }, ray };
 }
 
 /** Numbers with commas between them. @param {string} text */

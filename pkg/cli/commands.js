@@ -17,7 +17,7 @@ import { usage } from './flags.js';
  */
 
 /** @satisfies {readonly Flag[]} */
-const heights = ['lattice', 'spacing', 'height-scale', 'array', 'mask', 'no-data'];
+const heights = ['lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'no-data'];
 /** @satisfies {readonly Flag[]} */
 const mesh = ['view', 'resolution', 'intrinsics', 'ray'];
 /** @satisfies {readonly Flag[]} */
@@ -62,7 +62,7 @@ export const commands = {
     about: 'Makes a surface that passes through heights and is free elsewhere.',
     terms: { CONSTRAINTS: 'heights, as an image of any kind; transparent pixels and NaN are free', OUTPUT },
     flags: [
-      'output', 'report', ...energy, 'lattice', 'spacing', 'height-scale', 'array', 'mask', 'free', 'occlusion-mask', ...general,
+      'output', 'report', ...energy, 'lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'free', 'occlusion-mask', ...general,
     ],
     examples: ['design pins.png -o surface.obj --free 0 --height-scale 0.1'],
   },
@@ -130,17 +130,23 @@ export const commands = {
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4'],
   },
   dewarp: {
-    usage: 'INPUT --texture PHOTO -o IMAGE [options]',
+    usage: 'INPUT [--texture PHOTO] -o IMAGE [options]',
     summary: 'make a photo of it flat',
-    about: 'Fits a surface and makes a photo of it flat.',
+    about:
+      'Fits a surface and makes a photo of it flat. What the photo shows where is known for heights seen straight from ' +
+      'above, for depths by their camera, and for scans by their texture coordinates.',
     terms: {
       INPUT,
-      PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes',
+      PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
       IMAGE: '.png, transparent where there is no sheet',
     },
-    flags: [...shaped, 'report', 'texture', 'dots', 'trim', 'map'],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'dots', 'trim', 'map'],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
-    examples: ['dewarp scan.png --texture photo.png -o page.png --trim'],
+    examples: [
+      'dewarp scan.png --texture photo.png -o page.png --trim',
+      'dewarp depth.png --intrinsics camera_matrix.csv --texture photo.jpg -o page.png',
+      'dewarp scan.glb -o page.png --view best-fit',
+    ],
   },
   info: {
     usage: 'FILE [--array NAME]',

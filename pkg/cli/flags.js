@@ -65,6 +65,10 @@ export const sections = {
         help: "distance of neighbours on the lattice (default: the size of a pixel: 1 unless the file says otherwise), " +
           "for a mesh in the place of --resolution, in the mesh's unit",
       },
+      'pixel-size': {
+        value: 'P',
+        help: 'width of a pixel in the unit of the heights (default: what the file says, or else 1)',
+      },
       'height-scale': {
         value: 'S',
         help: "factor from the file's values to heights (default: what the file says, 1 for floats, NPY and NPZ; for " +
@@ -88,10 +92,12 @@ export const sections = {
         help: 'vertices along the longer side (default 200; of a point cloud fewer, to leave each some points)',
       },
       intrinsics: {
-        value: 'fx,fy,cx,cy[,scale]',
+        value: 'fx,fy,cx,cy[,scale]|FILE',
         help: 'INPUT holds the depths that a camera with these numbers (in pixels; the centre of the top left one is ' +
           '0,0) has seen; 0 and below are none. It is taken for a mesh, in which jumps are not bridged; scale makes ' +
-          'lengths of depths. x is to the right, y up, the axis along -z',
+          'lengths of depths. x is to the right, y up, the axis along -z. Or the file that a capture app or a ' +
+          'calibration has written: .json with fx, fy, cx, cy or a camera matrix (and width, height, distortion), .csv ' +
+          'with the matrix; whole numbers are millimetres then, others metres',
       },
       ray: { help: 'depths are from the camera, not along its axis' },
     },
@@ -131,6 +137,11 @@ export const sections = {
         help: 'PNG, JPEG or WebP picture with the outline of INPUT, or that its texture coordinates are about: the ' +
           'colours of an .obj or .ply, the texture of a .glb (of a WebP its colours alone). A mesh with textures of its ' +
           'own does not need it',
+      },
+      'photo-camera': {
+        value: 'FILE',
+        help: 'the camera of the photo, if it is another than that of the depths: JSON with fx, fy, cx, cy, width, height, ' +
+          'lens distortion k1 to k3, p1, p2, and rotation (three rows) and translation from the depths to it',
       },
       mtl: { value: 'FILE', help: '.mtl file to be written, too, through which an .obj has that picture as its texture' },
     },

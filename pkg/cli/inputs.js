@@ -2,6 +2,7 @@
 import { realpath, stat } from 'node:fs/promises';
 import { dirname, join, sep } from 'node:path';
 import * as developable from '../index.js';
+import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
 import { Problem, status } from './problem.js';
 
@@ -9,11 +10,12 @@ import { Problem, status } from './problem.js';
  * @typedef {import('./arguments.js').InputTask} InputTask
  * @typedef {import('./arguments.js').KnownTask} KnownTask
  * @typedef {import('../types.js').ReadResult} ReadResult
+ * @typedef {{ width: number, height: number }} Size
  * @typedef {import('../types.js').HeightImage | import('../types.js').Heightfield} Input
  */
 
 /**
- * @param {InputTask & Partial<KnownTask>} task
+ * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task `photo`: of one that goes with it
  * @returns {Promise<Input>}
  */
 export async function readInput(task) {
@@ -27,11 +29,13 @@ export async function readInput(task) {
   };
   const pins = task.design ? file : constraints && (await readBeside('constraints', constraints, file));
   const heightScale = task.heightScale ?? file.heightScale;
+  const pixelSize = task.pixelSize ?? file.pixelSize;
   if (task.lattice === 'square') {
+    if (!task.design && task.heightScale === undefined && task.pixelSize === undefined) checkScale(task, file);
     return /** @type {Input} */ ({
       width: file.width,
       height: file.height,
-      pixelSize: file.pixelSize,
+      pixelSize,
       heightScale,
       ...known,
       ...(task.design ? {} : { data: file.data, noData: asStored(task.noData, file) }),
@@ -45,24 +49,69 @@ export async function readInput(task) {
   return /** @type {Input} */ ({
     rows: file.height,
     cols: file.width,
-    spacing: task.spacing ?? file.pixelSize,
+    spacing: task.spacing ?? pixelSize,
     ...known,
     ...(task.design ? {} : { heights: scaled(without(file.data, noData)) }),
     constraints: pins && scaled(pinned(pins, task.free ?? noData)),
   });
 }
 
-/** What is seen of a mesh. @param {InputTask} task */
+/** Shares of the longer side that a relief of heights in the unit of the pixels may well have. */
+const PLAUSIBLE = [1e-3, 1];
+
+/** Commands whose results are lengths. */
+const MEASURING = ['unroll', 'pattern', 'dewarp'];
+
+/**
+ * Asks where the heights cannot be in the unit of the pixels, and says where their scale is a guess.
+ * @param {InputTask & { command?: string }} task
+ * @param {ReadResult} file
+ */
+function checkScale({ input, noData, command = '' }, file) {
+  const { width, height, pixelSize, unit, heightScale, dataType } = file;
+  const side = Math.max(width, height);
+  const [, kind, bits] = /^([ui])(\d+)$/.exec(dataType) ?? [];
+  if (kind !== undefined) {
+    const guess = (pixelSize * side) / 4 / (2 ** Number(bits) - 1);
+    if (MEASURING.includes(command) && Math.abs(heightScale / guess - 1) < 1e-9) {
+      process.stderr.write(
+        `developable: warning: ${input} does not say how high its levels are: white is taken for a quarter of the longer ` +
+          'side above black, and lengths on the sheet depend on that; --height-scale says it, --intrinsics that these are depths\n',
+      );
+    }
+    return;
+  }
+  if (unit !== null || pixelSize !== 1) return;
+  const nothing = asStored(noData, file);
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of file.data) {
+    if (value === nothing || !Number.isFinite(value)) continue;
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  const relief = high - low;
+  const share = (relief * heightScale) / side;
+  // What is flat is flat in any unit.
+  if (!(relief > 0) || (share >= PLAUSIBLE[0] && share <= PLAUSIBLE[1])) return;
+  throw new Problem(
+    status.input,
+    `${input}: the heights range over ${Number(relief.toPrecision(2))}, and the image is ${side} pixels wide or high: are ` +
+      'they in another unit than the pixels? --pixel-size P says how wide a pixel is in theirs (--pixel-size 1: as they ' +
+      'are), --intrinsics that these are the depths of a camera, --no-data V which value means that there is none',
+  );
+}
+
+/** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
   return developable.sampleMesh(await readMesh(task), { view, resolution, spacing });
 }
 
 /**
- * The mesh itself, or what a depth camera has seen.
- * @param {InputTask} task
+ * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
+ * @param {InputTask & { photo?: Size }} task
  */
-async function readMesh({ input, array, camera, mask, noData, written }) {
+async function readMesh({ input, array, camera, mask, noData, written, photo }) {
   if (!camera) {
     const mesh = await readMeshFile(input, await readBytes(input), written);
     for (const name of mesh.missing ?? []) {
@@ -78,7 +127,23 @@ async function readMesh({ input, array, camera, mask, noData, written }) {
     data,
     mask: mask === undefined ? undefined : flags(await readBeside('mask', mask, file)),
     noData: asStored(noData, file),
-  }, camera);
+  }, await depthCamera(camera, file, photo));
+}
+
+/**
+ * Depths in whole numbers are millimetres, if nothing says otherwise, and those of floats in metres.
+ * @param {import('./arguments.js').CameraTask} camera
+ * @param {ReadResult} file
+ * @param {Size} [photo]
+ * @returns {Promise<import('../types.js').Intrinsics>}
+ */
+async function depthCamera({ numbers, file: path, ray }, file, photo) {
+  const depth = ray ? 'ray' : 'planar';
+  if (path === undefined) return { .../** @type {import('../types.js').Intrinsics} */ (numbers), depth };
+  const images = [file, ...(photo ? [photo] : [])].map(({ width, height }) => ({ width, height }));
+  const camera = await readCamera(path, images);
+  const { rotation, translation, ...own } = camera;
+  return { depthScale: /^[ui]/.test(file.dataType) ? 0.001 : 1, ...own, depth };
 }
 
 /**

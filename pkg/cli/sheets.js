@@ -1,8 +1,10 @@
 /** `developable unroll`, `developable pattern` and `developable dewarp`. */
 import * as developable from '../index.js';
+import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readInput } from './inputs.js';
+import { Problem, status } from './problem.js';
 
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
@@ -62,27 +64,48 @@ async function drawn(drawing, extension, paper) {
  */
 export async function dewarp(task, signal) {
   await checkPlaces(...task.written);
-  const bytes = await readBytes(task.texture);
-  const photo = await about(task.texture, () => developable.readPhoto(bytes));
-  const { surface, options } = await flattened(task, signal);
+  const given = task.texture === undefined ? undefined : await readPhoto(task.texture);
+  const { surface, options } = await flattened({ ...task, photo: given }, signal);
+  const photo = given ?? await textureOf(task.input, surface);
+  const camera = task.photoCamera === undefined ? undefined : await readCamera(task.photoCamera, [photo]);
   const { dots, trim } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, dots, trim });
+  const flat = await developable.dewarp(surface, photo, { ...options, dots, trim, camera });
   const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }, ...reported(task, flat)];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: task.map.toLowerCase().endsWith('.npy') ? mapNpy(flat) : mapJson(flat) });
   }
   await writeWhole(files, signal);
   if (flat.verdict === 'flat') {
-    process.stderr.write('developable: the page was flat to begin with: the photo can be used as it is\n');
+    process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
     const strain = share(flat.report.distortion.rms);
     process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
   }
 }
 
+/** @param {string} path */
+async function readPhoto(path) {
+  const bytes = await readBytes(path);
+  return about(path, () => developable.readPhoto(bytes));
+}
+
+/**
+ * The picture that a scan has with it.
+ * @param {string} input
+ * @param {Input} surface
+ */
+async function textureOf(input, surface) {
+  const { texture } = /** @type {import('../types.js').Heightfield} */ (surface);
+  if (texture !== undefined) return developable.readPhoto(texture);
+  throw new Problem(
+    status.usage,
+    `${input} has no texture of its own, or several: --texture PHOTO gives the picture that its texture coordinates are about`,
+  );
+}
+
 /**
  * What is to be laid flat, and how it is resampled if it is no lattice yet.
- * @param {SheetTask} task
+ * @param {SheetTask & { photo?: import('./inputs.js').Size }} task
  * @param {AbortSignal} signal
  */
 export async function flattened(task, signal) {

@@ -82,7 +82,7 @@ impl Triangulation {
     }
 
     /// The same with colours, given for each vertex of the lattice as [`Mesh::with_colors`] takes
-    /// them; NaN becomes 0.
+    /// them. NaN becomes the mean of its neighbours, from a hole's rim inwards.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex of the lattice, [`Error::OutOfMemory`].
@@ -137,19 +137,47 @@ impl Triangulation {
         normal(self.mesh.corners(triangle), self.lattice.spacing())
     }
 
-    fn picked<const N: usize>(
+    /// The values at the mesh's vertices of those at the lattice's. Where there is none, as where a
+    /// hole was bridged, it is the mean of its neighbours', from the hole's rim inwards, or else 0.
+    pub(crate) fn picked<const N: usize>(
         &self,
         what: &'static str,
         values: &[[f32; N]],
     ) -> Result<Vec<[f32; N]>> {
         check_count(what, self.lattice.len(), N, N * values.len())?;
+        let known = |value: &[f32; N]| value.iter().all(|v| v.is_finite());
         let mut picked = room(self.vertices.len())?;
-        let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
-        picked.extend(
-            self.vertices
-                .iter()
-                .map(|i| values[*i as usize].map(finite)),
-        );
+        picked.extend(self.vertices.iter().map(|i| values[*i as usize]));
+        let mut missing = picked.iter().filter(|value| !known(value)).count();
+        while missing > 0 {
+            let mut sums = try_filled("mesh", picked.len(), ([0.0; N], 0.0))?;
+            for triangle in self.triangles() {
+                for to in triangle.map(|v| v as usize) {
+                    for from in triangle.map(|v| v as usize) {
+                        if !known(&picked[to]) && known(&picked[from]) {
+                            let (sum, count) = &mut sums[to];
+                            (0..N).for_each(|k| sum[k] += picked[from][k]);
+                            *count += 1.0;
+                        }
+                    }
+                }
+            }
+            let before = missing;
+            for (value, (sum, count)) in picked.iter_mut().zip(sums) {
+                if count > 0.0 {
+                    *value = sum.map(|sum| sum / count);
+                    missing -= 1;
+                }
+            }
+            if missing == before {
+                break;
+            }
+        }
+        if missing > 0 {
+            for value in picked.iter_mut().filter(|value| !known(value)) {
+                *value = [0.0; N];
+            }
+        }
         Ok(picked)
     }
 }

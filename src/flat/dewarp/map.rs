@@ -35,7 +35,8 @@ impl WarpMap {
     ///
     /// # Errors
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::Empty`] for an
-    /// extent or a photo without area, those of [`Camera::for_size`](crate::Camera::for_size),
+    /// extent or a photo without area, those of [`Camera::for_size`](crate::Camera::for_size), [`Error::Shape`] for
+    /// texture coordinates of another lattice,
     /// [`Error::TooLarge`] for an image of more than
     /// [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::Unsupported`] if no pixel's centre lies on
     /// the sheet, [`Error::OutOfMemory`].
@@ -45,7 +46,7 @@ impl WarpMap {
         photo: [usize; 2],
         options: &DewarpOptions,
     ) -> Result<Self> {
-        let places = Places::new(registration.into(), photo)?;
+        let places = Places::new(registration.into(), photo, sheet.mesh())?;
         let resolution = match options.dots {
             Some(dots) => positive("dots", dots)?,
             None => resolution(sheet, &places)?,
@@ -68,14 +69,13 @@ impl WarpMap {
             let part = sheet.parts()[triangle[0] as usize];
             let corners = triangle.map(|v| {
                 let [x, y] = sheet.places()[v as usize];
-                let vertex = mesh.vertices()[v as usize] as usize;
                 Corner {
                     // Whole numbers at pixels' centres, downwards.
                     at: [
                         (x - min[0]) * resolution - 0.5,
                         (max[1] - y) * resolution - 0.5,
                     ],
-                    from: places.of_vertex(vertex, mesh.positions()[v as usize]),
+                    from: places.of_vertex(v as usize, mesh.positions()[v as usize]),
                 }
             });
             map.fill(corners, part, &places, &mut parts);
@@ -293,10 +293,8 @@ fn resolution(sheet: &Unrolling, places: &Places) -> Result<f64> {
     };
     let (mut seen, mut flat) = (0.0, 0.0);
     for triangle in mesh.triangles() {
-        let corners = triangle.map(|v| {
-            let vertex = mesh.vertices()[v as usize] as usize;
-            places.of(places.of_vertex(vertex, mesh.positions()[v as usize]))
-        });
+        let corners =
+            triangle.map(|v| places.of(places.of_vertex(v as usize, mesh.positions()[v as usize])));
         if let [Some(a), Some(b), Some(c)] = corners {
             seen += area([a, b, c].map(|place| place.map(f64::from)));
             flat += area(triangle.map(|v| sheet.places()[v as usize]));

@@ -4,6 +4,7 @@ use super::Extent;
 use crate::error::{Error, Result};
 use crate::math::lanes;
 use crate::scene::camera::Camera;
+use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
 /// What says where in a photo each point of a surface is.
@@ -18,7 +19,7 @@ pub enum Registration<'a> {
     /// depths (those of [`Samples::frame`](crate::Samples::frame)).
     Camera(Camera, Frame),
     /// Texture coordinates at each vertex of the surface's lattice, as shares from the left and from
-    /// the bottom, NaN where there are none: those of a textured scan, by [`Samples::carry`](crate::Samples::carry).
+    /// the bottom, NaN where there are none, as where a hole was bridged: those of a textured scan, by [`Samples::carry`](crate::Samples::carry).
     Uvs(&'a [[f32; 2]]),
 }
 
@@ -29,15 +30,20 @@ impl From<Extent> for Registration<'_> {
 }
 
 /// The same for a photo of so many pixels.
-pub(super) enum Places<'a> {
+pub(super) enum Places {
     /// Pixels for each unit across and up, and the upper left corner.
     Plane([f64; 2], [f64; 2]),
     Camera(Camera, Frame),
-    Uvs(&'a [[f32; 2]], [f64; 2]),
+    /// At the vertices of the mesh.
+    Uvs(Vec<[f32; 2]>, [f64; 2]),
 }
 
-impl<'a> Places<'a> {
-    pub(super) fn new(registration: Registration<'a>, photo: [usize; 2]) -> Result<Self> {
+impl Places {
+    pub(super) fn new(
+        registration: Registration,
+        photo: [usize; 2],
+        mesh: &Triangulation,
+    ) -> Result<Self> {
         if photo.contains(&0) {
             return Err(Error::Empty { what: "photo" });
         }
@@ -51,20 +57,20 @@ impl<'a> Places<'a> {
             Registration::Camera(camera, frame) => {
                 Ok(Places::Camera(camera.for_size(photo)?, frame))
             }
-            Registration::Uvs(uvs) => Ok(Places::Uvs(uvs, size)),
+            Registration::Uvs(uvs) => {
+                let uvs = mesh.picked("texture coordinates of the surface", uvs)?;
+                Ok(Places::Uvs(uvs, size))
+            }
         }
     }
 
-    /// What is interpolated over a triangle, for a vertex of the lattice at a point: it is linear
+    /// What is interpolated over a triangle, for a vertex of the mesh at a point: it is linear
     /// there, which places in a photo through a camera are not.
     pub(super) fn of_vertex(&self, vertex: usize, point: [f64; 3]) -> [f64; 3] {
         match self {
             Places::Plane(..) => point,
             Places::Camera(_, frame) => frame.unview(point),
-            Places::Uvs(uvs, _) => {
-                let [u, v] = uvs.get(vertex).copied().unwrap_or([f32::NAN; 2]);
-                [u.into(), v.into(), 0.0]
-            }
+            Places::Uvs(uvs, _) => [uvs[vertex][0].into(), uvs[vertex][1].into(), 0.0],
         }
     }
 

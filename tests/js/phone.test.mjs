@@ -1,0 +1,120 @@
+/** A phone's depths and photo of a page: directly, in a worker and by the command. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+import { depthCamera, depths, displacement, photo, photoCamera } from './support/phone.mjs';
+
+after(() => developable.dispose());
+await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'unroll')]);
+
+const { width, height, ...numbers } = depthCamera;
+const picture = photo(photoCamera);
+const seen = direct.sampleMesh(direct.backProject(depths(), numbers), { view: 'best-fit' });
+
+/** @param {string} code @param {RegExp} message */
+const error = (code, message) => (/** @type {any} */ thrown) => {
+  assert.equal(thrown.code, code, String(thrown));
+  assert.match(thrown.message, message);
+  return true;
+};
+
+test('the photo lies where the camera has seen the surface', async () => {
+  assert.deepEqual(seen.camera, { width, height, ...numbers });
+  const surface = direct.fit(seen, { lambda: 'big' });
+  assert.deepEqual(surface.camera, seen.camera);
+  const flat = direct.dewarp(surface, picture, { dots: 2000 });
+  assert.equal(flat.verdict, 'unrolled');
+  assert.ok(displacement(photoCamera, flat) < 0.003, String(displacement(photoCamera, flat)));
+  const later = await developable.dewarp(surface, picture, { dots: 2000 });
+  assert.deepEqual(later.map, flat.map);
+  // What the box of the view would say is wrong by per cents.
+  const { camera, uvs, frame, ...bare } = surface;
+  const stretched = displacement(photoCamera, direct.dewarp(bare, picture, { dots: 2000 }));
+  assert.ok(stretched > 0.03, String(stretched));
+});
+
+test('a camera of its own, texture coordinates, and nothing at all', () => {
+  const { camera, ...textured } = seen;
+  assert.ok(displacement(photoCamera, direct.dewarp(textured, picture)) < 0.003);
+  const { uvs, ...bare } = textured;
+  assert.throws(() => direct.dewarp(bare, picture), error('INPUT', /nothing says where in the photo/));
+  const given = direct.dewarp(bare, picture, { camera: photoCamera });
+  assert.ok(displacement(photoCamera, given) < 0.003);
+  const aside = { ...photoCamera, translation: /** @type {const} */ ([0.05, 0, 0]) };
+  assert.ok(displacement(photoCamera, direct.dewarp(bare, picture, { camera: aside })) > 0.005);
+});
+
+test('what cannot be is refused in plain words', () => {
+  const upright = { width: picture.height, height: picture.width, data: picture.data };
+  assert.throws(() => direct.dewarp(seen, upright), error('UNSUPPORTED', /lies on its side/));
+  const wide = { width: 160, height: 90, data: new Uint8ClampedArray(4 * 160 * 90) };
+  assert.throws(() => direct.dewarp(seen, wide), error('UNSUPPORTED', /another part of the scene/));
+  assert.throws(
+    () => direct.backProject(depths(), { ...numbers, cx: 960, cy: 720 }),
+    error('OPTION', /images of another size/),
+  );
+  assert.throws(() => direct.dewarp(seen, picture, { camera: /** @type {any} */ ({ ...photoCamera, extent: 3 }) }), error('OPTION', /extent/));
+  assert.throws(
+    () => direct.dewarp(seen, picture, { camera: photoCamera, extent: [0, 0, 1, 1] }),
+    error('OPTION', /leave it or `camera` out/),
+  );
+  const heights = { width: 20, height: 20, data: new Float64Array(400) };
+  assert.throws(() => direct.dewarp(heights, picture, { camera: photoCamera }), error('OPTION', /backProject/));
+  const rotation = [[1, 0, 0], [0, 1, 0], [0, 0, -1]];
+  assert.throws(
+    () => direct.dewarp(seen, picture, { camera: { ...photoCamera, rotation: /** @type {any} */ (rotation) } }),
+    error('OPTION', /rotation/),
+  );
+});
+
+test('the command takes what capture apps write', async () => {
+  const folder = await temporaryFolder();
+  const { data } = depths();
+  const coarse = photo({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
+  const camera = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(coarse));
+  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data }));
+  // The photo's matrix by rows, as a calibration has it; by columns, with the size; plain numbers of the depths.
+  await writeFile(join(folder, 'camera_matrix.csv'), '1025.0, 0.0, 632.0\n0.0, 1025.0, 487.0\n0.0, 0.0, 1.0\n');
+  await writeFile(join(folder, 'metadata.json'), JSON.stringify({ w: 1280, h: 960, K: [1025, 0, 0, 0, 1025, 0, 632, 487, 1] }));
+  await writeFile(join(folder, 'transforms.json'), JSON.stringify({ fl_x: 205, fl_y: 205, cx: 126, cy: 97, w: 256, h: 192, k1: 0 }));
+  const common = ['--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big', '--dots', '2000'];
+  for (const file of ['camera_matrix.csv', 'metadata.json', 'transforms.json', '205,205,126,97']) {
+    const done = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', file, ...common, '-o', 'page.png', '--map', 'map.json']);
+    assert.equal(done.status, 0, done.stderr);
+    const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
+    const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
+    const error = displacement(camera, { ...flat, map });
+    assert.ok(error < 0.003, `${file}: ${error}`);
+  }
+  // The wrong file, and depths that are taken for heights.
+  await writeFile(join(folder, 'other.json'), JSON.stringify({ name: 'a phone' }));
+  const other = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', 'other.json', ...common, '-o', 'page.png']);
+  assert.equal(other.status, 3);
+  assert.match(other.stderr, /other\.json: there is no camera in it/);
+  const heights = await run(folder, ['dewarp', 'depth.exr', '--no-data', '0', '--texture', 'photo.png', '-o', 'page.png']);
+  assert.equal(heights.status, 3);
+  assert.match(heights.stderr, /--pixel-size .* --intrinsics/);
+});
+
+test('a textured scan brings its photo along', async () => {
+  const folder = await temporaryFolder();
+  const texture = direct.writePhoto(picture);
+  const { camera, ...surface } = direct.fit(seen, { lambda: 'big' });
+  await writeFile(join(folder, 'scan.glb'), direct.writeGlb({ ...surface, texture }));
+  const done = await run(folder, ['dewarp', 'scan.glb', '--view', 'best-fit', '--lambda', 'big', '-o', 'page.png', '--map', 'map.json']);
+  assert.equal(done.status, 0, done.stderr);
+  const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
+  const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
+  const found = displacement(photoCamera, { ...flat, map });
+  assert.ok(found < 0.003, String(found));
+  const bare = { ...surface, uvs: undefined, colors: undefined };
+  await writeFile(join(folder, 'bare.glb'), direct.writeGlb(bare));
+  const refused = await run(folder, ['dewarp', 'bare.glb', '-o', 'page.png']);
+  assert.equal(refused.status, 2);
+  assert.match(refused.stderr, /has no texture of its own/);
+});

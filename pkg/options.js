@@ -79,6 +79,12 @@ const signal = {
   },
 };
 
+/** @type {Kind} */
+const photoCamera = {
+  must: 'must be a camera: { fx, fy, cx, cy, width, height }',
+  take: (value) => (isRecord(value) ? optionsOf('photoCamera', /** @type {object} */ (value)) : undefined),
+};
+
 const resampled = { spacing: number };
 const handOver = { transfer: flag };
 const control = { signal, onAbort: choice('reject', 'keep'), onProgress: callback };
@@ -141,7 +147,7 @@ export const OPTIONS = {
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
   pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
-  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, extent, camera: anything },
+  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, extent, camera: photoCamera },
   writeObj: { materials: text },
   writePdf: { paper: choice('a4', 'letter') },
   writeGlb: { texture: anything },

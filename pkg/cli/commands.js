@@ -144,7 +144,7 @@ export const commands = {
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',
-      'dewarp depth.png --intrinsics camera_matrix.csv --texture photo.jpg -o page.png',
+      'dewarp d.png --intrinsics cam.csv --texture photo.jpg -o page.png',
       'dewarp scan.glb -o page.png --view best-fit',
     ],
   },

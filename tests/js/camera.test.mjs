@@ -99,7 +99,8 @@ test('what is wrong with a camera is said', async () => {
   assert.throws(changed({ cy: undefined }), error('OPTION', /fx, fy, cx and cy/));
   assert.throws(changed({ depthScale: -1 }), error('OPTION', /`depthScale`/));
   assert.throws(changed({ depth: 'radial' }), error('OPTION', /planar or ray/));
-  assert.throws(changed({ k1: 0.1 }), error('OPTION', /`k1`/));
+  assert.throws(changed({ k1: NaN }), error('OPTION', /`k1`/));
+  assert.throws(changed({ k4: 0.1 }), error('OPTION', /k4/));
   assert.throws(() => direct.backProject(/** @type {any} */ ({}), camera), error('INPUT', /width/));
   assert.throws(() => direct.backProject({ ...image, data: [1, 2] }, camera), error('SHAPE', /depth image/));
   const none = { ...image, data: new Float64Array(width * height) };

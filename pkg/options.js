@@ -80,6 +80,16 @@ const signal = {
 };
 
 /** @type {Kind} */
+const corners = {
+  must: 'must be a list of corners [x, y]',
+  take: (value) => {
+    const corner = numbers(2, 'two numbers');
+    const list = Array.isArray(value) ? Array.from(value, corner.take) : [];
+    return list.length > 0 && !list.includes(undefined) ? list : undefined;
+  },
+};
+
+/** @type {Kind} */
 const photoCamera = {
   must: 'must be a camera: { fx, fy, cx, cy, width, height }',
   take: (value) => (isRecord(value) ? optionsOf('photoCamera', /** @type {object} */ (value)) : undefined),
@@ -147,7 +157,7 @@ export const OPTIONS = {
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
   pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
-  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, extent, camera: photoCamera },
+  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, crop: corners, extent, camera: photoCamera },
   writeObj: { materials: text },
   writePdf: { paper: choice('a4', 'letter') },
   writeGlb: { texture: anything },

@@ -813,6 +813,11 @@ export interface DewarpOptions extends UnrollOptions {
   /** Cut off the margins: keep the largest upright rectangle that is all sheet. Default false. */
   trim?: boolean;
   /**
+   * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
+   * The flat image ends there. Default: all of it.
+   */
+  crop?: readonly (readonly [number, number])[];
+  /**
    * The part of the plane that the photo shows: left, bottom, right, top. Default: that of the
    * height image, also of the one that a surface was made from; of heights on a lattice, what their
    * vertices cover.

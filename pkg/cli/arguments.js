@@ -51,7 +51,7 @@ import { split, usage } from './flags.js';
  *   command: 'pattern', patching: import('../types.js').PatchOptions, scale?: number, tabs?: number, paper?: 'a4' | 'letter',
  * }} PatternTask
  * @typedef {SheetTask & {
- *   command: 'dewarp', texture?: string, photoCamera?: string, dots?: number, trim: boolean, map?: string,
+ *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, map?: string,
  * }} DewarpTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
@@ -191,7 +191,7 @@ export function parse(args) {
         throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
       }
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
-      return { command, ...fitting, asIs, texture, photoCamera, dots: number('dots', values), trim: values.trim === true, map };
+      return { command, ...fitting, asIs, texture, photoCamera, crop: corners(values.crop), dots: number('dots', values), trim: values.trim === true, map };
     default:
       return { command, ...fitting };
   }
@@ -282,6 +282,20 @@ function intrinsics({ intrinsics: text = '', ray = false }) {
   }
   const [fx, fy, cx, cy, depthScale] = numbers;
   return { numbers: { fx, fy, cx, cy, depthScale }, ray };
+}
+
+/**
+ * Pairs of numbers.
+ * @param {string | undefined} text
+ * @returns {[number, number][] | undefined}
+ */
+function corners(text) {
+  if (text === undefined) return undefined;
+  const numbers = list(text);
+  if (numbers.length < 6 || numbers.length % 2 !== 0 || numbers.some(Number.isNaN)) {
+    throw usage(`--crop must be three or more corners as in x,y,x,y,x,y, but is "${text}"`);
+  }
+  return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
 }
 
 /** Numbers with commas between them. @param {string} text */

@@ -140,7 +140,7 @@ export const commands = {
       PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
       IMAGE: '.png, transparent where there is no sheet',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'dots', 'trim', 'map'],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'map'],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',

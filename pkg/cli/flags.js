@@ -143,6 +143,11 @@ export const sections = {
         help: 'the camera of the photo, if it is another than that of the depths: JSON with fx, fy, cx, cy, width, height, ' +
           'lens distortion k1 to k3, p1, p2, and rotation (three rows) and translation from the depths to it',
       },
+      crop: {
+        value: 'x,y,x,y,x,y...',
+        help: 'corners of the part of the photo that is wanted, in its pixels from the upper left; the flat image ends ' +
+          'there, and depths beside it are left out',
+      },
       mtl: { value: 'FILE', help: '.mtl file to be written, too, through which an .obj has that picture as its texture' },
     },
   },

@@ -65,11 +65,13 @@ async function drawn(drawing, extension, paper) {
 export async function dewarp(task, signal) {
   await checkPlaces(...task.written);
   const given = task.texture === undefined ? undefined : await readPhoto(task.texture);
-  const { surface, options } = await flattened({ ...task, photo: given }, signal);
+  // Of a camera elsewhere it is not known yet which depths lie beside the part that is wanted.
+  const wanted = task.photoCamera === undefined ? task.crop : undefined;
+  const { surface, options } = await flattened({ ...task, photo: given && { ...given, wanted } }, signal);
   const photo = given ?? await textureOf(task.input, surface);
   const camera = task.photoCamera === undefined ? undefined : await readCamera(task.photoCamera, [photo]);
-  const { dots, trim } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, dots, trim, camera });
+  const { dots, trim, crop } = task;
+  const flat = await developable.dewarp(surface, photo, { ...options, dots, trim, crop, camera });
   const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }, ...reported(task, flat)];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: task.map.toLowerCase().endsWith('.npy') ? mapNpy(flat) : mapJson(flat) });

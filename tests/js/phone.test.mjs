@@ -6,7 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
-import { depthCamera, depths, displacement, photo, photoCamera } from './support/phone.mjs';
+import { depthCamera, depths, displacement, meets, photo, photoCamera } from './support/phone.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'unroll')]);
@@ -99,6 +99,47 @@ test('the command takes what capture apps write', async () => {
   const heights = await run(folder, ['dewarp', 'depth.exr', '--no-data', '0', '--texture', 'photo.png', '-o', 'page.png']);
   assert.equal(heights.status, 3);
   assert.match(heights.stderr, /--pixel-size .* --intrinsics/);
+});
+
+test('a part of the photo, with straight edges, and no table beside it', async () => {
+  const folder = await temporaryFolder();
+  // A table behind the page, as a depth camera sees it.
+  const { data } = depths();
+  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data: data.map((depth) => depth || 0.55) }));
+  const coarse = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo(coarse)));
+  /** The place in the photo of what lies at shares of the page's width and height. @type {(s: number, t: number) => number[]} */
+  const seenAt = (s, t) => {
+    let best = [Infinity, 0, 0];
+    for (let row = 0; row < coarse.height; row += 2) {
+      for (let col = 0; col < coarse.width; col += 2) {
+        const found = meets(coarse, col, row);
+        const off = found ? Math.hypot(found[1] / 0.21 + 0.5 - s, found[2] / 0.297 + 0.5 - t) : Infinity;
+        if (off < best[0]) best = [off, col, row];
+      }
+    }
+    return best.slice(1);
+  };
+  const corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]].map(([s, t]) => seenAt(s, t));
+  const done = await run(folder, [
+    'dewarp', 'depth.exr', '--intrinsics', '205,205,126,97', '--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big',
+    '--crop', corners.join(), '-o', 'page.png', '--map', 'map.json', '--report', 'report.json',
+  ]);
+  assert.equal(done.status, 0, done.stderr);
+  const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
+  const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
+  const found = displacement(coarse, { ...flat, map });
+  assert.ok(found < 0.004, String(found));
+  // Eight tenths of the page, in metres; straight chords in the photo cut off some of the bent edges.
+  const [wide, tall] = [flat.width / flat.resolution, flat.height / flat.resolution];
+  assert.ok(Math.abs(wide / (0.8 * 0.21) - 1) < 0.05 && Math.abs(tall / (0.8 * 0.297) - 1) < 0.1, `${wide} ${tall}`);
+  const { parts } = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
+  assert.equal(parts, 1);
+  assert.throws(() => direct.dewarp(seen, picture, { crop: [[0, 0], [1, 1]] }), error('OPTION', /three or more corners/));
+  assert.throws(
+    () => direct.dewarp(seen, picture, { crop: [[0, 0], [1, 0], [0, 1]] }),
+    error('UNSUPPORTED', /nothing of the sheet lies within/),
+  );
 });
 
 test('a textured scan brings its photo along', async () => {

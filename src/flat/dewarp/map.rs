@@ -1,5 +1,7 @@
 //! From the pixels of the flat image to places in the photo.
 
+use std::ops::Range;
+
 use super::photo::Photo;
 use super::registration::Places;
 use super::trim::largest_rectangle;
@@ -86,10 +88,7 @@ impl WarpMap {
                 reason: "no pixel lies on the sheet; choose a higher resolution".into(),
             });
         }
-        if options.trim {
-            map.trim()?;
-        }
-        Ok(map)
+        if options.trim { map.trimmed() } else { Ok(map) }
     }
 
     /// Number of columns of the flat image.
@@ -257,9 +256,23 @@ impl WarpMap {
         }
     }
 
-    fn trim(&mut self) -> Result<()> {
+    /// The largest upright rectangle that is all sheet.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn trimmed(mut self) -> Result<Self> {
         let inside = |i: usize| !self.places[i][0].is_nan();
         let [rows, cols] = largest_rectangle(self.width, self.height, inside)?;
+        self.keep(rows, cols)?;
+        Ok(self)
+    }
+
+    pub(super) fn places_mut(&mut self) -> &mut [[f32; 2]] {
+        &mut self.places
+    }
+
+    /// Only some rows and columns.
+    pub(super) fn keep(&mut self, rows: Range<usize>, cols: Range<usize>) -> Result<()> {
         let mut places = try_filled("flat image", rows.len() * cols.len(), NOWHERE)?;
         for (out, row) in places.chunks_exact_mut(cols.len()).zip(rows.clone()) {
             let start = row * self.width + cols.start;

@@ -28,6 +28,7 @@
 //! # }
 //! ```
 
+mod crop;
 mod map;
 mod photo;
 mod registration;

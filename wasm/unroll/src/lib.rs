@@ -156,17 +156,26 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     let mut wanted = DewarpOptions::default();
     let (mut extent, mut camera, mut uvs) = (None, None, JsValue::UNDEFINED);
     let mut frame = Frame::default();
+    let (mut crop, mut trim) = (None, false);
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "camera" => camera = Some(photo_camera(&value)?),
             "frame" => frame = from_value::<FrameFields>(value)?.into(),
             "uvs" => uvs = value,
+            "crop" => {
+                crop = Some(option::<Vec<[f64; 2]>>(
+                    "crop",
+                    value,
+                    "must be a list of corners [x, y]",
+                )?)
+            }
             "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
-            "trim" => wanted = wanted.trim(option("trim", value, "must be true or false")?),
+            "trim" => trim = option("trim", value, "must be true or false")?,
             "extent" => extent = Some(extent_from(value)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "dots, trim, camera, extent, tolerance, maxIterations and spacing";
+                let known =
+                    "dots, trim, crop, camera, extent, tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
@@ -188,6 +197,11 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         [photo.width(), photo.height()],
         &wanted,
     )?;
+    let map = match crop {
+        Some(polygon) => map.crop(&polygon)?,
+        None => map,
+    };
+    let map = if trim { map.trimmed()? } else { map };
     let flat = map.image(&photo)?;
     Ok(to_value(&DewarpedOutput {
         width: map.width(),

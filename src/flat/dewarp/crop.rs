@@ -16,21 +16,22 @@ impl WarpMap {
             let requirement = "must be three or more corners, each with a finite x and y";
             return Err(Error::option("crop", format!("{polygon:?}"), requirement));
         }
-        let (mut rows, mut cols) = (usize::MAX..0, usize::MAX..0);
+        let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
         let width = self.width();
         for (i, place) in self.places_mut().iter_mut().enumerate() {
             if place[0].is_nan() {
                 continue;
             }
             if contains(polygon, place.map(f64::from)) {
-                let (row, col) = (i / width, i % width);
-                rows = rows.start.min(row)..rows.end.max(row + 1);
-                cols = cols.start.min(col)..cols.end.max(col + 1);
+                for (k, at) in [i / width, i % width].into_iter().enumerate() {
+                    first[k] = first[k].min(at);
+                    last[k] = last[k].max(at + 1);
+                }
             } else {
                 *place = [f32::NAN; 2];
             }
         }
-        if rows.is_empty() {
+        if first[0] >= last[0] {
             return Err(Error::Unsupported {
                 format: "flat image",
                 reason:
@@ -39,7 +40,7 @@ impl WarpMap {
                         .into(),
             });
         }
-        self.keep(rows, cols)?;
+        self.keep(first[0]..last[0], first[1]..last[1])?;
         Ok(self)
     }
 }

@@ -9,6 +9,7 @@ use crate::scene::view::Frame;
 
 /// What says where in a photo each point of a surface is.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one for each photo")]
 #[non_exhaustive]
 pub enum Registration<'a> {
     /// Photo and heights were taken straight from above: a point is where the photo's share of its
@@ -30,6 +31,7 @@ impl From<Extent> for Registration<'_> {
 }
 
 /// The same for a photo of so many pixels.
+#[expect(clippy::large_enum_variant, reason = "there is one for each photo")]
 pub(super) enum Places {
     /// Pixels for each unit across and up, and the upper left corner.
     Plane([f64; 2], [f64; 2]),

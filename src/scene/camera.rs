@@ -173,7 +173,7 @@ impl Intrinsics {
     /// Where a point in space is seen, if it lies ahead: its column and row. The axes are x to the
     /// right, y up and z towards the viewer, the origin the camera's centre.
     pub fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
-        if !(z < 0.0) {
+        if z >= 0.0 || z.is_nan() {
             return None;
         }
         let [u, v] = self.distortion.distorted([x / -z, y / z])?;

@@ -128,10 +128,13 @@ impl Scene {
     }
 }
 
+/// A place on the page, and one in the flat image.
+type Pair = ([f64; 2], [f64; 2]);
+
 /// The root of the mean square of what is left after the best similarity, in units of the first.
-fn similarity(pairs: &[([f64; 2], [f64; 2])]) -> f64 {
+fn similarity(pairs: &[Pair]) -> f64 {
     let n = pairs.len() as f64;
-    let mean = |pick: fn(&([f64; 2], [f64; 2])) -> [f64; 2]| {
+    let mean = |pick: fn(&Pair) -> [f64; 2]| {
         [0, 1].map(|k| pairs.iter().map(|pair| pick(pair)[k]).sum::<f64>() / n)
     };
     let (p0, q0) = (mean(|pair| pair.0), mean(|pair| pair.1));
@@ -147,7 +150,7 @@ fn similarity(pairs: &[([f64; 2], [f64; 2])]) -> f64 {
         im += p[1] * q[0] - p[0] * q[1];
     }
     let (re, im) = (re / qq, im / qq);
-    let rest = |(p, q): ([f64; 2], [f64; 2])| {
+    let rest = |(p, q): Pair| {
         (p[0] - re * q[0] + im * q[1]).powi(2) + (p[1] - im * q[0] - re * q[1]).powi(2)
     };
     (centred().map(rest).sum::<f64>() / n).sqrt()

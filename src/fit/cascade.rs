@@ -8,9 +8,10 @@ use super::admm::schedule::Plan;
 use super::admm::state::State;
 use super::coarsen::coarsen;
 use super::coordinates::Coordinates;
+use super::energy::creases::Creases;
 use super::energy::problem::{Problem, position};
 use super::input::Input;
-use super::options::Options;
+use super::options::{Energy, Options};
 use super::plate;
 use super::prolong::prolong;
 use super::report::{LevelReport, Seconds, StopReason};
@@ -40,6 +41,9 @@ pub(crate) struct Cascade {
     /// Reweighted passes done and still to come.
     passes: usize,
     passes_left: usize,
+    /// Those at creases: the radius, and what the last one was about.
+    crease_radius: Option<f64>,
+    creases: Creases,
     seconds: Seconds,
     reason: Option<StopReason>,
 }
@@ -55,6 +59,7 @@ pub(crate) struct Answer {
     pub reason: StopReason,
     pub levels: Vec<LevelReport>,
     pub passes: usize,
+    pub creases: Creases,
     pub seconds: Seconds,
 }
 
@@ -114,6 +119,10 @@ impl Cascade {
             0,
             true,
         )?;
+        let (crease_radius, passes_left) = match options.energy {
+            Energy::Huber => (Some(options.crease_radius), options.crease_passes),
+            _ => (None, options.reweighting),
+        };
         let mut component = Cascade {
             level,
             finer,
@@ -122,7 +131,9 @@ impl Cascade {
             coarser: Vec::new(),
             plan,
             passes: 0,
-            passes_left: options.reweighting,
+            passes_left,
+            crease_radius,
+            creases: Creases::default(),
             seconds: Seconds::default(),
             reason: None,
         };
@@ -157,8 +168,19 @@ impl Cascade {
         }
         while self.passes_left > 0 && matches!(reason, StopReason::Gap | StopReason::Residuals) {
             self.passes_left -= 1;
+            let next = match self.crease_radius {
+                None => self.level.reweight()?,
+                Some(radius) => {
+                    let (creases, next) = self.level.reweight_creases(radius)?;
+                    let Some(next) = next else {
+                        break;
+                    };
+                    self.creases = creases;
+                    next
+                }
+            };
             self.passes += 1;
-            match self.level.reweight()? {
+            match next {
                 Some(next) => reason = next,
                 None => return Ok(()),
             }
@@ -228,6 +250,7 @@ impl Cascade {
             reason: self.reason.unwrap_or(StopReason::Cancelled),
             levels: self.levels(),
             passes: self.passes,
+            creases: self.creases,
             seconds: self.seconds + self.level.seconds,
         })
     }
@@ -244,6 +267,7 @@ impl Cascade {
             reason,
             levels,
             passes: self.passes,
+            creases: self.creases,
         }
     }
 

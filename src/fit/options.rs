@@ -8,6 +8,9 @@ use crate::heights::normalization::Normalization;
 /// Beyond these even double precision sees only one of the energy's two terms.
 const LAMBDAS: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 
+/// In normalised coordinates: from far below a spacing to far beyond any surface.
+const RADII: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
 /// More passes change nothing any more.
 const MOST_PASSES: usize = 20;
 
@@ -121,12 +124,19 @@ pub enum Energy {
     /// The same with the factor of the surface itself, updated in each iteration: not convex
     /// (Fig. 7, centre right). What is certified is the energy with the last factor kept.
     SecondForm,
+    /// `Σ φ(‖H‖_*)`, where `φ` grows with the square of small bends and with the size of large ones,
+    /// with the slope `min(α + s/δ, 1)`: smooth where the surface bends smoothly, without the flat
+    /// strips that the nuclear norm makes of it, and still creased, and developable. Bends tighter
+    /// than [`Options::crease_radius`] then cost less in up to [`Options::crease_passes`] further
+    /// solves, so that they keep their angle. The figures of the report are those of the last one's
+    /// energy.
+    Huber,
 }
 
 impl FromStr for Energy {
     type Err = Error;
 
-    /// Reads `nuclear`, `frobenius`, `squaredNuclear`, `secondFormOfInput` and `secondForm`.
+    /// Reads `nuclear`, `frobenius`, `squaredNuclear`, `secondFormOfInput`, `secondForm` and `huber`.
     fn from_str(text: &str) -> Result<Self> {
         match text {
             "nuclear" => Ok(Energy::Nuclear),
@@ -134,10 +144,11 @@ impl FromStr for Energy {
             "squaredNuclear" => Ok(Energy::SquaredNuclear),
             "secondFormOfInput" => Ok(Energy::SecondFormOfInput),
             "secondForm" => Ok(Energy::SecondForm),
+            "huber" => Ok(Energy::Huber),
             _ => Err(Error::option(
                 "energy",
                 text,
-                "must be nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm",
+                "must be nuclear, frobenius, squaredNuclear, secondFormOfInput, secondForm or huber",
             )),
         }
     }
@@ -161,6 +172,10 @@ pub struct Options {
     pub(crate) energy: Energy,
     pub(crate) reweighting: usize,
     pub(crate) tie_break: f64,
+    pub(crate) bend: f64,
+    pub(crate) flatness: f64,
+    pub(crate) crease_radius: f64,
+    pub(crate) crease_passes: usize,
 }
 
 impl Default for Options {
@@ -174,6 +189,10 @@ impl Default for Options {
             energy: Energy::Nuclear,
             reweighting: 0,
             tie_break: 0.01,
+            bend: 0.1,
+            flatness: 0.3,
+            crease_radius: 0.1,
+            crease_passes: 2,
         }
     }
 }
@@ -238,6 +257,36 @@ impl Options {
         self
     }
 
+    /// For [`Energy::Huber`]: radius `1/δ` below which bends cost their size, and above which they
+    /// cost their square, in normalised coordinates; default 0.1. The larger, the more it is like
+    /// the nuclear norm.
+    pub fn bend(mut self, radius: f64) -> Self {
+        self.bend = radius;
+        self
+    }
+
+    /// For [`Energy::Huber`]: the slope `α` that the cost of bends begins with, from 0 (nothing is
+    /// quite flat) to 1 (the nuclear norm); default 0.3.
+    pub fn flatness(mut self, slope: f64) -> Self {
+        self.flatness = slope;
+        self
+    }
+
+    /// For [`Energy::Huber`]: what bends more tightly than this radius `1/T` is a crease, in
+    /// normalised coordinates; default 0.1.
+    pub fn crease_radius(mut self, radius: f64) -> Self {
+        self.crease_radius = radius;
+        self
+    }
+
+    /// For [`Energy::Huber`]: the most passes at creases after the first solve; default 2, at most
+    /// 20. Passes end where they change next to nothing, and there is none where the noise of the
+    /// input is too large for λ, which would make creases of it.
+    pub fn crease_passes(mut self, passes: usize) -> Self {
+        self.crease_passes = passes;
+        self
+    }
+
     /// Whether every option is within its range.
     ///
     /// # Errors
@@ -269,6 +318,36 @@ impl Options {
                 "tie_break",
                 format!("{:e}", self.tie_break),
                 "must lie between 1e-12 and 1e15",
+            ));
+        }
+        for (name, radius) in [("bend", self.bend), ("crease_radius", self.crease_radius)] {
+            if !RADII.contains(&radius) {
+                return Err(Error::option(
+                    name,
+                    format!("{radius:e}"),
+                    "must lie between 1e-6 and 1e6",
+                ));
+            }
+        }
+        if !(0.0..=1.0).contains(&self.flatness) {
+            return Err(Error::option(
+                "flatness",
+                self.flatness,
+                "must lie between 0 and 1",
+            ));
+        }
+        if self.crease_passes > MOST_PASSES {
+            return Err(Error::option(
+                "crease_passes",
+                self.crease_passes,
+                "must be at most 20",
+            ));
+        }
+        if self.energy == Energy::Huber && self.reweighting > 0 {
+            return Err(Error::option(
+                "reweighting",
+                self.reweighting,
+                "must be 0 for the energy huber, which has passes at creases of its own",
             ));
         }
         if self.max_iterations == 0 {

@@ -148,6 +148,10 @@ pub struct Report {
     pub energy: Energy,
     /// Reweighted passes that were made after the first solve.
     pub reweighting: usize,
+    /// Passes at creases that were made after the first solve; see [`Energy::Huber`].
+    pub crease_passes: usize,
+    /// Interior vertices that are on a crease: those where the last pass weighs bends less.
+    pub creases: usize,
     /// Energy of the returned surface; always finite.
     pub objective: f64,
     /// Its first term, `λ Σ (z − z̃)²`.

@@ -12,7 +12,7 @@ use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
 use super::energy::problem::Problem;
 use super::input::Input;
-use super::options::Options;
+use super::options::{Energy, Options};
 use super::report::{LevelReport, Progress, Report, Seconds, StopReason};
 use super::restore::restore_omitted;
 use super::surface::Surface;
@@ -339,6 +339,8 @@ impl Solver {
             Status::Running => StopReason::Cancelled,
             Status::Stopped(reason) => reason,
         };
+        let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
+        let at_creases = self.options.energy == Energy::Huber;
         let report = Report {
             interior: self.domain.interior_len(),
             boundary: self.domain.boundary_len(),
@@ -352,7 +354,9 @@ impl Solver {
             cg_iterations: total.cg_iterations,
             levels,
             energy: self.options.energy,
-            reweighting: answers().map(|answer| answer.passes).max().unwrap_or(0),
+            reweighting: if at_creases { 0 } else { passes },
+            crease_passes: if at_creases { passes } else { 0 },
+            creases: answers().map(|answer| answer.creases.vertices).sum(),
             objective: total.objective(),
             fidelity: total.fidelity,
             nuclear_norm: total.nuclear_norm,

@@ -1,5 +1,6 @@
 //! What an earlier solve leaves to the next one.
 
+use std::mem::discriminant;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -37,7 +38,8 @@ impl WarmStart {
         let Some(first) = self.answers.first() else {
             return Ok(None);
         };
-        if problem.kind != first.problem.kind || !NEAR.contains(&ratio) {
+        let alike = discriminant(&problem.kind) == discriminant(&first.problem.kind);
+        if !alike || !NEAR.contains(&ratio) {
             return Ok(None);
         }
         // The last penalty is one for ending a solve, not for beginning it.

@@ -32,3 +32,14 @@ impl Real for f32 {
         self.sqrt()
     }
 }
+
+// `f64::max` treats NaN in a way that costs wasm several instructions; these are one each.
+#[inline(always)]
+pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}

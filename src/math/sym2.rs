@@ -1,6 +1,6 @@
 //! Symmetric 2×2 matrices and their spectral functions, all in closed form.
 
-use super::real::Real;
+use super::real::{Real, larger, smaller};
 
 /// A symmetric 2×2 matrix, held as `[[mean + diff, off], [off, mean − diff]]`.
 ///
@@ -123,17 +123,6 @@ pub(crate) fn clamp<T: Real>([mean, diff, off]: [T; 3], limit: T) -> [T; 3] {
         zero
     };
     [T::HALF * (high + low), factor * diff, factor * off]
-}
-
-// `f64::max` treats NaN in a way that costs wasm several instructions; these are one each.
-#[inline(always)]
-fn larger<T: PartialOrd>(a: T, b: T) -> T {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn smaller<T: PartialOrd>(a: T, b: T) -> T {
-    if a < b { a } else { b }
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native

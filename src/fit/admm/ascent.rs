@@ -12,7 +12,7 @@
 
 use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
-use crate::fit::energy::law::{Law, Nuclear};
+use crate::fit::energy::law::{HuberStep, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
 use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
@@ -67,6 +67,29 @@ pub(crate) struct Ascent {
     rolling: Rolling<f32>,
     /// A row in double precision.
     row: Matrices<f64>,
+}
+
+/// What follows a gradient step: the proximal map of the conjugates.
+trait Proximal: Copy {
+    fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3];
+}
+
+/// Of the nuclear norm: the projection.
+#[derive(Clone, Copy)]
+struct Projection;
+
+impl Proximal for Projection {
+    #[inline(always)]
+    fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3] {
+        clamp(v, weight)
+    }
+}
+
+impl Proximal for HuberStep<f32> {
+    #[inline(always)]
+    fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3] {
+        self.dual(v, weight)
+    }
 }
 
 /// Symmetric matrices, a vector for each coordinate of [`Sym2`].
@@ -128,9 +151,12 @@ impl Ascent {
     /// A few steps more, which cost about [`LOOK`] conjugate-gradient iterations; the best bound
     /// once the search is over.
     pub(crate) fn look(&mut self, state: &mut State, problem: &Problem) -> Option<f64> {
-        let before = self.search.looks * STEPS;
-        for step in before..before + STEPS {
-            self.step(&problem.domain, momentum(step));
+        match problem.kind {
+            Kind::Huber(bends) => {
+                let tau = 2.0 * problem.lambda * problem.spacing.powi(4) / f64::from(NORM);
+                self.steps(&problem.domain, bends.single(tau));
+            }
+            _ => self.steps(&problem.domain, Projection),
         }
         let next = self.bound(state, problem);
         let [least, most] = LOOKS;
@@ -145,10 +171,18 @@ impl Ascent {
         over.then_some(search.best)
     }
 
+    fn steps(&mut self, domain: &Domain, proximal: impl Proximal) {
+        let before = self.search.looks * STEPS;
+        for step in before..before + STEPS {
+            self.step(domain, proximal, momentum(step));
+        }
+    }
+
     /// From the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
     /// a step need not be smaller.
     fn start(&mut self, state: &mut State, problem: &Problem) -> Result<()> {
         let domain = &problem.domain;
+        let law = state.law(problem);
         problem.weight.narrow_into(domain, &mut self.weight)?;
         let unit = 2.0 * problem.lambda * problem.spacing * problem.spacing;
         for row in 1..=domain.rows() {
@@ -167,7 +201,7 @@ impl Ascent {
                 let weight = problem.weight.run(domain, row, *run);
                 let [mean, diff, off] = row_of(&mut self.row, weight.len());
                 for i in 0..weight.len() {
-                    let dual = Nuclear.dual(v.get(i), weight[i]);
+                    let dual = law.dual(v.get(i), weight[i]);
                     (mean[i], diff[i], off[i]) = (dual.mean, dual.diff, dual.off);
                 }
                 for to in [&mut self.last, &mut self.ahead] {
@@ -182,7 +216,7 @@ impl Ascent {
 
     /// One step, in one pass: each row of the dual follows the heights around it as soon as they are
     /// there.
-    fn step(&mut self, domain: &Domain, momentum: f32) {
+    fn step(&mut self, domain: &Domain, proximal: impl Proximal, momentum: f32) {
         let Ascent {
             last,
             ahead,
@@ -204,7 +238,7 @@ impl Ascent {
                         let [g1, g2, g3] = map.coordinates(ring.differences(i));
                         let up = |from: f32, gradient: f32| from + gradient * (1.0 / NORM);
                         let [n1, n2, n3] =
-                            clamp([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
+                            proximal.apply([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
                         a1[i] = n1 + momentum * (n1 - l1[i]);
                         a2[i] = n2 + momentum * (n2 - l2[i]);
                         a3[i] = n3 + momentum * (n3 - l3[i]);
@@ -248,10 +282,12 @@ impl Ascent {
         let Ascent {
             last, row: wide, ..
         } = self;
+        let law = state.law(problem);
         let State { rolling, terms, .. } = state;
         let (domain, map) = (&problem.domain, problem.map);
-        let [_, [inners, quadratics, ..]] = terms;
-        let (mut inner, mut quadratic) = (0.0, 0.0);
+        let [[conjugates, ..], [inners, quadratics, ..]] = terms;
+        let (mut inner, mut quadratic, mut conjugate) = (0.0, 0.0, 0.0);
+        let costs = problem.kind != Kind::Nuclear;
         rolling.sweep(
             domain,
             &mut (last, wide),
@@ -270,6 +306,12 @@ impl Ascent {
                         // Single precision may have ended just outside.
                         let dual = Nuclear.dual(Sym2 { mean, diff, off }, weight[i]);
                         (w1[i], w2[i], w3[i]) = map.adjoint(dual).into();
+                        if costs {
+                            conjugates[i] = law.conjugate(dual, weight[i]);
+                        }
+                    }
+                    if costs {
+                        conjugate += lanes::sum(&conjugates[..n]);
                     }
                 }
             },
@@ -290,7 +332,7 @@ impl Ascent {
                 }
             },
         );
-        dual_bound(problem, inner, quadratic, 0.0, 1.0)
+        dual_bound(problem, inner, quadratic, conjugate, 1.0)
     }
 }
 

@@ -9,6 +9,7 @@ use super::balance::{Balanced, ENOUGH, balanced_bound};
 use super::schedule::Plan;
 use super::state::{Certificate, State};
 use crate::error::Result;
+use crate::fit::energy::creases::Creases;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::cg::ConjugateGradients;
 use crate::fit::report::{LevelReport, Seconds, StopReason, relative_gap};
@@ -411,6 +412,25 @@ impl Level {
     /// size in the best surface so far. A reason to stop at once comes with it.
     pub(crate) fn reweight(&mut self) -> Result<Option<StopReason>> {
         self.problem.reweight(&self.best.z)?;
+        self.begin_pass()
+    }
+
+    /// Another pass, in which creases cost less; `None` in the place of the reason if there is
+    /// nothing to be done about them.
+    pub(crate) fn reweight_creases(
+        &mut self,
+        radius: f64,
+    ) -> Result<(Creases, Option<Option<StopReason>>)> {
+        let creases = self.problem.reweight_creases(&self.best.z, radius)?;
+        let next = match creases.is_worth() {
+            true => Some(self.begin_pass()?),
+            false => None,
+        };
+        Ok((creases, next))
+    }
+
+    /// Goes on with other weights.
+    fn begin_pass(&mut self) -> Result<Option<StopReason>> {
         let certificate = self.state.certify(&self.problem);
         self.best.replace(&self.state.z, &certificate);
         self.last_objective = f64::MAX;

@@ -250,7 +250,7 @@ impl Plan {
     /// Whether an iterate of such a gap is worth the search for a better bound.
     pub(crate) fn climbs(&self, problem: &Problem, gap: f64) -> bool {
         self.schedule == Schedule::Default
-            && problem.kind == Kind::Nuclear
+            && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
             && !problem.loose
             && gap > self.gap
             && gap < CLIMBABLE * self.gap

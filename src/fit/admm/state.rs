@@ -225,6 +225,9 @@ impl State {
     ) {
         match problem.kind {
             Kind::Nuclear => self.update_of::<false>(Nuclear, problem, relaxation, cg),
+            Kind::Huber(bends) => {
+                self.update_of::<false>(bends.law(self.rho), problem, relaxation, cg)
+            }
             // One kernel for all the others: less code, and measuring costs little.
             _ => self.update_and_measure(problem, relaxation, cg),
         };
@@ -321,6 +324,7 @@ impl State {
     pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
         match problem.kind {
             Kind::Nuclear => self.certify_of(Nuclear, problem),
+            Kind::Huber(bends) => self.certify_of(bends.law(self.rho), problem),
             _ => self.certify_of(self.law(problem), problem),
         }
     }

@@ -5,8 +5,10 @@
 //! `ω f(H) + ρ/2 ‖H − V/ρ‖²`: the dual `Y` is then a subgradient of `ω f` at `H`.
 //! All that the certificate needs is the conjugate `(ωf)*(Y)`.
 
-use crate::fit::options::Energy;
-use crate::math::sym2::Sym2;
+use crate::fit::options::{Energy, Options};
+use crate::math::lanes::single;
+use crate::math::real::{Real, larger, smaller};
+use crate::math::sym2::{Sym2, clamp};
 
 pub(crate) trait Law: Copy {
     /// The largest [`Law::size`] of a feasible dual: 1, or infinity if all are.
@@ -106,20 +108,140 @@ impl Law for SquaredNuclear {
     }
 }
 
+/// `φ(‖H‖_*)`, where `φ` has the slope `min(α + s/δ, ω)`: the weight is no factor, it is where the
+/// slope ends. A Huber function for `α = 0`, and `ω` times the nuclear norm for `α ≥ ω`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bends {
+    /// `α`, the slope at 0.
+    pub flatness: f64,
+    /// `δ`, a curvature.
+    pub delta: f64,
+}
+
+impl Bends {
+    pub(crate) fn of(options: &Options) -> Self {
+        Bends {
+            flatness: options.flatness,
+            delta: 1.0 / options.bend,
+        }
+    }
+
+    /// `φ′(s)` with `ω = 1`.
+    pub(crate) fn slope(self, s: f64) -> f64 {
+        smaller(self.flatness + s / self.delta, 1.0)
+    }
+
+    pub(crate) fn law(self, rho: f64) -> Huber {
+        Huber {
+            bends: self,
+            steps: self.steps(rho),
+        }
+    }
+
+    fn steps(self, rho: f64) -> HuberStep<f64> {
+        let c = rho * self.delta;
+        HuberStep {
+            flatness: self.flatness,
+            c,
+            both: 2.0 / (2.0 + c),
+            one: 1.0 / (1.0 + c),
+        }
+    }
+
+    /// The step `V ↦ Y` in single precision.
+    pub(crate) fn single(self, rho: f64) -> HuberStep<f32> {
+        let HuberStep {
+            flatness,
+            c,
+            both,
+            one,
+        } = self.steps(rho);
+        HuberStep {
+            flatness: single(flatness),
+            c: single(c),
+            both: single(both),
+            one: single(one),
+        }
+    }
+}
+
+/// The step of [`Huber`] at one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues cut off at
+/// `φ′(‖H‖_*)`, which follows by summing over the eigenvalues that are left, both or one, as for
+/// [`SquaredNuclear`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HuberStep<T> {
+    flatness: T,
+    c: T,
+    /// `2/(2 + c)` and `1/(1 + c)`.
+    both: T,
+    one: T,
+}
+
+impl<T: Real> HuberStep<T> {
+    #[inline(always)]
+    pub(crate) fn dual(self, v: [T; 3], weight: T) -> [T; 3] {
+        let [mean, diff, off] = v;
+        let radius = (diff * diff + off * off).sqrt();
+        let mean = larger(mean, -mean);
+        let least = smaller(self.flatness, weight);
+        let added = self.c * least;
+        let both = (larger(mean, radius) + T::HALF * added) * self.both;
+        let one = (mean + radius + added) * self.one;
+        clamp(v, smaller(weight, larger(least, larger(both, one))))
+    }
+}
+
+/// The law of [`Bends`] at one ρ.
+#[derive(Clone, Copy)]
+pub(crate) struct Huber {
+    bends: Bends,
+    steps: HuberStep<f64>,
+}
+
+impl Law for Huber {
+    #[inline(always)]
+    fn dual(self, v: Sym2, weight: f64) -> Sym2 {
+        let [mean, diff, off] = self.steps.dual([v.mean, v.diff, v.off], weight);
+        Sym2 { mean, diff, off }
+    }
+    #[inline(always)]
+    fn value(self, hessian: Sym2, weight: f64) -> f64 {
+        let Bends { flatness, delta } = self.bends;
+        let s = hessian.nuclear_norm();
+        let least = smaller(flatness, weight);
+        // Beyond `(ω − a)δ` the slope is ω.
+        let bent = smaller(s, (weight - least) * delta);
+        least * bent + 0.5 * bent * (bent / delta) + weight * (s - bent)
+    }
+    /// At least 1: `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
+    #[inline(always)]
+    fn size(self, dual: Sym2, weight: f64) -> f64 {
+        larger(dual.spectral_norm() / weight, 1.0)
+    }
+    #[inline(always)]
+    fn conjugate(self, dual: Sym2, weight: f64) -> f64 {
+        let Bends { flatness, delta } = self.bends;
+        let above = larger(dual.spectral_norm() - smaller(flatness, weight), 0.0);
+        0.5 * delta * above * above
+    }
+}
+
 /// Which law an energy follows; its weights ω are another matter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
     Nuclear,
     Frobenius,
     SquaredNuclear,
+    Huber(Bends),
 }
 
-impl Energy {
-    pub(crate) fn kind(self) -> Kind {
-        match self {
+impl Kind {
+    pub(crate) fn of(options: &Options) -> Self {
+        match options.energy {
             Energy::Nuclear | Energy::SecondFormOfInput | Energy::SecondForm => Kind::Nuclear,
             Energy::Frobenius => Kind::Frobenius,
             Energy::SquaredNuclear => Kind::SquaredNuclear,
+            Energy::Huber => Kind::Huber(Bends::of(options)),
         }
     }
 }
@@ -148,6 +270,10 @@ macro_rules! the_law {
             }
             Kind::SquaredNuclear => {
                 let $law = SquaredNuclear { rho: $any.rho };
+                $call
+            }
+            Kind::Huber(bends) => {
+                let $law = bends.law($any.rho);
                 $call
             }
         }
@@ -217,10 +343,14 @@ mod tests {
         #[test]
         fn steps_minimise_and_duals_are_subgradients(
             v in matrix(), other in matrix(), weight in 0.01..3.0f64, rho in 0.01..10.0f64,
+            delta in 0.01..10.0f64,
         ) {
             check(Nuclear, [v, other], weight, rho)?;
             check(Frobenius, [v, other], weight, rho)?;
             check(SquaredNuclear { rho }, [v, other], weight, rho)?;
+            for flatness in [0.0, 0.3, 1.0] {
+                check(Bends { flatness, delta }.law(rho), [v, other], weight, rho)?;
+            }
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::lattice::domain::{Domain, Role};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
 use crate::lattice::stencil::{HessianMap, Ring};
+use crate::math::sym2::Sym2;
 
 /// Norms up to this share of their mean count as none when an energy is reweighted.
 const REWEIGHTING: f64 = 0.3;
@@ -99,7 +100,7 @@ impl Problem {
             constrained,
             loose: false,
             free,
-            kind: options.energy.kind(),
+            kind: Kind::of(options),
             weight: PerCell::same(&domain, 1.0),
             first_weight: PerCell::same(&domain, 1.0),
             map: HessianMap::new(spacing),
@@ -122,6 +123,13 @@ impl Problem {
             // Σ (s + δ)² − s² by Cauchy and Schwarz.
             let squares = problem.smoothness(&problem.target);
             problem.rounding = norm * (2.0 * (count * squares).sqrt() + count * norm);
+        }
+        if let Kind::Huber(bends) = problem.kind {
+            let mut slopes = 0.0;
+            problem.each_hessian(&problem.target, |_, hessian| {
+                slopes += bends.slope(hessian.nuclear_norm() + norm);
+            });
+            problem.rounding = norm * slopes;
         }
         Ok(problem)
     }
@@ -209,17 +217,8 @@ impl Problem {
     /// than its surroundings by chance would become a crease.
     pub(crate) fn reweight(&mut self, z: &[f64]) -> Result<()> {
         let domain = &self.domain;
-        let mut norms = try_filled("weights", domain.cells(), 0.0)?;
-        let mut sum = 0.0;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(z, domain, row, *run);
-                for (i, norm) in norms[run.start..run.end].iter_mut().enumerate() {
-                    *norm = self.map.hessian(ring.differences(i)).nuclear_norm();
-                    sum += *norm;
-                }
-            }
-        }
+        let mut norms = self.norms(z)?;
+        let sum: f64 = domain.interior().cells().map(|cell| norms[cell]).sum();
         for _ in 0..SPREADING {
             spread(domain, &mut norms);
         }
@@ -236,20 +235,32 @@ impl Problem {
         Ok(())
     }
 
-    /// `Σ ω f(H(z))`.
-    pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
-        let law = self.law();
-        let domain = &self.domain;
-        let mut sum = 0.0;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(z, domain, row, *run);
-                let weight = self.weight.run(domain, row, *run);
-                for (i, weight) in weight.iter().enumerate() {
-                    sum += law.value(self.map.hessian(ring.differences(i)), *weight);
+    /// `‖H(z)‖_*` at interior cells, 0 elsewhere.
+    pub(crate) fn norms(&self, z: &[f64]) -> Result<Vec<f64>> {
+        let mut norms = try_filled("weights", self.domain.cells(), 0.0)?;
+        self.each_hessian(z, |cell, hessian| norms[cell] = hessian.nuclear_norm());
+        Ok(norms)
+    }
+
+    /// Calls `visit` with each interior cell and `H(z)` there.
+    fn each_hessian(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
+        for row in 1..=self.domain.rows() {
+            for run in self.domain.interior().row(row) {
+                let ring = Ring::new(z, &self.domain, row, *run);
+                for cell in run.start..run.end {
+                    visit(cell, self.map.hessian(ring.differences(cell - run.start)));
                 }
             }
         }
+    }
+
+    /// `Σ ω f(H(z))`.
+    pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
+        let law = self.law();
+        let mut sum = 0.0;
+        self.each_hessian(z, |cell, hessian| {
+            sum += law.value(hessian, self.weight.at(cell));
+        });
         sum
     }
 
@@ -352,7 +363,7 @@ fn check_range(
 }
 
 /// The mean over each interior cell (weight 2) and its interior neighbours (weight 1).
-fn spread(domain: &Domain, values: &mut [f64]) {
+pub(super) fn spread(domain: &Domain, values: &mut [f64]) {
     let old = values.to_vec();
     for cell in domain.interior().cells() {
         let around = domain

@@ -1,0 +1,60 @@
+//! Reweighted passes at creases: a norm costs less where the surface bends too sharply to be smooth.
+//!
+//! With `ω = T/s̄` beyond a curvature `T`, passes one after the other lower a penalty that grows like
+//! a logarithm there (Candès, Wakin and Boyd, Enhancing Sparsity by Reweighted ℓ₁ Minimization,
+//! 2008), so that creases keep their angle. Each pass is a convex problem for itself.
+
+use super::problem::{Problem, spread};
+use crate::error::Result;
+use crate::lattice::per_cell::PerCell;
+
+/// The least weight.
+const LEAST: f64 = 0.05;
+
+/// A weight that changes by more than this share has changed.
+const CHANGE: f64 = 0.1;
+
+/// Share of creases whose weight changes below which another pass is not worth it.
+const SETTLED: f64 = 0.02;
+
+/// What a pass is about.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Creases {
+    /// Interior vertices with a weight below 1.
+    pub vertices: usize,
+    /// Those among them, and among the pass before's, whose weight has changed.
+    pub changed: usize,
+}
+
+impl Creases {
+    /// Whether the pass is worth making.
+    pub(crate) fn is_worth(self) -> bool {
+        self.changed as f64 > SETTLED * self.vertices as f64
+    }
+}
+
+impl Problem {
+    /// `ω = min(1, T/s̄)`, where `s̄` is `‖H(z)‖_*` spread over the neighbours once, if enough
+    /// vertices change by that. `radius` is `1/T`.
+    pub(crate) fn reweight_creases(&mut self, z: &[f64], radius: f64) -> Result<Creases> {
+        let mut weights = self.norms(z)?;
+        spread(&self.domain, &mut weights);
+        let mut creases = Creases::default();
+        for cell in self.domain.interior().cells() {
+            let sharpness = radius * weights[cell];
+            let weight = if sharpness > 1.0 {
+                (1.0 / sharpness).max(LEAST)
+            } else {
+                1.0
+            };
+            let before = self.weight.at(cell);
+            creases.vertices += usize::from(weight < 1.0);
+            creases.changed += usize::from((weight - before).abs() > CHANGE * before);
+            weights[cell] = weight;
+        }
+        if creases.is_worth() {
+            self.weight = PerCell::Each(weights);
+        }
+        Ok(creases)
+    }
+}

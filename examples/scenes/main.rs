@@ -242,7 +242,7 @@ fn main() {
                     print!("  {:+.1} nuc {:6.3} {:.2e} {:3}it |", k as f64 / 2.0, n[0], n[1], rn.iterations);
                     for passes in [0, 1, 2] {
                         let (e, r) = run(base.energy(Energy::Huber).crease_passes(passes));
-                        print!(" {}: {:6.3} {:.2e} {:3}it {:.3} |", r.crease_passes, e[0], e[1], r.iterations, r.creases as f64 / r.interior as f64);
+                        print!(" {}: {:6.3} {:.2e} {:3}it {:.3} |", r.huber.unwrap().crease_passes, e[0], e[1], r.iterations, r.huber.unwrap().creases as f64 / r.interior as f64);
                         if !matches!(r.stop_reason, developable::StopReason::Gap) { print!("{:?}", r.stop_reason); }
                     }
                     println!();

@@ -11,7 +11,7 @@ use super::coordinates::Coordinates;
 use super::energy::creases::Creases;
 use super::energy::problem::{Problem, position};
 use super::input::Input;
-use super::options::{Energy, Options};
+use super::options::{Bending, Energy, Options};
 use super::plate;
 use super::prolong::prolong;
 use super::report::{LevelReport, Seconds, StopReason};
@@ -120,7 +120,10 @@ impl Cascade {
             true,
         )?;
         let (crease_radius, passes_left) = match options.energy {
-            Energy::Huber => (Some(options.crease_radius), options.crease_passes),
+            Energy::Huber => {
+                let Bending { crease_radius, .. } = Bending::SMOOTH.within(options);
+                (Some(crease_radius), options.crease_passes)
+            }
             _ => (None, options.reweighting),
         };
         let mut component = Cascade {

@@ -17,4 +17,5 @@ mod restore;
 pub(crate) mod solver;
 pub(crate) mod surface;
 mod totals;
+mod tuning;
 mod warm_start;

@@ -28,24 +28,31 @@ pub enum Lambda {
     Big,
     /// Any number from 10⁻¹² to 10¹⁵.
     Value(f64),
+    /// From the data, for heights with noise: a first λ from how large that is, then the one that
+    /// predicts best what a part of the heights are, which are held out from solves on a lattice
+    /// of twice the spacing. With [`Energy::Huber`] what bends cost is chosen likewise, as far as it
+    /// is not given. [`Report::lambda_choice`](crate::Report::lambda_choice) tells what was found.
+    Auto,
 }
 
 impl Lambda {
-    /// That of the name `small`, `medium` or `big`.
+    /// That of the name `small`, `medium`, `big` or `auto`.
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "small" => Some(Lambda::Small),
             "medium" => Some(Lambda::Medium),
             "big" => Some(Lambda::Big),
+            "auto" => Some(Lambda::Auto),
             _ => None,
         }
     }
 
-    /// The number that stands in the energy.
+    /// The number that stands in the energy; of [`Lambda::Auto`], which has none yet, that of
+    /// [`Lambda::Medium`].
     pub fn value(self) -> f64 {
         match self {
             Lambda::Small => 1e5,
-            Lambda::Medium => 1e6,
+            Lambda::Medium | Lambda::Auto => 1e6,
             Lambda::Big => 1e7,
             Lambda::Value(value) => value,
         }
@@ -61,14 +68,14 @@ impl From<f64> for Lambda {
 impl FromStr for Lambda {
     type Err = Error;
 
-    /// Reads `small`, `medium`, `big` or a number.
+    /// Reads `small`, `medium`, `big`, `auto` or a number.
     fn from_str(text: &str) -> Result<Self> {
         let number = || text.parse().ok().map(Lambda::Value);
         Lambda::named(text).or_else(number).ok_or_else(|| {
             Error::option(
                 "lambda",
                 text,
-                "must be small, medium, big or a number above zero",
+                "must be small, medium, big, auto or a number above zero",
             )
         })
     }
@@ -154,6 +161,40 @@ impl FromStr for Energy {
     }
 }
 
+/// The three numbers of [`Energy::Huber`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bending {
+    pub bend: f64,
+    pub flatness: f64,
+    pub crease_radius: f64,
+}
+
+impl Bending {
+    /// For smooth bends, and creases that are much sharper: the default.
+    pub(crate) const SMOOTH: Bending = Bending {
+        bend: 0.1,
+        flatness: 0.3,
+        crease_radius: 0.1,
+    };
+
+    /// With what the options give in place of its own.
+    pub(crate) fn within(self, options: &Options) -> Self {
+        Bending {
+            bend: options.bend.unwrap_or(self.bend),
+            flatness: options.flatness.unwrap_or(self.flatness),
+            crease_radius: options.crease_radius.unwrap_or(self.crease_radius),
+        }
+    }
+
+    /// The options with these.
+    pub(crate) fn of(self, options: &Options) -> Options {
+        options
+            .bend(self.bend)
+            .flatness(self.flatness)
+            .crease_radius(self.crease_radius)
+    }
+}
+
 /// Options of a solve; `Options::default()` suits most inputs.
 ///
 /// ```
@@ -172,9 +213,9 @@ pub struct Options {
     pub(crate) energy: Energy,
     pub(crate) reweighting: usize,
     pub(crate) tie_break: f64,
-    pub(crate) bend: f64,
-    pub(crate) flatness: f64,
-    pub(crate) crease_radius: f64,
+    pub(crate) bend: Option<f64>,
+    pub(crate) flatness: Option<f64>,
+    pub(crate) crease_radius: Option<f64>,
     pub(crate) crease_passes: usize,
 }
 
@@ -189,9 +230,9 @@ impl Default for Options {
             energy: Energy::Nuclear,
             reweighting: 0,
             tie_break: 0.01,
-            bend: 0.1,
-            flatness: 0.3,
-            crease_radius: 0.1,
+            bend: None,
+            flatness: None,
+            crease_radius: None,
             crease_passes: 2,
         }
     }
@@ -258,24 +299,25 @@ impl Options {
     }
 
     /// For [`Energy::Huber`]: radius `1/δ` below which bends cost their size, and above which they
-    /// cost their square, in normalised coordinates; default 0.1. The larger, the more it is like
-    /// the nuclear norm.
+    /// cost their square, in normalised coordinates; default 0.1, or by [`Lambda::Auto`]. The
+    /// larger, the more it is like the nuclear norm.
     pub fn bend(mut self, radius: f64) -> Self {
-        self.bend = radius;
+        self.bend = Some(radius);
         self
     }
 
     /// For [`Energy::Huber`]: the slope `α` that the cost of bends begins with, from 0 (nothing is
-    /// quite flat) to 1 (the nuclear norm); default 0.3.
+    /// quite flat) to 1 (the nuclear norm); default 0.3, or by [`Lambda::Auto`], and more where λ is
+    /// large for the noise of the input.
     pub fn flatness(mut self, slope: f64) -> Self {
-        self.flatness = slope;
+        self.flatness = Some(slope);
         self
     }
 
     /// For [`Energy::Huber`]: what bends more tightly than this radius `1/T` is a crease, in
-    /// normalised coordinates; default 0.1.
+    /// normalised coordinates; default 0.1, or by [`Lambda::Auto`].
     pub fn crease_radius(mut self, radius: f64) -> Self {
-        self.crease_radius = radius;
+        self.crease_radius = Some(radius);
         self
     }
 
@@ -321,18 +363,20 @@ impl Options {
             ));
         }
         for (name, radius) in [("bend", self.bend), ("crease_radius", self.crease_radius)] {
-            if !RADII.contains(&radius) {
+            if radius.is_some_and(|radius| !RADII.contains(&radius)) {
                 return Err(Error::option(
                     name,
-                    format!("{radius:e}"),
+                    format!("{:e}", radius.unwrap_or_default()),
                     "must lie between 1e-6 and 1e6",
                 ));
             }
         }
-        if !(0.0..=1.0).contains(&self.flatness) {
+        if let Some(flatness) = self.flatness
+            && !(0.0..=1.0).contains(&flatness)
+        {
             return Err(Error::option(
                 "flatness",
-                self.flatness,
+                flatness,
                 "must lie between 0 and 1",
             ));
         }

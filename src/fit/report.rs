@@ -110,6 +110,71 @@ pub struct LevelReport {
     pub cg_iterations: usize,
 }
 
+/// How [`Lambda::Auto`](crate::Lambda::Auto) has come to its λ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub enum LambdaReason {
+    /// It predicts best what heights are that were held out.
+    Prediction,
+    /// There are too few heights to hold some out: it follows from their noise.
+    Noise,
+    /// The heights have no noise to speak of: it is [`Lambda::Big`](crate::Lambda::Big).
+    NoNoise,
+    /// There are too few heights to tell their noise: it is
+    /// [`Lambda::Medium`](crate::Lambda::Medium).
+    Unknown,
+}
+
+/// What [`Lambda::Auto`](crate::Lambda::Auto) has found out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct LambdaChoice {
+    /// Where λ comes from.
+    pub reason: LambdaReason,
+    /// Standard deviation of the heights' noise, in the input's units; none if it cannot be told.
+    pub sigma: Option<f64>,
+    /// The step of quantised heights, in the input's units, where that is what their noise comes
+    /// from.
+    pub step: Option<f64>,
+    /// Noise is independent from vertex to vertex on the lattice of `2^merged` times the spacing.
+    pub merged: usize,
+    /// Solves that were compared, and their ADMM iterations, which the report does not count.
+    pub solves: usize,
+    /// See [`LambdaChoice::solves`].
+    pub iterations: usize,
+}
+
+/// The numbers of [`Energy::Huber`] as they were used, whether given or chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct HuberReport {
+    /// See [`Options::bend`](crate::Options::bend).
+    pub bend: f64,
+    /// See [`Options::flatness`](crate::Options::flatness).
+    pub flatness: f64,
+    /// See [`Options::crease_radius`](crate::Options::crease_radius).
+    pub crease_radius: f64,
+    /// Passes at creases that were made after the first solve.
+    pub crease_passes: usize,
+    /// Interior vertices that are on a crease: those where the last pass weighs bends less.
+    pub creases: usize,
+}
+
 /// What was solved, how well and at what cost.
 ///
 /// Energies are in normalised coordinates (see
@@ -148,10 +213,8 @@ pub struct Report {
     pub energy: Energy,
     /// Reweighted passes that were made after the first solve.
     pub reweighting: usize,
-    /// Passes at creases that were made after the first solve; see [`Energy::Huber`].
-    pub crease_passes: usize,
-    /// Interior vertices that are on a crease: those where the last pass weighs bends less.
-    pub creases: usize,
+    /// For [`Energy::Huber`]: what bends cost, and where creases are.
+    pub huber: Option<HuberReport>,
     /// Energy of the returned surface; always finite.
     pub objective: f64,
     /// Its first term, `λ Σ (z − z̃)²`.
@@ -166,6 +229,8 @@ pub struct Report {
     pub gap: Option<f64>,
     /// λ as a number.
     pub lambda: f64,
+    /// How that came about, for [`Lambda::Auto`](crate::Lambda::Auto).
+    pub lambda_choice: Option<LambdaChoice>,
     /// Last ADMM penalty ρ.
     pub rho: f64,
     /// Factor from the input's units to normalised coordinates.

@@ -12,11 +12,13 @@ use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
 use super::energy::problem::Problem;
 use super::input::Input;
-use super::options::{Energy, Options};
-use super::report::{LevelReport, Progress, Report, Seconds, StopReason};
+use super::options::{Bending, Energy, Lambda, Options};
+use super::report::{HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason};
 use super::restore::restore_omitted;
 use super::surface::Surface;
 use super::totals::{Totals, add_levels};
+use super::tuning::noise::Noise;
+use super::tuning::search::{self as tuning, Search};
 use super::warm_start::WarmStart;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
@@ -31,6 +33,14 @@ pub enum Status {
     Running,
     /// Done; further calls change nothing.
     Stopped(StopReason),
+}
+
+/// What is known about an input before a solve: the factor from the user's units to the energy's, and
+/// its noise.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Known {
+    pub scale: f64,
+    pub noise: Option<Noise>,
 }
 
 /// A solve that runs in steps, so that its caller can look at it, draw, or stop
@@ -52,7 +62,12 @@ pub enum Status {
 #[derive(Debug, Clone)]
 pub struct Solver {
     input: Input,
+    /// As they were asked for, and as they are used.
+    asked: Options,
     options: Options,
+    /// What λ is chosen by, while it is, and what has come of it.
+    search: Option<Search>,
+    choice: Option<LambdaChoice>,
     /// Factor from the user's units to the energy's.
     scale: f64,
     domain: Arc<Domain>,
@@ -81,22 +96,45 @@ impl Solver {
     /// the heights are too large or too small for their energy to be computed,
     /// [`Error::OutOfMemory`].
     pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
-        Solver::set_up(input.into(), options, None)
+        Solver::set_up(input.into(), options, None, None)
     }
 
-    fn set_up(input: Input, options: &Options, memory: Option<Arc<WarmStart>>) -> Result<Self> {
+    pub(super) fn with_known(input: Input, options: &Options, known: Known) -> Result<Self> {
+        Solver::set_up(input, options, None, Some(known))
+    }
+
+    fn set_up(
+        input: Input,
+        options: &Options,
+        memory: Option<Arc<WarmStart>>,
+        known: Option<Known>,
+    ) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
         let input = input.bridge()?;
         let domain = Arc::new(input.domain()?);
         check_held(&input, &domain)?;
-        let scale = options.normalization.factor(&input.field);
+        let known = match known {
+            Some(known) => known,
+            None => Known::of(&input, options)?,
+        };
+        let Known { scale, noise } = known;
+        let asked = *options;
+        let (mut options, mut choice, mut search) = (asked, None, None);
+        if asked.lambda == Lambda::Auto {
+            let (first, found) = tuning::first(&asked, noise, scale);
+            if found.reason == LambdaReason::Noise {
+                search = Search::new(&input, &asked, &first, known)?;
+            }
+            (options, choice) = (first, Some(found));
+        }
+        let options = tuning::guarded(&options, noise, scale);
         let components = Components::new(&domain)?;
         let energies = match components.list.len() {
-            1 => Vec::new(),
+            1 if search.is_none() => Vec::new(),
             n => {
                 let coordinates = Coordinates::new(&input, &domain, scale);
-                let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
+                let problem = Problem::new(&input, domain.clone(), &coordinates, &options)?;
                 problem.smoothness_by(n, |cell| components.of(cell))
             }
         };
@@ -107,7 +145,10 @@ impl Solver {
         }
         let mut solver = Solver {
             input,
-            options: *options,
+            asked,
+            options,
+            search,
+            choice,
             scale,
             domain,
             components,
@@ -119,7 +160,9 @@ impl Solver {
             started,
             setup: 0.0,
         };
-        solver.next_part()?;
+        if solver.search.is_none() {
+            solver.next_part()?;
+        }
         solver.setup = started.elapsed().as_secs_f64();
         Ok(solver)
     }
@@ -142,7 +185,15 @@ impl Solver {
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
-        let input = input.into();
+        self.restart_about(input.into(), options, None)
+    }
+
+    fn restart_about(
+        &mut self,
+        input: Input,
+        options: &Options,
+        known: Option<Known>,
+    ) -> Result<()> {
         let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
         let same = shape(input.field.lattice()) == shape(self.input.field.lattice());
         let memory = if !same {
@@ -158,8 +209,13 @@ impl Solver {
             // What was overtaken is no answer yet.
             self.memory.clone()
         };
-        *self = Solver::set_up(input, options, memory)?;
+        *self = Solver::set_up(input, options, memory, known)?;
         Ok(())
+    }
+
+    /// [`Solver::restart`], with what is known already.
+    pub(super) fn restart_known(&mut self, options: &Options, known: Known) -> Result<()> {
+        self.restart_about(self.input.clone(), options, Some(known))
     }
 
     /// Starts parts until one has something to do.
@@ -226,6 +282,14 @@ impl Solver {
     /// [`Error::OutOfMemory`] on the way to a finer level.
     pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
+        while let Some(search) = &mut self.search
+            && self.status == Status::Running
+        {
+            if !search.advance(&mut left)? {
+                return Ok(self.status);
+            }
+            self.take_choice()?;
+        }
         while left > 0 && self.status == Status::Running {
             let Some(running) = &mut self.running else {
                 break;
@@ -239,7 +303,20 @@ impl Solver {
         Ok(self.status)
     }
 
-    /// Figures of the last check. While a coarse level is under way, its
+    /// Ends the search and begins with the solve.
+    fn take_choice(&mut self) -> Result<()> {
+        let (Some(search), Some(choice)) = (self.search.take(), &mut self.choice) else {
+            return Ok(());
+        };
+        self.options = search.found(&self.asked, choice);
+        if self.components.list.len() == 1 {
+            self.energies.clear();
+        }
+        self.next_part()
+    }
+
+    /// Figures of the last check. While λ is [looked for](Lambda::Auto), they are the input's, on a
+    /// level above 0, and iterations those of the search, which go on being counted. While a coarse level is under way, its
     /// objective and bound are scaled by the number of vertices: estimates of
     /// the finest level's, which alone certifies. Components of the surface that are
     /// still to come count as they are in the input, with 0 as their bound.
@@ -260,9 +337,17 @@ impl Solver {
         }
         let pending = self.energies.iter().skip(pending);
         total.nuclear_norm += pending.sum::<f64>();
+        let searched = match (&self.search, &self.choice) {
+            (Some(search), _) => search.iterations(),
+            (None, choice) => choice.map_or(0, |choice| choice.iterations),
+        };
+        let level = match &self.search {
+            Some(_) => 1,
+            None => self.running.as_ref().map_or(0, Cascade::levels_left),
+        };
         Progress {
-            level: self.running.as_ref().map_or(0, Cascade::levels_left),
-            iteration: total.iterations,
+            level,
+            iteration: searched + total.iterations,
             cg_iterations: total.cg_iterations,
             objective: total.objective(),
             dual_bound: total.dual_bound,
@@ -341,6 +426,11 @@ impl Solver {
         };
         let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
         let at_creases = self.options.energy == Energy::Huber;
+        let Bending {
+            bend,
+            flatness,
+            crease_radius,
+        } = Bending::SMOOTH.within(&self.options);
         let report = Report {
             interior: self.domain.interior_len(),
             boundary: self.domain.boundary_len(),
@@ -355,14 +445,20 @@ impl Solver {
             levels,
             energy: self.options.energy,
             reweighting: if at_creases { 0 } else { passes },
-            crease_passes: if at_creases { passes } else { 0 },
-            creases: answers().map(|answer| answer.creases.vertices).sum(),
+            huber: at_creases.then(|| HuberReport {
+                bend,
+                flatness,
+                crease_radius,
+                crease_passes: passes,
+                creases: answers().map(|answer| answer.creases.vertices).sum(),
+            }),
             objective: total.objective(),
             fidelity: total.fidelity,
             nuclear_norm: total.nuclear_norm,
             dual_bound: total.dual_bound,
             gap: self.known_gap(&total),
             lambda: self.options.lambda.value(),
+            lambda_choice: self.choice,
             rho: answers().next().map_or(0.0, |answer| answer.state.rho),
             scale: self.scale,
             stop_reason,
@@ -375,6 +471,16 @@ impl Solver {
         Ok(Surface {
             heightfield: Heightfield::new(lattice, heights)?,
             report,
+        })
+    }
+}
+
+impl Known {
+    fn of(input: &Input, options: &Options) -> Result<Self> {
+        let wanted = options.lambda == Lambda::Auto || options.energy == Energy::Huber;
+        Ok(Known {
+            scale: options.normalization.factor(&input.field),
+            noise: if wanted { Noise::of(input)? } else { None },
         })
     }
 }

@@ -5,7 +5,7 @@
 //! `ω f(H) + ρ/2 ‖H − V/ρ‖²`: the dual `Y` is then a subgradient of `ω f` at `H`.
 //! All that the certificate needs is the conjugate `(ωf)*(Y)`.
 
-use crate::fit::options::{Energy, Options};
+use crate::fit::options::{Bending, Energy, Options};
 use crate::math::lanes::single;
 use crate::math::real::{Real, larger, smaller};
 use crate::math::sym2::{Sym2, clamp};
@@ -120,9 +120,10 @@ pub(crate) struct Bends {
 
 impl Bends {
     pub(crate) fn of(options: &Options) -> Self {
+        let Bending { bend, flatness, .. } = Bending::SMOOTH.within(options);
         Bends {
-            flatness: options.flatness,
-            delta: 1.0 / options.bend,
+            flatness,
+            delta: 1.0 / bend,
         }
     }
 

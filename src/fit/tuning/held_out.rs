@@ -1,0 +1,87 @@
+//! Cross-validation: some heights are held out, and the solve that predicts them best is the best one.
+//!
+//! What is between a held-out height and its prediction is the noise of both, and how far the
+//! prediction is from the truth; so the smallest mean square belongs to the surface next to the truth,
+//! whatever it minimises. That takes noise which is independent from vertex to vertex.
+
+use crate::error::{Result, try_filled};
+use crate::fit::input::Input;
+use crate::heights::heightfield::Heightfield;
+
+/// Share of the vertices at which one is tried, some of which are next to one held out already.
+const SHARE: f64 = 0.3;
+
+/// Fewer say nothing.
+const FEWEST: usize = 60;
+
+/// Confidence of what takes a held-out height's place, the mean of those around: enough for the
+/// speed of a solve, and too little to count. Only what is trusted far more is held out. Both are
+/// shares of the largest confidence.
+const MADE_UP: f64 = 0.01;
+const TRUSTED: f64 = 0.1;
+
+/// An input without some of its heights, and these.
+#[derive(Debug, Clone)]
+pub(crate) struct HeldOut {
+    pub input: Input,
+    /// Vertices, their heights and confidence.
+    samples: Vec<(usize, f64, f64)>,
+}
+
+impl HeldOut {
+    /// The same vertices for the same input; nothing if there are too few.
+    pub(crate) fn of(input: &Input) -> Result<Option<Self>> {
+        let lattice = *input.field.lattice();
+        let mut random = oorandom::Rand64::new(1);
+        let mut out = try_filled("held-out vertices", lattice.len(), false)?;
+        let mut heights = try_filled("held-out heights", lattice.len(), 0.0)?;
+        heights.copy_from_slice(input.field.heights());
+        let mut confidence = try_filled("held-out confidence", lattice.len(), 0.0)?;
+        for (vertex, value) in confidence.iter_mut().enumerate() {
+            *value = input.trust(vertex);
+        }
+        let largest = confidence.iter().copied().fold(0.0, f64::max);
+        let mut samples = Vec::new();
+        for row in 0..lattice.rows() {
+            for col in 0..lattice.cols() {
+                let vertex = lattice.index(row, col);
+                let wanted = random.rand_float() < SHARE;
+                let known = |v: usize| !out[v] && input.is_given(v) && heights[v].is_finite();
+                let trusted = confidence[vertex] >= TRUSTED * largest;
+                if !wanted || !known(vertex) || !trusted || input.is_constrained(vertex) {
+                    continue;
+                }
+                let ring = lattice
+                    .neighbours(row, col)
+                    .map(|n| n.map(|(row, col)| lattice.index(row, col)).filter(|v| known(*v)));
+                let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = ring else {
+                    continue;
+                };
+                samples.push((vertex, heights[vertex], input.weight(vertex)));
+                out[vertex] = true;
+                heights[vertex] = [a, b, c, d, e, f].map(|v| heights[v]).iter().sum::<f64>() / 6.0;
+                confidence[vertex] = MADE_UP * largest;
+            }
+        }
+        if samples.len() < FEWEST {
+            return Ok(None);
+        }
+        let mut input = input.clone();
+        input.field = Heightfield::new(lattice, heights)?;
+        let input = input.with_confidence(confidence)?;
+        Ok(Some(HeldOut { input, samples }))
+    }
+
+    /// The mean square of what a surface misses them by.
+    pub(crate) fn error(&self, surface: &Heightfield) -> f64 {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (vertex, height, weight) in &self.samples {
+            let miss = surface.heights()[*vertex] - height;
+            if miss.is_finite() {
+                sum += weight * miss * miss;
+                total += weight;
+            }
+        }
+        sum / total
+    }
+}

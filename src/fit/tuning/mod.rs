@@ -1,0 +1,6 @@
+//! Options from the data: how large its noise is, and what predicts heights best that were held out.
+
+pub(crate) mod held_out;
+pub(crate) mod merge;
+pub(crate) mod noise;
+pub(crate) mod search;

@@ -1,0 +1,226 @@
+//! How large the noise of heights is.
+
+use super::merge::merge;
+use crate::error::Result;
+use crate::fit::input::Input;
+
+/// From the median of a normal distribution's absolute values to its standard deviation.
+const MEDIAN: f64 = 1.4826;
+
+/// Fewer samples say nothing.
+const FEWEST: usize = 50;
+
+/// Most merging for correlated noise.
+const MOST_MERGED: usize = 3;
+
+/// Noise that is independent from vertex to vertex has `σh` as before after merging. If it grows by
+/// more than this factor it is correlated until then. What goes on growing is no noise but the
+/// surface's own shape.
+const CORRELATED: f64 = 1.3;
+
+/// Steps are looked for if at most this share of the heights are different ones, and counted as equal
+/// within this share of them.
+const DISTINCT: f64 = 0.25;
+const EQUAL: f64 = 1e-3;
+
+/// The noise of an input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Noise {
+    /// Standard deviation, in the user's units.
+    pub sigma: f64,
+    /// How often vertices are merged, four into one, until noise is independent from vertex to vertex.
+    pub merged: usize,
+    /// `σh` there, in the user's units squared, times the confidence of what it was measured at. In
+    /// normalised coordinates `8` over it is about the best λ.
+    pub product: f64,
+    /// The step of quantised heights, if noise is no larger than what that makes.
+    pub step: Option<f64>,
+}
+
+impl Noise {
+    /// Nothing where there is too little to tell from.
+    pub(crate) fn of(input: &Input) -> Result<Option<Self>> {
+        let trust = largest_trust(input);
+        let Some(own) = ring_noise(input) else {
+            return Ok(None);
+        };
+        let step = step(input).filter(|step| step / 12f64.sqrt() > own);
+        let sigma = step.map_or(own, |step| step / 12f64.sqrt());
+        let mut spacing = input.field.lattice().spacing();
+        let mut noise = Noise {
+            sigma,
+            merged: 0,
+            product: trust * sigma * spacing,
+            step,
+        };
+        let mut merged = merge(input)?;
+        let mut last = noise;
+        for count in 1..=MOST_MERGED + 1 {
+            spacing *= 2.0;
+            let Some(next) = ring_noise(&merged) else {
+                break;
+            };
+            let next = Noise {
+                sigma: noise.sigma.max(next),
+                merged: count,
+                product: trust * next * spacing,
+                step,
+            };
+            if cfg!(test) { println!("{count} {}", next.product / last.product); }
+            if next.product <= CORRELATED * last.product {
+                noise = last;
+                break;
+            }
+            last = next;
+            merged = merge(&merged)?;
+        }
+        Ok(Some(noise))
+    }
+}
+
+/// What rings of six neighbours have in excess of any quadratic: the sum of their heights with
+/// alternating signs. A median, so that creases do not count.
+fn ring_noise(input: &Input) -> Option<f64> {
+    let lattice = input.field.lattice();
+    let least = TRUSTED * largest_trust(input);
+    let sample = |vertex| sample(input, vertex, least);
+    let mut samples = Vec::new();
+    for row in 0..lattice.rows() {
+        for col in 0..lattice.cols() {
+            let [w, e, nw, ne, sw, se] = lattice
+                .neighbours(row, col)
+                .map(|n| n.map_or(f64::NAN, |(row, col)| sample(lattice.index(row, col))));
+            let alternating = (w - nw) + (ne - e) + (se - sw);
+            if alternating.is_finite() {
+                samples.push(alternating.abs());
+            }
+        }
+    }
+    if samples.len() < FEWEST {
+        return None;
+    }
+    let middle = samples.len() / 2;
+    let (_, median, _) = samples.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(MEDIAN * *median / 6f64.sqrt())
+}
+
+/// Bridged vertices have less, as a share of the largest confidence.
+const TRUSTED: f64 = 0.5;
+
+fn largest_trust(input: &Input) -> f64 {
+    match input.confidence.is_empty() {
+        true => 1.0,
+        false => (0..input.field.lattice().len())
+            .filter(|v| !input.is_constrained(*v) && !input.field.heights()[*v].is_nan())
+            .map(|v| input.weight(v))
+            .fold(0.0, f64::max),
+    }
+}
+
+/// A height of at least some confidence; NaN where there is none, or one that was made up.
+fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
+    let weight = input.weight(vertex);
+    if input.is_constrained(vertex) || weight < least || weight == 0.0 {
+        return f64::NAN;
+    }
+    input.field.heights()[vertex]
+}
+
+/// The step that all heights are multiples of, from some height on, if many are the same.
+fn step(input: &Input) -> Option<f64> {
+    let least = TRUSTED * largest_trust(input);
+    let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
+    let mut heights: Vec<f64> = samples.filter(|z| z.is_finite()).collect();
+    let count = heights.len();
+    heights.sort_unstable_by(f64::total_cmp);
+    let size = heights.first()?.abs().max(heights.last()?.abs());
+    let rounding = 16.0 * f64::EPSILON * size;
+    heights.dedup_by(|a, b| *a - *b <= rounding);
+    if heights.len() < 2 || heights.len() as f64 > DISTINCT * count as f64 {
+        return None;
+    }
+    let gaps = heights.windows(2).map(|pair| pair[1] - pair[0]);
+    let step = gaps.clone().fold(f64::INFINITY, f64::min);
+    let multiple = |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL * gap / step;
+    gaps.into_iter().all(multiple).then_some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::heights::heightfield::Heightfield;
+    use crate::lattice::hexagonal::Lattice;
+
+    fn lattice() -> Lattice {
+        Lattice::covering([0.0, 0.0], [1.0, 1.0], 0.01).unwrap()
+    }
+
+    /// Uniform in −√3..√3, which is a standard deviation of 1.
+    fn white(seed: u64) -> Vec<f64> {
+        let mut random = oorandom::Rand64::new(u128::from(seed));
+        (0..lattice().len())
+            .map(|_| 12f64.sqrt() * (random.rand_float() - 0.5))
+            .collect()
+    }
+
+    fn roof(sigma: f64, noise: &[f64]) -> Heightfield {
+        let truth = |x: f64, y: f64| 0.3 * (x - 0.4).abs() + 0.2 * (3.0 * y).sin();
+        let truth = Heightfield::from_fn(lattice(), truth).unwrap();
+        let heights = truth.heights().iter().zip(noise).map(|(z, n)| z + sigma * n);
+        Heightfield::new(lattice(), heights.collect()).unwrap()
+    }
+
+    #[test]
+    fn white_noise_is_measured_beside_bends_and_creases() {
+        for sigma in [1e-4, 1e-3, 1e-2] {
+            let noise = Noise::of(&roof(sigma, &white(3)).into()).unwrap().unwrap();
+            assert!((noise.sigma / sigma - 1.0).abs() < 0.06, "{sigma}: {noise:?}");
+            assert_eq!((noise.merged, noise.step), (0, None), "{sigma}");
+            assert_eq!(noise.product, noise.sigma * 0.01);
+        }
+    }
+
+    #[test]
+    fn correlated_noise_counts_for_more() {
+        let lattice = lattice();
+        let mut noise = white(5);
+        for _ in 0..3 {
+            let old = noise.clone();
+            for (i, value) in noise.iter_mut().enumerate() {
+                let ring = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
+                let ring = ring.into_iter().flatten().map(|(r, c)| old[lattice.index(r, c)]);
+                let (sum, count) = ring.fold((2.0 * old[i], 2.0), |(s, n), z| (s + z, n + 1.0));
+                *value = sum / count;
+            }
+        }
+        let noise = Noise::of(&roof(1e-2, &noise).into()).unwrap().unwrap();
+        // Smoothing leaves the mean over large areas as it is, and so `σh` there.
+        assert!(noise.merged > 0, "{noise:?}");
+        assert!((0.6..1.3).contains(&(noise.product / 1e-4)), "{noise:?}");
+    }
+
+    #[test]
+    fn steps_are_recognised() {
+        let step = 0.02;
+        let smooth = roof(0.0, &white(1));
+        let heights = smooth.heights().iter().map(|z| 1.0 + (z / step).round() * step);
+        let field = Heightfield::new(lattice(), heights.collect()).unwrap();
+        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        assert!((noise.step.unwrap() / step - 1.0).abs() < 1e-9, "{noise:?}");
+        assert!(noise.sigma >= step / 12f64.sqrt());
+        // Noise that is larger than the step is what counts.
+        let rough = roof(0.05, &white(2));
+        let heights = rough.heights().iter().map(|z| (z / step).round() * step);
+        let field = Heightfield::new(lattice(), heights.collect()).unwrap();
+        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        assert!(noise.step.is_none() && (noise.sigma / 0.05 - 1.0).abs() < 0.1, "{noise:?}");
+    }
+
+    #[test]
+    fn constant_and_tiny_inputs_have_none() {
+        let flat = Heightfield::from_fn(lattice(), |_, _| 0.0).unwrap();
+        assert_eq!(Noise::of(&flat.into()).unwrap().unwrap().sigma, 0.0);
+        let tiny = Heightfield::from_fn(Lattice::new(3, 3, 1.0).unwrap(), |x, _| x).unwrap();
+        assert_eq!(Noise::of(&tiny.into()).unwrap(), None);
+    }
+}

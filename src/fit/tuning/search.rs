@@ -1,0 +1,254 @@
+//! λ by itself, and what bends of [`Energy::Huber`] cost: from the noise, then by what predicts held-out
+//! heights best.
+
+use super::held_out::HeldOut;
+use super::merge::merge;
+use super::noise::Noise;
+use crate::error::Result;
+use crate::fit::input::Input;
+use crate::fit::options::{Bending, Energy, Lambda, Options};
+use crate::fit::report::{LambdaChoice, LambdaReason};
+use crate::fit::solver::{Known, Solver, Status};
+
+/// `λ σh` of about the best λ, in normalised coordinates.
+const START: f64 = 8.0;
+
+/// Where noise asks for more, there is none to speak of: then λ is this preset.
+const LARGEST: f64 = 1e9;
+const WITHOUT_NOISE: Lambda = Lambda::Big;
+
+/// Factor from one λ to the next, and most steps from the first.
+const FACTOR: f64 = 3.0;
+const FARTHEST: i32 = 3;
+
+/// Gap of the solves that are compared: their surfaces differ by more than it leaves open.
+const GAP: f64 = 0.02;
+
+/// Iterations of one of them, at most.
+const ITERATIONS: usize = 500;
+
+/// A coarse lattice will do if it has so many vertices with a stencil.
+const ENOUGH: usize = 1500;
+
+/// Predictions that are better by a smaller share are no better.
+const BETTER: f64 = 1e-4;
+
+/// From here on, times [`START`], noise would come back in passes at creases.
+const LOUD: f64 = 2.0;
+
+/// For smooth bends, for creases among these, and for flat facets.
+const BENDINGS: [Bending; 3] = [
+    Bending::SMOOTH,
+    Bending {
+        bend: 0.3,
+        flatness: 0.3,
+        crease_radius: 0.3,
+    },
+    Bending {
+        bend: 0.1,
+        flatness: 1.0,
+        crease_radius: 0.2,
+    },
+];
+
+/// Options for an input without noise, for one whose noise cannot be told, and those to begin the
+/// search with; then what has been chosen, and why.
+pub(crate) fn first(
+    options: &Options,
+    noise: Option<Noise>,
+    scale: f64,
+) -> (Options, LambdaChoice) {
+    let mut choice = LambdaChoice {
+        reason: LambdaReason::Unknown,
+        sigma: noise.map(|noise| noise.sigma),
+        step: noise.and_then(|noise| noise.step),
+        merged: noise.map_or(0, |noise| noise.merged),
+        solves: 0,
+        iterations: 0,
+    };
+    let lambda = match noise.map(|noise| START / (noise.product * scale * scale)) {
+        None => Lambda::Medium,
+        Some(lambda) if lambda <= LARGEST => {
+            choice.reason = LambdaReason::Noise;
+            Lambda::Value(lambda.max(1.0 / LARGEST))
+        }
+        Some(_) => {
+            choice.reason = LambdaReason::NoNoise;
+            WITHOUT_NOISE
+        }
+    };
+    (options.lambda(lambda), choice)
+}
+
+/// The options with what is not given filled in, and without what would make surfaces of noise: with
+/// λ too large for it, flat parts must cost as much as under the nuclear norm, and there are no
+/// passes at creases.
+pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
+    let mut out = *options;
+    let loudness = noise.map_or(0.0, |noise| {
+        options.lambda.value() * noise.product * scale * scale / START
+    });
+    let Bending { flatness, .. } = Bending::SMOOTH;
+    let quiet = (flatness * loudness).clamp(flatness, 1.0);
+    out.bend.get_or_insert(Bending::SMOOTH.bend);
+    out.flatness.get_or_insert(quiet);
+    out.crease_radius.get_or_insert(Bending::SMOOTH.crease_radius);
+    if loudness > LOUD {
+        out.crease_passes = 0;
+    }
+    out
+}
+
+/// What is to be tried: which of the bendings, and how many factors above the first λ.
+type Candidate = (usize, i32);
+
+/// A search under way.
+#[derive(Debug, Clone)]
+pub(crate) struct Search {
+    held_out: HeldOut,
+    known: Known,
+    options: Options,
+    bendings: Vec<Bending>,
+    /// What has been tried, and by how much it missed.
+    tried: Vec<(Candidate, f64)>,
+    now: Candidate,
+    solver: Box<Solver>,
+    iterations: usize,
+}
+
+impl Search {
+    /// About the options that [`first`] gives; nothing where there are too few vertices to search
+    /// with.
+    pub(crate) fn new(
+        input: &Input,
+        asked: &Options,
+        first: &Options,
+        known: Known,
+    ) -> Result<Option<Self>> {
+        let Some(noise) = known.noise else {
+            return Ok(None);
+        };
+        let mut input = input.clone();
+        for count in 0..=noise.merged.max(1) {
+            if count == 0 {
+                continue;
+            }
+            let merged = merge(&input)?;
+            let enough = merged
+                .domain()
+                .is_ok_and(|domain| domain.interior_len() >= ENOUGH);
+            if !enough {
+                break;
+            }
+            input = merged;
+        }
+        let Some(held_out) = HeldOut::of(&input)? else {
+            return Ok(None);
+        };
+        let mut bendings: Vec<Bending> = Vec::new();
+        for bending in BENDINGS {
+            let bending = bending.within(asked);
+            let new = !bendings.contains(&bending);
+            if new && (asked.energy == Energy::Huber || bendings.is_empty()) {
+                bendings.push(bending);
+            }
+        }
+        let options = first
+            .gap(asked.gap.max(GAP))
+            .max_iterations(asked.max_iterations.min(ITERATIONS));
+        let now = (0, 0);
+        let solver = Solver::with_known(
+            held_out.input.clone(),
+            &of(&options, &bendings, now),
+            known,
+        )?;
+        Ok(Some(Search {
+            held_out,
+            known,
+            options,
+            bendings,
+            tried: Vec::new(),
+            now,
+            solver: Box::new(solver),
+            iterations: 0,
+        }))
+    }
+
+    /// Goes on until `left` conjugate-gradient iterations are used up; tells whether it is over.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Result<bool> {
+        while *left > 0 {
+            let before = self.solver.progress().cg_iterations;
+            let status = self.solver.advance(*left)?;
+            let done = self.solver.progress().cg_iterations - before;
+            *left = left.saturating_sub(done.max(1));
+            if status == Status::Running {
+                continue;
+            }
+            let surface = self.solver.surface()?;
+            self.iterations += surface.report().iterations;
+            let error = self.held_out.error(surface.heightfield());
+            self.tried.push((self.now, error));
+            let Some(next) = self.next() else {
+                return Ok(true);
+            };
+            self.now = next;
+            let options = of(&self.options, &self.bendings, next);
+            self.solver.restart_known(&options, self.known)?;
+        }
+        Ok(false)
+    }
+
+    /// From the first λ to the best one, at the best one from bending to bending, and again from λ
+    /// to λ.
+    fn next(&self) -> Option<Candidate> {
+        let missing = |candidate: &Candidate| !self.tried.iter().any(|(c, _)| c == candidate);
+        let (bending, step) = self.best();
+        let beside = || {
+            [step - 1, step + 1]
+                .into_iter()
+                .filter(|step| step.abs() <= FARTHEST)
+                .map(|step| (bending, step))
+                .find(&missing)
+        };
+        let others = || {
+            (0..self.bendings.len())
+                .map(|bending| (bending, step))
+                .find(&missing)
+        };
+        beside().or_else(others)
+    }
+
+    /// The first of those that are about the best.
+    fn best(&self) -> Candidate {
+        let errors = self.tried.iter().map(|(_, error)| *error);
+        let least = errors.fold(f64::INFINITY, f64::min);
+        let found = self.tried.iter().find(|(_, error)| *error <= least * (1.0 + BETTER));
+        found.map_or(self.now, |(candidate, _)| *candidate)
+    }
+
+    /// Iterations so far.
+    pub(crate) fn iterations(&self) -> usize {
+        self.iterations + self.solver.progress().iteration
+    }
+
+    /// The options that the search has come to so far, with the `gap` and so on that were asked for.
+    pub(crate) fn found(&self, asked: &Options, choice: &mut LambdaChoice) -> Options {
+        choice.reason = LambdaReason::Prediction;
+        choice.solves = self.tried.len();
+        choice.iterations = self.iterations;
+        let found = of(&self.options, &self.bendings, self.best());
+        Options {
+            lambda: found.lambda,
+            bend: found.bend,
+            flatness: found.flatness,
+            crease_radius: found.crease_radius,
+            ..*asked
+        }
+    }
+}
+
+/// The options of a candidate.
+fn of(options: &Options, bendings: &[Bending], (bending, step): Candidate) -> Options {
+    let lambda = options.lambda.value() * FACTOR.powi(step);
+    bendings[bending].of(&options.lambda(lambda))
+}

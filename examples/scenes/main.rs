@@ -217,9 +217,43 @@ fn select(args: &[String]) {
     println!();
 }
 
+/// Ours without any parameter against the oracle's nuclear norm.
+fn bench(args: &[String]) {
+    let sizes: Vec<usize> = args[2].split(',').map(|s| s.parse().unwrap()).collect();
+    let noises: Vec<Noise> = args[3].split(',').map(Noise::parse).collect();
+    let only: Vec<&str> = args[4].split(',').collect();
+    let ks = [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0];
+    let (mut logs, mut worst, mut count, mut search) = ([0.0f64; 3], [0.0f64; 2], 0.0, 0.0);
+    for scene in shapes::all() {
+        if !only.contains(&scene.name) && only != ["all"] { continue; }
+        for &size in &sizes {
+            let lattice = Lattice::covering([0.0, 0.0], [1.0, 1.0], 1.0 / size as f64).unwrap();
+            let truth = Heightfield::from_fn(lattice, scene.height).unwrap();
+            for &noise in &noises {
+                let input = noise.add(&truth, 1);
+                let l0 = 8.0 * size as f64 / noise.sigma(&truth);
+                let c: Vec<_> = ks.iter().map(|k| { let s = fit(&input, &Options::default().lambda(l0 * 10f64.powf(*k))).unwrap(); let e = error(&truth, s.heightfield()); (e, s.report().seconds.total) }).collect();
+                let best = [0, 1].map(|i| c.iter().map(|c| c.0[i]).fold(f64::MAX, f64::min));
+                let s = fit(&input, &Options::default().lambda(developable::Lambda::Auto).energy(Energy::Huber)).unwrap();
+                let (e, r) = (error(&truth, s.heightfield()), s.report());
+                let (choice, h) = (r.lambda_choice.unwrap(), r.huber.unwrap());
+                let ra = [e[0] / best[0], e[1] / best[1]];
+                let nuclear = c.iter().map(|c| c.1).sum::<f64>() / 6.0;
+                let fixed = fit(&input, &Options::default().lambda(r.lambda).energy(Energy::Huber).bend(h.bend).flatness(h.flatness).crease_radius(h.crease_radius)).unwrap().report().seconds.total;
+                println!("{:10} {size:3} {:13} nuc {:6.3} {:.1e} | {:6.3} {:.1e} | {:4.2} {:4.2} | lambda {:+.2} {}/{} {}p {:.3} | sigma {:.2} m{} {:?} {} solves | time {:.1} of nuclear, search {:.1} of ours", scene.name, format!("{noise:?}"), best[0], best[1], e[0], e[1], ra[0], ra[1], (r.lambda / l0).log10(), h.flatness, h.bend, h.crease_passes, h.creases as f64 / r.interior as f64, choice.sigma.unwrap_or(f64::NAN) / noise.sigma(&truth), choice.merged, choice.reason, choice.solves, fixed / nuclear, (r.seconds.total - fixed) / fixed);
+                count += 1.0;
+                for i in 0..2 { logs[i] += ra[i].ln(); worst[i] = worst[i].max(ra[i]); }
+                logs[2] += (fixed / nuclear).ln(); search += r.seconds.total / fixed - 1.0;
+            }
+        }
+    }
+    println!("geometric mean {:.3} {:.3} time {:.2} search {:.2} worst {worst:.2?}", (logs[0] / count).exp(), (logs[1] / count).exp(), (logs[2] / count).exp(), search / count);
+}
+
 fn main() {
     let args: Vec<String> = std::env::args().collect();
     if args[1] == "grid" { return grid(&args); }
+    if args[1] == "bench" { return bench(&args); }
     if args[1] == "select" { return select(&args); }
     let sizes: Vec<usize> = args[1].split(',').map(|s| s.parse().unwrap()).collect();
     let noises: Vec<Noise> = args[2].split(',').map(Noise::parse).collect();

@@ -62,8 +62,7 @@ pub(super) struct Known {
 #[derive(Debug, Clone)]
 pub struct Solver {
     input: Input,
-    /// As they were asked for, and as they are used.
-    asked: Options,
+    /// As they are used.
     options: Options,
     /// What λ is chosen by, while it is, and what has come of it.
     search: Option<Search>,
@@ -145,7 +144,6 @@ impl Solver {
         }
         let mut solver = Solver {
             input,
-            asked,
             options,
             search,
             choice,
@@ -308,7 +306,7 @@ impl Solver {
         let (Some(search), Some(choice)) = (self.search.take(), &mut self.choice) else {
             return Ok(());
         };
-        self.options = search.found(&self.asked, choice);
+        self.options = search.found(choice);
         if self.components.list.len() == 1 {
             self.energies.clear();
         }

@@ -80,19 +80,23 @@ pub(crate) fn first(
     (options.lambda(lambda), choice)
 }
 
-/// The options with what is not given filled in, and without what would make surfaces of noise: with
-/// λ too large for it, flat parts must cost as much as under the nuclear norm, and there are no
-/// passes at creases.
+/// The options with what is not given filled in.
 pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
-    let mut out = *options;
     let loudness = noise.map_or(0.0, |noise| {
         options.lambda.value() * noise.product * scale * scale / START
     });
-    let Bending { flatness, .. } = Bending::SMOOTH;
-    let quiet = (flatness * loudness).clamp(flatness, 1.0);
-    out.bend.get_or_insert(Bending::SMOOTH.bend);
-    out.flatness.get_or_insert(quiet);
-    out.crease_radius.get_or_insert(Bending::SMOOTH.crease_radius);
+    at_loudness(options, Bending::SMOOTH, loudness)
+}
+
+/// The options with what is not given as in `bending`, but without what would make a surface of noise:
+/// with λ so many times too large for that, flat parts must cost more, up to what they do under the
+/// nuclear norm, and there are no passes at creases.
+fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
+    let quiet = Bending {
+        flatness: (Bending::SMOOTH.flatness * loudness).clamp(bending.flatness, 1.0),
+        ..bending
+    };
+    let mut out = quiet.within(options).of(options);
     if loudness > LOUD {
         out.crease_passes = 0;
     }
@@ -107,6 +111,7 @@ type Candidate = (usize, i32);
 pub(crate) struct Search {
     held_out: HeldOut,
     known: Known,
+    /// Those that were asked for, with the first λ.
     options: Options,
     bendings: Vec<Bending>,
     /// What has been tried, and by how much it missed.
@@ -129,10 +134,7 @@ impl Search {
             return Ok(None);
         };
         let mut input = input.clone();
-        for count in 0..=noise.merged.max(1) {
-            if count == 0 {
-                continue;
-            }
+        for _ in 0..noise.merged.max(1) {
             let merged = merge(&input)?;
             let enough = merged
                 .domain()
@@ -153,19 +155,13 @@ impl Search {
                 bendings.push(bending);
             }
         }
-        let options = first
-            .gap(asked.gap.max(GAP))
-            .max_iterations(asked.max_iterations.min(ITERATIONS));
         let now = (0, 0);
-        let solver = Solver::with_known(
-            held_out.input.clone(),
-            &of(&options, &bendings, now),
-            known,
-        )?;
+        let options = rough(&of(first, &bendings, now));
+        let solver = Solver::with_known(held_out.input.clone(), &options, known)?;
         Ok(Some(Search {
             held_out,
             known,
-            options,
+            options: *first,
             bendings,
             tried: Vec::new(),
             now,
@@ -192,7 +188,7 @@ impl Search {
                 return Ok(true);
             };
             self.now = next;
-            let options = of(&self.options, &self.bendings, next);
+            let options = rough(&of(&self.options, &self.bendings, next));
             self.solver.restart_known(&options, self.known)?;
         }
         Ok(false)
@@ -231,24 +227,24 @@ impl Search {
         self.iterations + self.solver.progress().iteration
     }
 
-    /// The options that the search has come to so far, with the `gap` and so on that were asked for.
-    pub(crate) fn found(&self, asked: &Options, choice: &mut LambdaChoice) -> Options {
+    /// The options that the search has come to.
+    pub(crate) fn found(&self, choice: &mut LambdaChoice) -> Options {
         choice.reason = LambdaReason::Prediction;
         choice.solves = self.tried.len();
         choice.iterations = self.iterations;
-        let found = of(&self.options, &self.bendings, self.best());
-        Options {
-            lambda: found.lambda,
-            bend: found.bend,
-            flatness: found.flatness,
-            crease_radius: found.crease_radius,
-            ..*asked
-        }
+        of(&self.options, &self.bendings, self.best())
     }
 }
 
 /// The options of a candidate.
-fn of(options: &Options, bendings: &[Bending], (bending, step): Candidate) -> Options {
-    let lambda = options.lambda.value() * FACTOR.powi(step);
-    bendings[bending].of(&options.lambda(lambda))
+fn of(first: &Options, bendings: &[Bending], (bending, step): Candidate) -> Options {
+    let factor = FACTOR.powi(step);
+    let options = first.lambda(first.lambda.value() * factor);
+    at_loudness(&options, bendings[bending], factor)
+}
+
+/// The options for a solve that is only to be compared with others.
+fn rough(options: &Options) -> Options {
+    let iterations = options.max_iterations.min(ITERATIONS);
+    options.gap(options.gap.max(GAP)).max_iterations(iterations)
 }

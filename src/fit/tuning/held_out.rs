@@ -72,16 +72,26 @@ impl HeldOut {
         Ok(Some(HeldOut { input, samples }))
     }
 
-    /// The mean square of what a surface misses them by.
-    pub(crate) fn error(&self, surface: &Heightfield) -> f64 {
-        let (mut sum, mut total) = (0.0, 0.0);
-        for (vertex, height, weight) in &self.samples {
+    /// The squares of what a surface misses them by, by confidence.
+    pub(crate) fn misses(&self, surface: &Heightfield) -> Vec<f64> {
+        let squares = self.samples.iter().map(|(vertex, height, weight)| {
             let miss = surface.heights()[*vertex] - height;
-            if miss.is_finite() {
-                sum += weight * miss * miss;
-                total += weight;
-            }
-        }
-        sum / total
+            weight * miss * miss
+        });
+        squares.collect()
+    }
+}
+
+/// By how many standard errors of the mean difference `others` are smaller than `misses`.
+pub(crate) fn advantage(misses: &[f64], others: &[f64]) -> f64 {
+    let count = misses.len() as f64;
+    let differences = || misses.iter().zip(others).map(|(a, b)| a - b);
+    let mean = differences().sum::<f64>() / count;
+    let variance = differences().map(|d| (d - mean).powi(2)).sum::<f64>() / count;
+    let error = (variance / count).sqrt();
+    if mean == 0.0 || mean.is_nan() {
+        0.0
+    } else {
+        mean / error
     }
 }

@@ -1,7 +1,9 @@
 //! λ by itself, and what bends of [`Energy::Huber`] cost: from the noise, then by what predicts held-out
 //! heights best.
 
-use super::held_out::HeldOut;
+use std::cmp::Ordering;
+
+use super::held_out::{HeldOut, advantage};
 use super::merge::merge;
 use super::noise::Noise;
 use crate::error::Result;
@@ -30,8 +32,9 @@ const ITERATIONS: usize = 500;
 /// A coarse lattice will do if it has so many vertices with a stencil.
 const ENOUGH: usize = 1500;
 
-/// Predictions that are better by a smaller share are no better.
-const BETTER: f64 = 1e-4;
+/// By how many standard errors predictions must be better: with another bending, a smaller λ, a larger
+/// one.
+const BETTER: [f64; 3] = [0.5, 0.0, 1.0];
 
 /// From here on, times [`START`], noise would come back in passes at creases.
 const LOUD: f64 = 2.0;
@@ -114,8 +117,10 @@ pub(crate) struct Search {
     /// Those that were asked for, with the first λ.
     options: Options,
     bendings: Vec<Bending>,
-    /// What has been tried, and by how much it missed.
-    tried: Vec<(Candidate, f64)>,
+    /// What has been tried, the best of it, and by how much that missed.
+    tried: Vec<Candidate>,
+    best: Candidate,
+    misses: Vec<f64>,
     now: Candidate,
     solver: Box<Solver>,
     iterations: usize,
@@ -164,6 +169,8 @@ impl Search {
             options: *first,
             bendings,
             tried: Vec::new(),
+            best: now,
+            misses: Vec::new(),
             now,
             solver: Box::new(solver),
             iterations: 0,
@@ -182,8 +189,11 @@ impl Search {
             }
             let surface = self.solver.surface()?;
             self.iterations += surface.report().iterations;
-            let error = self.held_out.error(surface.heightfield());
-            self.tried.push((self.now, error));
+            let misses = self.held_out.misses(surface.heightfield());
+            if self.tried.is_empty() || advantage(&self.misses, &misses) > self.hurdle() {
+                (self.best, self.misses) = (self.now, misses);
+            }
+            self.tried.push(self.now);
             let Some(next) = self.next() else {
                 return Ok(true);
             };
@@ -194,32 +204,26 @@ impl Search {
         Ok(false)
     }
 
-    /// From the first λ to the best one, at the best one from bending to bending, and again from λ
-    /// to λ.
-    fn next(&self) -> Option<Candidate> {
-        let missing = |candidate: &Candidate| !self.tried.iter().any(|(c, _)| c == candidate);
-        let (bending, step) = self.best();
-        let beside = || {
-            [step - 1, step + 1]
-                .into_iter()
-                .filter(|step| step.abs() <= FARTHEST)
-                .map(|step| (bending, step))
-                .find(&missing)
-        };
-        let others = || {
-            (0..self.bendings.len())
-                .map(|bending| (bending, step))
-                .find(&missing)
-        };
-        beside().or_else(others)
+    /// What it takes to be better than the best so far.
+    fn hurdle(&self) -> f64 {
+        let [other, smaller, larger] = BETTER;
+        match self.now.1.cmp(&self.best.1) {
+            Ordering::Equal => other,
+            Ordering::Less => smaller,
+            Ordering::Greater => larger,
+        }
     }
 
-    /// The first of those that are about the best.
-    fn best(&self) -> Candidate {
-        let errors = self.tried.iter().map(|(_, error)| *error);
-        let least = errors.fold(f64::INFINITY, f64::min);
-        let found = self.tried.iter().find(|(_, error)| *error <= least * (1.0 + BETTER));
-        found.map_or(self.now, |(candidate, _)| *candidate)
+    /// From bending to bending, then from λ to λ as long as that is better.
+    fn next(&self) -> Option<Candidate> {
+        let missing = |candidate: &Candidate| !self.tried.contains(candidate);
+        let (bending, step) = self.best;
+        let others = (0..self.bendings.len()).map(|bending| (bending, 0));
+        let beside = [step - 1, step + 1]
+            .into_iter()
+            .filter(|step| step.abs() <= FARTHEST)
+            .map(|step| (bending, step));
+        others.chain(beside).find(missing)
     }
 
     /// Iterations so far.
@@ -232,7 +236,7 @@ impl Search {
         choice.reason = LambdaReason::Prediction;
         choice.solves = self.tried.len();
         choice.iterations = self.iterations;
-        of(&self.options, &self.bendings, self.best())
+        of(&self.options, &self.bendings, self.best)
     }
 }
 

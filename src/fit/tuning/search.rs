@@ -34,7 +34,7 @@ const ENOUGH: usize = 1500;
 
 /// By how many standard errors predictions must be better: with another bending, a smaller λ, a larger
 /// one.
-const BETTER: [f64; 3] = [0.5, 0.0, 1.0];
+const BETTER: [f64; 3] = [0.5, -0.5, 2.0];
 
 /// From here on, times [`START`], noise would come back in passes at creases.
 const LOUD: f64 = 2.0;

@@ -53,6 +53,13 @@ impl Noise {
             product: trust * sigma * spacing,
             step,
         };
+        if let Some(step) = step {
+            // Heights that are rounded alike are off alike; the square root is by experience.
+            let width = plateau(input, step);
+            noise.product *= width.sqrt();
+            noise.merged = width.log2().round() as usize;
+            return Ok(Some(noise));
+        }
         let mut merged = merge(input)?;
         let mut last = noise;
         for count in 1..=MOST_MERGED + 1 {
@@ -149,6 +156,24 @@ fn step(input: &Input) -> Option<f64> {
     let step = gaps.clone().fold(f64::INFINITY, f64::min);
     let multiple = |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL * gap / step;
     gaps.into_iter().all(multiple).then_some(step)
+}
+
+/// About how many vertices in a row are rounded to the same step.
+fn plateau(input: &Input, step: f64) -> f64 {
+    let lattice = input.field.lattice();
+    let least = TRUSTED * largest_trust(input);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for row in 0..lattice.rows() {
+        for col in 1..lattice.cols() {
+            let [a, b] = [col - 1, col].map(|col| sample(input, lattice.index(row, col), least));
+            let rise = (a - b).abs() / step;
+            if rise.is_finite() {
+                sum += rise.min(1.0);
+                count += 1.0;
+            }
+        }
+    }
+    (count / f64::max(sum, 1.0)).max(1.0)
 }
 
 #[cfg(test)]

@@ -19,9 +19,12 @@ const START: f64 = 8.0;
 const LARGEST: f64 = 1e9;
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
-/// Factor from one λ to the next, and most steps from the first.
+/// Factor from one λ to the next, and most steps down from the first.
 const FACTOR: f64 = 3.0;
 const FARTHEST: i32 = 3;
+
+/// Most merging before a search.
+const MOST_MERGED: usize = 2;
 
 /// Gap of the solves that are compared: their surfaces differ by more than it leaves open.
 const GAP: f64 = 0.02;
@@ -29,12 +32,13 @@ const GAP: f64 = 0.02;
 /// Iterations of one of them, at most.
 const ITERATIONS: usize = 500;
 
-/// A coarse lattice will do if it has so many vertices with a stencil.
-const ENOUGH: usize = 1500;
+/// A coarse lattice will do if it has so many vertices with a stencil; or so many, where noise is
+/// correlated on any finer one.
+const ENOUGH: [usize; 2] = [1500, 400];
 
 /// By how many standard errors predictions must be better: with another bending, a smaller λ, a larger
 /// one.
-const BETTER: [f64; 3] = [0.5, -0.5, 2.0];
+const BETTER: [f64; 3] = [1.0, -0.5, 2.0];
 
 /// From here on, times [`START`], noise would come back in passes at creases.
 const LOUD: f64 = 2.0;
@@ -113,6 +117,8 @@ type Candidate = (usize, i32);
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
     held_out: HeldOut,
+    /// Most steps to larger λ: none where noise may be predictable after all.
+    highest: i32,
     known: Known,
     /// Those that were asked for, with the first λ.
     options: Options,
@@ -138,14 +144,21 @@ impl Search {
         let Some(noise) = known.noise else {
             return Ok(None);
         };
+        if noise.step.is_some() && noise.merged > 0 {
+            // What is rounded alike predicts itself, on any lattice.
+            return Ok(None);
+        }
+        let [enough, least] = ENOUGH;
         let mut input = input.clone();
-        for _ in 0..noise.merged.max(1) {
+        for count in 1..=noise.merged.max(1) {
             let merged = merge(&input)?;
-            let enough = merged
-                .domain()
-                .is_ok_and(|domain| domain.interior_len() >= ENOUGH);
-            if !enough {
+            let size = merged.domain().map_or(0, |domain| domain.interior_len());
+            if noise.merged == 0 && size < enough {
                 break;
+            }
+            if size < least || count > MOST_MERGED {
+                // Held-out heights would be predicted by their neighbours' noise.
+                return Ok(None);
             }
             input = merged;
         }
@@ -165,6 +178,7 @@ impl Search {
         let solver = Solver::with_known(held_out.input.clone(), &options, known)?;
         Ok(Some(Search {
             held_out,
+            highest: i32::from(noise.merged == 0 && noise.step.is_none()),
             known,
             options: *first,
             bendings,
@@ -221,7 +235,7 @@ impl Search {
         let others = (0..self.bendings.len()).map(|bending| (bending, 0));
         let beside = [step - 1, step + 1]
             .into_iter()
-            .filter(|step| step.abs() <= FARTHEST)
+            .filter(|step| (-FARTHEST..=self.highest).contains(step))
             .map(|step| (bending, step));
         others.chain(beside).find(missing)
     }

@@ -25,9 +25,11 @@ mod formats;
 mod honesty;
 #[cfg(feature = "images")]
 mod images;
+mod huber;
 mod invariance;
 #[cfg(feature = "meshes")]
 mod meshes;
+mod noise;
 mod occlusions;
 mod optimum;
 mod parts;

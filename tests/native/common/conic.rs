@@ -23,6 +23,10 @@ pub struct Instance {
     pub constrained: Vec<bool>,
     pub torn: Vec<bool>,
     pub tie_break: f64,
+    /// For [`Energy::Huber`]: flatness, bend, and at each stencil where the slope ends, if that is
+    /// not 1.
+    pub huber: [f64; 2],
+    pub slopes: Option<Vec<f64>>,
     pub gap: f64,
 }
 
@@ -88,6 +92,8 @@ impl Instance {
             constrained: vec![false; n],
             torn: vec![false; n],
             tie_break: 0.01,
+            huber: [0.3, 0.1],
+            slopes: None,
             gap: 1e-8,
         }
     }
@@ -126,6 +132,9 @@ impl Instance {
         Options::default()
             .lambda(self.lambda)
             .energy(self.energy)
+            .flatness(self.huber[0])
+            .bend(self.huber[1])
+            .crease_passes(0)
             .tie_break(self.tie_break)
             .gap(self.gap)
             .max_iterations(200_000)
@@ -222,8 +231,40 @@ impl Instance {
     fn factors(&self) -> Vec<f64> {
         match self.energy {
             Energy::SecondFormOfInput => self.normals(&self.target()),
-            _ => vec![1.0; self.stencils().len()],
+            _ => self
+                .slopes
+                .clone()
+                .unwrap_or_else(|| vec![1.0; self.stencils().len()]),
         }
+    }
+
+    /// `‖H‖_*` at each stencil, and its mean over the stencil (weight 2) and those around it.
+    pub fn norms(&self, z: &[f64]) -> Vec<[f64; 2]> {
+        let stencils = self.stencils();
+        let nuclear = |stencil: &Stencil| {
+            let [xx, xy, yy] = stencil.hessian(z);
+            (xx + yy).abs().max((xx - yy).hypot(2.0 * xy))
+        };
+        let own: Vec<f64> = stencils.iter().map(nuclear).collect();
+        let mut at = vec![None; z.len()];
+        for (stencil, norm) in stencils.iter().zip(&own) {
+            at[stencil.vertices[0]] = Some(*norm);
+        }
+        let spread = |(stencil, norm): (&Stencil, &f64)| {
+            let ring = stencil.vertices[1..].iter().filter_map(|v| at[*v]);
+            let (sum, count) = ring.fold((2.0 * norm, 2.0), |(s, n), x| (s + x, n + 1.0));
+            [*norm, sum / count]
+        };
+        stencils.iter().zip(&own).map(spread).collect()
+    }
+
+    /// `φ` with a slope that ends at `slope`, by its definition.
+    fn huber(&self, norm: f64, slope: f64) -> f64 {
+        let [flatness, bend] = self.huber;
+        let first = flatness.min(slope);
+        let knee = (slope - first) / bend;
+        let bent = norm.min(knee);
+        first * bent + 0.5 * bend * bent * bent + slope * (norm - bent)
     }
 
     /// The energy of a surface: the part that is fidelity or tie break, and the other.
@@ -237,18 +278,19 @@ impl Instance {
             .into_iter()
             .filter(|i| !self.constrained[*i]);
         let fidelity = free.map(|i| self.weight(i) * (z[i] - target[i]).powi(2));
-        let norm = |[xx, xy, yy]: [f64; 3]| {
+        let norm = |[xx, xy, yy]: [f64; 3], factor: f64| {
             let nuclear = (xx + yy).abs().max((xx - yy).hypot(2.0 * xy));
             match self.energy {
-                Energy::Frobenius => (xx * xx + 2.0 * xy * xy + yy * yy).sqrt(),
-                Energy::SquaredNuclear => nuclear * nuclear,
-                _ => nuclear,
+                Energy::Frobenius => factor * (xx * xx + 2.0 * xy * xy + yy * yy).sqrt(),
+                Energy::SquaredNuclear => factor * nuclear * nuclear,
+                Energy::Huber => self.huber(nuclear, factor),
+                _ => factor * nuclear,
             }
         };
         let norms = stencils.iter().zip(factors);
         [
             fidelity.sum(),
-            norms.map(|(s, factor)| factor * norm(s.hessian(z))).sum(),
+            norms.map(|(s, factor)| norm(s.hessian(z), *factor)).sum(),
         ]
     }
 
@@ -258,7 +300,8 @@ impl Instance {
 
     /// Minimises `Σ λw(z − z̃)² + Σ factor · f(H)` over the offsets `z − z̃` where there is
     /// no constraint and a bound `s` of `‖H‖` for each stencil: `‖H‖_* = max(|h_xx + h_yy|,
-    /// ‖(h_xx − h_yy, 2h_xy)‖)`.
+    /// ‖(h_xx − h_yy, 2h_xy)‖)`. For [`Energy::Huber`] that bound is `u + v`, of which `u` costs
+    /// `αu + u²/2δ` and `v ≥ 0` the slope that `φ` ends with.
     pub fn optimum_with(&self, factors: &[f64]) -> Optimum {
         let (stencils, target) = (self.stencils(), self.target());
         let mut unknown = active(&stencils, target.len());
@@ -278,12 +321,23 @@ impl Instance {
             let entries = (0..7).filter_map(|j| Some((column[stencil.vertices[j]]?, entry(j))));
             (entries.collect::<Vec<_>>(), -value)
         };
+        let huber = self.energy == Energy::Huber;
+        let bound = |k: usize| {
+            let second = huber.then_some((n + m + k, -1.0));
+            [(n + k, -1.0)].into_iter().chain(second)
+        };
         let mut cones = Vec::new();
+        if huber {
+            for k in 0..m {
+                form.push(vec![(n + m + k, -1.0)], 0.0);
+            }
+            cones.push(NonnegativeConeT(m));
+        }
         if self.energy != Energy::Frobenius {
             for (k, stencil) in stencils.iter().enumerate() {
                 for sign in [1.0, -1.0] {
                     let (mut trace, value) = row(stencil, [sign, 0.0, sign]);
-                    trace.push((n + k, -1.0));
+                    trace.extend(bound(k));
                     form.push(trace, value);
                 }
             }
@@ -294,7 +348,7 @@ impl Instance {
                 Energy::Frobenius => &[[1.0, 0.0, 0.0], [0.0, 2f64.sqrt(), 0.0], [0.0, 0.0, 1.0]],
                 _ => &[[1.0, 0.0, -1.0], [0.0, 2.0, 0.0]],
             };
-            form.push(vec![(n + k, -1.0)], 0.0);
+            form.push(bound(k).collect(), 0.0);
             for entries in inside {
                 let (entries, value) = row(stencil, *entries);
                 form.push(entries, value);
@@ -305,9 +359,18 @@ impl Instance {
         let weights = unknown.iter().map(|i| 2.0 * self.weight(*i));
         let squared = self.energy == Energy::SquaredNuclear;
         let [linear, quadratic] = [!squared, squared].map(|on| f64::from(u8::from(on)));
-        let diagonal = weights.chain(factors.iter().map(|factor| 2.0 * quadratic * factor));
-        let linear = std::iter::repeat_n(0.0, n).chain(factors.iter().map(|f| linear * f));
-        let x = form.solve(diagonal.collect(), linear.collect(), &cones);
+        let mut diagonal: Vec<f64> = weights.collect();
+        let mut costs = vec![0.0; n];
+        if huber {
+            let [flatness, bend] = self.huber;
+            diagonal.extend(factors.iter().map(|_| bend).chain(vec![0.0; m]));
+            costs.extend(factors.iter().map(|slope| flatness.min(*slope)));
+            costs.extend(factors);
+        } else {
+            diagonal.extend(factors.iter().map(|factor| 2.0 * quadratic * factor));
+            costs.extend(factors.iter().map(|factor| linear * factor));
+        }
+        let x = form.solve(diagonal, costs, &cones);
         let mut heights = vec![f64::NAN; target.len()];
         for i in stencils.iter().flat_map(|stencil| stencil.vertices) {
             heights[i] = target[i] + column[i].map_or(0.0, |k| x[k]);

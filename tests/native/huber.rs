@@ -1,0 +1,165 @@
+//! The energy that costs small bends by their square: against an independent conic solver, its limits,
+//! and its passes at creases.
+
+use crate::common::conic::Instance;
+use crate::common::{cut, max_difference, noisy, rms_difference, unit_square};
+use developable::{Energy, Heightfield, Lambda, Normalization, Options, Report, StopReason, fit};
+
+fn bumps(x: f64, y: f64) -> f64 {
+    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.4 * (x - 0.4).abs()
+}
+
+/// Noise over bumps and a crease, a hole in the middle of them.
+fn ring(cols: usize, seed: u64) -> Heightfield {
+    cut(&noisy(&unit_square(cols, bumps), 0.02, seed), |x, y| {
+        (x - 0.45).hypot(y - 0.55) > 0.17
+    })
+}
+
+fn roof(x: f64, y: f64) -> f64 {
+    (0.6 * (x - 0.5).abs()).max(0.1 + 0.3 * (y - 0.6))
+}
+
+fn options() -> Options {
+    Options::default()
+        .energy(Energy::Huber)
+        .normalization(Normalization::Off)
+}
+
+#[test]
+fn the_optimum_is_the_conic_solvers() {
+    for (seed, (lambda, huber)) in [
+        (3e3, [0.3, 0.1]),
+        (1e5, [0.0, 0.1]),
+        (1e5, [0.3, 0.02]),
+        (1e6, [0.7, 1.0]),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let mut instance = Instance::new(&ring(14, 40 + seed as u64), lambda).energy(Energy::Huber);
+        instance.huber = huber;
+        let report = instance.check();
+        let used = report.huber.unwrap();
+        assert_eq!([used.flatness, used.bend], huber);
+    }
+}
+
+/// Constraints and free vertices beside data.
+#[test]
+fn the_optimum_under_constraints_is_the_conic_solvers() {
+    let field = unit_square(12, |x, y| (x - 0.5).abs() + 0.5 * y * y);
+    let mut instance = Instance::design(&field, 1e3, |row, col| row % 5 == 1 && col % 4 == 1);
+    instance.energy = Energy::Huber;
+    instance.gap = 1e-5;
+    instance.check();
+}
+
+/// Each pass minimises the energy whose slopes end where the surface before says.
+#[test]
+fn a_pass_at_creases_is_the_conic_solvers() {
+    let field = noisy(&unit_square(16, roof), 0.002, 3);
+    let mut instance = Instance::new(&field, 3e4).energy(Energy::Huber);
+    let first = instance.solve();
+    let norms = instance.norms(first.heightfield().heights());
+    let radius = 0.2;
+    let slope = |[_, spread]: &[f64; 2]| (1.0 / (radius * spread)).clamp(0.05, 1.0);
+    instance.slopes = Some(norms.iter().map(slope).collect());
+    let creases = norms.iter().filter(|norms| slope(norms) < 1.0).count();
+    let passes = instance.options().crease_passes(1).crease_radius(radius);
+    let second = fit(instance.input(), &passes).unwrap();
+    let report = instance.compare(&second, &instance.optimum());
+    let huber = report.huber.unwrap();
+    assert_eq!((huber.crease_passes, huber.creases), (1, creases));
+    assert!(creases > 10 && creases < norms.len() / 2, "{creases}");
+    assert!(max_difference(first.heightfield(), second.heightfield()) > 1e-4);
+}
+
+#[test]
+fn full_flatness_is_the_nuclear_norm_and_large_curvatures_its_square() {
+    let field = ring(24, 50);
+    let solve = |options: Options| {
+        let surface = fit(&field, &options.gap(1e-9)).unwrap();
+        assert_eq!(surface.report().stop_reason, StopReason::Gap);
+        surface.into_heightfield()
+    };
+    let base = Options::default().normalization(Normalization::Off);
+    let huber = base.energy(Energy::Huber).crease_passes(0);
+    let nuclear = solve(base.lambda(1e5));
+    let flat = solve(huber.lambda(1e5).flatness(1.0));
+    assert!(max_difference(&nuclear, &flat) < 2e-6);
+    // Of curvatures far below δ nothing but the square is left: s²/2δ.
+    let delta = 1e5;
+    let squared = solve(base.lambda(1e5).energy(Energy::SquaredNuclear));
+    let smooth = huber.flatness(0.0).bend(1.0 / delta);
+    let smooth = solve(smooth.lambda(1e5 / (2.0 * delta)));
+    assert!(max_difference(&squared, &smooth) < 2e-6);
+    assert!(max_difference(&squared, &nuclear) > 1e-3);
+}
+
+fn errors(truth: &Heightfield, input: &Heightfield, options: Options) -> (f64, Report) {
+    let surface = fit(input, &options).unwrap();
+    assert!(surface.report().is_certified(0.01));
+    (
+        rms_difference(truth, surface.heightfield()),
+        surface.report().clone(),
+    )
+}
+
+#[test]
+fn smooth_bends_come_closer_to_the_truth() {
+    let truth = unit_square(80, |x, y| 0.08 * (8.0 * (0.9 * x + 0.4 * y)).sin());
+    let input = noisy(&truth, 0.004, 6);
+    let options = options().lambda(Lambda::Value(2e5));
+    let (nuclear, _) = errors(&truth, &input, options.energy(Energy::Nuclear));
+    let (huber, report) = errors(&truth, &input, options);
+    assert!(huber < 0.8 * nuclear, "{huber} {nuclear}");
+    assert_eq!(report.huber.unwrap().creases, 0);
+}
+
+#[test]
+fn creases_keep_their_angle_in_passes_that_end_by_themselves() {
+    let truth = unit_square(80, roof);
+    let input = noisy(&truth, 0.002, 7);
+    let passes = |passes: usize| {
+        let options = options().lambda(4e5).crease_passes(passes);
+        let (error, report) = errors(&truth, &input, options);
+        (error, report.huber.unwrap().crease_passes)
+    };
+    let [none, one, many] = [0, 1, 20].map(passes);
+    assert!(
+        one.0 < 0.8 * none.0 && many.0 < 0.8 * none.0,
+        "{none:?} {one:?} {many:?}"
+    );
+    assert_eq!((none.1, one.1), (0, 1));
+    assert!((2..20).contains(&many.1), "{many:?}");
+}
+
+#[test]
+fn where_lambda_is_too_large_for_the_noise_it_is_the_nuclear_norm() {
+    let truth = unit_square(60, roof);
+    let input = noisy(&truth, 0.05, 8);
+    let options = options().lambda(Lambda::Big);
+    let (nuclear, _) = errors(&truth, &input, options.energy(Energy::Nuclear));
+    let (huber, report) = errors(&truth, &input, options);
+    let used = report.huber.unwrap();
+    assert_eq!((used.crease_passes, used.flatness), (0, 1.0));
+    assert!((huber / nuclear - 1.0).abs() < 1e-6, "{huber} {nuclear}");
+    // Unless one asks for it.
+    let (_, report) = errors(&truth, &input, options.flatness(0.3));
+    assert_eq!(report.huber.unwrap().flatness, 0.3);
+}
+
+#[test]
+fn options_of_its_own_are_checked() {
+    let code = |options: Options| options.validate().unwrap_err().to_string();
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(code(options().bend(bad)).contains("bend"));
+        assert!(code(options().crease_radius(bad)).contains("crease_radius"));
+    }
+    for bad in [-0.1, 1.1, f64::NAN] {
+        assert!(code(options().flatness(bad)).contains("flatness"));
+    }
+    assert!(code(options().crease_passes(21)).contains("crease_passes"));
+    assert!(code(options().reweighting(1)).contains("reweighting"));
+}

@@ -1,0 +1,184 @@
+//! λ from the data.
+
+use crate::common::{Noise, cut, noisy, rms_difference, unit_square};
+use developable::{
+    Energy, Heightfield, Input, Lambda, LambdaReason, Lattice, Options, Report, Solver, Status, fit,
+};
+
+/// Two faces and a smooth bend.
+fn scene(x: f64, y: f64) -> f64 {
+    (0.3 * x).max(0.4 * (1.0 - x)) + 0.1 * (4.0 * y).sin()
+}
+
+fn auto() -> Options {
+    Options::default().lambda(Lambda::Auto)
+}
+
+/// Normal, by the central limit theorem.
+fn with_noise(truth: &Heightfield, sigma: f64, seed: u64) -> Heightfield {
+    let mut noise = Noise::new(seed);
+    let mut normal = || (0..12).map(|_| noise.sample()).sum::<f64>() / 2.0;
+    let heights = truth.heights().iter().map(|z| z + sigma * normal());
+    Heightfield::new(*truth.lattice(), heights.collect()).unwrap()
+}
+
+fn solve(input: impl Into<Input>, options: &Options) -> (Heightfield, Report) {
+    let surface = fit(input, options).unwrap();
+    let report = surface.report().clone();
+    (surface.into_heightfield(), report)
+}
+
+#[test]
+fn it_is_about_as_close_as_the_best_and_follows_the_noise() {
+    let truth = unit_square(70, scene);
+    for energy in [Energy::Nuclear, Energy::Huber] {
+        for sigma in [0.002, 0.02] {
+            let input = with_noise(&truth, sigma, 5);
+            let (surface, report) = solve(&input, &auto().energy(energy));
+            let choice = report.lambda_choice.unwrap();
+            assert_eq!(choice.reason, LambdaReason::Prediction, "{choice:?}");
+            assert!(
+                (choice.sigma.unwrap() / sigma - 1.0).abs() < 0.08,
+                "{choice:?}"
+            );
+            assert!(report.is_certified(0.01));
+            let best = (6..14).map(|k| {
+                let options = auto().energy(energy).lambda(10f64.powf(0.5 * f64::from(k)));
+                rms_difference(&truth, &solve(&input, &options).0)
+            });
+            let best = best.fold(f64::INFINITY, f64::min);
+            let own = rms_difference(&truth, &surface);
+            assert!(own < 1.5 * best, "{energy:?} {sigma}: {own} {best}");
+        }
+    }
+}
+
+/// The same heights in other units, and in steps of other lengths, give the same.
+#[test]
+fn it_depends_on_neither_units_nor_steps() {
+    let truth = unit_square(50, scene);
+    let input = with_noise(&truth, 0.005, 6);
+    let options = auto().energy(Energy::Huber);
+    let (_, report) = solve(&input, &options);
+    let lattice = Lattice::new(truth.lattice().rows(), truth.lattice().cols(), 20.0).unwrap();
+    let large = input.heights().iter().map(|z| 1000.0 * z).collect();
+    let (_, scaled) = solve(Heightfield::new(lattice, large).unwrap(), &options);
+    assert!((scaled.lambda / report.lambda - 1.0).abs() < 1e-6);
+    let [a, b] = [&report, &scaled].map(|r| r.lambda_choice.unwrap().sigma.unwrap());
+    assert!((b / a - 1000.0).abs() < 1e-6, "{a} {b}");
+    let mut solver = Solver::new(&input, &options).unwrap();
+    let mut iterations = 0;
+    while solver.advance(3).unwrap() == Status::Running {
+        assert!(solver.progress().iteration >= iterations);
+        iterations = solver.progress().iteration;
+    }
+    let stepped = solver.surface().unwrap();
+    assert_eq!(stepped.report().lambda, report.lambda);
+    assert_eq!(stepped.report().objective, report.objective);
+    assert_eq!(stepped.report().huber, report.huber);
+}
+
+#[test]
+fn a_search_that_is_cancelled_leaves_the_input() {
+    let input = with_noise(&unit_square(50, scene), 0.005, 6);
+    let mut solver = Solver::new(&input, &auto()).unwrap();
+    solver.advance(1).unwrap();
+    let progress = solver.progress();
+    assert!(
+        progress.level > 0 && progress.gap.is_none_or(|gap| gap == 1.0),
+        "{progress:?}"
+    );
+    assert!(progress.objective > 0.0);
+    solver.cancel();
+    let surface = solver.surface().unwrap();
+    let both = surface.heightfield().heights().iter().zip(input.heights());
+    let changed = both.filter(|(a, b)| a != b).count();
+    assert_eq!(changed, surface.report().omitted);
+    // And can be begun anew.
+    solver.restart(&auto()).unwrap();
+    while solver.advance(50).unwrap() == Status::Running {}
+    assert!(solver.surface().unwrap().report().is_certified(0.01));
+}
+
+#[test]
+fn holes_dead_pixels_parts_and_confidence() {
+    let sigma = 0.005;
+    let full = unit_square(90, scene);
+    let whole = with_noise(&full, sigma, 7);
+    let random = std::cell::RefCell::new(Noise::new(3));
+    // Two parts, a hole in one of them, and every tenth height missing.
+    let torn = cut(&whole, |x, y| {
+        (x - 0.55).abs() > 0.06 && (x - 0.3).hypot(y - 0.5) > 0.1 && random.borrow_mut().sample() < 0.8
+    });
+    let (surface, report) = solve(&torn, &auto().energy(Energy::Huber));
+    let choice = report.lambda_choice.unwrap();
+    assert!(report.components >= 2 && report.bridged > 100, "{report:?}");
+    assert_eq!(choice.reason, LambdaReason::Prediction);
+    assert!(
+        (choice.sigma.unwrap() / sigma - 1.0).abs() < 0.15,
+        "{choice:?}"
+    );
+    assert!(rms_difference(&full, &surface) < 0.5 * sigma);
+    // A confidence is a factor of λ: half of it is made up for.
+    let (_, plain) = solve(&whole, &auto());
+    let half = Input::new(whole.clone()).with_confidence(vec![0.5; whole.heights().len()]);
+    let (_, weighted) = solve(half.unwrap(), &auto());
+    let ratio = weighted.lambda / plain.lambda;
+    assert!((ratio - 2.0).abs() < 1e-6, "{ratio}");
+}
+
+/// Where there is nothing to choose by, it is said so.
+#[test]
+fn inputs_without_noise_end_sensibly() {
+    let reason = |field: Heightfield| {
+        let (surface, report) = solve(&field, &auto().energy(Energy::Huber));
+        assert!(surface.heights().iter().all(|z| z.is_finite()));
+        (report.lambda_choice.unwrap().reason, report.lambda)
+    };
+    let flat = unit_square(40, |_, _| 3.0);
+    assert_eq!(reason(flat), (LambdaReason::NoNoise, 1e7));
+    let plane = unit_square(40, |x, y| 0.3 * x - y);
+    assert_eq!(reason(plane), (LambdaReason::NoNoise, 1e7));
+    let tent = unit_square(40, |x, y| x.min(y));
+    assert_eq!(reason(tent), (LambdaReason::NoNoise, 1e7));
+    let few = noisy(&unit_square(5, |x, y| x * y), 0.01, 1);
+    assert_eq!(reason(few), (LambdaReason::Unknown, 1e6));
+    // Too few to hold some out.
+    let some = noisy(&unit_square(11, |x, y| x * y), 0.01, 1);
+    assert_eq!(reason(some).0, LambdaReason::Noise);
+    // Nothing but constraints.
+    let lattice = Lattice::new(30, 30, 1.0).unwrap();
+    let points = |i: usize| {
+        if i.is_multiple_of(37) {
+            (i % 7) as f64
+        } else {
+            f64::NAN
+        }
+    };
+    let points = Heightfield::new(lattice, (0..900).map(points).collect()).unwrap();
+    let design = Input::design(points, None).unwrap();
+    let (_, report) = solve(design, &auto());
+    assert_eq!(report.lambda_choice.unwrap().reason, LambdaReason::Unknown);
+}
+
+#[test]
+fn quantised_heights_are_told_by_their_step() {
+    let truth = unit_square(80, scene);
+    let step = 0.004;
+    let heights = truth.heights().iter().map(|z| (z / step).round() * step);
+    let input = Heightfield::new(*truth.lattice(), heights.collect()).unwrap();
+    let (surface, report) = solve(&input, &auto().energy(Energy::Huber));
+    let choice = report.lambda_choice.unwrap();
+    assert!(
+        (choice.step.unwrap() / step - 1.0).abs() < 1e-6,
+        "{choice:?}"
+    );
+    assert!((choice.sigma.unwrap() / (step / 12f64.sqrt()) - 1.0).abs() < 1e-6);
+    let error = |field: &Heightfield| rms_difference(&truth, field);
+    assert!(
+        error(&surface) < 0.6 * error(&input),
+        "{} {}",
+        error(&surface),
+        error(&input)
+    );
+}

@@ -217,17 +217,26 @@ export interface SampledMesh extends Heightfield {
  * - `'secondFormOfInput'`: of the nuclear norms of the second fundamental form, with the slopes
  *   of the input;
  * - `'secondForm'`: the same with the surface's own slopes, which is not convex: what is certified
- *   is the energy with the last slopes kept.
+ *   is the energy with the last slopes kept;
+ * - `'huber'`: of a function of their nuclear norms that grows with the square of small ones, and with
+ *   the size of large ones: smooth where the surface bends smoothly, without the flat strips that
+ *   `'nuclear'` makes of it. What bends more tightly than `creaseRadius` then costs less in up to
+ *   `creasePasses` further solves; what is certified is the last one's energy.
  */
-export type Energy = 'nuclear' | 'frobenius' | 'squaredNuclear' | 'secondFormOfInput' | 'secondForm';
+export type Energy = 'nuclear' | 'frobenius' | 'squaredNuclear' | 'secondFormOfInput' | 'secondForm' | 'huber';
 
 export interface SolverOptions {
   /**
    * Weight of the fidelity term, for coordinates normalised to the unit square:
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
    * (nearly developable input), or a number from 1e-12 to 1e15. Default `'medium'`.
+   *
+   * `'auto'`, for heights with noise: from how large that is, and then the one that predicts best what
+   * a part of the heights are, which are held out from some solves on a lattice of twice the spacing.
+   * With the energy `'huber'` what bends cost is chosen likewise, as far as it is not given.
+   * `report.lambdaChoice` tells what was found. It costs about as much as two solves.
    */
-  lambda?: number | 'small' | 'medium' | 'big';
+  lambda?: number | 'small' | 'medium' | 'big' | 'auto';
   /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
   schedule?: 'default' | 'paper';
   /** Certified relative duality gap to stop at, between 0 and 1 (exclusive). Default 0.01. */
@@ -246,6 +255,28 @@ export interface SolverOptions {
    * two or three are usual. Default 0.
    */
   reweighting?: number;
+  /**
+   * For the energy `'huber'`: bends of a larger radius cost their square, others their size, in
+   * normalised coordinates, from 1e-6 to 1e6. Default 0.1, or by `lambda: 'auto'`.
+   */
+  bendRadius?: number;
+  /**
+   * For the energy `'huber'`: the slope that the cost of bends begins with, from 0 (nothing is quite
+   * flat) to 1 (the nuclear norm). Default 0.3, or by `lambda: 'auto'`, and more where lambda is large
+   * for the noise of the input.
+   */
+  flatness?: number;
+  /**
+   * For the energy `'huber'`: what bends more tightly than this radius is a crease, in normalised
+   * coordinates, from 1e-6 to 1e6. Default 0.1, or by `lambda: 'auto'`.
+   */
+  creaseRadius?: number;
+  /**
+   * For the energy `'huber'`: the most passes at creases after the first solve, a whole number up to
+   * 20. They end where they change next to nothing, and there are none where lambda is large for the
+   * noise of the input, which would make creases of it. Default 2.
+   */
+  creasePasses?: number;
   /**
    * Weight, in place of lambda, of the squared distance from the thin plate through the
    * constraints, at vertices without a fidelity term, where the surface need not be unique
@@ -330,6 +361,40 @@ export interface LevelReport {
   cgIterations: number;
 }
 
+/** The numbers of the energy `'huber'` as they were used. */
+export interface HuberReport {
+  bendRadius: number;
+  flatness: number;
+  creaseRadius: number;
+  /** Passes at creases that were made after the first solve. */
+  creasePasses: number;
+  /** Interior vertices that are on a crease: those where the last pass weighs bends less. */
+  creases: number;
+}
+
+/** What `lambda: 'auto'` has found out. */
+export interface LambdaChoice {
+  /**
+   * Where lambda comes from:
+   * - `'prediction'`: it predicts best what heights are that were held out;
+   * - `'noise'`: there are too few heights to hold some out, or their noise is alike from one to the
+   *   next, so that lambda follows from how large that is;
+   * - `'noNoise'`: the heights have no noise to speak of, and lambda is `'big'`;
+   * - `'unknown'`: there are too few heights to tell their noise, and lambda is `'medium'`.
+   */
+  reason: 'prediction' | 'noise' | 'noNoise' | 'unknown';
+  /** Standard deviation of the heights' noise, in the input's units; `undefined` if it cannot be told. */
+  sigma: number | undefined;
+  /** The step of quantised heights, where that is what their noise comes from. */
+  step: number | undefined;
+  /** Noise is independent from vertex to vertex on the lattice of `2 ** merged` times the spacing. */
+  merged: number;
+  /** Solves that were compared. */
+  solves: number;
+  /** Their ADMM iterations, which the report's own do not count. */
+  iterations: number;
+}
+
 export interface Report {
   /** Vertices where the Hessian is evaluated. */
   interior: number;
@@ -357,6 +422,8 @@ export interface Report {
   energy: Energy;
   /** Reweighted passes that were made after the first solve; the figures are the last one's. */
   reweighting: number;
+  /** For the energy `'huber'`: what bends cost, whether given or chosen, and where creases are. */
+  huber: HuberReport | undefined;
   /** Value of the energy at the returned surface, in normalised coordinates; always finite. */
   objective: number;
   /** `lambda * sum (z - input)^2`, with the confidences as factors. */
@@ -372,6 +439,8 @@ export interface Report {
   gap: number | undefined;
   /** Lambda that was used, as a number. */
   lambda: number;
+  /** How that came about, for `lambda: 'auto'`. */
+  lambdaChoice: LambdaChoice | undefined;
   /** Last ADMM penalty. */
   rho: number;
   /** Factor from the input's units to normalised coordinates. */

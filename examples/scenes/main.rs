@@ -110,7 +110,7 @@ fn grid(args: &[String]) {
                 print!("{:10} {size:3} {:12} nuc {:6.3} {:.1e} |", scene.name, format!("{noise:?}"), best(&n, 0), best(&n, 1));
                 count += 1.0;
                 for (p, log) in params.iter().zip(&mut logs) {
-                    let c = curve(Options::default().energy(Energy::Huber).flatness(p[0]).bend(p[1]).crease_radius(p[2]).crease_passes(p[3] as usize));
+                    let c = curve(Options::default().energy(Energy::Huber).flatness(p[0]).bend_radius(p[1]).crease_radius(p[2]).crease_passes(p[3] as usize));
                     let (ra, rr) = (best(&c, 0) / best(&n, 0), best(&c, 1) / best(&n, 1));
                     let at0 = ks.iter().position(|k| *k == 0.0).map_or(f64::NAN, |i| c[i][0] / best(&n, 0));
                     let arg = (0..ks.len()).min_by(|a, b| c[*a][0].total_cmp(&c[*b][0])).unwrap();
@@ -196,7 +196,7 @@ fn select(args: &[String]) {
                 let best = [0, 1].map(|i| ks.iter().map(|k| error(&truth, fit(&input, &Options::default().lambda(l0 * 10f64.powf(*k))).unwrap().heightfield())[i]).fold(f64::MAX, f64::min));
                 let mut all = vec![];
                 for p in &params { for k in &ks {
-                    let o = Options::default().energy(Energy::Huber).flatness(p[0]).bend(p[1]).crease_radius(p[2]).crease_passes(p[3] as usize).lambda(l0 * 10f64.powf(*k));
+                    let o = Options::default().energy(Energy::Huber).flatness(p[0]).bend_radius(p[1]).crease_radius(p[2]).crease_passes(p[3] as usize).lambda(l0 * 10f64.powf(*k));
                     let s = fit(&input, &o).unwrap();
                     let e = error(&truth, s.heightfield());
                     all.push((*p, *k, e, [whiteness(&input, s.heightfield(), 2.0), whiteness(&input, s.heightfield(), 4.0), held_out(&input, &o), e[0]]));
@@ -239,8 +239,8 @@ fn bench(args: &[String]) {
                 let (choice, h) = (r.lambda_choice.unwrap(), r.huber.unwrap());
                 let ra = [e[0] / best[0], e[1] / best[1]];
                 let nuclear = c.iter().map(|c| c.1).sum::<f64>() / 6.0;
-                let fixed = fit(&input, &Options::default().lambda(r.lambda).energy(Energy::Huber).bend(h.bend).flatness(h.flatness).crease_radius(h.crease_radius)).unwrap().report().seconds.total;
-                println!("{:10} {size:3} {:13} nuc {:6.3} {:.1e} | {:6.3} {:.1e} | {:4.2} {:4.2} | lambda {:+.2} {}/{} {}p {:.3} | sigma {:.2} m{} {:?} {} solves | time {:.1} of nuclear, search {:.1} of ours", scene.name, format!("{noise:?}"), best[0], best[1], e[0], e[1], ra[0], ra[1], (r.lambda / l0).log10(), h.flatness, h.bend, h.crease_passes, h.creases as f64 / r.interior as f64, choice.sigma.unwrap_or(f64::NAN) / noise.sigma(&truth), choice.merged, choice.reason, choice.solves, fixed / nuclear, (r.seconds.total - fixed) / fixed);
+                let fixed = fit(&input, &Options::default().lambda(r.lambda).energy(Energy::Huber).bend_radius(h.bend_radius).flatness(h.flatness).crease_radius(h.crease_radius)).unwrap().report().seconds.total;
+                println!("{:10} {size:3} {:13} nuc {:6.3} {:.1e} | {:6.3} {:.1e} | {:4.2} {:4.2} | lambda {:+.2} {}/{} {}p {:.3} | sigma {:.2} m{} {:?} {} solves | time {:.1} of nuclear, search {:.1} of ours", scene.name, format!("{noise:?}"), best[0], best[1], e[0], e[1], ra[0], ra[1], (r.lambda / l0).log10(), h.flatness, h.bend_radius, h.crease_passes, h.creases as f64 / r.interior as f64, choice.sigma.unwrap_or(f64::NAN) / noise.sigma(&truth), choice.merged, choice.reason, choice.solves, fixed / nuclear, (r.seconds.total - fixed) / fixed);
                 count += 1.0;
                 for i in 0..2 { logs[i] += ra[i].ln(); worst[i] = worst[i].max(ra[i]); }
                 logs[2] += (fixed / nuclear).ln(); search += r.seconds.total / fixed - 1.0;

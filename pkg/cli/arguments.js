@@ -156,6 +156,10 @@ export function parse(args) {
       normalize: about.normalize,
       energy: one('energy', values, OPTIONS.solver.energy),
       reweighting: number('reweight', values),
+      bendRadius: number('bend-radius', values),
+      flatness: number('flatness', values),
+      creaseRadius: number('crease-radius', values),
+      creasePasses: number('crease-passes', values),
       tieBreak: number('tie-break', values),
       occlusionThreshold: values.occlusions === 'auto' ? THRESHOLD : number('occlusions', values, 'auto or '),
       bridge: values.bridge === 'none' ? false : number('bridge', values, 'none or '),
@@ -345,8 +349,8 @@ function extension(what, output, known) {
  * @returns {SolverOptions['lambda']}
  */
 function lambda(text) {
-  if (text === 'small' || text === 'medium' || text === 'big') return text;
-  return number('lambda', { lambda: text }, 'small, medium, big or ');
+  if (text === 'small' || text === 'medium' || text === 'big' || text === 'auto') return text;
+  return number('lambda', { lambda: text }, 'small, medium, big, auto or ');
 }
 
 /**

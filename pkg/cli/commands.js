@@ -21,7 +21,10 @@ const heights = ['lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'm
 /** @satisfies {readonly Flag[]} */
 const mesh = ['view', 'resolution', 'intrinsics', 'ray'];
 /** @satisfies {readonly Flag[]} */
-const energy = ['lambda', 'energy', 'reweight', 'tie-break', 'no-normalize', 'gap', 'schedule', 'max-iterations'];
+const energy = [
+  'lambda', 'energy', 'reweight', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'tie-break', 'no-normalize', 'gap',
+  'schedule', 'max-iterations',
+];
 /** @satisfies {readonly Flag[]} */
 const known = ['confidence', 'constraints', 'free', 'occlusion-mask', 'occlusions', 'bridge'];
 /** @satisfies {readonly Flag[]} */

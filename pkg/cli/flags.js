@@ -26,17 +26,29 @@ export const sections = {
     flags: {
       lambda: {
         value: 'L',
-        help: 'how closely to follow the input: small (1e5), medium (1e6, the default), big (1e7) or any number above zero',
+        help: 'how closely to follow the input: small (1e5), medium (1e6, the default), big (1e7), any number above zero, or auto: ' +
+          'by the noise of the input',
       },
       energy: {
         value: 'E',
-        help: 'nuclear (the default), frobenius, squaredNuclear, secondFormOfInput or secondForm',
+        help: 'nuclear (the default), huber (smooth bends and sharp creases), frobenius, squaredNuclear, secondFormOfInput or ' +
+          'secondForm',
       },
       reweight: {
         value: 'N',
         option: 'reweighting',
         help: 'passes that undo the shrinking of curvature; 2 or 3 are usual (default 0)',
       },
+      'bend-radius': {
+        value: 'R',
+        help: 'huber: bends of a larger radius, as a share of the longer side, cost their square (default 0.1)',
+      },
+      flatness: { value: 'A', help: 'huber: from 0 (nothing is quite flat) to 1 (the nuclear norm) (default 0.3)' },
+      'crease-radius': {
+        value: 'R',
+        help: 'huber: what bends more tightly, as a share of the longer side, is a crease (default 0.1)',
+      },
+      'crease-passes': { value: 'N', help: 'huber: most passes that give creases their angle back (default 2)' },
       'tie-break': { value: 'E', help: 'weight that keeps free vertices near a thin plate (default 0.01)' },
       'no-normalize': {
         option: 'normalize',

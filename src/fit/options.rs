@@ -164,7 +164,7 @@ impl FromStr for Energy {
 /// The three numbers of [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bending {
-    pub bend: f64,
+    pub bend_radius: f64,
     pub flatness: f64,
     pub crease_radius: f64,
 }
@@ -172,7 +172,7 @@ pub(crate) struct Bending {
 impl Bending {
     /// For smooth bends, and creases that are much sharper: the default.
     pub(crate) const SMOOTH: Bending = Bending {
-        bend: 0.1,
+        bend_radius: 0.1,
         flatness: 0.3,
         crease_radius: 0.1,
     };
@@ -180,7 +180,7 @@ impl Bending {
     /// With what the options give in place of its own.
     pub(crate) fn within(self, options: &Options) -> Self {
         Bending {
-            bend: options.bend.unwrap_or(self.bend),
+            bend_radius: options.bend_radius.unwrap_or(self.bend_radius),
             flatness: options.flatness.unwrap_or(self.flatness),
             crease_radius: options.crease_radius.unwrap_or(self.crease_radius),
         }
@@ -189,7 +189,7 @@ impl Bending {
     /// The options with these.
     pub(crate) fn of(self, options: &Options) -> Options {
         options
-            .bend(self.bend)
+            .bend_radius(self.bend_radius)
             .flatness(self.flatness)
             .crease_radius(self.crease_radius)
     }
@@ -213,7 +213,7 @@ pub struct Options {
     pub(crate) energy: Energy,
     pub(crate) reweighting: usize,
     pub(crate) tie_break: f64,
-    pub(crate) bend: Option<f64>,
+    pub(crate) bend_radius: Option<f64>,
     pub(crate) flatness: Option<f64>,
     pub(crate) crease_radius: Option<f64>,
     pub(crate) crease_passes: usize,
@@ -230,7 +230,7 @@ impl Default for Options {
             energy: Energy::Nuclear,
             reweighting: 0,
             tie_break: 0.01,
-            bend: None,
+            bend_radius: None,
             flatness: None,
             crease_radius: None,
             crease_passes: 2,
@@ -301,8 +301,8 @@ impl Options {
     /// For [`Energy::Huber`]: radius `1/δ` below which bends cost their size, and above which they
     /// cost their square, in normalised coordinates; default 0.1, or by [`Lambda::Auto`]. The
     /// larger, the more it is like the nuclear norm.
-    pub fn bend(mut self, radius: f64) -> Self {
-        self.bend = Some(radius);
+    pub fn bend_radius(mut self, radius: f64) -> Self {
+        self.bend_radius = Some(radius);
         self
     }
 
@@ -362,7 +362,7 @@ impl Options {
                 "must lie between 1e-12 and 1e15",
             ));
         }
-        for (name, radius) in [("bend", self.bend), ("crease_radius", self.crease_radius)] {
+        for (name, radius) in [("bend_radius", self.bend_radius), ("crease_radius", self.crease_radius)] {
             if radius.is_some_and(|radius| !RADII.contains(&radius)) {
                 return Err(Error::option(
                     name,

@@ -121,7 +121,8 @@ pub struct LevelReport {
 pub enum LambdaReason {
     /// It predicts best what heights are that were held out.
     Prediction,
-    /// There are too few heights to hold some out: it follows from their noise.
+    /// There are too few heights to hold some out, or their noise is alike from one to the next, as
+    /// that of quantised heights is: it follows from how large that is.
     Noise,
     /// The heights have no noise to speak of: it is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
@@ -163,8 +164,8 @@ pub struct LambdaChoice {
 )]
 #[non_exhaustive]
 pub struct HuberReport {
-    /// See [`Options::bend`](crate::Options::bend).
-    pub bend: f64,
+    /// See [`Options::bend`](crate::Options::bend_radius).
+    pub bend_radius: f64,
     /// See [`Options::flatness`](crate::Options::flatness).
     pub flatness: f64,
     /// See [`Options::crease_radius`](crate::Options::crease_radius).

@@ -425,7 +425,7 @@ impl Solver {
         let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
         let at_creases = self.options.energy == Energy::Huber;
         let Bending {
-            bend,
+            bend_radius,
             flatness,
             crease_radius,
         } = Bending::SMOOTH.within(&self.options);
@@ -444,7 +444,7 @@ impl Solver {
             energy: self.options.energy,
             reweighting: if at_creases { 0 } else { passes },
             huber: at_creases.then(|| HuberReport {
-                bend,
+                bend_radius,
                 flatness,
                 crease_radius,
                 crease_passes: passes,

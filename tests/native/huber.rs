@@ -41,7 +41,7 @@ fn the_optimum_is_the_conic_solvers() {
         instance.huber = huber;
         let report = instance.check();
         let used = report.huber.unwrap();
-        assert_eq!([used.flatness, used.bend], huber);
+        assert_eq!([used.flatness, used.bend_radius], huber);
     }
 }
 
@@ -91,7 +91,7 @@ fn full_flatness_is_the_nuclear_norm_and_large_curvatures_its_square() {
     // Of curvatures far below δ nothing but the square is left: s²/2δ.
     let delta = 1e5;
     let squared = solve(base.lambda(1e5).energy(Energy::SquaredNuclear));
-    let smooth = huber.flatness(0.0).bend(1.0 / delta);
+    let smooth = huber.flatness(0.0).bend_radius(1.0 / delta);
     let smooth = solve(smooth.lambda(1e5 / (2.0 * delta)));
     assert!(max_difference(&squared, &smooth) < 2e-6);
     assert!(max_difference(&squared, &nuclear) > 1e-3);
@@ -154,7 +154,7 @@ fn where_lambda_is_too_large_for_the_noise_it_is_the_nuclear_norm() {
 fn options_of_its_own_are_checked() {
     let code = |options: Options| options.validate().unwrap_err().to_string();
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(code(options().bend(bad)).contains("bend"));
+        assert!(code(options().bend_radius(bad)).contains("bend_radius"));
         assert!(code(options().crease_radius(bad)).contains("crease_radius"));
     }
     for bad in [-0.1, 1.1, f64::NAN] {

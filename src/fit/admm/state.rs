@@ -244,10 +244,7 @@ impl State {
     }
 
     pub(super) fn law(&self, problem: &Problem) -> Any {
-        Any {
-            kind: problem.kind,
-            rho: self.rho,
-        }
+        Any::new(problem.kind, self.rho)
     }
 
     fn update_of<const MEASURE: bool>(
@@ -324,7 +321,6 @@ impl State {
     pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
         match problem.kind {
             Kind::Nuclear => self.certify_of(Nuclear, problem),
-            Kind::Huber(bends) => self.certify_of(bends.law(self.rho), problem),
             _ => self.certify_of(self.law(problem), problem),
         }
     }

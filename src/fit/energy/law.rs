@@ -120,10 +120,10 @@ pub(crate) struct Bends {
 
 impl Bends {
     pub(crate) fn of(options: &Options) -> Self {
-        let Bending { bend, flatness, .. } = Bending::SMOOTH.within(options);
+        let Bending { bend_radius, flatness, .. } = Bending::SMOOTH.within(options);
         Bends {
             flatness,
-            delta: 1.0 / bend,
+            delta: 1.0 / bend_radius,
         }
     }
 
@@ -252,31 +252,38 @@ impl Kind {
 /// a version for each law, which is what inlining comes to, would make the wasm a
 /// quarter larger.
 #[derive(Clone, Copy)]
-pub(crate) struct Any {
-    pub kind: Kind,
-    pub rho: f64,
+pub(crate) enum Any {
+    Nuclear,
+    Frobenius,
+    SquaredNuclear(SquaredNuclear),
+    Huber(Huber),
+}
+
+impl Any {
+    pub(crate) fn new(kind: Kind, rho: f64) -> Self {
+        match kind {
+            Kind::Nuclear => Any::Nuclear,
+            Kind::Frobenius => Any::Frobenius,
+            Kind::SquaredNuclear => Any::SquaredNuclear(SquaredNuclear { rho }),
+            Kind::Huber(bends) => Any::Huber(bends.law(rho)),
+        }
+    }
 }
 
 /// Calls the same method of the law itself.
 macro_rules! the_law {
     ($any:expr, |$law:ident| $call:expr) => {
-        match $any.kind {
-            Kind::Nuclear => {
+        match $any {
+            Any::Nuclear => {
                 let $law = Nuclear;
                 $call
             }
-            Kind::Frobenius => {
+            Any::Frobenius => {
                 let $law = Frobenius;
                 $call
             }
-            Kind::SquaredNuclear => {
-                let $law = SquaredNuclear { rho: $any.rho };
-                $call
-            }
-            Kind::Huber(bends) => {
-                let $law = bends.law($any.rho);
-                $call
-            }
+            Any::SquaredNuclear($law) => $call,
+            Any::Huber($law) => $call,
         }
     };
 }

@@ -297,10 +297,7 @@ impl Problem {
 
     /// For values, which do not depend on ρ.
     fn law(&self) -> Any {
-        Any {
-            kind: self.kind,
-            rho: f64::NAN,
-        }
+        Any::new(self.kind, f64::NAN)
     }
 
     /// The same for the input, by the parts that cells belong to.

@@ -47,12 +47,12 @@ const LOUD: f64 = 2.0;
 const BENDINGS: [Bending; 3] = [
     Bending::SMOOTH,
     Bending {
-        bend: 0.3,
+        bend_radius: 0.3,
         flatness: 0.3,
         crease_radius: 0.3,
     },
     Bending {
-        bend: 0.1,
+        bend_radius: 0.1,
         flatness: 1.0,
         crease_radius: 0.2,
     },

@@ -133,7 +133,7 @@ impl Instance {
             .lambda(self.lambda)
             .energy(self.energy)
             .flatness(self.huber[0])
-            .bend(self.huber[1])
+            .bend_radius(self.huber[1])
             .crease_passes(0)
             .tie_break(self.tie_break)
             .gap(self.gap)

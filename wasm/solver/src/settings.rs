@@ -45,6 +45,13 @@ impl Settings {
                     let passes = option("reweighting", value, "must be a whole number")?;
                     out = out.reweighting(passes);
                 }
+                "bendRadius" => out = out.bend_radius(number("bendRadius", value)?),
+                "flatness" => out = out.flatness(number("flatness", value)?),
+                "creaseRadius" => out = out.crease_radius(number("creaseRadius", value)?),
+                "creasePasses" => {
+                    let passes = option("creasePasses", value, "must be a whole number")?;
+                    out = out.crease_passes(passes);
+                }
                 "tieBreak" => out = out.tie_break(number("tieBreak", value)?),
                 "spacing" => spacing = Some(number("spacing", value)?),
                 "occlusionThreshold" => {
@@ -55,7 +62,7 @@ impl Settings {
                     return Err(unknown(
                         &name,
                         "lambda, schedule, gap, maxIterations, normalize, energy, reweighting, \
-                         tieBreak, spacing, occlusionThreshold and bridge",
+                         bendRadius, flatness, creaseRadius, creasePasses, tieBreak, spacing, occlusionThreshold and bridge",
                     ));
                 }
             }
@@ -94,7 +101,7 @@ impl Settings {
 
 /// A number, or the name of one.
 fn lambda(value: JsValue) -> Result<Lambda> {
-    const REQUIREMENT: &str = "must be small, medium, big or a number above zero";
+    const REQUIREMENT: &str = "must be small, medium, big, auto or a number above zero";
     if let Some(number) = value.as_f64() {
         return Ok(Lambda::Value(number));
     }

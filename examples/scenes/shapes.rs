@@ -16,7 +16,8 @@ macro_rules! scenes {
 
 pub fn all() -> Vec<Scene> {
     scenes![
-        wave, fan, tangents, groin, valley, tent, fold, accordion, cones, frustum, corner, leaf, facets, plane,
+        wave, fan, tangents, groin, valley, tent, fold, accordion, cones, frustum, corner, leaf,
+        facets, plane,
     ]
     .into()
 }
@@ -67,7 +68,10 @@ fn valley(x: f64, y: f64) -> f64 {
 
 /// A pyramid with the corners of no square.
 fn tent(x: f64, y: f64) -> f64 {
-    (0.6 * x).min(0.9 * (1.0 - x)).min(0.7 * y).min(0.5 * (1.0 - y) + 0.1 * x)
+    (0.6 * x)
+        .min(0.9 * (1.0 - x))
+        .min(0.7 * y)
+        .min(0.5 * (1.0 - y) + 0.1 * x)
 }
 
 /// A cylinder, mirrored above a plane: a curved fold.

@@ -362,7 +362,10 @@ impl Options {
                 "must lie between 1e-12 and 1e15",
             ));
         }
-        for (name, radius) in [("bend_radius", self.bend_radius), ("crease_radius", self.crease_radius)] {
+        for (name, radius) in [
+            ("bend_radius", self.bend_radius),
+            ("crease_radius", self.crease_radius),
+        ] {
             if radius.is_some_and(|radius| !RADII.contains(&radius)) {
                 return Err(Error::option(
                     name,

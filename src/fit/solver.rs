@@ -13,7 +13,9 @@ use super::coordinates::Coordinates;
 use super::energy::problem::Problem;
 use super::input::Input;
 use super::options::{Bending, Energy, Lambda, Options};
-use super::report::{HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason};
+use super::report::{
+    HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,
+};
 use super::restore::restore_omitted;
 use super::surface::Surface;
 use super::totals::{Totals, add_levels};

@@ -23,9 +23,9 @@ mod fixtures;
 #[cfg(feature = "formats")]
 mod formats;
 mod honesty;
+mod huber;
 #[cfg(feature = "images")]
 mod images;
-mod huber;
 mod invariance;
 #[cfg(feature = "meshes")]
 mod meshes;

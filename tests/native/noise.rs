@@ -108,7 +108,9 @@ fn holes_dead_pixels_parts_and_confidence() {
     let random = std::cell::RefCell::new(Noise::new(3));
     // Two parts, a hole in one of them, and every tenth height missing.
     let torn = cut(&whole, |x, y| {
-        (x - 0.55).abs() > 0.06 && (x - 0.3).hypot(y - 0.5) > 0.1 && random.borrow_mut().sample() < 0.8
+        (x - 0.55).abs() > 0.06
+            && (x - 0.3).hypot(y - 0.5) > 0.1
+            && random.borrow_mut().sample() < 0.8
     });
     let (surface, report) = solve(&torn, &auto().energy(Energy::Huber));
     let choice = report.lambda_choice.unwrap();

@@ -237,8 +237,8 @@ impl Ascent {
                     for i in 0..weight.len() {
                         let [g1, g2, g3] = map.coordinates(ring.differences(i));
                         let up = |from: f32, gradient: f32| from + gradient * (1.0 / NORM);
-                        let [n1, n2, n3] =
-                            proximal.apply([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
+                        let [n1, n2, n3] = proximal
+                            .apply([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
                         a1[i] = n1 + momentum * (n1 - l1[i]);
                         a2[i] = n2 + momentum * (n2 - l2[i]);
                         a3[i] = n3 + momentum * (n3 - l3[i]);

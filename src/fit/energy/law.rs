@@ -120,7 +120,11 @@ pub(crate) struct Bends {
 
 impl Bends {
     pub(crate) fn of(options: &Options) -> Self {
-        let Bending { bend_radius, flatness, .. } = Bending::SMOOTH.within(options);
+        let Bending {
+            bend_radius,
+            flatness,
+            ..
+        } = Bending::SMOOTH.within(options);
         Bends {
             flatness,
             delta: 1.0 / bend_radius,

@@ -51,9 +51,10 @@ impl HeldOut {
                 if !wanted || !known(vertex) || !trusted || input.is_constrained(vertex) {
                     continue;
                 }
-                let ring = lattice
-                    .neighbours(row, col)
-                    .map(|n| n.map(|(row, col)| lattice.index(row, col)).filter(|v| known(*v)));
+                let ring = lattice.neighbours(row, col).map(|n| {
+                    n.map(|(row, col)| lattice.index(row, col))
+                        .filter(|v| known(*v))
+                });
                 let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = ring else {
                     continue;
                 };

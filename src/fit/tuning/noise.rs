@@ -197,7 +197,11 @@ mod tests {
     fn roof(sigma: f64, noise: &[f64]) -> Heightfield {
         let truth = |x: f64, y: f64| 0.3 * (x - 0.4).abs() + 0.2 * (3.0 * y).sin();
         let truth = Heightfield::from_fn(lattice(), truth).unwrap();
-        let heights = truth.heights().iter().zip(noise).map(|(z, n)| z + sigma * n);
+        let heights = truth
+            .heights()
+            .iter()
+            .zip(noise)
+            .map(|(z, n)| z + sigma * n);
         Heightfield::new(lattice(), heights.collect()).unwrap()
     }
 
@@ -205,7 +209,10 @@ mod tests {
     fn white_noise_is_measured_beside_bends_and_creases() {
         for sigma in [1e-4, 1e-3, 1e-2] {
             let noise = Noise::of(&roof(sigma, &white(3)).into()).unwrap().unwrap();
-            assert!((noise.sigma / sigma - 1.0).abs() < 0.06, "{sigma}: {noise:?}");
+            assert!(
+                (noise.sigma / sigma - 1.0).abs() < 0.06,
+                "{sigma}: {noise:?}"
+            );
             assert_eq!((noise.merged, noise.step), (0, None), "{sigma}");
             assert_eq!(noise.product, noise.sigma * 0.01);
         }
@@ -219,7 +226,10 @@ mod tests {
             let old = noise.clone();
             for (i, value) in noise.iter_mut().enumerate() {
                 let ring = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-                let ring = ring.into_iter().flatten().map(|(r, c)| old[lattice.index(r, c)]);
+                let ring = ring
+                    .into_iter()
+                    .flatten()
+                    .map(|(r, c)| old[lattice.index(r, c)]);
                 let (sum, count) = ring.fold((2.0 * old[i], 2.0), |(s, n), z| (s + z, n + 1.0));
                 *value = sum / count;
             }
@@ -234,7 +244,10 @@ mod tests {
     fn steps_are_recognised() {
         let step = 0.02;
         let smooth = roof(0.0, &white(1));
-        let heights = smooth.heights().iter().map(|z| 1.0 + (z / step).round() * step);
+        let heights = smooth
+            .heights()
+            .iter()
+            .map(|z| 1.0 + (z / step).round() * step);
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
         let noise = Noise::of(&field.into()).unwrap().unwrap();
         assert!((noise.step.unwrap() / step - 1.0).abs() < 1e-9, "{noise:?}");
@@ -244,7 +257,10 @@ mod tests {
         let heights = rough.heights().iter().map(|z| (z / step).round() * step);
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
         let noise = Noise::of(&field.into()).unwrap().unwrap();
-        assert!(noise.step.is_none() && (noise.sigma / 0.05 - 1.0).abs() < 0.1, "{noise:?}");
+        assert!(
+            noise.step.is_none() && (noise.sigma / 0.05 - 1.0).abs() < 0.1,
+            "{noise:?}"
+        );
     }
 
     #[test]

@@ -32,6 +32,10 @@ test('energies, passes and thresholds reach the solver', async () => {
   assert.deepEqual([plain.energy, plain.reweighting, plain.occluded], ['nuclear', 0, 0]);
   assert.equal((await report('fit step.npy -o out.npy --energy frobenius')).energy, 'frobenius');
   assert.equal((await report('fit step.npy -o out.npy --reweight 2')).reweighting, 2);
+  const huber = await report('fit step.npy -o out.npy --energy huber --bend-radius 0.2 --flatness 0.5 --crease-passes 0');
+  assert.deepEqual([huber.huber.bendRadius, huber.huber.flatness, huber.huber.creasePasses], [0.2, 0.5, 0]);
+  const own = await report('fit step.npy -o out.npy --lambda auto');
+  assert.equal(own.lambdaChoice.reason, 'noNoise');
   const torn = await report('fit step.npy -o out.npy --occlusions 150');
   assert.ok(torn.occluded > 20 && torn.objective < 1e-6);
   assert.ok(deviation((await load('out.npy')).data, step.data) < 9.1);

@@ -233,3 +233,39 @@ test('wrong inputs and options are named', () => {
   assert.throws(() => direct.occlusions(design), error('INPUT', /heights/));
   assert.throws(() => direct.occlusions(hex, { spacing: 1 }), error('OPTION', /spacing/));
 });
+
+test('smooth bends come closer to the truth with the energy for them, and its numbers are told', () => {
+  const bend = (/** @type {number} */ x, /** @type {number} */ y) => 4 * Math.sin(0.15 * x + 0.05 * y);
+  const truth = lattice(60, 60, bend);
+  const input = lattice(60, 60, noisy(bend, 0.3));
+  const [nuclear, huber] = ['nuclear', 'huber'].map((energy) =>
+    direct.fit(input, { lambda: 1e5, energy: /** @type {direct.Energy} */ (energy) }));
+  assert.equal(nuclear.report.huber, undefined);
+  const miss = (/** @type {direct.Surface} */ { heights }) => rms(heights, truth.heights);
+  assert.ok(miss(huber) < 0.8 * miss(nuclear), `${miss(huber)} ${miss(nuclear)}`);
+  const { creases, ...numbers } = huber.report.huber ?? assert.fail('nothing is told');
+  assert.deepEqual(numbers, { bendRadius: 0.1, flatness: 0.3, creaseRadius: 0.1, creasePasses: 0 });
+  assert.equal(creases, 0);
+  const own = { bendRadius: 0.2, flatness: 0.5, creaseRadius: 0.3, creasePasses: 1 };
+  const { report } = direct.fit(input, { lambda: 1e5, energy: 'huber', ...own });
+  assert.deepEqual({ ...report.huber, creases: 0, creasePasses: 1 }, { ...own, creases: 0 });
+  for (const [name, bad] of Object.entries({ bendRadius: 0, flatness: 2, creaseRadius: -1, creasePasses: 21 })) {
+    const pattern = new RegExp(name.replace(/[A-Z]/, '.$&'), 'i');
+    assert.throws(() => direct.fit(input, { energy: 'huber', [name]: bad }), error('OPTION', pattern));
+  }
+});
+
+test('lambda by itself follows the noise, and tells how it came about', () => {
+  const faces = (/** @type {number} */ x, /** @type {number} */ y) => Math.max(0.3 * x, 0.5 * (30 - y));
+  const [quiet, loud] = [0.1, 1].map((noise) =>
+    direct.fit(lattice(60, 60, noisy(faces, noise)), { lambda: 'auto', energy: 'huber' }).report);
+  assert.equal(quiet.lambdaChoice?.reason, 'prediction');
+  const sigmas = [quiet, loud].map(({ lambdaChoice }) => lambdaChoice?.sigma ?? 0);
+  assert.ok(Math.abs(sigmas[1] / sigmas[0] - 10) < 0.5, `${sigmas}`);
+  assert.ok(quiet.lambda > 3 * loud.lambda && loud.lambda > 1);
+  assert.equal(quiet.lambdaChoice?.step, undefined);
+  assert.ok((quiet.gap ?? 1) <= 0.01);
+  const plain = direct.fit(lattice(30, 30, plane), { lambda: 'auto' }).report;
+  assert.deepEqual([plain.lambda, plain.lambdaChoice?.reason], [1e7, 'noNoise']);
+  assert.equal(direct.fit(lattice(30, 30, faces)).report.lambdaChoice, undefined);
+});

@@ -30,6 +30,7 @@ export const ENERGIES = {
   squaredNuclear: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.',
   secondFormOfInput: 'Nuclear norms of the second fundamental form, with the slopes of the input.',
   secondForm: 'Nuclear norms of the second fundamental form, with the surface’s own slopes: the bound is for its last slopes.',
+  huber: 'Squares of small norms, sizes of large ones: smooth bends and sharp creases. The bound is for the last pass at creases.',
 };
 
 /** What came of laying a surface flat. @type {Record<Verdict, string>} */

@@ -250,8 +250,7 @@ test('smooth bends come closer to the truth with the energy for them, and its nu
   const { report } = direct.fit(input, { lambda: 1e5, energy: 'huber', ...own });
   assert.deepEqual({ ...report.huber, creases: 0, creasePasses: 1 }, { ...own, creases: 0 });
   for (const [name, bad] of Object.entries({ bendRadius: 0, flatness: 2, creaseRadius: -1, creasePasses: 21 })) {
-    const pattern = new RegExp(name.replace(/[A-Z]/, '.$&'), 'i');
-    assert.throws(() => direct.fit(input, { energy: 'huber', [name]: bad }), error('OPTION', pattern));
+    assert.throws(() => direct.fit(input, { energy: 'huber', [name]: bad }), error('OPTION', new RegExp(name)));
   }
 });
 

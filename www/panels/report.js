@@ -67,6 +67,7 @@ function work(report) {
     lines: [
       line('λ', number(report.lambda), 'Weight of the fidelity, in the unit square.'),
       line('Reweighted', count(report.reweighting), 'Passes after the first; the certificate is the last one’s.', report.reweighting > 0),
+      line('Creases', count(report.huber?.creases ?? 0), `Vertices on them; ${count(report.huber?.creasePasses ?? 0)} passes after the first, and the certificate is the last one’s.`, report.huber !== undefined),
       line('Lattices', count(report.levels.length), `From coarse to fine, with ${report.levels.map(({ interior }) => count(interior)).join(', ')} interior vertices.`),
       line('Iterations', count(report.iterations), `Of ADMM; ${count(report.levels.at(-1)?.iterations ?? 0)} of them on the finest lattice.`),
       line('CG iterations', count(report.cgIterations), 'Conjugate gradients, within its z-steps.'),

@@ -77,7 +77,9 @@ export function settingsPanel(session) {
   const chosen = () => /** @type {Energy} */ (energy.value);
   energy.addEventListener('change', () => {
     energyHint.textContent = ENERGIES[chosen()];
-    session.set({ energy: chosen() });
+    // It has passes of its own.
+    reweighting.disabled = chosen() === 'huber';
+    session.set({ energy: chosen(), reweighting: reweighting.disabled ? 0 : Number(reweighting.value) });
   });
   energyHint.textContent = ENERGIES[chosen()];
   const reweighting = element('reweighting', HTMLSelectElement);

@@ -251,7 +251,7 @@ mod tests {
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
         let noise = Noise::of(&field.into()).unwrap().unwrap();
         assert!((noise.step.unwrap() / step - 1.0).abs() < 1e-9, "{noise:?}");
-        assert!(noise.sigma >= step / 12f64.sqrt());
+        assert!((noise.sigma / (step / 12f64.sqrt()) - 1.0).abs() < 1e-6);
         // Noise that is larger than the step is what counts.
         let rough = roof(0.05, &white(2));
         let heights = rough.heights().iter().map(|z| (z / step).round() * step);

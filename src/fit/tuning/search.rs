@@ -266,3 +266,66 @@ fn rough(options: &Options) -> Options {
     let iterations = options.max_iterations.min(ITERATIONS);
     options.gap(options.gap.max(GAP)).max_iterations(iterations)
 }
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+mod tests {
+    use super::*;
+    use crate::fit::solver::fit;
+    use crate::lattice::domain::tests::arbitrary_field;
+    use crate::{Heightfield, Lattice};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+        /// Outlines, holes and sizes of any kind, heights from far too small to far too large.
+        #[test]
+        fn any_input_gets_a_lambda_or_an_error(
+            outline in arbitrary_field(), seed in 0..1000u64, size in -20..20i32,
+        ) {
+            let mut random = oorandom::Rand64::new(seed.into());
+            let scale = 10f64.powi(size);
+            let heights = outline.heights().iter().map(|z| z * 0.0 + scale * random.rand_float());
+            let field = Heightfield::new(*outline.lattice(), heights.collect()).unwrap();
+            let given = field.heights().iter().filter(|z| !z.is_nan()).count();
+            let options = Options::default().lambda(Lambda::Auto).energy(Energy::Huber);
+            if let Ok(surface) = fit(&field, &options) {
+                let report = surface.report();
+                prop_assert!(report.lambda.is_finite() && report.lambda > 0.0, "{report:?}");
+                prop_assert!(report.lambda_choice.is_some());
+                let found = surface.heightfield().heights().iter().filter(|z| z.is_finite());
+                prop_assert!(found.count() >= given);
+            }
+        }
+    }
+
+    /// Candidates with λ too large for the noise have neither cheap flat parts nor passes.
+    #[test]
+    fn candidates_are_guarded() {
+        let first = Options::default().energy(Energy::Huber).lambda(1e4);
+        let at = |step| of(&first, &BENDINGS, (0, step));
+        assert_eq!((at(0).flatness, at(0).crease_passes), (Some(0.3), 2));
+        assert_eq!((at(-1).flatness, at(-1).crease_passes), (Some(0.3), 2));
+        assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == 0);
+        assert_eq!(at(2).flatness, Some(1.0));
+        let asked = first.flatness(0.1);
+        let given = of(&asked, &[BENDINGS[0].within(&asked)], (0, 2));
+        assert_eq!(given.flatness, Some(0.1));
+    }
+
+    /// A lattice without a hole, four times as wide as what the search needs.
+    #[test]
+    fn the_search_goes_on_to_the_best_bending_and_then_to_the_best_lambda() {
+        let lattice = Lattice::new(90, 90, 1.0).unwrap();
+        let mut random = oorandom::Rand64::new(4);
+        let field = Heightfield::from_fn(lattice, |x, _| x.max(60.0 - x)).unwrap();
+        let heights = field.heights().iter().map(|z| z + random.rand_float());
+        let field = Heightfield::new(lattice, heights.collect()).unwrap();
+        let surface = fit(&field, &Options::default().lambda(Lambda::Auto)).unwrap();
+        let choice = surface.report().lambda_choice.unwrap();
+        // The first, one to each side at least; there is but one bending.
+        assert!((3..=6).contains(&choice.solves), "{choice:?}");
+        assert!(choice.iterations > 0);
+        let ratio = surface.report().lambda * choice.sigma.unwrap() / (90.0 * 90.0);
+        assert!((0.1..100.0).contains(&ratio), "{ratio}");
+    }
+}

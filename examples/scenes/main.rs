@@ -3,10 +3,11 @@
 //!
 //! ```sh
 //! cargo run --release --example scenes > benches/scenes.md
-//! cargo run --release --example scenes -- 100 fan
+//! cargo run --release --example scenes -- 100 fan correlated
 //! ```
 //!
-//! The second form is for one size, or several (`80,140`), and scenes whose names begin so.
+//! The second form is for one size, or several (`100,150`), and for scenes and noises whose names begin
+//! so.
 
 mod distance;
 mod noise;
@@ -20,7 +21,7 @@ use distance::Distance;
 use noise::Noise;
 use shapes::Scene;
 
-const SIZES: [usize; 3] = [80, 140, 200];
+const SIZES: [usize; 2] = [80, 200];
 
 const NOISES: [Noise; 10] = [
     Noise::White(0.005),
@@ -69,10 +70,12 @@ fn main() -> Result<()> {
         list.split(',').filter_map(|n| n.parse().ok()).collect()
     });
     let name = args.next().unwrap_or_default();
+    let only = args.next().unwrap_or_default();
     let mut rows = Vec::new();
     for scene in shapes::all().iter().filter(|s| s.name.starts_with(&name)) {
         for &size in &sizes {
-            for noise in NOISES {
+            let chosen = |noise: &Noise| noise.to_string().starts_with(&only);
+            for noise in NOISES.into_iter().filter(chosen) {
                 rows.push(measure(scene, size, noise)?);
                 eprintln!("{} of {size}, {noise}", scene.name);
             }
@@ -152,7 +155,9 @@ fn write(rows: &[Row]) {
             let label = noise.to_string();
             let of = |row: &&&Row| row.size == size && row.noise.to_string() == label;
             let chosen: Vec<&Row> = bent.iter().filter(of).copied().collect();
-            println!("| {size} | {label} | {} |", summary(&chosen));
+            if !chosen.is_empty() {
+                println!("| {size} | {label} | {} |", summary(&chosen));
+            }
         }
     }
     println!("| all | all | {} |\n", summary(&bent));

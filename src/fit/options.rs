@@ -177,6 +177,13 @@ impl Bending {
         crease_radius: 0.1,
     };
 
+    /// Where it cannot be told what there is: not far from the best for any of them.
+    pub(crate) const ANY: Bending = Bending {
+        bend_radius: 0.2,
+        flatness: 0.5,
+        crease_radius: 0.1,
+    };
+
     /// With what the options give in place of its own.
     pub(crate) fn within(self, options: &Options) -> Self {
         Bending {

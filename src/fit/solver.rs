@@ -127,7 +127,11 @@ impl Solver {
             if found.reason == LambdaReason::Noise {
                 search = Search::new(&input, &asked, &first, known)?;
             }
-            (options, choice) = (first, Some(found));
+            options = match search {
+                None if found.reason == LambdaReason::Noise => tuning::without(&first),
+                _ => first,
+            };
+            choice = Some(found);
         }
         let options = tuning::guarded(&options, noise, scale);
         let components = Components::new(&domain)?;

@@ -14,9 +14,10 @@ const FEWEST: usize = 50;
 const MOST_MERGED: usize = 2;
 
 /// Noise that is independent from vertex to vertex has `σh` as before after merging. If it grows by
-/// more than the first factor it is correlated until then. What goes on growing by more than the
-/// second one is no noise but the surface's own shape, which grows by up to 16.
-const CORRELATED: [f64; 2] = [1.3, 3.0];
+/// more than the first factor it is correlated until then. What grows by more than the second one
+/// each time is no noise but the surface's own shape, which grows by up to 16; where that comes in
+/// later, noise ends where it grows least.
+const CORRELATED: [f64; 2] = [1.3, 5.0];
 
 /// Steps are looked for if at most this share of the heights are different ones, and counted as equal
 /// within this share of them.
@@ -60,8 +61,10 @@ impl Noise {
             noise.merged = width.log2().round() as usize;
             return Ok(Some(noise));
         }
+        let [least, most] = CORRELATED;
         let mut merged = merge(input)?;
         let mut last = noise;
+        let mut slowest = most;
         for count in 1..=MOST_MERGED + 1 {
             spacing *= 2.0;
             let Some(next) = ring_noise(&merged) else {
@@ -73,19 +76,19 @@ impl Noise {
                 product: trust * next * spacing,
                 step,
             };
-            let [least, most] = CORRELATED;
-            if next.product <= least * last.product {
-                noise = last;
-                break;
+            let growth = next.product / last.product;
+            if growth <= least || growth.is_nan() {
+                return Ok(Some(last));
             }
-            if count > MOST_MERGED {
-                if next.product <= most * last.product {
-                    noise = last;
-                }
-                break;
+            if growth < slowest && count <= MOST_MERGED {
+                (noise, slowest) = (next, growth);
             }
             last = next;
             merged = merge(&merged)?;
+        }
+        if noise.merged > 0 {
+            // Not all of it is seen there yet.
+            noise.product *= slowest.sqrt();
         }
         Ok(Some(noise))
     }

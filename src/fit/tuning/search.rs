@@ -95,6 +95,11 @@ pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Op
     at_loudness(options, Bending::SMOOTH, loudness)
 }
 
+/// The options that [`first`] gives, where there can be no search.
+pub(crate) fn without(first: &Options) -> Options {
+    at_loudness(first, Bending::ANY, 1.0)
+}
+
 /// The options with what is not given as in `bending`, but without what would make a surface of noise:
 /// with λ so many times too large for that, flat parts must cost more, up to what they do under the
 /// nuclear norm, and there are no passes at creases.

@@ -7,9 +7,9 @@ use super::input::Input;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
-use crate::lattice::coarsening::fine_vertex;
+use crate::lattice::coarsening::{coarse_lattice, fine_vertex};
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, ROW};
+use crate::lattice::hexagonal::{NEIGHBOURS, ROW};
 
 /// To the neighbours W, E, NW, NE, SW and SE.
 const DIRECTIONS: [[f64; 2]; 6] = [
@@ -37,12 +37,7 @@ const HALF: f64 = 2.0;
 /// mean of its constrained neighbours.
 pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     let fine = input.field.lattice();
-    let lattice = Lattice::new(
-        fine.rows().div_ceil(2),
-        fine.cols() / 2 + 1,
-        2.0 * fine.spacing(),
-    )?
-    .with_origin(fine.origin())?;
+    let lattice = coarse_lattice(fine)?;
     let heights = input.field.heights();
     let vertex = |(row, col): (isize, isize)| {
         let inside = fine.contains(row, col);
@@ -172,6 +167,7 @@ impl Input {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lattice::hexagonal::Lattice;
 
     #[test]
     fn coarsening_keeps_planes_and_holes() {

@@ -1,7 +1,8 @@
 //! The lattice of twice the spacing: the sublattice whose vertex `(r, c)` is fine vertex
 //! `(2r, 2c − (r odd))`. Every other fine vertex is the midpoint of a coarse edge.
 
-use super::hexagonal::{NEIGHBOURS, Towards};
+use super::hexagonal::{Lattice, NEIGHBOURS, Towards};
+use crate::error::Result;
 
 /// The fine vertex that a coarse vertex lies on.
 pub(crate) fn fine_vertex(row: usize, col: usize) -> (isize, isize) {
@@ -26,4 +27,14 @@ pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
         (Some((a, b)), _, _) | (_, Some((a, b)), _) | (_, _, Some((a, b))) => [a, b],
         _ => [(-1, -1); 2],
     }
+}
+
+/// The lattice of twice the spacing.
+pub(crate) fn coarse_lattice(fine: &Lattice) -> Result<Lattice> {
+    Lattice::new(
+        fine.rows().div_ceil(2),
+        fine.cols() / 2 + 1,
+        2.0 * fine.spacing(),
+    )?
+    .with_origin(fine.origin())
 }

@@ -6,18 +6,14 @@ use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
+use crate::lattice::coarsening::coarse_lattice;
 use crate::lattice::hexagonal::Lattice;
 
 /// The input on the lattice of twice the spacing: each vertex is the mean of four that form a rhombus,
 /// where all are there. A constraint is data like any other.
 pub(crate) fn merge(input: &Input) -> Result<Input> {
     let fine = input.field.lattice();
-    let lattice = Lattice::new(
-        fine.rows().div_ceil(2),
-        fine.cols() / 2 + 1,
-        2.0 * fine.spacing(),
-    )?
-    .with_origin(fine.origin())?;
+    let lattice = coarse_lattice(fine)?;
     let mut heights = try_filled("merged heights", lattice.len(), f64::NAN)?;
     let mut confidence = try_filled("merged confidence", lattice.len(), 1.0)?;
     let mut torn = try_filled("merged occlusions", lattice.len(), 0u8)?;

@@ -215,6 +215,7 @@ pub struct Report {
     /// Reweighted passes that were made after the first solve.
     pub reweighting: usize,
     /// For [`Energy::Huber`]: what bends cost, and where creases are.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub huber: Option<HuberReport>,
     /// Energy of the returned surface; always finite.
     pub objective: f64,
@@ -231,6 +232,7 @@ pub struct Report {
     /// λ as a number.
     pub lambda: f64,
     /// How that came about, for [`Lambda::Auto`](crate::Lambda::Auto).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub lambda_choice: Option<LambdaChoice>,
     /// Last ADMM penalty ρ.
     pub rho: f64,

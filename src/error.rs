@@ -108,6 +108,21 @@ pub enum Error {
         requirement: &'static str,
     },
 
+    /// Traced edges that cannot be those of a page.
+    #[error("these edges are no page's: {reason}")]
+    Edges {
+        /// What is wrong with them, and what to do.
+        reason: String,
+    },
+
+    /// The focal length of a photo is not known and cannot be found.
+    #[error(
+        "the camera's focal length cannot be found from these edges, for they show too little \
+         perspective; give it in pixels, as Exif's focal length in 35 mm film, or as a field of \
+         view, or give the page's format"
+    )]
+    FocalLength,
+
     /// The energy of the input is not a finite number.
     #[error(
         "the energy overflows: the heights are too large for a lattice spacing of {spacing:e}; \
@@ -182,12 +197,21 @@ impl Error {
             Error::Underdetermined { .. } => "UNDERDETERMINED",
             Error::Mismatch { .. } => "MISMATCH",
             Error::Option { .. } => "OPTION",
+            Error::Edges { .. } => "EDGES",
+            Error::FocalLength => "FOCAL_LENGTH",
             Error::Overflow { .. } => "OVERFLOW",
             Error::Underflow { .. } => "UNDERFLOW",
             Error::TooLarge { .. } => "TOO_LARGE",
             Error::OutOfMemory { .. } => "OUT_OF_MEMORY",
             Error::Format { .. } => "FORMAT",
             Error::Unsupported { .. } => "UNSUPPORTED",
+        }
+    }
+
+    /// Edges that are no page's.
+    pub(crate) fn edges(reason: &str) -> Self {
+        Error::Edges {
+            reason: reason.to_string(),
         }
     }
 

@@ -94,7 +94,7 @@ pub use fit::report::{
 };
 pub use fit::solver::{Solver, Status, fit, fit_with};
 pub use fit::surface::Surface;
-pub use flat::{dewarp, drawing, pattern, unroll};
+pub use flat::{dewarp, drawing, page, pattern, unroll};
 pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;

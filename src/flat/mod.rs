@@ -2,5 +2,6 @@
 
 pub mod dewarp;
 pub mod drawing;
+pub mod page;
 pub mod pattern;
 pub mod unroll;

@@ -91,6 +91,23 @@ impl WarpMap {
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
+    /// A map whose places are known, row by row.
+    pub(crate) fn of_places(
+        [width, height]: [usize; 2],
+        resolution: f64,
+        corner: [f64; 2],
+        places: Vec<[f32; 2]>,
+    ) -> Self {
+        debug_assert_eq!(places.len(), width * height);
+        WarpMap {
+            width,
+            height,
+            resolution,
+            corner,
+            places,
+        }
+    }
+
     /// Number of columns of the flat image.
     pub fn width(&self) -> usize {
         self.width

@@ -1,0 +1,388 @@
+//! From traces to a page.
+
+use super::cylinder::Cylinder;
+use super::estimate::{Estimate, estimate};
+use super::report::{Findings, PageReport};
+use super::solve::{Prior, Residuals, Traces};
+use super::trace::{Line, lines};
+use super::{Edges, FocalLength, Format, PageOptions, start};
+use crate::error::{Error, Result, positive};
+
+/// A page that is curled one way, or the two pages of a spread, in space.
+#[derive(Debug, Clone)]
+pub struct CurledPage {
+    pub(super) cylinder: Cylinder,
+    pub(super) photo: [usize; 2],
+    /// Whether the curve runs down the page.
+    pub(super) sideways: bool,
+    /// Length of the cylinder's unit, in millimetres where these are known.
+    pub(super) unit: f64,
+    pub(super) millimetres: bool,
+    report: PageReport,
+}
+
+/// Degrees of the curve's direction that are tried, each from the one before.
+const DEGREES: [usize; 11] = [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14];
+
+/// A diagonal of film, in millimetres.
+const FILM: f64 = 43.266_615;
+
+/// Focal lengths that are looked for, over the photo's longer side.
+const RANGE: [f64; 2] = [0.2, 15.0];
+
+impl CurledPage {
+    /// The page whose edges are traced in a photo of so many pixels (width and height); with two
+    /// pairs of edges, the two pages of a spread, which share the gutter: the left one's edges end
+    /// where the right one's begin.
+    ///
+    /// Costs `O(traced points)`, some tens of milliseconds.
+    ///
+    /// # Errors
+    /// [`Error::Edges`] for edges that cannot be those of a page: with fewer than two points, with
+    /// corners that make no convex quadrilateral, crossing, exchanged or outside of the photo, or of
+    /// other proportions than the format's. [`Error::FocalLength`] if the focal length is not given
+    /// and cannot be found. [`Error::NotFinite`] for a coordinate that is no number (its row is the
+    /// point), [`Error::Option`] for a number out of its range, [`Error::Empty`] for a photo
+    /// without pixels, [`Error::TooLarge`] for an edge of more than 100,000 points.
+    pub fn new(edges: &[Edges], photo: [usize; 2], options: &PageOptions) -> Result<Self> {
+        if photo.contains(&0) {
+            return Err(Error::Empty { what: "photo" });
+        }
+        let [width, height] = photo.map(|n| n as f64);
+        let (longer, diagonal) = (width.max(height), width.hypot(height));
+        let centre = options.centre.unwrap_or([(width - 1.0) / 2.0, (height - 1.0) / 2.0]);
+        if !centre.iter().all(|v| v.abs() <= 10.0 * diagonal) {
+            let requirement = "must be two numbers, in pixels, not far outside of the photo";
+            return Err(Error::option("centre", format!("{centre:?}"), requirement));
+        }
+        let accuracy = match options.accuracy {
+            Some(accuracy) => positive("accuracy", accuracy)?,
+            None => (diagonal / 2500.0).max(0.3),
+        };
+        let focal = focal_length(options.focal_length, longer, diagonal)?;
+        let sides = sides(options.format)?;
+        let pages = lines(edges, photo)?;
+        let sideways = matches!(edges[0], Edges::LeftRight { .. });
+        let traces = Traces::new(&pages);
+        let mut prior = Prior {
+            focal: focal.map(|[value, deviation]| [value.ln(), deviation]),
+            ratio: None,
+            accuracy,
+        };
+        let candidates = match focal {
+            Some([value, _]) => vec![value],
+            None => {
+                let found = start::focal(&pages, centre);
+                let usual = [0.5, 0.75, 1.1, 2.0, 5.0].map(|share| share * longer);
+                found.into_iter().filter(|f| within(*f, longer)).chain(usual).collect()
+            }
+        };
+        let search = Search {
+            pages: &pages,
+            traces: &traces,
+            centre,
+        };
+        let free = search.best(&candidates, &prior);
+        let ratio = free.as_ref().map(|(cylinder, _)| cylinder.length);
+        let (mut found, mut format) = (free, None);
+        if let Some(sides) = sides {
+            // Height over width as the page is read, and along the cylinder.
+            let read = |ratio: f64| if sideways { 1.0 / ratio } else { ratio };
+            let own = read(sides.ratio(read(ratio.unwrap_or_else(|| apparent(&pages)))));
+            prior.ratio = Some([own.ln(), FORMAT]);
+            let bound = search.best(&candidates, &prior);
+            if let (Some((free, residuals)), Some(_), Some(_)) = (&found, &bound, focal) {
+                let off = (free.length / own).ln().abs();
+                let own = Prior { ratio: None, ..prior };
+                let spread = estimate(free, &traces, residuals, &own, 0.0);
+                let slack = spread.map_or(0.1, |estimate| 4.0 * estimate.bound);
+                if off > (0.04 + slack).min(0.25) {
+                    return Err(Error::Edges {
+                        reason: format!(
+                            "the page that they show is {:.3} times as high as wide, not {:.3} as \
+                             its format is; check the format, whether it lies across, and the \
+                             focal length",
+                            read(free.length),
+                            read(prior.ratio.map_or(1.0, |[ratio, _]| ratio.exp())),
+                        ),
+                    });
+                }
+            }
+            format = Some(sides);
+            found = bound;
+        }
+        let Some((cylinder, residuals)) = found else {
+            return Err(unsolved());
+        };
+        let unsure = options.centre.map_or(0.004 * diagonal, |_| 0.0);
+        let estimate = estimate(&cylinder, &traces, &residuals, &prior, unsure);
+        let known = focal.is_some();
+        let estimate = match estimate {
+            Some(found) if known || (found.expected < 0.0075 || found.expected < 2.0 * found.focused) => found,
+            _ if !known => return Err(Error::FocalLength),
+            Some(found) => found,
+            None => return Err(unsolved()),
+        };
+        if !known && !within(cylinder.focal, longer) && estimate.expected > 0.003 {
+            return Err(Error::FocalLength);
+        }
+        let report = report(&cylinder, &pages, &traces, &residuals, estimate, accuracy);
+        let ratio = ratio.unwrap_or(cylinder.length);
+        let mut page = CurledPage {
+            cylinder,
+            photo,
+            sideways,
+            unit: 1.0,
+            millimetres: false,
+            report: PageReport {
+                ratio: if sideways { 1.0 / ratio } else { ratio },
+                ..report
+            },
+        };
+        page.measure(format.and_then(|sides| sides.millimetres), options)?;
+        Ok(page)
+    }
+
+    /// How it was found, and how far it is to be trusted.
+    pub fn report(&self) -> &PageReport {
+        &self.report
+    }
+
+    fn measure(&mut self, sides: Option<[f64; 2]>, options: &PageOptions) -> Result<()> {
+        let [width, height] = self.size();
+        let pages = self.cylinder.pages.len() as f64;
+        // A spread's pages lie along the curve.
+        let [across, down] = if self.sideways { [1.0, pages] } else { [pages, 1.0] };
+        if let Some([w, h]) = sides {
+            let mut sides = [w, h];
+            // Upright or across.
+            if (options.format == Format::A4 || options.format == Format::Letter)
+                && (height / down > width / across) != (h > w)
+            {
+                sides = [h, w];
+            }
+            let [w, h] = sides;
+            self.unit = (w * across / width * h * down / height).sqrt();
+            self.millimetres = true;
+        } else if let Some(ruler) = options.ruler {
+            let length = positive("ruler.length", ruler.length)?;
+            let ends = [ruler.from, ruler.to].map(|end| self.flat_place(end));
+            let [Some(from), Some(to)] = ends else {
+                let ends = format!("from {:?} to {:?}", ruler.from, ruler.to);
+                return Err(Error::option("ruler", ends, "must begin and end on the page"));
+            };
+            let found = (from[0] - to[0]).hypot(from[1] - to[1]);
+            if !(found > 0.01 * width.min(height)) {
+                let requirement = "must be at least a hundredth of the page's side long";
+                return Err(Error::option("ruler", found, requirement));
+            }
+            self.unit = length / found;
+            self.millimetres = true;
+        } else {
+            self.unit = across / width;
+        }
+        Ok(())
+    }
+}
+
+fn unsolved() -> Error {
+    Error::edges(
+        "no page was found whose edges these could be; check that the corners are at their ends, \
+         and the focal length",
+    )
+}
+
+/// Relative standard deviation of a format's proportions.
+const FORMAT: f64 = 0.002;
+
+fn within(focal: f64, longer: f64) -> bool {
+    (RANGE[0] * longer..=RANGE[1] * longer).contains(&focal)
+}
+
+/// In pixels, and its relative standard deviation.
+fn focal_length(given: FocalLength, longer: f64, diagonal: f64) -> Result<Option<[f64; 2]>> {
+    let (value, found, deviation) = match given {
+        FocalLength::Unknown => return Ok(None),
+        FocalLength::Pixels(pixels) => (pixels, positive("focal_length", pixels)?, 0.003),
+        FocalLength::FieldOfView(degrees) => {
+            if !(degrees > 0.0 && degrees < 180.0) {
+                let requirement = "must be above 0 and below 180 degrees";
+                return Err(Error::option("field_of_view", degrees, requirement));
+            }
+            (degrees, 0.5 * longer / (degrees.to_radians() / 2.0).tan(), 0.01)
+        }
+        FocalLength::Film35(length) => {
+            (length, positive("film35", length)? * diagonal / FILM, 0.02)
+        }
+    };
+    if !(0.05 * longer..=100.0 * longer).contains(&found) {
+        let requirement = "must be between 1/20 of the photo's longer side and 100 times that";
+        return Err(Error::option("focal_length", value, requirement));
+    }
+    Ok(Some([found, deviation]))
+}
+
+/// A format.
+#[derive(Debug, Clone, Copy)]
+struct Sides {
+    /// Height over width.
+    ratio: f64,
+    /// Whether it may lie across.
+    either: bool,
+    millimetres: Option<[f64; 2]>,
+}
+
+impl Sides {
+    /// Height over width, the way that is nearer to what is seen.
+    fn ratio(&self, seen: f64) -> f64 {
+        if self.either && (seen > 1.0) != (self.ratio > 1.0) {
+            1.0 / self.ratio
+        } else {
+            self.ratio
+        }
+    }
+}
+
+fn sides(format: Format) -> Result<Option<Sides>> {
+    let (sides, either) = match format {
+        Format::Unknown => return Ok(None),
+        Format::A4 => ([210.0, 297.0], true),
+        Format::Letter => ([215.9, 279.4], true),
+        Format::Millimetres(sides) => (sides, false),
+        Format::Ratio(ratio) => ([1.0, ratio], false),
+    };
+    for side in sides {
+        positive("format", side)?;
+    }
+    let ratio = sides[1] / sides[0];
+    if !(0.02..=50.0).contains(&ratio) {
+        let requirement = "must not be more than 50 times as long as wide";
+        return Err(Error::option("format", format!("{sides:?}"), requirement));
+    }
+    Ok(Some(Sides {
+        ratio,
+        either,
+        millimetres: (!matches!(format, Format::Ratio(_))).then_some(sides),
+    }))
+}
+
+/// Length over width of the first page as it is seen.
+fn apparent(pages: &[[Line; 2]]) -> f64 {
+    let [first, second] = &pages[0];
+    let ruling = |end: usize| {
+        let [p, q] = [first.ends()[end], second.ends()[end]];
+        (p[0] - q[0]).hypot(p[1] - q[1])
+    };
+    (ruling(0) + ruling(1)) / (first.chord() + second.chord())
+}
+
+struct Search<'a> {
+    pages: &'a [[Line; 2]],
+    traces: &'a Traces,
+    centre: [f64; 2],
+}
+
+impl Search<'_> {
+    /// The best cylinder of any degree that the traces support, from the best of several focal
+    /// lengths.
+    fn best(&self, focal: &[f64], prior: &Prior) -> Option<(Cylinder, Residuals)> {
+        let count = self.traces.count();
+        let starts: Vec<Cylinder> = (focal.iter())
+            .filter_map(|f| start::cylinder(self.pages, self.centre, *f))
+            .collect();
+        let parameters = |degree: usize| {
+            (starts.first()).map_or(0, |c| c.clone().with_degree(degree).parameters()) as f64
+        };
+        let known = f64::from(prior.focal.is_some()) + f64::from(prior.ratio.is_some());
+        // Akaike's criterion, corrected for few points.
+        let criterion = |residuals: &Residuals, degree: usize| {
+            let p = parameters(degree) - known;
+            let squares = residuals.cost * prior.accuracy.powi(2) + count * 0.05f64.powi(2);
+            let spare = (count - p - 1.0).max(0.2);
+            count * (squares / count).ln() + 2.0 * p * (1.0 + (p + 1.0) / spare)
+        };
+        let supported = |degree: usize| count + known - parameters(degree) >= 2.0;
+        let lowest = |one: Option<(Cylinder, Residuals)>, other: Option<(Cylinder, Residuals)>| {
+            match (one, other) {
+                (Some(one), Some(other)) if one.1.cost <= other.1.cost => Some(one),
+                (one, None) => one,
+                (_, other) => other,
+            }
+        };
+        let mut best: Option<(Cylinder, Residuals, f64)> = None;
+        let mut before: Option<(Cylinder, Residuals)> = None;
+        let mut worse = 0;
+        for degree in DEGREES {
+            if degree > 0 && !supported(degree) {
+                break;
+            }
+            let mut found = before.clone().and_then(|(cylinder, _)| {
+                self.traces.solve(cylinder.with_degree(degree), prior)
+            });
+            // The closed form, with its curve and without.
+            if degree == 0 || degree == 4 {
+                for start in &starts {
+                    let start = start.clone().with_degree(degree);
+                    found = lowest(found, self.traces.solve(start, prior));
+                }
+            }
+            let Some((cylinder, residuals)) = found else { continue };
+            let value = criterion(&residuals, degree);
+            before = Some((cylinder.clone(), residuals.clone()));
+            if best.as_ref().is_none_or(|(_, _, least)| value < *least) {
+                best = Some((cylinder, residuals, value));
+                worse = 0;
+            } else {
+                worse += 1;
+                if worse > 3 && degree > 4 {
+                    break;
+                }
+            }
+        }
+        best.map(|(cylinder, residuals, _)| (cylinder, residuals))
+    }
+}
+
+fn report(
+    cylinder: &Cylinder,
+    pages: &[[Line; 2]],
+    traces: &Traces,
+    residuals: &Residuals,
+    estimate: Estimate,
+    accuracy: f64,
+) -> PageReport {
+    let misfit = traces.misfit(residuals);
+    // Of the edge that fits worst.
+    let [residual, smooth] = [0, 1].map(|k| {
+        misfit.iter().map(|edge| edge[k]).fold(0.0, f64::max).sqrt()
+    });
+    let lines = || pages.iter().flatten();
+    let seen = lines().map(Line::chord).sum::<f64>() / misfit.len() as f64;
+    let mut bow = [0, 1].map(|edge| {
+        (pages.iter()).map(|pair| pair[edge].bow()).fold(0.0, f64::max)
+    });
+    bow.sort_by(|p, q| q.total_cmp(p));
+    let fewest = lines().map(|line| line.independent).fold(f64::INFINITY, f64::min);
+    let findings = Findings {
+        estimate,
+        residual,
+        smooth,
+        accuracy,
+        seen,
+        bow,
+        fewest,
+        hidden: cylinder.hides_itself(),
+    };
+    PageReport {
+        verdict: findings.verdict(),
+        error: 100.0 * estimate.expected,
+        error_bound: 100.0 * estimate.bound,
+        focal_length: cylinder.focal,
+        focal_deviation: 100.0 * estimate.focal,
+        tilt: cylinder.axes.column(1).z.abs().min(1.0).acos().to_degrees(),
+        bend: cylinder.bend().to_degrees(),
+        residual,
+        disagreement: 100.0 * smooth / seen,
+        ratio: cylinder.length,
+    }
+}

@@ -1,0 +1,106 @@
+//! What is told about a page besides its shape.
+
+use super::estimate::Estimate;
+
+/// Whether a flat page is to be trusted, in a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub enum PageVerdict {
+    /// The page was flat: its edges are straight, and only the perspective is taken out.
+    Flat,
+    /// The page was curled one way and is flat now, with lengths as on the page.
+    Unrolled,
+    /// It may be: too few points were traced, or one of the edges looks straight however the page
+    /// is bent, so that nothing checks the other one.
+    Unchecked,
+    /// The page is likely to be wrong by more than 1 % of its width, or hides a part of itself.
+    Doubtful,
+    /// The edges are not those of a page that is curled one way only: it is folded, crumpled, bent
+    /// both ways, or an edge is traced wrongly. Depth is needed, or better traces.
+    NotThisKind,
+}
+
+/// How a page was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct PageReport {
+    /// The verdict, in a word.
+    pub verdict: PageVerdict,
+    /// Expected displacement of what is on the flat page, as a root mean square after the best
+    /// similarity, in % of a page's width.
+    pub error: f64,
+    /// The same, but not exceeded in 95 of 100 cases, if the page is curled one way.
+    pub error_bound: f64,
+    /// Focal length, in pixels of the photo.
+    pub focal_length: f64,
+    /// Its standard deviation, in %.
+    pub focal_deviation: f64,
+    /// Angle between the camera's axis and the normal of the page's chord, in degrees.
+    pub tilt: f64,
+    /// By how much the page's direction changes from one end of its curve to the other at most, in
+    /// degrees.
+    pub bend: f64,
+    /// Root mean square of the distances between the traced points and the edges found, in pixels.
+    pub residual: f64,
+    /// The part of it that goes on from point to point, which is no scatter of a hand: by how much
+    /// the two edges disagree, in % of a page's width as it is seen.
+    pub disagreement: f64,
+    /// Height over width of a page as it is seen, without use of a format that was given.
+    pub ratio: f64,
+}
+
+/// What a verdict is made of.
+pub(super) struct Findings {
+    pub estimate: Estimate,
+    /// Root mean square of the residuals, in pixels.
+    pub residual: f64,
+    /// That of their smooth part.
+    pub smooth: f64,
+    /// Standard deviation that was assumed.
+    pub accuracy: f64,
+    /// Length of a page's edge as it is seen, in pixels.
+    pub seen: f64,
+    /// How far from straight the two edges are seen, in pixels, the straighter one last.
+    pub bow: [f64; 2],
+    /// Independent points of the edge with fewest, corners included.
+    pub fewest: f64,
+    /// Whether a part of the page lies behind another.
+    pub hidden: bool,
+}
+
+impl Findings {
+    pub fn verdict(&self) -> PageVerdict {
+        /// Shares of the width as it is seen.
+        const SMOOTH: f64 = 0.003;
+        const ROUGH: f64 = 0.006;
+        /// Share of the page's width.
+        const DOUBTFUL: f64 = 0.01;
+        let least = 2.0 * self.accuracy;
+        if self.smooth > least.max(SMOOTH * self.seen) || self.residual > (2.0 * least).max(ROUGH * self.seen)
+        {
+            return PageVerdict::NotThisKind;
+        }
+        if self.estimate.expected > DOUBTFUL || self.hidden {
+            return PageVerdict::Doubtful;
+        }
+        let straight = 3.0 * self.accuracy;
+        if self.fewest < 4.0 || (self.bow[0] > 4.0 * straight && self.bow[1] < straight) {
+            return PageVerdict::Unchecked;
+        }
+        if self.bow[0] < straight {
+            PageVerdict::Flat
+        } else {
+            PageVerdict::Unrolled
+        }
+    }
+}

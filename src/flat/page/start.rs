@@ -1,0 +1,159 @@
+//! The cylinder in closed form, from the corners and one edge after the other.
+
+use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
+
+use super::cylinder::{Cylinder, Strip, legendre};
+use super::trace::Line;
+
+/// Degree of the curve that the search begins with.
+const DEGREE: usize = 5;
+
+/// The focal length for which the rulings are perpendicular to the chord: both directions meet the
+/// image in a vanishing point, `x₁x₂ + y₁y₂ + f² w₁w₂ = 0`.
+pub(super) fn focal(pages: &[[Line; 2]], centre: [f64; 2]) -> Option<f64> {
+    let [a, b, c, d] = corners(pages).map(|p| ray(p, centre, 1.0));
+    let r = a.cross(&d).cross(&b.cross(&c));
+    let q = a.cross(&b).cross(&d.cross(&c));
+    let squared = -(r.x * q.x + r.y * q.y) / (r.z * q.z);
+    (squared.is_finite() && squared > 0.0).then(|| squared.sqrt())
+}
+
+/// The outer corners, clockwise from the first edge's start.
+pub(super) fn corners(pages: &[[Line; 2]]) -> [[f64; 2]; 4] {
+    let last = &pages[pages.len() - 1];
+    [
+        pages[0][0].ends()[0],
+        last[0].ends()[1],
+        last[1].ends()[1],
+        pages[0][1].ends()[0],
+    ]
+}
+
+fn ray(p: [f64; 2], centre: [f64; 2], focal: f64) -> Vector3<f64> {
+    Vector3::new((p[0] - centre[0]) / focal, (p[1] - centre[1]) / focal, 1.0)
+}
+
+/// The cylinder for a focal length. None where the corners are no rectangle's.
+pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Option<Cylinder> {
+    let ray = |p: &[f64; 2]| ray(*p, centre, focal);
+    // Rulings are parallel: all planes through the camera and one of them contain their direction.
+    let mut planes = Matrix3::zeros();
+    for [first, second] in pages {
+        for end in 0..2 {
+            let plane = ray(&first.ends()[end]).cross(&ray(&second.ends()[end])).normalize();
+            planes += plane * plane.transpose();
+        }
+    }
+    let eigen = SymmetricEigen::new(planes);
+    let least = eigen.eigenvalues.imin();
+    let mut ruling: Vector3<f64> = eigen.eigenvectors.column(least).into();
+    let [origin, foot] = [0, 1].map(|e| ray(&pages[0][e].ends()[0]));
+    let across = foot.cross(&ruling);
+    let mut length = -foot.cross(&origin).dot(&across) / across.norm_squared();
+    if length < 0.0 {
+        (ruling, length) = (-ruling, -length);
+    }
+    let end = origin + ruling * length;
+    // Points of each page in the plane through the origin and normal to the rulings.
+    let mut points: Vec<Vec<(Vector3<f64>, f64)>> = Vec::new();
+    for pair in pages {
+        let mut own = Vec::new();
+        for (line, corner) in pair.iter().zip([origin, end]) {
+            let reach = ruling.dot(&corner);
+            for p in &line.points {
+                let sight = ray(p);
+                let scale = reach / ruling.dot(&sight);
+                if scale.is_finite() && scale > 0.0 && scale < 100.0 {
+                    let point = sight * scale;
+                    let level = point - ruling * ruling.dot(&(point - origin));
+                    own.push((level, reach * reach + 1e-9));
+                }
+            }
+        }
+        if own.len() < 2 {
+            return None;
+        }
+        points.push(own);
+    }
+    // The chord, from corners alone.
+    let last = &pages[pages.len() - 1];
+    let mut far = Vector3::zeros();
+    let mut weights = 0.0;
+    for (line, corner) in last.iter().zip([origin, end]) {
+        let sight = ray(&line.ends()[1]);
+        let (reach, slope) = (ruling.dot(&corner), ruling.dot(&sight));
+        let point = sight * (reach / slope);
+        if point.iter().all(|v| v.is_finite()) && point.z > 0.0 {
+            far += (point - ruling * ruling.dot(&(point - origin))) * (reach * reach);
+            weights += reach * reach;
+        }
+    }
+    let along = (far / weights - origin).normalize();
+    let normal = ruling.cross(&along);
+    let mut pages = Vec::new();
+    for own in points {
+        let flat: Vec<_> = (own.iter())
+            .map(|(p, weight)| ((p - origin).dot(&along), (p - origin).dot(&normal), *weight))
+            .collect();
+        pages.push(strip(&flat)?);
+    }
+    let mut found = Cylinder {
+        focal,
+        centre,
+        axes: Matrix3::from_columns(&[along, normal, ruling]),
+        origin,
+        length,
+        pages,
+    };
+    // The first page's mean direction goes into the axes, its width is the unit.
+    let (mean, unit) = (found.pages[0].turns[0], found.pages[0].width);
+    let (sin, cos) = mean.sin_cos();
+    let turned = [along * cos + normal * sin, normal * cos - along * sin];
+    found.axes = Matrix3::from_columns(&[turned[0], turned[1], ruling]);
+    for page in &mut found.pages {
+        page.turns[0] -= mean;
+        page.width /= unit;
+    }
+    found.origin /= unit;
+    found.length /= unit;
+    let numbers = found.pages.iter().flat_map(|page| page.turns.iter().chain([&page.width]));
+    let finite = numbers.chain(&found.origin).chain(&found.axes).all(|v| v.is_finite());
+    (finite && found.length > 1e-3 && found.length < 1e3).then_some(found)
+}
+
+/// One page's curve, a polynomial over its chord, as its width and direction.
+fn strip(points: &[(f64, f64, f64)]) -> Option<Strip> {
+    let low = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let high = points.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+    let span = high - low;
+    if !(span.is_finite() && span > 0.0) {
+        return None;
+    }
+    let degree = DEGREE.min(points.len() / 3).max(1);
+    let mut normal = DMatrix::<f64>::identity(degree + 1, degree + 1) * 1e-9;
+    let mut right = DVector::<f64>::zeros(degree + 1);
+    for (u, v, weight) in points {
+        let row = DVector::from_vec(legendre(degree, (u - low) / span));
+        normal += &row * row.transpose() * *weight;
+        right += row * (*v * *weight);
+    }
+    let fitted = normal.cholesky()?.solve(&right);
+    let height = |at: f64| -> f64 { legendre(degree, at).iter().zip(&fitted).map(|(p, c)| p * c).sum() };
+    const STEPS: usize = 200;
+    let mut pieces = Vec::with_capacity(STEPS);
+    let mut width = 0.0;
+    for i in 0..STEPS {
+        let [from, to] = [i, i + 1].map(|i| i as f64 / STEPS as f64);
+        let rise = height(to) - height(from);
+        let run = span / STEPS as f64;
+        pieces.push((width + 0.5 * run.hypot(rise), run.hypot(rise), rise.atan2(run)));
+        width += run.hypot(rise);
+    }
+    let mut turns = vec![0.0; degree + 1];
+    for (middle, length, angle) in pieces {
+        for (k, (turn, p)) in turns.iter_mut().zip(legendre(degree, middle / width)).enumerate() {
+            *turn += (2 * k + 1) as f64 * angle * p * length / width;
+        }
+    }
+    Some(Strip { width, turns })
+}

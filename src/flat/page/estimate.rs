@@ -16,8 +16,6 @@ pub(super) struct Estimate {
     pub bound: f64,
     /// Relative standard deviation of the focal length.
     pub focal: f64,
-    /// What is expected if the focal length is right.
-    pub focused: f64,
 }
 
 /// Places on each page, from its start and from the first edge.
@@ -42,11 +40,13 @@ pub(super) fn estimate(
     let known = matrix.rows(rows, matrix.nrows() - rows);
     let count = traces.count();
     let free = (count - cylinder.parameters() as f64).max(0.0) + BELIEF;
-    let squared = (traces.squares(residuals) + BELIEF * prior.accuracy.powi(2)) / free;
+    let assumed = prior.accuracy.powi(2);
+    // Not less than was assumed, for a curve follows errors that are smooth.
+    let squared = ((traces.squares(residuals) + BELIEF * assumed) / free).max(assumed);
     // Errors that go on from one point to the next are fewer, so they are larger.
-    let share = prior.accuracy.powi(2) / (squared * traces.correlation(residuals));
+    let share = assumed / (squared * traces.correlation(residuals));
     let normal = data.tr_mul(&data) * share + known.tr_mul(&known);
-    let covariance = normal.clone().cholesky()?.inverse();
+    let covariance = normal.cholesky()?.inverse();
 
     let places = displacement(cylinder)?;
     let parameters = cylinder.parameters();
@@ -67,25 +67,55 @@ pub(super) fn estimate(
     let pages = cylinder.pages.len() as f64;
     let width = cylinder.pages.iter().map(|page| page.width).sum::<f64>() / pages;
     let shift = &centred * centred.transpose() * centre.powi(2);
-    let spread = &field * &covariance * field.transpose() + &shift;
+    let spread = &field * &covariance * field.transpose() + shift;
     let mean = spread.trace() / points;
     let deviation = (2.0 * spread.norm_squared()).sqrt() / points;
     let unsure = 1.0 + 2.0 * (2.0 / free).sqrt();
     let expected = mean.sqrt() / width;
     let bound = ((mean + 2.0 * deviation) * unsure).sqrt() / width;
 
-    // The same with the focal length held.
-    let held = normal.remove_row(0).remove_column(0).cholesky()?.inverse();
-    let rest = field.remove_column(0);
-    let focused = (&rest * held * rest.transpose() + shift).trace() / points;
-    let all = [expected, bound, covariance[(0, 0)].sqrt(), focused.sqrt() / width];
-    let [expected, bound, focal, focused] = all;
+    let all = [expected, bound, covariance[(0, 0)].sqrt()];
+    let [expected, bound, focal] = all;
     all.iter().all(|v| v.is_finite()).then_some(Estimate {
         expected,
         bound,
         focal,
-        focused,
     })
+}
+
+/// Root mean square of the displacements between the flat pages of two cylinders for the same photo,
+/// likewise.
+pub(super) fn between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
+    const STEP: f64 = 1e-5;
+    let (curve, found) = (one.curve(), other.curve());
+    let mut way = Vec::new();
+    let mut starts = [0.0; 2];
+    let mut last = 0;
+    for (page, share, down) in grid(one.pages.len()) {
+        if page != last {
+            starts[0] += one.pages[last].width;
+            starts[1] += other.pages[last].width;
+            last = page;
+        }
+        let pixel = one.seen(curve.at(page, share), down * one.length)?;
+        let mut at = nalgebra::Vector2::new(share, down);
+        for _ in 0..20 {
+            let off = |dx: f64, dy: f64| {
+                let seen = other.seen(found.at(page, at.x + dx), (at.y + dy) * other.length)?;
+                Some(nalgebra::Vector2::new(seen[0] - pixel[0], seen[1] - pixel[1]))
+            };
+            let here = off(0.0, 0.0)?;
+            let columns = [(off(STEP, 0.0)? - here) / STEP, (off(0.0, STEP)? - here) / STEP];
+            at -= Matrix2::from_columns(&columns).try_inverse()? * here;
+        }
+        way.push(starts[1] + at.x * other.pages[page].width - starts[0] - share * one.pages[page].width);
+        way.push(at.y * other.length - down * one.length);
+    }
+    let mut field = DMatrix::from_vec(way.len(), 1, way);
+    without(&mut field, 0, &similarities(one));
+    let width = one.pages.iter().map(|page| page.width).sum::<f64>() / one.pages.len() as f64;
+    let mean = (2.0 * field.norm_squared() / field.len() as f64).sqrt() / width;
+    mean.is_finite().then_some(mean)
 }
 
 /// Where on the page each of the places is: the page, its share of it, and down the ruling.

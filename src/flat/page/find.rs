@@ -1,7 +1,7 @@
 //! From traces to a page.
 
 use super::cylinder::Cylinder;
-use super::estimate::{Estimate, estimate};
+use super::estimate::{Estimate, between, estimate};
 use super::report::{Findings, PageReport};
 use super::solve::{Prior, Residuals, Traces};
 use super::trace::{Line, lines};
@@ -27,7 +27,10 @@ const DEGREES: [usize; 11] = [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14];
 /// A diagonal of film, in millimetres.
 const FILM: f64 = 43.266_615;
 
-/// Focal lengths that are looked for, over the photo's longer side.
+/// Focal lengths that cameras have, over the photo's longer side.
+const USUAL: [f64; 2] = [0.35, 4.0];
+
+/// Those that are looked for.
 const RANGE: [f64; 2] = [0.2, 15.0];
 
 impl CurledPage {
@@ -115,17 +118,21 @@ impl CurledPage {
             return Err(unsolved());
         };
         let unsure = options.centre.map_or(0.004 * diagonal, |_| 0.0);
-        let estimate = estimate(&cylinder, &traces, &residuals, &prior, unsure);
-        let known = focal.is_some();
+        // What a curve of the next degrees would add is left open, too.
+        let spare = traces.count() - cylinder.parameters() as f64;
+        let wider = cylinder.clone().with_degree(cylinder.degree() + if spare > 6.0 { 2 } else { 0 });
+        let estimate = estimate(&wider, &traces, &residuals, &prior, unsure);
+        let estimate = match (estimate, focal) {
+            (Some(found), None) if found.focal > FOUND => {
+                search.whatever_the_focal_length(found, &cylinder, &prior, longer)
+            }
+            (found, _) => found,
+        };
         let estimate = match estimate {
-            Some(found) if known || (found.expected < 0.0075 || found.expected < 2.0 * found.focused) => found,
-            _ if !known => return Err(Error::FocalLength),
-            Some(found) => found,
+            Some(estimate) => estimate,
+            None if focal.is_none() => return Err(Error::FocalLength),
             None => return Err(unsolved()),
         };
-        if !known && !within(cylinder.focal, longer) && estimate.expected > 0.003 {
-            return Err(Error::FocalLength);
-        }
         let report = report(&cylinder, &pages, &traces, &residuals, estimate, accuracy);
         let ratio = ratio.unwrap_or(cylinder.length);
         let mut page = CurledPage {
@@ -194,6 +201,9 @@ fn unsolved() -> Error {
 
 /// Relative standard deviation of a format's proportions.
 const FORMAT: f64 = 0.002;
+
+/// A focal length that is known to so little is not found.
+const FOUND: f64 = 0.05;
 
 fn within(focal: f64, longer: f64) -> bool {
     (RANGE[0] * longer..=RANGE[1] * longer).contains(&focal)
@@ -283,6 +293,37 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The estimate where the focal length is open, if the page is nearly the same for all that it
+    /// may be, as one that is flat and seen from straight above.
+    fn whatever_the_focal_length(
+        &self,
+        found: Estimate,
+        cylinder: &Cylinder,
+        prior: &Prior,
+        longer: f64,
+    ) -> Option<Estimate> {
+        /// Largest displacement, over a page's width.
+        const SAME: f64 = 0.01;
+        let middle = cylinder.focal.clamp(USUAL[0] * longer, USUAL[1] * longer);
+        let mut bound = found.bound;
+        for sign in [-2.0, 2.0] {
+            let focal = middle * (sign * found.focal.min(10.0)).exp();
+            let focal = focal.clamp(USUAL[0] * longer, USUAL[1] * longer);
+            let held = Prior {
+                focal: Some([focal.ln(), 1e-3]),
+                ..*prior
+            };
+            let start = start::cylinder(self.pages, self.centre, focal)?;
+            let (other, _) = self.traces.solve(start.with_degree(cylinder.degree()), &held)?;
+            bound = bound.max(between(cylinder, &other)?);
+        }
+        (bound < SAME).then(|| Estimate {
+            expected: found.expected.clamp(bound / 2.0, bound),
+            bound,
+            ..found
+        })
+    }
+
     /// The best cylinder of any degree that the traces support, from the best of several focal
     /// lengths.
     fn best(&self, focal: &[f64], prior: &Prior) -> Option<(Cylinder, Residuals)> {
@@ -358,9 +399,7 @@ fn report(
     });
     let lines = || pages.iter().flatten();
     let seen = lines().map(Line::chord).sum::<f64>() / misfit.len() as f64;
-    let mut bow = [0, 1].map(|edge| {
-        (pages.iter()).map(|pair| pair[edge].bow()).fold(0.0, f64::max)
-    });
+    let mut bow = traces.bows(cylinder).unwrap_or([f64::INFINITY; 2]);
     bow.sort_by(|p, q| q.total_cmp(p));
     let fewest = lines().map(|line| line.independent).fold(f64::INFINITY, f64::min);
     let findings = Findings {

@@ -54,6 +54,9 @@ struct Found {
     trust: f64,
 }
 
+/// About as many points of each edge are looked at.
+const MOST: usize = 300;
+
 /// Most independent points that the errors of one hand, or of one algorithm, are taken for.
 const INDEPENDENT: f64 = 60.0;
 
@@ -69,8 +72,7 @@ impl Traces {
         for (page, pair) in pages.iter().enumerate() {
             for (edge, line) in pair.iter().enumerate() {
                 let last = line.points.len() - 1;
-                // More points than that tell where they are no better.
-                let step = line.points.len().div_ceil(2000);
+                let step = line.points.len().div_ceil(MOST);
                 let count = (last / step) as f64;
                 let weight = (line.independent.min(INDEPENDENT) / count.max(1.0)).min(1.0);
                 for (i, at) in line.points.iter().enumerate() {
@@ -263,6 +265,23 @@ impl Traces {
                 p.weight * (across * across + along * along)
             })
             .sum()
+    }
+
+    /// How far from straight the edges are seen, in pixels: each edge's farthest point.
+    pub fn bows(&self, cylinder: &Cylinder) -> Option<[f64; 2]> {
+        let mut bows = [0.0f64; 2];
+        for pair in self.edges(cylinder, &cylinder.curve())? {
+            for (bow, nodes) in bows.iter_mut().zip(pair) {
+                let from = nodes[0];
+                let way = sub(nodes[PIECES], from);
+                for node in nodes {
+                    let off = sub(node, from);
+                    let across = way[0] * off[1] - way[1] * off[0];
+                    *bow = bow.max(across.abs() / way[0].hypot(way[1]));
+                }
+            }
+        }
+        Some(bows)
     }
 
     /// Rows of the traces in the matrix of derivatives.

@@ -54,19 +54,21 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
         (ruling, length) = (-ruling, -length);
     }
     let end = origin + ruling * length;
+    // An edge whose plane passes near the camera looks straight whatever its shape.
+    let reaches = [origin, end].map(|corner| ruling.dot(&corner));
+    let telling = |reach: f64| reach.abs() > 0.2 * reaches[0].abs().max(reaches[1].abs());
     // Points of each page in the plane through the origin and normal to the rulings.
     let mut points: Vec<Vec<(Vector3<f64>, f64)>> = Vec::new();
     for pair in pages {
         let mut own = Vec::new();
-        for (line, corner) in pair.iter().zip([origin, end]) {
-            let reach = ruling.dot(&corner);
+        for (line, reach) in pair.iter().zip(reaches).filter(|(_, reach)| telling(*reach)) {
             for p in &line.points {
                 let sight = ray(p);
                 let scale = reach / ruling.dot(&sight);
                 if scale.is_finite() && scale > 0.0 && scale < 100.0 {
                     let point = sight * scale;
                     let level = point - ruling * ruling.dot(&(point - origin));
-                    own.push((level, reach * reach + 1e-9));
+                    own.push((level, reach * reach));
                 }
             }
         }
@@ -79,10 +81,9 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
     let last = &pages[pages.len() - 1];
     let mut far = Vector3::zeros();
     let mut weights = 0.0;
-    for (line, corner) in last.iter().zip([origin, end]) {
+    for (line, reach) in last.iter().zip(reaches).filter(|(_, reach)| telling(*reach)) {
         let sight = ray(&line.ends()[1]);
-        let (reach, slope) = (ruling.dot(&corner), ruling.dot(&sight));
-        let point = sight * (reach / slope);
+        let point = sight * (reach / ruling.dot(&sight));
         if point.iter().all(|v| v.is_finite()) && point.z > 0.0 {
             far += (point - ruling * ruling.dot(&(point - origin))) * (reach * reach);
             weights += reach * reach;

@@ -187,18 +187,6 @@ impl Line {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
-    /// How far its points lie from the line between its ends, at most but for one.
-    pub fn bow(&self) -> f64 {
-        let [from, to] = self.ends();
-        let way = [to[0] - from[0], to[1] - from[1]];
-        let length = way[0].hypot(way[1]);
-        let mut far: Vec<f64> = (self.points.iter())
-            .map(|p| ((p[0] - from[0]) * way[1] - (p[1] - from[1]) * way[0]).abs() / length)
-            .collect();
-        far.sort_by(|p, q| q.total_cmp(p));
-        far[1]
-    }
-
     pub fn chord(&self) -> f64 {
         let [from, to] = self.ends();
         distance(from, to)

@@ -6,6 +6,7 @@ import { DevelopableError, messageOf } from './errors.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asPicture } from './mesh-input.js';
 import { OpenSolver } from './open.js';
+import { asEdges, pageOptions, plainEdges } from './page-input.js';
 import { optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, extentOf, placedOptions } from './sheet-input.js';
@@ -311,10 +312,20 @@ export class DevelopableWorker {
   async dewarp(input, photo, given) {
     const options = placedOptions('dewarp', input, given);
     const { field, buffers } = detached(asField(input));
-    const { width, height, data } = asPhoto(photo);
-    const own = new Uint8Array(data);
-    const sent = transfer({ width, height, data: own }, [own.buffer]);
+    const sent = copied(photo);
     return this.#request((remote) => remote.dewarp(transfer(field, buffers), sent, options));
+  }
+
+  /**
+   * @param {import('./types.js').Photo & { film35?: number }} photo
+   * @param {import('./types.js').PageEdges | readonly import('./types.js').PageEdges[]} edges
+   * @param {import('./types.js').DewarpPageOptions} [given]
+   */
+  async dewarpPage(photo, edges, given) {
+    const options = pageOptions(photo, given);
+    const pages = plainEdges(asEdges(edges));
+    const sent = copied(photo);
+    return this.#request((remote) => remote.dewarpPage(sent, pages, options));
   }
 
   /** @param {Uint8Array | ArrayBuffer | Blob} bytes */
@@ -325,9 +336,8 @@ export class DevelopableWorker {
 
   /** @param {import('./types.js').Photo} photo */
   async writePhoto(photo) {
-    const { width, height, data } = asPhoto(photo);
-    const own = new Uint8Array(data);
-    return this.#request((remote) => remote.writePhoto(transfer({ width, height, data: own }, [own.buffer])));
+    const sent = copied(photo);
+    return this.#request((remote) => remote.writePhoto(sent));
   }
 
   /**
@@ -376,6 +386,16 @@ export class DevelopableWorker {
   }
 }
 makeDisposable(DevelopableWorker);
+
+/**
+ * A copy of a photo, to be handed over.
+ * @param {import('./types.js').Photo} photo
+ */
+function copied(photo) {
+  const { width, height, data } = asPhoto(photo);
+  const own = new Uint8Array(data);
+  return transfer({ width, height, data: own }, [own.buffer]);
+}
 
 /**
  * A copy of a file's bytes, to be handed over.

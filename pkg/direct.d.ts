@@ -1,8 +1,9 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
-  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
-  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, PictureOptions, Progress,
+  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
+  OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
+  PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
   SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
@@ -154,6 +155,13 @@ export function writePdf(drawing: Drawing, options?: WritePdfOptions): Uint8Arra
 export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
+/**
+ * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
+ * edges that are bent: without depth.
+ */
+export function dewarpPage(
+  photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+): DewarpedPage;
 /**
  * Decodes a PNG, JPEG (the way up that its Exif data state) or WebP file as RGBA bytes; all but PNG
  * take `load('images')`.

@@ -5,6 +5,7 @@ import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } fr
 import { files, images, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh } from './mesh-input.js';
 import { optionsOf } from './options.js';
+import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
 import { asPhoto, placeOf, placedOptions } from './sheet-input.js';
@@ -347,6 +348,13 @@ export function dewarp(input, photo, given) {
   const [field, pixels] = [asField(input), asPhoto(photo)];
   const placed = { ...options, ...placeOf(field, options) };
   return sheets.call((wasm) => wasm.dewarp(field, pixels, placed));
+}
+
+/** @type {typeof import('./direct.js').dewarpPage} */
+export function dewarpPage(photo, edges, given) {
+  const options = pageOptions(photo, given);
+  const [pixels, pages] = [asPhoto(photo), asEdges(edges)];
+  return sheets.call((wasm) => wasm.dewarpPage(pixels, pages, options));
 }
 
 /** @type {typeof import('./direct.js').writePhoto} */

@@ -1,8 +1,9 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
-  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpOptions, Drawing, Example,
-  ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
-  OcclusionOptions, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture, PictureOptions, Progress,
+  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
+  OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
+  PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
   SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
@@ -136,6 +137,13 @@ export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<U
 export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /** Makes a photo of a surface flat. */
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
+/**
+ * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
+ * edges that are bent: without depth.
+ */
+export function dewarpPage(
+  photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+): Promise<DewarpedPage>;
 export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
 export function writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
@@ -184,6 +192,9 @@ export class DevelopableWorker {
   writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
   dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
+  dewarpPage(
+    photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+  ): Promise<DewarpedPage>;
   readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
   writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;

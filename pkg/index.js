@@ -78,6 +78,8 @@ export const writePdf = (drawing, options) => worker().writePdf(drawing, options
 export const writeDxf = (drawing) => worker().writeDxf(drawing);
 /** @type {typeof import('./index.js').dewarp} */
 export const dewarp = (input, photo, options) => worker().dewarp(input, photo, options);
+/** @type {typeof import('./index.js').dewarpPage} */
+export const dewarpPage = (photo, edges, options) => worker().dewarpPage(photo, edges, options);
 /** @type {typeof import('./index.js').readPhoto} */
 export const readPhoto = (bytes) => worker().readPhoto(bytes);
 /** @type {typeof import('./index.js').writePhoto} */

@@ -218,6 +218,14 @@ export const service = {
     return transfer(result, buffersOf(result.data, result.map));
   },
 
+  /** @type {(photo: import('./types.js').Photo, edges: import('./types.js').PageEdges | readonly import('./types.js').PageEdges[], options?: import('./types.js').DewarpPageOptions) => Promise<import('./types.js').DewarpedPage>} */
+  async dewarpPage(photo, edges, options) {
+    await loaded('unroll');
+    const result = direct.dewarpPage(photo, edges, options);
+    const { positions, triangles, uvs } = result.mesh;
+    return transfer(result, buffersOf(result.data, result.map, positions, triangles, uvs));
+  },
+
   /**
    * @param {Parameters<typeof direct.readMesh>[0]} bytes
    * @param {Parameters<typeof direct.readMesh>[1]} [options]

@@ -656,6 +656,11 @@ export type Painted<F> = F & { uvs: Float32Array; colors: Float32Array; texture?
 
 export interface DecodedPhoto extends Photo {
   data: Uint8ClampedArray<ArrayBuffer>;
+  /**
+   * The camera's focal length, in millimetres as for a film of 36 by 24 mm, where the file's Exif data
+   * tell it and the photo was not cropped.
+   */
+  film35?: number;
 }
 
 export interface AnalyzeOptions {
@@ -912,6 +917,89 @@ export interface Dewarped extends DecodedPhoto {
   map: Float32Array;
   verdict: Verdict;
   report: UnrollReport;
+}
+
+/**
+ * An edge as it was traced in a photo, from one corner of the page to the next, in the photo's
+ * pixels, (0, 0) being the centre of the upper left one: points with a smooth edge between them, or
+ * the control points of cubic Bézier curves that follow each other (4, 7, 10 and so on).
+ */
+export type EdgeTrace = readonly (readonly [number, number])[] | { beziers: readonly (readonly [number, number])[] };
+
+/**
+ * The two edges of a page that are bent, with its corners at their ends: each from left to right
+ * (`top`, `bottom`), or from top to bottom (`left`, `right`).
+ */
+export type PageEdges =
+  | { top: EdgeTrace; bottom: EdgeTrace; left?: undefined; right?: undefined }
+  | { left: EdgeTrace; right: EdgeTrace; top?: undefined; bottom?: undefined };
+
+export interface DewarpPageOptions {
+  /** The camera's focal length, in pixels of the photo. */
+  focalLength?: number;
+  /** The same as the angle, in degrees, that the photo's longer side covers. */
+  fieldOfView?: number;
+  /**
+   * The same in millimetres, as for a film of 36 by 24 mm. Default: what `readPhoto` has found in the
+   * file. With none of the three it is found from the perspective, if that is strong enough.
+   */
+  film35?: number;
+  /** The format of the page, or of each page of a spread: by name, or width and height in millimetres. */
+  page?: 'a4' | 'letter' | readonly [number, number];
+  /** A known distance on the page, in millimetres, between two places in the photo. */
+  ruler?: { from: readonly [number, number]; to: readonly [number, number]; length: number };
+  /** Where the camera's axis meets the photo, in its pixels. Default: the middle. Of a cropped photo, the whole one's. */
+  centre?: readonly [number, number];
+  /** How near to the edge traced points are meant to be, in pixels. Default: 1/2500 of the photo's diagonal. */
+  accuracy?: number;
+  /** Pixels of the flat image per unit of length. Default: as many as the photo has of the page. */
+  dots?: number;
+}
+
+/**
+ * Whether a page that was made flat by its edges is to be trusted: it was flat (`'flat'`) or curled
+ * one way (`'unrolled'`), and both edges agree; nothing checks it, for too few points were traced or
+ * one edge looks straight however the page is bent (`'unchecked'`); it is likely to be wrong by more
+ * than 1 % of its width, or hides a part of itself (`'doubtful'`); or it is folded, crumpled, bent
+ * both ways or wrongly traced (`'notThisKind'`).
+ */
+export type PageVerdict = 'flat' | 'unrolled' | 'unchecked' | 'doubtful' | 'notThisKind';
+
+/** How a page was found. */
+export interface PageReport {
+  verdict: PageVerdict;
+  /** Expected displacement on the flat page (root mean square after the best similarity), in % of a page's width. */
+  error: number;
+  /** The same, not exceeded in 95 of 100 cases, if the page is curled one way. */
+  errorBound: number;
+  /** In pixels of the photo, and its standard deviation in %. */
+  focalLength: number;
+  focalDeviation: number;
+  /** Between the camera's axis and the normal of the page's chord, in degrees. */
+  tilt: number;
+  /** Most that the page's direction changes along its curve, in degrees. */
+  bend: number;
+  /** Root mean square distance of the traced points from the edges found, in pixels, of the worse edge. */
+  residual: number;
+  /** The part of it that goes on from point to point, in % of a page's width as it is seen. */
+  disagreement: number;
+  /** Height over width as it is seen, without use of a format that was given. */
+  ratio: number;
+}
+
+/** A flat page, or both of a spread beside each other. */
+export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report'> {
+  /** Width and height of the flat page, or of both together. */
+  size: [number, number];
+  /** The unit of all lengths: millimetres where a format or a ruler is given, else a page's width. */
+  unit: 'mm' | 'page';
+  /**
+   * The page in space, with texture coordinates for the photo, to be sampled (`{ view: 'best-fit' }`),
+   * shown and written: x to the right, y up, the camera at the origin, looking along -z.
+   */
+  mesh: Mesh & { triangles: Uint32Array; uvs: Float32Array };
+  verdict: PageVerdict;
+  report: PageReport;
 }
 
 export interface ReadOptions {

@@ -53,6 +53,10 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, map?: string,
  * }} DewarpTask
+ * @typedef {{
+ *   command: 'page', input: string, output: string, written: string[], edges: string, report?: string, map?: string,
+ *   options: import('../types.js').DewarpPageOptions,
+ * }} PageTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
 
@@ -83,7 +87,7 @@ const THRESHOLD = 4e4;
 /**
  * @param {string[]} args
  * @returns {FitTask | OcclusionsTask | AnalyzeTask | PatchesTask | RulingsTask | UnrollTask | PatternTask |
- *   DewarpTask | InfoTask | { command: 'help', about?: import('./commands.js').Command } | { command: 'version' }}
+ *   DewarpTask | PageTask | InfoTask | { command: 'help', about?: import('./commands.js').Command } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
@@ -99,6 +103,11 @@ export function parse(args) {
   const { output = '', report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
   if (values.output === undefined && !telling.includes(command)) throw usage('the output is missing: -o FILE', command);
+  if (command === 'dewarp') {
+    if (values.edges !== undefined) return page(input, output, values.edges, values);
+    const stray = pageFlags.find((flag) => values[flag] !== undefined);
+    if (stray !== undefined) throw usage(`--${stray} is for a photo alone, with --edges`, command);
+  }
   const photoCamera = values['photo-camera'];
   const read = { mask, confidence, constraints, texture, camera: photoCamera, 'occlusion mask': values['occlusion-mask'] };
   const kind = kindOf(input, values);
@@ -190,7 +199,9 @@ export function parse(args) {
     case 'pattern':
       return { command, ...fitting, asIs, patching: patching(values), ...drawing(values, about.extension) };
     case 'dewarp':
-      if (texture === undefined && kind !== 'mesh') throw usage('the photo is missing: --texture PHOTO');
+      if (texture === undefined && kind !== 'mesh') {
+        throw usage("the photo is missing: --texture PHOTO; or INPUT is the photo, then the page's edges: --edges FILE");
+      }
       if (photoCamera !== undefined && kind === 'image') {
         throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
       }
@@ -199,6 +210,60 @@ export function parse(args) {
     default:
       return { command, ...fitting };
   }
+}
+
+const pageFlags = /** @type {const} */ (['focal', 'fov', 'page']);
+
+/**
+ * A photo alone.
+ * @param {string} input
+ * @param {string} output
+ * @param {string} edges
+ * @param {Values} values
+ * @returns {PageTask}
+ */
+function page(input, output, edges, values) {
+  const { report, map } = values;
+  const known = ['edges', 'output', 'report', 'map', 'dots', ...pageFlags];
+  const stray = Object.keys(values).find((flag) => !known.includes(flag));
+  if (stray !== undefined) throw usage(`--${stray} is for heights, and with --edges the input is a photo`, 'dewarp');
+  if (values.focal !== undefined && values.fov !== undefined) {
+    throw usage('--focal and --fov say the same: give one of them', 'dewarp');
+  }
+  extension('output', output, extensions.dewarp);
+  if (map !== undefined) extension('map', map, ['.npy', '.json']);
+  if (report !== undefined) apart({ report }, { output, input, map, edges });
+  if (map !== undefined) apart({ map }, { output, input, edges });
+  apart({ output }, { edges });
+  return {
+    command: 'page',
+    input,
+    output,
+    written: [output, report, map].filter((path) => path !== undefined),
+    edges,
+    report,
+    map,
+    options: {
+      dots: number('dots', values),
+      focalLength: number('focal', values),
+      fieldOfView: number('fov', values),
+      page: values.page === undefined ? undefined : format(values.page),
+    },
+  };
+}
+
+/**
+ * The format of a page.
+ * @param {string} text
+ * @returns {'a4' | 'letter' | [number, number]}
+ */
+function format(text) {
+  if (text === 'a4' || text === 'letter') return text;
+  const [width, height, ...more] = text.split(/x/i).map((side) => (side.trim() === '' ? NaN : Number(side)));
+  if (more.length > 0 || !Number.isFinite(width) || !Number.isFinite(height)) {
+    throw usage(`--page must be a4, letter or WIDTHxHEIGHT in millimetres, but is "${text}"`, 'dewarp');
+  }
+  return [width, height];
 }
 
 /** Where patches end. @param {Values} values */

@@ -28,6 +28,8 @@ const energy = [
 /** @satisfies {readonly Flag[]} */
 const known = ['confidence', 'constraints', 'free', 'occlusion-mask', 'occlusions', 'bridge'];
 /** @satisfies {readonly Flag[]} */
+const page = ['edges', 'focal', 'fov', 'page'];
+/** @satisfies {readonly Flag[]} */
 const general = ['help', 'version'];
 
 /** Of all commands that fit a surface. @satisfies {readonly Flag[]} */
@@ -133,22 +135,24 @@ export const commands = {
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4'],
   },
   dewarp: {
-    usage: 'INPUT [--texture PHOTO] -o IMAGE [options]',
+    usage: 'INPUT [--texture PHOTO | --edges EDGES] -o IMAGE [options]',
     summary: 'make a photo of it flat',
     about:
       'Fits a surface and makes a photo of it flat. What the photo shows where is known for heights seen straight from ' +
-      'above, for depths by their camera, and for scans by their texture coordinates.',
+      'above, for depths by their camera, and for scans by their texture coordinates. Or makes a photo alone of a curled ' +
+      'page flat, by the edges of the page.',
     terms: {
-      INPUT,
+      INPUT: `${INPUT}. With --edges the photo`,
       PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
       IMAGE: '.png, transparent where there is no sheet',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'map'],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'map', ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',
       'dewarp d.png --intrinsics cam.csv --texture photo.jpg -o page.png',
       'dewarp scan.glb -o page.png --view best-fit',
+      'dewarp photo.jpg --edges edges.json --page a4 -o page.png',
     ],
   },
   info: {

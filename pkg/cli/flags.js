@@ -198,6 +198,33 @@ export const sections = {
       },
     },
   },
+  page: {
+    title: 'A photo alone',
+    flags: {
+      edges: {
+        value: 'FILE',
+        help: 'INPUT is a photo of a page that is curled one way, and this JSON file has its two bent edges: top and ' +
+          'bottom, each a list of [x, y] from left to right, or left and right, from top to bottom; in pixels of the ' +
+          'photo, with corners at the ends. Of the two pages of a spread, a list of two of these',
+      },
+      focal: {
+        value: 'PIXELS',
+        option: 'focalLength',
+        help: "the camera's focal length, in pixels of the photo (default: what the photo's Exif data tell, or else " +
+          'what the perspective tells)',
+      },
+      fov: {
+        value: 'DEGREES',
+        option: 'fieldOfView',
+        help: "the same as the angle that the photo's longer side covers",
+      },
+      page: {
+        value: 'P',
+        help: "the page's format, each page's of a spread: a4, letter or WIDTHxHEIGHT in millimetres, in which lengths " +
+          "are then (default: in the page's width)",
+      },
+    },
+  },
   general: {
     title: 'Besides',
     flags: {

@@ -9,6 +9,7 @@ import { flagOf } from './flags.js';
 import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
+import { page } from './page.js';
 import { dewarp, pattern, unroll } from './sheets.js';
 import { analyze, patches, rulings } from './tell.js';
 import { print } from './terminal.js';
@@ -62,6 +63,8 @@ async function perform(task, signal) {
       return pattern(task, signal);
     case 'dewarp':
       return dewarp(task, signal);
+    case 'page':
+      return page(task, signal);
     default:
       return fit(task, signal);
   }

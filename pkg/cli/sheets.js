@@ -39,7 +39,7 @@ export async function pattern(task, signal) {
   const { strain } = drawing.summary;
   if (strain > 0.01) {
     process.stderr.write(
-      `developable: warning: there is a sheet that cannot be laid flat without stretching it (by ${share(strain)})\n`,
+      `developable: warning: there is a sheet that cannot be laid flat without stretching it (by ${percent(strain)})\n`,
     );
   }
 }
@@ -74,13 +74,13 @@ export async function dewarp(task, signal) {
   const flat = await developable.dewarp(surface, photo, { ...options, dots, trim, crop, camera });
   const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }, ...reported(task, flat)];
   if (task.map !== undefined) {
-    files.push({ path: task.map, bytes: task.map.toLowerCase().endsWith('.npy') ? mapNpy(flat) : mapJson(flat) });
+    files.push({ path: task.map, bytes: mapFile(task.map, flat) });
   }
   await writeWhole(files, signal);
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
-    const strain = share(flat.report.distortion.rms);
+    const strain = percent(flat.report.distortion.rms);
     process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
   }
 }
@@ -130,7 +130,7 @@ function reported({ report: path }, { report, verdict }) {
 }
 
 /** @param {number} value */
-function share(value) {
+export function percent(value) {
   return `${Number((100 * value).toPrecision(2))} %`;
 }
 
@@ -156,7 +156,17 @@ function flatObj({ places, triangles }) {
   return new TextEncoder().encode(`${lines.join('\n')}\n`);
 }
 
-/** The warp map as a NumPy array of shape (height, width, 2). @param {import('../types.js').Dewarped} flat */
+/**
+ * @typedef {Pick<import('../types.js').Dewarped, 'width' | 'height' | 'resolution' | 'corner' | 'map'>} WarpMap
+ *
+ * @param {string} path
+ * @param {WarpMap} flat
+ */
+export function mapFile(path, flat) {
+  return path.toLowerCase().endsWith('.npy') ? mapNpy(flat) : mapJson(flat);
+}
+
+/** The warp map as a NumPy array of shape (height, width, 2). @param {WarpMap} flat */
 function mapNpy({ width, height, map }) {
   const text = `{'descr': '<f4', 'fortran_order': False, 'shape': (${height}, ${width}, 2), }`;
   // The data begin at a multiple of 64 bytes, after a line break.
@@ -168,7 +178,7 @@ function mapNpy({ width, height, map }) {
   return Buffer.concat([head, data]);
 }
 
-/** The same as JSON, null where there is no sheet. @param {import('../types.js').Dewarped} flat */
+/** The same as JSON, null where there is no sheet. @param {WarpMap} flat */
 function mapJson({ width, height, resolution, corner, map }) {
   const places = Array.from({ length: width * height }, (_, i) =>
     (Number.isNaN(map[2 * i]) ? null : [map[2 * i], map[2 * i + 1]]));

@@ -40,6 +40,8 @@ const mesh = {
   textureOf: new Int32Array(2),
 };
 const photo = { width: 4, height: 4, data: new Uint8Array(64).fill(255) };
+const pagePhoto = { width: 40, height: 40, data: new Uint8Array(6400).fill(255), film35: 26 };
+const edges = { top: [[5, 5], [20, 4], [35, 5]], bottom: [[5, 35], [20, 36], [35, 35]] };
 const camera = { fx: 8, fy: 8, cx: 4, cy: 4, depthScale: 1, depth: 'planar' };
 const npy = direct.writeNpy(bent);
 const ply = direct.writePly(hex);
@@ -77,6 +79,7 @@ const calls = {
   writePdf: { args: { drawing }, options: 'writePdf' },
   writeDxf: { args: { drawing } },
   dewarp: { args: { input: bent, photo }, options: 'dewarp' },
+  dewarpPage: { args: { photo: pagePhoto, edges }, options: 'dewarpPage' },
   readPhoto: { args: { bytes: direct.writePhoto(photo) } },
   writePhoto: { args: { photo } },
   example: { args: { name: 'roof' }, options: 'example' },

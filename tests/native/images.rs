@@ -224,6 +224,50 @@ fn jpegs_are_seen_the_way_their_exif_says() {
     assert_eq!((found.width, found.height), (16, 24));
 }
 
+/// A JPEG file with Exif data: the focal length in 35 mm film, and the photo's size.
+fn with_exif(jpeg: &[u8], film35: u16, [width, height]: [u32; 2]) -> Vec<u8> {
+    let mut tiff = b"II*\0\x08\0\0\0".to_vec();
+    let entry = |tag: u16, kind: u16, value: u32| {
+        let mut entry = [tag.to_le_bytes(), kind.to_le_bytes()].concat();
+        entry.extend(1u32.to_le_bytes());
+        entry.extend(value.to_le_bytes());
+        entry
+    };
+    // One directory that names the other, which begins at byte 26.
+    for directory in [
+        vec![entry(0x8769, 4, 26)],
+        vec![
+            entry(0xa002, 4, width),
+            entry(0xa003, 4, height),
+            entry(0xa405, 3, film35.into()),
+        ],
+    ] {
+        tiff.extend((directory.len() as u16).to_le_bytes());
+        tiff.extend(directory.concat());
+        tiff.extend([0; 4]);
+    }
+    let length = (2 + 6 + tiff.len()) as u16;
+    let segment = [&[0xff, 0xe1], &length.to_be_bytes()[..], b"Exif\0\0", &tiff].concat();
+    [&jpeg[..2], &segment, &jpeg[2..]].concat()
+}
+
+#[test]
+fn photos_know_their_focal_length_unless_they_were_cropped() {
+    let jpeg = file("colour.jpg");
+    let plain = decode_photo(&jpeg).unwrap();
+    assert_eq!(plain.film35, None);
+    let size = [plain.width as u32, plain.height as u32];
+    let read = |film35, size| decode_photo(&with_exif(&jpeg, film35, size)).unwrap();
+    assert_eq!(read(26, size).film35, Some(26.0));
+    assert_eq!(read(26, size).rgba, plain.rgba);
+    // A smaller one of the same proportions, and turned.
+    assert_eq!(read(26, size.map(|n| 10 * n)).film35, Some(26.0));
+    assert_eq!(read(26, [size[1], size[0]]).film35, Some(26.0));
+    // Zero stands for unknown.
+    assert_eq!(read(0, size).film35, None);
+    assert_eq!(read(26, [2 * size[0], 3 * size[1]]).film35, None);
+}
+
 #[test]
 fn photos_have_their_colours() {
     let colour = |name: &str, i: usize| {

@@ -32,6 +32,7 @@ mod meshes;
 mod noise;
 mod occlusions;
 mod optimum;
+mod page;
 mod parts;
 mod patches;
 mod pattern;

@@ -8,7 +8,7 @@ use crate::error::{Error, Result, try_filled};
 use crate::flat::dewarp::Photo;
 
 /// A decoded photo.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PhotoFile {
     /// Number of columns.
@@ -17,6 +17,9 @@ pub struct PhotoFile {
     pub height: usize,
     /// Red, green, blue and alpha of each pixel, row by row, top row first.
     pub rgba: Vec<u8>,
+    /// The camera's focal length, in millimetres as for a film of 36 by 24 mm, where the file's Exif
+    /// data have it and have the photo's proportions, too: of one that was cropped it is none.
+    pub film35: Option<f64>,
 }
 
 impl PhotoFile {
@@ -26,6 +29,7 @@ impl PhotoFile {
             width,
             height,
             rgba: rgba.into_flattened(),
+            film35: None,
         }
     }
 }
@@ -68,6 +72,7 @@ fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
         width,
         height,
         rgba,
+        film35: None,
     })
 }
 

@@ -43,7 +43,12 @@ pub(super) struct Curve {
 impl Cylinder {
     /// How many numbers describe it, but for the principal point.
     pub fn parameters(&self) -> usize {
-        8 + self.pages.iter().map(|page| page.turns.len() + 1).sum::<usize>() - 2
+        8 + self
+            .pages
+            .iter()
+            .map(|page| page.turns.len() + 1)
+            .sum::<usize>()
+            - 2
     }
 
     /// Degree of the polynomials.
@@ -68,9 +73,8 @@ impl Cylinder {
         let turn = Rotation3::new(Vector3::new(step[1], step[2], step[3])).into_inner();
         let middle = self.middle();
         moved.axes = turn * self.axes;
-        moved.origin = middle
-            + turn * (self.origin - middle)
-            + Vector3::new(step[4], step[5], step[6]);
+        moved.origin =
+            middle + turn * (self.origin - middle) + Vector3::new(step[4], step[5], step[6]);
         moved.length *= step[7].exp();
         let mut rest = step[8..].iter();
         let mut next = || rest.next().copied().unwrap_or(0.0);
@@ -143,9 +147,10 @@ impl Cylinder {
     pub fn bend(&self) -> f64 {
         let page = |page: &Strip| {
             let turns = (0..=PIECES).map(|i| series(&page.turns, i as f64 / PIECES as f64));
-            let (low, high) = turns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), turn| {
-                (low.min(turn), high.max(turn))
-            });
+            let (low, high) = turns
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), turn| {
+                    (low.min(turn), high.max(turn))
+                });
             high - low
         };
         self.pages.iter().map(page).fold(0.0, f64::max)
@@ -254,7 +259,10 @@ mod tests {
                 radius * (0.6f64.cos() - angle.cos()),
             ];
             let found = curve.at(0, share);
-            assert!((0..2).all(|k| (found[k] - known[k]).abs() < 1e-8), "{found:?} {known:?}");
+            assert!(
+                (0..2).all(|k| (found[k] - known[k]).abs() < 1e-8),
+                "{found:?} {known:?}"
+            );
         }
     }
 }

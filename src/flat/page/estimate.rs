@@ -102,13 +102,21 @@ pub(super) fn between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
         for _ in 0..20 {
             let off = |dx: f64, dy: f64| {
                 let seen = other.seen(found.at(page, at.x + dx), (at.y + dy) * other.length)?;
-                Some(nalgebra::Vector2::new(seen[0] - pixel[0], seen[1] - pixel[1]))
+                Some(nalgebra::Vector2::new(
+                    seen[0] - pixel[0],
+                    seen[1] - pixel[1],
+                ))
             };
             let here = off(0.0, 0.0)?;
-            let columns = [(off(STEP, 0.0)? - here) / STEP, (off(0.0, STEP)? - here) / STEP];
+            let columns = [
+                (off(STEP, 0.0)? - here) / STEP,
+                (off(0.0, STEP)? - here) / STEP,
+            ];
             at -= Matrix2::from_columns(&columns).try_inverse()? * here;
         }
-        way.push(starts[1] + at.x * other.pages[page].width - starts[0] - share * one.pages[page].width);
+        way.push(
+            starts[1] + at.x * other.pages[page].width - starts[0] - share * one.pages[page].width,
+        );
         way.push(at.y * other.length - down * one.length);
     }
     let mut field = DMatrix::from_vec(way.len(), 1, way);
@@ -151,7 +159,10 @@ fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
     type Places = Vec<([f64; 2], [f64; 2])>;
     let differences = |plus: Places, minus: Places| -> Places {
         let half = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (p[k] - q[k]) / (2.0 * STEP));
-        plus.into_iter().zip(minus).map(|(p, m)| (half(p.0, m.0), half(p.1, m.1))).collect()
+        plus.into_iter()
+            .zip(minus)
+            .map(|(p, m)| (half(p.0, m.0), half(p.1, m.1)))
+            .collect()
     };
     let by = |way: [f64; 2]| -> Option<Places> {
         let back = way.map(|v| -v);
@@ -196,7 +207,10 @@ fn similarities(cylinder: &Cylinder) -> Vec<DVector<f64>> {
     }
     let places: Vec<[f64; 2]> = grid(cylinder.pages.len())
         .map(|(page, share, down)| {
-            [starts[page] + share * cylinder.pages[page].width, down * cylinder.length]
+            [
+                starts[page] + share * cylinder.pages[page].width,
+                down * cylinder.length,
+            ]
         })
         .collect();
     let motions: [fn([f64; 2]) -> [f64; 2]; 4] =

@@ -53,7 +53,9 @@ impl CurledPage {
         }
         let [width, height] = photo.map(|n| n as f64);
         let (longer, diagonal) = (width.max(height), width.hypot(height));
-        let centre = options.centre.unwrap_or([(width - 1.0) / 2.0, (height - 1.0) / 2.0]);
+        let centre = options
+            .centre
+            .unwrap_or([(width - 1.0) / 2.0, (height - 1.0) / 2.0]);
         if !centre.iter().all(|v| v.abs() <= 10.0 * diagonal) {
             let requirement = "must be two numbers, in pixels, not far outside of the photo";
             return Err(Error::option("centre", format!("{centre:?}"), requirement));
@@ -77,7 +79,11 @@ impl CurledPage {
             None => {
                 let found = start::focal(&pages, centre);
                 let usual = [0.5, 0.75, 1.1, 2.0, 5.0].map(|share| share * longer);
-                found.into_iter().filter(|f| within(*f, longer)).chain(usual).collect()
+                found
+                    .into_iter()
+                    .filter(|f| within(*f, longer))
+                    .chain(usual)
+                    .collect()
             }
         };
         let search = Search {
@@ -96,7 +102,10 @@ impl CurledPage {
             let bound = search.best(&candidates, &prior);
             if let (Some((free, residuals)), Some(_), Some(_)) = (&found, &bound, focal) {
                 let off = (free.length / own).ln().abs();
-                let own = Prior { ratio: None, ..prior };
+                let own = Prior {
+                    ratio: None,
+                    ..prior
+                };
                 let spread = estimate(free, &traces, residuals, &own, 0.0);
                 let slack = spread.map_or(0.1, |estimate| 4.0 * estimate.bound);
                 if off > (0.04 + slack).min(0.25) {
@@ -120,7 +129,9 @@ impl CurledPage {
         let unsure = options.centre.map_or(0.004 * diagonal, |_| 0.0);
         // What a curve of the next degrees would add is left open, too.
         let spare = traces.count() - cylinder.parameters() as f64;
-        let wider = cylinder.clone().with_degree(cylinder.degree() + if spare > 6.0 { 2 } else { 0 });
+        let wider = cylinder
+            .clone()
+            .with_degree(cylinder.degree() + if spare > 6.0 { 2 } else { 0 });
         let estimate = estimate(&wider, &traces, &residuals, &prior, unsure);
         let estimate = match (estimate, focal) {
             (Some(found), None) if found.focal > FOUND => {
@@ -159,7 +170,11 @@ impl CurledPage {
         let [width, height] = self.size();
         let pages = self.cylinder.pages.len() as f64;
         // A spread's pages lie along the curve.
-        let [across, down] = if self.sideways { [1.0, pages] } else { [pages, 1.0] };
+        let [across, down] = if self.sideways {
+            [1.0, pages]
+        } else {
+            [pages, 1.0]
+        };
         if let Some([w, h]) = sides {
             let mut sides = [w, h];
             // Upright or across.
@@ -176,7 +191,11 @@ impl CurledPage {
             let ends = [ruler.from, ruler.to].map(|end| self.flat_place(end));
             let [Some(from), Some(to)] = ends else {
                 let ends = format!("from {:?} to {:?}", ruler.from, ruler.to);
-                return Err(Error::option("ruler", ends, "must begin and end on the page"));
+                return Err(Error::option(
+                    "ruler",
+                    ends,
+                    "must begin and end on the page",
+                ));
             };
             let found = (from[0] - to[0]).hypot(from[1] - to[1]);
             if !(found > 0.01 * width.min(height)) {
@@ -219,7 +238,11 @@ fn focal_length(given: FocalLength, longer: f64, diagonal: f64) -> Result<Option
                 let requirement = "must be above 0 and below 180 degrees";
                 return Err(Error::option("field_of_view", degrees, requirement));
             }
-            (degrees, 0.5 * longer / (degrees.to_radians() / 2.0).tan(), 0.01)
+            (
+                degrees,
+                0.5 * longer / (degrees.to_radians() / 2.0).tan(),
+                0.01,
+            )
         }
         FocalLength::Film35(length) => {
             (length, positive("film35", length)? * diagonal / FILM, 0.02)
@@ -314,7 +337,9 @@ impl Search<'_> {
                 ..*prior
             };
             let start = start::cylinder(self.pages, self.centre, focal)?;
-            let (other, _) = self.traces.solve(start.with_degree(cylinder.degree()), &held)?;
+            let (other, _) = self
+                .traces
+                .solve(start.with_degree(cylinder.degree()), &held)?;
             bound = bound.max(between(cylinder, &other)?);
         }
         (bound < SAME).then(|| Estimate {
@@ -343,13 +368,14 @@ impl Search<'_> {
             count * (squares / count).ln() + 2.0 * p * (1.0 + (p + 1.0) / spare)
         };
         let supported = |degree: usize| count + known - parameters(degree) >= 2.0;
-        let lowest = |one: Option<(Cylinder, Residuals)>, other: Option<(Cylinder, Residuals)>| {
-            match (one, other) {
+        let lowest =
+            |one: Option<(Cylinder, Residuals)>, other: Option<(Cylinder, Residuals)>| match (
+                one, other,
+            ) {
                 (Some(one), Some(other)) if one.1.cost <= other.1.cost => Some(one),
                 (one, None) => one,
                 (_, other) => other,
-            }
-        };
+            };
         let mut best: Option<(Cylinder, Residuals, f64)> = None;
         let mut before: Option<(Cylinder, Residuals)> = None;
         let mut worse = 0;
@@ -357,9 +383,9 @@ impl Search<'_> {
             if degree > 0 && !supported(degree) {
                 break;
             }
-            let mut found = before.clone().and_then(|(cylinder, _)| {
-                self.traces.solve(cylinder.with_degree(degree), prior)
-            });
+            let mut found = before
+                .clone()
+                .and_then(|(cylinder, _)| self.traces.solve(cylinder.with_degree(degree), prior));
             // The closed form, with its curve and without.
             if degree == 0 || degree == 4 {
                 for start in &starts {
@@ -367,7 +393,9 @@ impl Search<'_> {
                     found = lowest(found, self.traces.solve(start, prior));
                 }
             }
-            let Some((cylinder, residuals)) = found else { continue };
+            let Some((cylinder, residuals)) = found else {
+                continue;
+            };
             let value = criterion(&residuals, degree);
             before = Some((cylinder.clone(), residuals.clone()));
             if best.as_ref().is_none_or(|(_, _, least)| value < *least) {
@@ -394,14 +422,15 @@ fn report(
 ) -> PageReport {
     let misfit = traces.misfit(residuals);
     // Of the edge that fits worst.
-    let [residual, smooth] = [0, 1].map(|k| {
-        misfit.iter().map(|edge| edge[k]).fold(0.0, f64::max).sqrt()
-    });
+    let [residual, smooth] =
+        [0, 1].map(|k| misfit.iter().map(|edge| edge[k]).fold(0.0, f64::max).sqrt());
     let lines = || pages.iter().flatten();
     let seen = lines().map(Line::chord).sum::<f64>() / misfit.len() as f64;
     let mut bow = traces.bows(cylinder).unwrap_or([f64::INFINITY; 2]);
     bow.sort_by(|p, q| q.total_cmp(p));
-    let fewest = lines().map(|line| line.independent).fold(f64::INFINITY, f64::min);
+    let fewest = lines()
+        .map(|line| line.independent)
+        .fold(f64::INFINITY, f64::min);
     let findings = Findings {
         estimate,
         residual,

@@ -139,7 +139,12 @@ impl CurledPage {
                 *place = seen.map(lanes::single);
             }
         }
-        Ok(WarpMap::of_places([width, height], resolution, [0.0, size[1]], places))
+        Ok(WarpMap::of_places(
+            [width, height],
+            resolution,
+            [0.0, size[1]],
+            places,
+        ))
     }
 
     /// Pixels of the photo that the page covers.
@@ -149,7 +154,8 @@ impl CurledPage {
         for i in 0..CELLS * CELLS {
             let corner = |dx: usize, dy: usize| {
                 let at = [(i % CELLS + dx) as f64, (i / CELLS + dy) as f64];
-                self.photo_place(at.map(|v| v / CELLS as f64)).unwrap_or([0.0; 2])
+                self.photo_place(at.map(|v| v / CELLS as f64))
+                    .unwrap_or([0.0; 2])
             };
             let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
             let cross = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
@@ -170,9 +176,19 @@ impl CurledPage {
     pub fn mesh(&self) -> Result<Mesh> {
         let pages = self.pages();
         let along = pages * (FINE - 1) + 1;
-        let step = self.cylinder.pages.iter().map(|page| page.width).sum::<f64>() / along as f64;
+        let step = self
+            .cylinder
+            .pages
+            .iter()
+            .map(|page| page.width)
+            .sum::<f64>()
+            / along as f64;
         let down = ((self.cylinder.length / step) as usize).clamp(8, 1000) + 1;
-        let (cols, rows) = if self.sideways { (down, along) } else { (along, down) };
+        let (cols, rows) = if self.sideways {
+            (down, along)
+        } else {
+            (along, down)
+        };
         let mut positions = try_filled("mesh", cols * rows, [0.0; 3])?;
         let mut uvs = try_filled("mesh", cols * rows, [0f32; 2])?;
         let curve = self.cylinder.curve();
@@ -187,7 +203,10 @@ impl CurledPage {
             let down = down * self.cylinder.length;
             let point = self.cylinder.point(on, down) * self.unit;
             positions[i] = [point.x, -point.y, -point.z];
-            let [x, y] = self.cylinder.seen(on, down).ok_or(Error::Empty { what: "page" })?;
+            let [x, y] = self
+                .cylinder
+                .seen(on, down)
+                .ok_or(Error::Empty { what: "page" })?;
             uvs[i] = [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single);
         }
         let mut triangles = Vec::new();

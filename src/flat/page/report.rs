@@ -18,7 +18,8 @@ pub enum PageVerdict {
     /// It may be: too few points were traced, or one of the edges looks straight however the page
     /// is bent, so that nothing checks the other one.
     Unchecked,
-    /// The page is likely to be wrong by more than 1 % of its width, or hides a part of itself.
+    /// The page is likely to be wrong by more than 1 % of its width, or hides a part of itself, or its
+    /// edges disagree by about as much as they were meant to be traced to.
     Doubtful,
     /// The edges are not those of a page that is curled one way only: it is folded, crumpled, bent
     /// both ways, or an edge is traced wrongly. Depth is needed, or better traces.
@@ -80,17 +81,14 @@ pub(super) struct Findings {
 
 impl Findings {
     pub fn verdict(&self) -> PageVerdict {
-        /// Shares of the width as it is seen.
-        const SMOOTH: f64 = 0.003;
-        const ROUGH: f64 = 0.006;
         /// Share of the page's width.
         const DOUBTFUL: f64 = 0.01;
-        let least = 2.0 * self.accuracy;
-        if self.smooth > least.max(SMOOTH * self.seen) || self.residual > (2.0 * least).max(ROUGH * self.seen)
-        {
+        // No lens is true to less than this share of the width.
+        let least = self.accuracy.max(0.0007 * self.seen);
+        if self.smooth > 1.2 * least || self.residual > 1.75 * least {
             return PageVerdict::NotThisKind;
         }
-        if self.estimate.expected > DOUBTFUL || self.hidden {
+        if self.estimate.expected > DOUBTFUL || self.hidden || self.smooth > 0.85 * least {
             return PageVerdict::Doubtful;
         }
         let straight = 3.0 * self.accuracy;

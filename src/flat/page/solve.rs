@@ -144,7 +144,10 @@ impl Traces {
                 trust,
             });
         }
-        cost += prior_rows(cylinder, prior).iter().map(|(value, _)| value * value).sum::<f64>();
+        cost += prior_rows(cylinder, prior)
+            .iter()
+            .map(|(value, _)| value * value)
+            .sum::<f64>();
         cost.is_finite().then_some(Residuals { found, cost })
     }
 
@@ -241,7 +244,10 @@ impl Traces {
         let mut start = 0;
         while start < self.points.len() {
             let here = key(&self.points[start]);
-            let count = self.points[start..].iter().take_while(|p| key(p) == here).count();
+            let count = self.points[start..]
+                .iter()
+                .take_while(|p| key(p) == here)
+                .count();
             let own: Vec<f64> = (residuals.found[start..start + count].iter())
                 .map(|found| found.distance[0])
                 .collect();
@@ -251,6 +257,9 @@ impl Traces {
             let lag = ((1.0 / weight).round() as usize).clamp(1, count - 1);
             let both: f64 = own.iter().zip(&own[lag..]).map(|(d, e)| d * e).sum();
             let smooth = (both / (count - lag) as f64).clamp(0.0, all);
+            // A correlation that as many points of white noise have, too, is none.
+            let chance = 2.5 / (count as f64 / lag as f64).sqrt();
+            let smooth = if smooth > chance * all { smooth } else { 0.0 };
             out.push([all, smooth]);
             start += count;
         }
@@ -316,7 +325,9 @@ impl Traces {
 
     fn edges(&self, cylinder: &Cylinder, curve: &Curve) -> Option<Vec<[Vec<[f64; 2]>; 2]>> {
         let edge = |page: usize, down: f64| -> Option<Vec<[f64; 2]>> {
-            (0..=PIECES).map(|i| cylinder.seen(curve.node(page, i), down)).collect()
+            (0..=PIECES)
+                .map(|i| cylinder.seen(curve.node(page, i), down))
+                .collect()
         };
         (0..cylinder.pages.len())
             .map(|page| Some([edge(page, 0.0)?, edge(page, cylinder.length)?]))
@@ -338,7 +349,10 @@ const ITERATIONS: usize = 40;
 fn prior_rows(cylinder: &Cylinder, prior: &Prior) -> Vec<(f64, Vec<(usize, f64)>)> {
     let mut rows = Vec::new();
     if let Some([value, deviation]) = prior.focal {
-        rows.push(((cylinder.focal.ln() - value) / deviation, vec![(0, 1.0 / deviation)]));
+        rows.push((
+            (cylinder.focal.ln() - value) / deviation,
+            vec![(0, 1.0 / deviation)],
+        ));
     }
     if let Some([value, deviation]) = prior.ratio {
         let mut at = 8 + cylinder.degree();

@@ -40,7 +40,9 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
     let mut planes = Matrix3::zeros();
     for [first, second] in pages {
         for end in 0..2 {
-            let plane = ray(&first.ends()[end]).cross(&ray(&second.ends()[end])).normalize();
+            let plane = ray(&first.ends()[end])
+                .cross(&ray(&second.ends()[end]))
+                .normalize();
             planes += plane * plane.transpose();
         }
     }
@@ -61,7 +63,11 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
     let mut points: Vec<Vec<(Vector3<f64>, f64)>> = Vec::new();
     for pair in pages {
         let mut own = Vec::new();
-        for (line, reach) in pair.iter().zip(reaches).filter(|(_, reach)| telling(*reach)) {
+        for (line, reach) in pair
+            .iter()
+            .zip(reaches)
+            .filter(|(_, reach)| telling(*reach))
+        {
             for p in &line.points {
                 let sight = ray(p);
                 let scale = reach / ruling.dot(&sight);
@@ -81,7 +87,11 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
     let last = &pages[pages.len() - 1];
     let mut far = Vector3::zeros();
     let mut weights = 0.0;
-    for (line, reach) in last.iter().zip(reaches).filter(|(_, reach)| telling(*reach)) {
+    for (line, reach) in last
+        .iter()
+        .zip(reaches)
+        .filter(|(_, reach)| telling(*reach))
+    {
         let sight = ray(&line.ends()[1]);
         let point = sight * (reach / ruling.dot(&sight));
         if point.iter().all(|v| v.is_finite()) && point.z > 0.0 {
@@ -117,8 +127,14 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
     }
     found.origin /= unit;
     found.length /= unit;
-    let numbers = found.pages.iter().flat_map(|page| page.turns.iter().chain([&page.width]));
-    let finite = numbers.chain(&found.origin).chain(&found.axes).all(|v| v.is_finite());
+    let numbers = found
+        .pages
+        .iter()
+        .flat_map(|page| page.turns.iter().chain([&page.width]));
+    let finite = numbers
+        .chain(&found.origin)
+        .chain(&found.axes)
+        .all(|v| v.is_finite());
     (finite && found.length > 1e-3 && found.length < 1e3).then_some(found)
 }
 
@@ -139,7 +155,13 @@ fn strip(points: &[(f64, f64, f64)]) -> Option<Strip> {
         right += row * (*v * *weight);
     }
     let fitted = normal.cholesky()?.solve(&right);
-    let height = |at: f64| -> f64 { legendre(degree, at).iter().zip(&fitted).map(|(p, c)| p * c).sum() };
+    let height = |at: f64| -> f64 {
+        legendre(degree, at)
+            .iter()
+            .zip(&fitted)
+            .map(|(p, c)| p * c)
+            .sum()
+    };
     const STEPS: usize = 200;
     let mut pieces = Vec::with_capacity(STEPS);
     let mut width = 0.0;
@@ -147,12 +169,20 @@ fn strip(points: &[(f64, f64, f64)]) -> Option<Strip> {
         let [from, to] = [i, i + 1].map(|i| i as f64 / STEPS as f64);
         let rise = height(to) - height(from);
         let run = span / STEPS as f64;
-        pieces.push((width + 0.5 * run.hypot(rise), run.hypot(rise), rise.atan2(run)));
+        pieces.push((
+            width + 0.5 * run.hypot(rise),
+            run.hypot(rise),
+            rise.atan2(run),
+        ));
         width += run.hypot(rise);
     }
     let mut turns = vec![0.0; degree + 1];
     for (middle, length, angle) in pieces {
-        for (k, (turn, p)) in turns.iter_mut().zip(legendre(degree, middle / width)).enumerate() {
+        for (k, (turn, p)) in turns
+            .iter_mut()
+            .zip(legendre(degree, middle / width))
+            .enumerate()
+        {
             *turn += (2 * k + 1) as f64 * angle * p * length / width;
         }
     }

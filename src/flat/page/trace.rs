@@ -34,7 +34,10 @@ pub(super) fn lines(pages: &[Edges], photo: [usize; 2]) -> Result<Vec<[Line; 2]>
         ));
     }
     let sideways = matches!(pages[0], Edges::LeftRight { .. });
-    if pages.iter().any(|page| matches!(page, Edges::LeftRight { .. }) != sideways) {
+    if pages
+        .iter()
+        .any(|page| matches!(page, Edges::LeftRight { .. }) != sideways)
+    {
         return Err(Error::edges(
             "the two pages of a spread must both have `top` and `bottom`, or both `left` and `right`",
         ));
@@ -138,16 +141,17 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
 /// Puts points in order along the edge, unless they nearly are. An edge is taken for a graph over
 /// its chord then.
 fn order(points: &mut [[f64; 2]]) {
-    let length = |points: &[[f64; 2]]| -> f64 {
-        points.windows(2).map(|w| distance(w[0], w[1])).sum()
-    };
+    let length =
+        |points: &[[f64; 2]]| -> f64 { points.windows(2).map(|w| distance(w[0], w[1])).sum() };
     if points.len() < 4 {
         return;
     }
     let n = points.len() as f64;
     let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
     let moment = |j: usize, k: usize| -> f64 {
-        (points.iter()).map(|p| (p[j] - mean[j]) * (p[k] - mean[k])).sum()
+        (points.iter())
+            .map(|p| (p[j] - mean[j]) * (p[k] - mean[k]))
+            .sum()
     };
     let angle = 0.5 * (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1));
     let (sin, cos) = angle.sin_cos();
@@ -204,7 +208,8 @@ fn arrange([first, second]: &mut [Line; 2]) -> Result<()> {
             (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
         })
     };
-    let convex = |turns: &[f64; 4]| turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0);
+    let convex =
+        |turns: &[f64; 4]| turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0);
     let mut found = turns(first, second);
     if !convex(&found) {
         // One of them may run backwards; which one, the sense of the corners tells.
@@ -239,7 +244,11 @@ fn arrange([first, second]: &mut [Line; 2]) -> Result<()> {
                      points of both from {}",
                     first.name,
                     second.name,
-                    if sideways { "top to bottom" } else { "left to right" }
+                    if sideways {
+                        "top to bottom"
+                    } else {
+                        "left to right"
+                    }
                 ),
             });
         }
@@ -289,7 +298,9 @@ fn crossing(first: &Line, second: &Line) -> Result<()> {
 /// Checks that the second page begins at the gutter, where the first one ends.
 fn neighbours(one: &mut [Line; 2], other: &mut [Line; 2]) -> Result<()> {
     let gap = |one: &[Line; 2], other: &[Line; 2]| -> f64 {
-        (0..2).map(|e| distance(one[e].ends()[1], other[e].ends()[0])).sum()
+        (0..2)
+            .map(|e| distance(one[e].ends()[1], other[e].ends()[0]))
+            .sum()
     };
     if gap(other, one) < gap(one, other) {
         std::mem::swap(one, other);

@@ -11,7 +11,10 @@ pub fn displacement(page: &CurledPage, scene: &Scene) -> f64 {
     let mut pairs = Vec::new();
     for i in 0..20 * pages {
         for j in 0..20 {
-            let share = [(i as f64 + 0.5) / (20 * pages) as f64, (j as f64 + 0.5) / 20.0];
+            let share = [
+                (i as f64 + 0.5) / (20 * pages) as f64,
+                (j as f64 + 0.5) / 20.0,
+            ];
             let pixel = page.photo_place(share).unwrap();
             let number = i / 20;
             let near = [share[0] * pages as f64 - number as f64, share[1]];

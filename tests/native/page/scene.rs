@@ -110,7 +110,8 @@ impl Scene {
         // A fold across a corner, and bumps.
         let beyond = (x / self.sides[0] + y / self.sides[1] - 0.25).max(0.0);
         z += self.fold * beyond * self.sides[0];
-        let bumps = (13.0 * s + 5.0 * t).sin() + (7.0 * s - 11.0 * t + 1.0).sin() + (19.0 * t * s).cos();
+        let bumps =
+            (13.0 * s + 5.0 * t).sin() + (7.0 * s - 11.0 * t + 1.0).sin() + (19.0 * t * s).cos();
         z += self.crumple * bumps;
         let mut point = [x, y, -z];
         let turn = |point: &mut [f64; 3], j: usize, k: usize, degrees: f64| {
@@ -146,10 +147,7 @@ impl Scene {
             at[0] += (off[0] * t[1] - off[1] * t[0]) / area;
             at[1] += (s[0] * off[1] - s[1] * off[0]) / area;
         }
-        [
-            (page as f64 + at[0]) * self.sides[0],
-            at[1] * self.sides[1],
-        ]
+        [(page as f64 + at[0]) * self.sides[0], at[1] * self.sides[1]]
     }
 
     /// Points along an edge at shares of its length.
@@ -180,11 +178,15 @@ pub fn trace(scene: &Scene, hand: Hand, rng: &mut Rand64) -> Vec<Edges> {
         shares.extend([0.0, 1.0]);
         shares.sort_by(f64::total_cmp);
         let mut points = scene.edge(page, t, &shares);
-        let waves: Vec<[f64; 3]> = (0..12).map(|i| [f64::from(i), normal(rng), normal(rng)]).collect();
+        let waves: Vec<[f64; 3]> = (0..12)
+            .map(|i| [f64::from(i), normal(rng), normal(rng)])
+            .collect();
         for (point, s) in points.iter_mut().zip(&shares) {
             for k in 0..2 {
                 let wander: f64 = (waves.iter())
-                    .map(|[i, a, b]| a * (i * s * 3.0 + b).cos() * [1.0, -1.0][(k * (*i as usize)) % 2])
+                    .map(|[i, a, b]| {
+                        a * (i * s * 3.0 + b).cos() * [1.0, -1.0][(k * (*i as usize)) % 2]
+                    })
                     .sum();
                 point[k] += hand.error * normal(rng) + hand.wander * wander / 6f64.sqrt();
             }

@@ -79,6 +79,8 @@ struct PhotoOutput {
     height: usize,
     #[serde(with = "preserve")]
     data: Uint8ClampedArray,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    film35: Option<f64>,
 }
 
 pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
@@ -86,5 +88,6 @@ pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
         width: photo.width,
         height: photo.height,
         data: photo.rgba.as_slice().into(),
+        film35: photo.film35,
     })?)
 }

@@ -1,5 +1,6 @@
 //! Surfaces measured, drawn, laid flat, and photos of them made flat.
 
+mod page;
 mod picture;
 
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};

@@ -1,6 +1,6 @@
 //! JPEG pictures, by the `zune-jpeg` crate; which way up, by `kamadak-exif`.
 
-use exif::{In, Tag};
+use exif::{Exif, In, Tag};
 use zune_core::bytestream::ZCursor;
 use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
@@ -24,6 +24,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         stride,
         size,
         orientation,
+        ..
     } = Pixels::decode(bytes)?;
     let stored = picture(Format::Jpeg, size, &samples, stride)?;
     let (values, (width, height)) = oriented(stored.values, size, orientation)?;
@@ -39,7 +40,10 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     let pixels = Pixels::decode(bytes)?;
     let rgba = rgba_of(Format::Jpeg, &pixels.samples, pixels.stride)?;
     let (rgba, size) = oriented(rgba, pixels.size, pixels.orientation)?;
-    Ok(PhotoFile::new(size, rgba))
+    Ok(PhotoFile {
+        film35: pixels.film35,
+        ..PhotoFile::new(size, rgba)
+    })
 }
 
 /// The samples as they are stored, `stride` for each pixel.
@@ -48,6 +52,7 @@ struct Pixels {
     stride: usize,
     size: (usize, usize),
     orientation: u16,
+    film35: Option<f64>,
 }
 
 impl Pixels {
@@ -85,27 +90,44 @@ impl Pixels {
         decoder.set_options(options.jpeg_set_out_colorspace(colours));
         let mut samples = try_filled("JPEG image", stride * len, 0u8)?;
         decoder.decode_into(&mut samples).map_err(failed)?;
+        let exif =
+            (decoder.exif()).and_then(|exif| exif::Reader::new().read_raw(exif.to_vec()).ok());
         Ok(Pixels {
             samples,
             stride,
             size,
-            orientation: decoder.exif().map_or(1, |exif| orientation(exif)),
+            orientation: exif.as_ref().map_or(1, orientation),
+            film35: exif.as_ref().and_then(|exif| film35(exif, size)),
         })
     }
 }
 
 /// Which way up the camera was, as TIFF numbers it. What is no sound number is as good as none: it
 /// is no part of the picture.
-fn orientation(exif: &[u8]) -> u16 {
-    let fields = exif::Reader::new().read_raw(exif.to_vec()).ok();
-    let number = fields.and_then(|exif| {
-        let field = exif.get_field(Tag::Orientation, In::PRIMARY)?;
-        field.value.get_uint(0)
-    });
-    match number {
+fn orientation(exif: &Exif) -> u16 {
+    match number(exif, Tag::Orientation) {
         Some(number @ 1..=8) => number as u16,
         _ => 1,
     }
+}
+
+/// The focal length as for 35 mm film, unless what Exif says of the photo's size has other
+/// proportions: programs that crop a photo keep what its camera has written.
+fn film35(exif: &Exif, (width, height): (usize, usize)) -> Option<f64> {
+    let length = number(exif, Tag::FocalLengthIn35mmFilm).filter(|length| *length > 0)?;
+    let stated = [Tag::PixelXDimension, Tag::PixelYDimension].map(|tag| number(exif, tag));
+    if let [Some(w @ 1..), Some(h @ 1..)] = stated {
+        let ratio = |a: f64, b: f64| a.max(b) / a.min(b);
+        let off = ratio(width as f64, height as f64) / ratio(f64::from(w), f64::from(h));
+        if (off - 1.0).abs() > 0.01 {
+            return None;
+        }
+    }
+    Some(f64::from(length))
+}
+
+fn number(exif: &Exif, tag: Tag) -> Option<u32> {
+    exif.get_field(tag, In::PRIMARY)?.value.get_uint(0)
 }
 
 /// Whether the end is marked, not counting pictures within the metadata.

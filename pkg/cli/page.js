@@ -1,0 +1,60 @@
+/** `developable dewarp PHOTO --edges EDGES`. */
+import * as developable from '../index.js';
+import { messageOf } from '../errors.js';
+import { checkPlaces, readBytes, writeWhole } from './files.js';
+import { about } from './inputs.js';
+import { Problem, status } from './problem.js';
+import { json, mapFile, percent } from './sheets.js';
+
+/**
+ * @param {import('./arguments.js').PageTask} task
+ * @param {AbortSignal} signal
+ */
+export async function page(task, signal) {
+  await checkPlaces(...task.written);
+  const edges = await readEdges(task.edges);
+  const bytes = await readBytes(task.input);
+  const photo = await about(task.input, () => developable.readPhoto(bytes));
+  const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
+  const flat = await developable.dewarpPage(photo, edges, options);
+  const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }];
+  const { size, unit, report } = flat;
+  if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...report, size, unit }) });
+  if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(task.map, flat) });
+  await writeWhole(files, signal);
+  const told = words(report);
+  if (told !== undefined) process.stderr.write(`developable: ${told}\n`);
+}
+
+/** @param {import('../types.js').PageReport} report */
+function words({ verdict, error, errorBound, disagreement }) {
+  const likely = `${percent(error / 100)} of its width (at most ${percent(errorBound / 100)} in 95 of 100 cases)`;
+  switch (verdict) {
+    case 'flat':
+      return 'the page was flat: only the perspective was taken out';
+    case 'unchecked':
+      return `warning: nothing checks the page's bend, for too few points were traced, or one edge looks straight ` +
+        `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
+    case 'doubtful':
+      return `warning: the flat page is doubtful: its places are wrong by ${likely}, or it hides a part of itself, or ` +
+        `its edges disagree (by ${percent(disagreement / 100)})`;
+    case 'notThisKind':
+      return `warning: this is no page that is curled one way: its edges disagree (by ${percent(disagreement / 100)} of ` +
+        'its width); it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
+    default:
+      return undefined;
+  }
+}
+
+/**
+ * @param {string} path
+ * @returns {Promise<import('../types.js').PageEdges>}
+ */
+async function readEdges(path) {
+  const text = new TextDecoder().decode(await readBytes(path));
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new Problem(status.input, `cannot read ${path}: it is no JSON (${messageOf(error)})`);
+  }
+}

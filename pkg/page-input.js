@@ -1,0 +1,136 @@
+/** Edges of pages as they were traced in a photo: checked as far as JS has to. */
+import { DevelopableError } from './errors.js';
+import { optionsOf } from './options.js';
+import { isRecord, reading, record, refuseUnknown, show } from './values.js';
+
+/**
+ * @typedef {{ beziers: boolean, points: Float64Array }} TraceInput
+ * @typedef {{ sideways: boolean, edges: [TraceInput, TraceInput] }} EdgesInput
+ * @typedef {import('./types.js').DewarpPageOptions} Options
+ */
+
+const SIDES = /** @type {const} */ (['top', 'bottom', 'left', 'right']);
+
+/** Most points of one edge, as in Rust: to be refused before they are copied. */
+const MOST = 100_000;
+
+/**
+ * The edges of one page, or of the two pages of a spread.
+ * @param {unknown} given
+ * @returns {EdgesInput[]}
+ */
+export function asEdges(given) {
+  const pages = reading('INPUT', 'the edges', () => (Array.isArray(given) ? given.slice(0, 3) : [given]));
+  if (pages.length !== 1 && pages.length !== 2) {
+    throw new DevelopableError('INPUT', 'the edges must be those of one page, or a list of the edges of both pages of a spread');
+  }
+  return pages.map(asPair);
+}
+
+/**
+ * @param {unknown} given
+ * @returns {EdgesInput}
+ */
+function asPair(given) {
+  if (!isRecord(given)) {
+    throw new DevelopableError('INPUT', `the edges must be { top, bottom } or { left, right }, but are ${show(given)}`);
+  }
+  refuseUnknown('INPUT', 'edge', given, SIDES);
+  const { top, bottom, left, right } = record('INPUT', 'the edges', given, SIDES);
+  if (top !== undefined && bottom !== undefined && left === undefined && right === undefined) {
+    return { sideways: false, edges: [asTrace('top', top), asTrace('bottom', bottom)] };
+  }
+  if (left !== undefined && right !== undefined && top === undefined && bottom === undefined) {
+    return { sideways: true, edges: [asTrace('left', left), asTrace('right', right)] };
+  }
+  throw new DevelopableError('INPUT', 'the edges must be `top` and `bottom`, or `left` and `right`: the two that are bent');
+}
+
+/**
+ * @param {string} name
+ * @param {unknown} given
+ * @returns {TraceInput}
+ */
+function asTrace(name, given) {
+  const what = `the ${name} edge`;
+  return reading('INPUT', what, () => {
+    if (Array.isArray(given)) return { beziers: false, points: pointsOf(what, given) };
+    refuseUnknown('INPUT', `property of ${what}`, given, ['beziers']);
+    return { beziers: true, points: pointsOf(what, record('INPUT', what, given, ['beziers']).beziers) };
+  });
+}
+
+/**
+ * @param {string} what
+ * @param {unknown} list
+ */
+function pointsOf(what, list) {
+  if (!Array.isArray(list)) {
+    throw new DevelopableError('INPUT', `${what} must be a list of points [x, y], or { beziers } with such a list`);
+  }
+  if (list.length > MOST) {
+    throw new DevelopableError('TOO_LARGE', `${what} has ${list.length} points, more than the limit of ${MOST}`);
+  }
+  const points = new Float64Array(2 * list.length);
+  for (let i = 0; i < list.length; i += 1) {
+    const point = list[i];
+    const [x, y] = Array.isArray(point) && point.length === 2 ? point : [];
+    if (typeof x !== 'number' || typeof y !== 'number') {
+      throw new DevelopableError('INPUT', `point ${i} of ${what} must be two numbers [x, y], but is ${show(point)}`);
+    }
+    points.set([x, y], 2 * i);
+  }
+  return points;
+}
+
+/**
+ * The same in the caller's form, as copies.
+ * @param {EdgesInput[]} pages
+ * @returns {import('./types.js').PageEdges[]}
+ */
+export function plainEdges(pages) {
+  /** @type {(trace: TraceInput) => import('./types.js').EdgeTrace} */
+  const plain = ({ beziers, points }) => {
+    const list = Array.from({ length: points.length / 2 }, (_, i) =>
+      /** @type {[number, number]} */ ([points[2 * i], points[2 * i + 1]]));
+    return beziers ? { beziers: list } : list;
+  };
+  return pages.map(({ sideways, edges: [first, second] }) =>
+    (sideways ? { left: plain(first), right: plain(second) } : { top: plain(first), bottom: plain(second) }));
+}
+
+/**
+ * The options, with the focal length that the photo's file has told if none is given.
+ * @param {unknown} photo
+ * @param {Options} [given]
+ * @returns {Partial<Options>}
+ */
+export function pageOptions(photo, given) {
+  const { ruler, ...options } = optionsOf('dewarpPage', given);
+  const { film35 } = record('INPUT', 'the photo', photo, ['film35']);
+  const told = options.focalLength ?? options.fieldOfView ?? options.film35;
+  return {
+    ...options,
+    ...(told === undefined && typeof film35 === 'number' && { film35 }),
+    ...(ruler !== undefined && { ruler: asRuler(ruler) }),
+  };
+}
+
+/**
+ * @param {unknown} given
+ * @returns {NonNullable<Options['ruler']>}
+ */
+function asRuler(given) {
+  const { from, to, length } = record('OPTION', 'option `ruler`', given, ['from', 'to', 'length']);
+  return reading('OPTION', 'option `ruler`', () => {
+    const ends = [from, to].map((end) => {
+      const [x, y] = Array.isArray(end) ? end : [];
+      return /** @type {[number, number]} */ ([x, y]);
+    });
+    if ([...ends.flat(), length].some((value) => typeof value !== 'number')) {
+      throw new DevelopableError(
+        'OPTION', 'option `ruler` must be { from: [x, y], to: [x, y], length }: two places in the photo, and millimetres');
+    }
+    return { from: ends[0], to: ends[1], length: /** @type {number} */ (length) };
+  });
+}

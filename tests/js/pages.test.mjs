@@ -1,0 +1,223 @@
+/** Photos of curled pages made flat by their edges; directly, in a worker and by the command. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+
+after(() => developable.dispose());
+
+/**
+ * An A4 page, 80° of a circle about an upright axis, 43 cm from a camera that is tilted by 20°.
+ * Millimetres and pixels.
+ */
+const [width, height, focal, distance, tilt] = [480, 640, 480, 430, (20 * Math.PI) / 180];
+const radius = 210 / 1.4;
+
+/** Where a place on the page is seen, from its upper left corner as shares. @param {number} s @param {number} t */
+function seen(s, t) {
+  const angle = 1.4 * (s - 0.5);
+  const [x, y, z] = [radius * Math.sin(angle), 297 * (t - 0.5), -radius * (Math.cos(angle) - 0.85)];
+  const [down, ahead] = [y * Math.cos(tilt) - z * Math.sin(tilt), y * Math.sin(tilt) + z * Math.cos(tilt)];
+  return /** @type {[number, number]} */ (
+    [(focal * x) / (distance + ahead) + 239.5, (focal * down) / (distance + ahead) + 319.5]);
+}
+
+/** @param {number} t */
+const across = (t) => Array.from({ length: 21 }, (_, i) => seen(i / 20, t));
+
+const edges = { top: across(0), bottom: across(1) };
+
+/** Red from left to right, green from top to bottom: each pixel says where it is. */
+const photo = {
+  width,
+  height,
+  data: Uint8ClampedArray.from({ length: 4 * width * height }, (_, i) => {
+    const [x, y] = [Math.floor(i / 4) % width, Math.floor(i / 4 / width)];
+    return [x / 2, y / 3, 0, 255][i % 4];
+  }),
+};
+
+/** @param {string} code @param {RegExp} [message] */
+const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
+  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
+  assert.equal(thrown.code, code, thrown.message);
+  assert.match(thrown.message, message);
+  return true;
+};
+
+await direct.init();
+await direct.load('files', 'images', 'unroll', 'meshes');
+
+test('a curled page is flat, in millimetres', async () => {
+  const flat = direct.dewarpPage(photo, edges, { focalLength: focal, page: 'a4', dots: 1 });
+  assert.deepEqual([flat.width, flat.height, flat.unit, flat.resolution], [210, 297, 'mm', 1]);
+  assert.equal(flat.verdict, 'unrolled');
+  assert.equal(flat.report.verdict, 'unrolled');
+  assert.ok(flat.report.error > 0 && flat.report.error < 0.5 && flat.report.errorBound < 1, JSON.stringify(flat.report));
+  assert.ok(flat.size.every((side, k) => Math.abs(side - [210, 297][k]) < 0.5), String(flat.size));
+  for (const [col, row] of [[0, 0], [209, 0], [70, 200], [105, 296]]) {
+    const [x, y] = seen((col + 0.5) / 210, (row + 0.5) / 297);
+    const i = row * 210 + col;
+    assert.ok(Math.hypot(flat.map[2 * i] - x, flat.map[2 * i + 1] - y) < 0.1, `${col} ${row}`);
+    const [red, green] = flat.data.subarray(4 * i);
+    assert.ok(Math.abs(red - x / 2) < 1.5 && Math.abs(green - y / 3) < 1.5, `${col} ${row}: ${red} ${green}`);
+  }
+  assert.deepEqual(await developable.dewarpPage(photo, edges, { focalLength: focal, page: 'a4', dots: 1 }), flat);
+});
+
+test('its surface goes on as any other', () => {
+  const { mesh } = direct.dewarpPage(photo, edges, { focalLength: focal, page: 'a4' });
+  const sampled = direct.sampleMesh({ ...mesh, textures: [photo] }, { view: 'best-fit', resolution: 80 });
+  assert.ok(sampled.colors);
+  const sheet = direct.unroll(sampled);
+  assert.equal(sheet.verdict, 'unrolled');
+  assert.ok(Math.abs(sheet.report.area / (210 * 297) - 1) < 0.06, String(sheet.report.area));
+  assert.ok(direct.writeGlb(sampled).length > 1000);
+});
+
+test('what is known may be said in several ways', () => {
+  const by = (/** @type {object} */ options, given = photo) => direct.dewarpPage(given, edges, options).report;
+  const angle = (360 / Math.PI) * Math.atan(height / 2 / focal);
+  const film35 = (focal * Math.hypot(36, 24)) / Math.hypot(width, height);
+  for (const report of [by({ fieldOfView: angle }), by({ film35 }), by({}, { ...photo, film35 }), by({})]) {
+    assert.ok(Math.abs(report.focalLength / focal - 1) < 0.01, JSON.stringify(report));
+  }
+  // What is said counts more than what the photo tells.
+  assert.ok(by({ focalLength: focal }, { ...photo, film35: 3 * film35 }).focalDeviation < 1);
+
+  const [from, to] = [seen(0.1, 0.5), seen(0.9, 0.5)];
+  const ruled = direct.dewarpPage(photo, edges, { focalLength: focal, ruler: { from, to, length: 168 } });
+  assert.ok(ruled.unit === 'mm' && Math.abs(ruled.size[0] - 210) < 0.5, String(ruled.size));
+  const bare = direct.dewarpPage(photo, edges, { focalLength: focal });
+  assert.ok(bare.unit === 'page' && Math.abs(bare.size[1] - 297 / 210) < 0.01, String(bare.size));
+});
+
+test('pages curled the other way, spreads, and Bézier curves', () => {
+  // The same page read from its right side: the right edge is the old bottom one.
+  const turned = direct.dewarpPage(photo, { left: across(1), right: across(0) }, { focalLength: focal, page: [297, 210], dots: 1 });
+  assert.deepEqual([turned.width, turned.height], [297, 210]);
+  const [x, y] = seen(0.5 / 210, 1 - 0.5 / 297);
+  assert.ok(Math.hypot(turned.map[0] - x, turned.map[1] - y) < 0.1, String(turned.map.subarray(0, 2)));
+
+  // Cut along its middle ruling, it is a spread.
+  const half = (/** @type {number} */ k) => ({
+    top: edges.top.slice(10 * k, 10 * k + 11),
+    bottom: edges.bottom.slice(10 * k, 10 * k + 11),
+  });
+  const spread = direct.dewarpPage(photo, [half(0), half(1)], { focalLength: focal, page: [105, 297], dots: 1 });
+  assert.deepEqual([spread.width, spread.height], [210, 297]);
+  const middle = seen(0.5, 0.5 / 297);
+  assert.ok(Math.hypot(spread.map[2 * 105] - middle[0], spread.map[211] - middle[1]) < 1.2);
+
+  // A straight cubic: a page that is flat.
+  const line = (/** @type {number} */ y) => ({ beziers: [0, 1, 2, 3].map((k) => /** @type {[number, number]} */ ([60 + 120 * k, y])) });
+  const flat = direct.dewarpPage(photo, { top: line(60), bottom: line(580) }, { focalLength: focal });
+  assert.equal(flat.verdict, 'flat');
+  assert.ok(Math.abs(flat.size[1] - 520 / 360) < 0.01, String(flat.size));
+});
+
+test('what is no page, and what is not known', async () => {
+  const by = (/** @type {unknown} */ given, options = {}) => () => direct.dewarpPage(photo, /** @type {any} */ (given), options);
+  assert.throws(by({ top: edges.bottom, bottom: edges.top }), error('EDGES', /exchange/));
+  assert.throws(by({ top: edges.top }), error('INPUT', /top.*bottom/));
+  assert.throws(by({ ...edges, left: edges.top }), error('INPUT'));
+  assert.throws(by({ ...edges, middle: [] }), error('INPUT', /middle/));
+  assert.throws(by([]), error('INPUT', /spread/));
+  assert.throws(by([edges, edges, edges]), error('INPUT', /spread/));
+  assert.throws(by({ ...edges, top: [[1, 2], [3]] }), error('INPUT', /point 1 of the top edge/));
+  assert.throws(by({ ...edges, top: [[1, 2], [3, '4']] }), error('INPUT', /point 1 of the top edge/));
+  assert.throws(by({ ...edges, top: { beziers: 3 } }), error('INPUT', /beziers/));
+  assert.throws(by({ ...edges, top: [[1, 2], [NaN, 3]] }), error('NOT_FINITE'));
+  assert.throws(by(edges, { focalLength: 0 }), error('OPTION', /focalLength/));
+  assert.throws(by(edges, { focalLength: focal, fieldOfView: 60 }), error('OPTION', /one of them/));
+  assert.throws(by(edges, { page: 'a3' }), error('OPTION', /page/));
+  assert.throws(by(edges, { focalLength: focal, page: [100, 100] }), error('EDGES', /format/));
+  assert.throws(by(edges, { ruler: { from: [0, 0] } }), error('OPTION', /ruler/));
+  // Straight above a page whose edges bow inwards, nothing tells how far away they are.
+  const bowed = (/** @type {number} */ y, /** @type {number} */ bow) =>
+    Array.from({ length: 21 }, (_, i) => [40 + 20 * i, y + bow * (1 - ((i - 10) / 10) ** 2)]);
+  assert.throws(by({ top: bowed(60, 20), bottom: bowed(580, -20) }), error('FOCAL_LENGTH', /field of view/));
+  await assert.rejects(developable.dewarpPage(photo, { top: edges.bottom, bottom: edges.top }), error('EDGES'));
+});
+
+/** An edge list as JSON. */
+const file = JSON.stringify(edges);
+
+/** A JPEG's Exif data with a focal length, put into a file that has none. @param {Uint8Array} jpeg @param {number} film35 */
+function withExif(jpeg, film35) {
+  const entry = (/** @type {number} */ tag, /** @type {number} */ kind, /** @type {number} */ value) => {
+    const bytes = Buffer.alloc(12);
+    bytes.writeUInt16LE(tag, 0);
+    bytes.writeUInt16LE(kind, 2);
+    bytes.writeUInt32LE(1, 4);
+    bytes.writeUInt32LE(value, 8);
+    return bytes;
+  };
+  const directory = (/** @type {Buffer} */ one) => Buffer.concat([Buffer.from([1, 0]), one, Buffer.alloc(4)]);
+  const tiff = Buffer.concat([
+    Buffer.from('II*\0\x08\0\0\0', 'latin1'), directory(entry(0x8769, 4, 26)), directory(entry(0xa405, 3, film35)),
+  ]);
+  const head = Buffer.from('\xff\xe1\0\0Exif\0\0', 'latin1');
+  head.writeUInt16BE(8 + tiff.length, 2);
+  return Buffer.concat([jpeg.subarray(0, 2), head, tiff, jpeg.subarray(2)]);
+}
+
+test('the focal length of a photo file', async () => {
+  const jpeg = await readFile(new URL('../data/colour.jpg', import.meta.url));
+  assert.equal(direct.readPhoto(jpeg).film35, undefined);
+  assert.equal(direct.readPhoto(withExif(jpeg, 26)).film35, 26);
+  assert.equal((await developable.readPhoto(withExif(jpeg, 28))).film35, 28);
+});
+
+test('the command', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo));
+  await writeFile(join(folder, 'edges.json'), file);
+  await writeFile(join(folder, 'swapped.json'), JSON.stringify({ top: edges.bottom, bottom: edges.top }));
+  await writeFile(join(folder, 'broken.json'), '{');
+  const silent = { status: 0, stdout: '', stderr: '' };
+  /** @param {string} args */
+  const command = (args) => run(folder, args.split(' '));
+
+  const told = 'dewarp photo.png --edges edges.json --focal 480 --page a4 --dots 1 -o page.png --map map.npy --report report.json';
+  assert.deepEqual(await command(told), silent);
+  const flat = direct.readPhoto(await readFile(join(folder, 'page.png')));
+  assert.deepEqual([flat.width, flat.height], [210, 297]);
+  const map = await readFile(join(folder, 'map.npy'));
+  assert.ok(map.toString('latin1', 0, 128).includes('(297, 210, 2)'));
+  const [x, y] = seen(0.5 / 210, 0.5 / 297);
+  const at = map.length - 8 * 210 * 297;
+  assert.ok(Math.hypot(map.readFloatLE(at) - x, map.readFloatLE(at + 4) - y) < 0.1);
+  const report = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
+  assert.ok(report.verdict === 'unrolled' && report.unit === 'mm' && report.error < report.errorBound, JSON.stringify(report));
+
+  assert.deepEqual(await command('dewarp photo.png --edges edges.json --fov 67.4 --page 210x297 -o page.png'), silent);
+
+  // Corners alone.
+  await writeFile(join(folder, 'corners.json'), JSON.stringify({
+    top: [[60, 60], [420, 60]], bottom: [[60, 580], [420, 580]],
+  }));
+  const corners = await command('dewarp photo.png --edges corners.json --focal 480 -o page.png');
+  assert.equal(corners.status, 0, corners.stderr);
+  assert.match(corners.stderr, /nothing checks/);
+
+  for (const [args, status, message] of /** @type {[string, number, RegExp][]} */ ([
+    ['dewarp photo.png --edges swapped.json -o f.png', 3, /exchange/],
+    ['dewarp photo.png --edges broken.json -o f.png', 3, /broken\.json.*JSON/],
+    ['dewarp photo.png --edges none.json -o f.png', 3, /none\.json/],
+    ['dewarp photo.png --edges edges.json --focal 0 -o f.png', 2, /--focal is 0/],
+    ['dewarp photo.png --edges edges.json --focal 480 --fov 60 -o f.png', 2, /one of them/],
+    ['dewarp photo.png --edges edges.json --page a3 -o f.png', 2, /--page must be/],
+    ['dewarp photo.png --edges edges.json --page 100x100 --focal 480 -o f.png', 3, /format/],
+    ['dewarp photo.png --edges edges.json --lambda big -o f.png', 2, /--lambda is for heights/],
+    ['dewarp photo.png --edges edges.json -o edges.json', 2, /\.png/],
+    ['dewarp photo.png --texture photo.png --fov 60 -o f.png', 2, /--fov is for a photo alone/],
+  ])) {
+    const { status: found, stderr } = await command(args);
+    assert.equal(found, status, `${args}: ${stderr}`);
+    assert.match(stderr, message);
+  }
+});

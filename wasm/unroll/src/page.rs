@@ -1,0 +1,182 @@
+//! Photos of pages made flat by their edges.
+
+use js_sys::{Float32Array, Float64Array, Uint8ClampedArray, Uint32Array};
+use serde::{Deserialize, Serialize};
+use serde_wasm_bindgen::{from_value, preserve, to_value};
+use wasm_bindgen::prelude::*;
+
+use developable::dewarp::DewarpOptions;
+use developable::page::{
+    CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
+};
+use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::photo::Pixels;
+use developable_wasm::{Failure, Result};
+
+/// The edges of one page, as `asEdges` makes them.
+#[derive(Deserialize)]
+struct EdgesInput {
+    /// Whether they are the left and the right one.
+    sideways: bool,
+    edges: [TraceInput; 2],
+}
+
+#[derive(Deserialize)]
+struct TraceInput {
+    beziers: bool,
+    #[serde(with = "preserve")]
+    points: Float64Array,
+}
+
+impl TraceInput {
+    fn into_trace(self) -> Trace {
+        let points = self.points.to_vec().as_chunks().0.to_vec();
+        if self.beziers {
+            Trace::Beziers(points)
+        } else {
+            Trace::Points(points)
+        }
+    }
+}
+
+impl EdgesInput {
+    fn into_edges(self) -> Edges {
+        let [first, second] = self.edges.map(TraceInput::into_trace);
+        if self.sideways {
+            Edges::LeftRight {
+                left: first,
+                right: second,
+            }
+        } else {
+            Edges::TopBottom {
+                top: first,
+                bottom: second,
+            }
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct RulerInput {
+    from: [f64; 2],
+    to: [f64; 2],
+    length: f64,
+}
+
+/// `DewarpedPage` of `types.d.ts`.
+#[derive(Serialize)]
+struct PageOutput {
+    width: usize,
+    height: usize,
+    resolution: f64,
+    corner: [f64; 2],
+    #[serde(with = "preserve")]
+    data: Uint8ClampedArray,
+    #[serde(with = "preserve")]
+    map: Float32Array,
+    size: [f64; 2],
+    unit: &'static str,
+    mesh: MeshOutput,
+    verdict: PageVerdict,
+    report: PageReport,
+}
+
+#[derive(Serialize)]
+struct MeshOutput {
+    #[serde(with = "preserve")]
+    positions: Float64Array,
+    #[serde(with = "preserve")]
+    triangles: Uint32Array,
+    #[serde(with = "preserve")]
+    uvs: Float32Array,
+}
+
+/// A photo of a page, or of a spread, made flat by the page's edges.
+#[wasm_bindgen(js_name = dewarpPage)]
+pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
+    let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
+    let mut focal = Vec::new();
+    for (name, value) in entries(&options)? {
+        let number = "must be a number";
+        match name.as_str() {
+            "dots" => wanted = wanted.dots(option("dots", value, number)?),
+            "focalLength" => {
+                focal.push(FocalLength::Pixels(option("focal_length", value, number)?))
+            }
+            "fieldOfView" => {
+                focal.push(FocalLength::FieldOfView(option(
+                    "field_of_view",
+                    value,
+                    number,
+                )?));
+            }
+            "film35" => focal.push(FocalLength::Film35(option("film35", value, number)?)),
+            "page" => known = known.format(format_from(value)?),
+            "ruler" => {
+                let requirement =
+                    "must be { from, to, length }: two places in the photo, and millimetres";
+                let RulerInput { from, to, length } = option("ruler", value, requirement)?;
+                known = known.ruler(Ruler { from, to, length });
+            }
+            "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
+            "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
+            _ => {
+                let names =
+                    "dots, focalLength, fieldOfView, film35, page, ruler, centre and accuracy";
+                return Err(unknown(&name, names));
+            }
+        }
+    }
+    match focal[..] {
+        [] => {}
+        [focal] => known = known.focal_length(focal),
+        _ => {
+            return Err(Failure::option(
+                "options `focalLength`, `fieldOfView` and `film35` say the same: give one of them",
+            ));
+        }
+    }
+    let edges: Vec<EdgesInput> = from_value(edges)?;
+    let edges: Vec<Edges> = edges.into_iter().map(EdgesInput::into_edges).collect();
+    let pixels = Pixels::new(photo)?;
+    let photo = pixels.photo()?;
+    let page = CurledPage::new(&edges, [photo.width(), photo.height()], &known)?;
+    let map = page.warp_map(&wanted)?;
+    let flat = map.image(&photo)?;
+    let mesh = page.mesh()?;
+    Ok(to_value(&PageOutput {
+        width: map.width(),
+        height: map.height(),
+        resolution: map.resolution(),
+        corner: map.corner(),
+        data: flat.as_slice().into(),
+        map: map.places().as_flattened().into(),
+        size: page.flat_size(),
+        unit: if page.is_millimetres() { "mm" } else { "page" },
+        mesh: MeshOutput {
+            positions: mesh.positions().as_flattened().into(),
+            triangles: mesh.triangles().as_flattened().into(),
+            uvs: mesh.uvs().unwrap_or_default().as_flattened().into(),
+        },
+        verdict: page.report().verdict,
+        report: *page.report(),
+    })?)
+}
+
+/// The option `page`.
+fn format_from(value: JsValue) -> Result<Format> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Given {
+        Name(String),
+        Sides([f64; 2]),
+    }
+    let requirement = "must be `a4`, `letter` or width and height in millimetres";
+    let shown = value.clone();
+    match option("page", value, requirement)? {
+        Given::Name(name) if name == "a4" => Ok(Format::A4),
+        Given::Name(name) if name == "letter" => Ok(Format::Letter),
+        Given::Name(_) => option("page", shown, requirement).map(Format::Millimetres),
+        Given::Sides(sides) => Ok(Format::Millimetres(sides)),
+    }
+}

@@ -85,7 +85,9 @@ impl Findings {
         const DOUBTFUL: f64 = 0.01;
         // No lens is true to less than this share of the width.
         let least = self.accuracy.max(0.0007 * self.seen);
-        if self.smooth > 1.2 * least || self.residual > 1.75 * least {
+        // What that many points come to by chance, and a little more.
+        let scatter = 1.3 + 1.3 / self.fewest.sqrt();
+        if self.smooth > 1.2 * least || self.residual > scatter * least {
             return PageVerdict::NotThisKind;
         }
         if self.estimate.expected > DOUBTFUL || self.hidden || self.smooth > 0.85 * least {

@@ -36,7 +36,7 @@
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
 //! [`Heightfield::to_image`], or [`files`]; [`analysis`], [`patches`] and
 //! [`rulings`] for what it is like and [`picture`] for what it looks like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
-//! laid flat, and [`pattern`] and [`drawing`] for sheets to cut out and fold.
+//! laid flat ([`page`] without any heights, by a page's edges), and [`pattern`] and [`drawing`] for sheets to cut out and fold.
 //!
 //! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
 //! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a

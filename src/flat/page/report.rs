@@ -94,7 +94,8 @@ impl Findings {
             return PageVerdict::Doubtful;
         }
         let straight = 3.0 * self.accuracy;
-        if self.fewest < 4.0 || (self.bow[0] > 4.0 * straight && self.bow[1] < straight) {
+        if self.fewest < 4.0 || (self.bow[0] > 4.0 * straight && self.bow[1] < 2.0 * self.accuracy)
+        {
             return PageVerdict::Unchecked;
         }
         if self.bow[0] < straight {

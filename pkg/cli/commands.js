@@ -135,7 +135,7 @@ export const commands = {
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4'],
   },
   dewarp: {
-    usage: 'INPUT [--texture PHOTO | --edges EDGES] -o IMAGE [options]',
+    usage: 'INPUT [--texture PHOTO] -o IMAGE [options]',
     summary: 'make a photo of it flat',
     about:
       'Fits a surface and makes a photo of it flat. What the photo shows where is known for heights seen straight from ' +

@@ -252,7 +252,7 @@ mod tests {
         };
         // From −0.6 to 0.6 rad over a length of 2: a radius of 1/0.6.
         let (curve, radius) = (arc.curve(), 1.0 / 0.6f64);
-        for share in [0.0, 0.123, 0.5, 0.77, 1.0] {
+        for share in [0.0f64, 0.123, 0.5, 0.77, 1.0] {
             let angle = -0.6 + 1.2 * share;
             let known = [
                 radius * (angle.sin() + 0.6f64.sin()),

@@ -2,10 +2,11 @@
 
 use super::cylinder::Cylinder;
 use super::estimate::{Estimate, between, estimate};
+use super::known::{focal_length, sides};
 use super::report::{Findings, PageReport};
 use super::solve::{Prior, Residuals, Traces};
 use super::trace::{Line, lines};
-use super::{Edges, FocalLength, Format, PageOptions, start};
+use super::{Edges, Format, PageOptions, start};
 use crate::error::{Error, Result, positive};
 
 /// A page that is curled one way, or the two pages of a spread, in space.
@@ -23,9 +24,6 @@ pub struct CurledPage {
 
 /// Degrees of the curve's direction that are tried, each from the one before.
 const DEGREES: [usize; 11] = [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14];
-
-/// A diagonal of film, in millimetres.
-const FILM: f64 = 43.266_615;
 
 /// Focal lengths that cameras have, over the photo's longer side.
 const USUAL: [f64; 2] = [0.35, 4.0];
@@ -198,7 +196,7 @@ impl CurledPage {
                 ));
             };
             let found = (from[0] - to[0]).hypot(from[1] - to[1]);
-            if !(found > 0.01 * width.min(height)) {
+            if found.is_nan() || found <= 0.01 * width.min(height) {
                 let requirement = "must be at least a hundredth of the page's side long";
                 return Err(Error::option("ruler", found, requirement));
             }
@@ -226,77 +224,6 @@ const FOUND: f64 = 0.05;
 
 fn within(focal: f64, longer: f64) -> bool {
     (RANGE[0] * longer..=RANGE[1] * longer).contains(&focal)
-}
-
-/// In pixels, and its relative standard deviation.
-fn focal_length(given: FocalLength, longer: f64, diagonal: f64) -> Result<Option<[f64; 2]>> {
-    let (value, found, deviation) = match given {
-        FocalLength::Unknown => return Ok(None),
-        FocalLength::Pixels(pixels) => (pixels, positive("focal_length", pixels)?, 0.003),
-        FocalLength::FieldOfView(degrees) => {
-            if !(degrees > 0.0 && degrees < 180.0) {
-                let requirement = "must be above 0 and below 180 degrees";
-                return Err(Error::option("field_of_view", degrees, requirement));
-            }
-            (
-                degrees,
-                0.5 * longer / (degrees.to_radians() / 2.0).tan(),
-                0.01,
-            )
-        }
-        FocalLength::Film35(length) => {
-            (length, positive("film35", length)? * diagonal / FILM, 0.02)
-        }
-    };
-    if !(0.05 * longer..=100.0 * longer).contains(&found) {
-        let requirement = "must be between 1/20 of the photo's longer side and 100 times that";
-        return Err(Error::option("focal_length", value, requirement));
-    }
-    Ok(Some([found, deviation]))
-}
-
-/// A format.
-#[derive(Debug, Clone, Copy)]
-struct Sides {
-    /// Height over width.
-    ratio: f64,
-    /// Whether it may lie across.
-    either: bool,
-    millimetres: Option<[f64; 2]>,
-}
-
-impl Sides {
-    /// Height over width, the way that is nearer to what is seen.
-    fn ratio(&self, seen: f64) -> f64 {
-        if self.either && (seen > 1.0) != (self.ratio > 1.0) {
-            1.0 / self.ratio
-        } else {
-            self.ratio
-        }
-    }
-}
-
-fn sides(format: Format) -> Result<Option<Sides>> {
-    let (sides, either) = match format {
-        Format::Unknown => return Ok(None),
-        Format::A4 => ([210.0, 297.0], true),
-        Format::Letter => ([215.9, 279.4], true),
-        Format::Millimetres(sides) => (sides, false),
-        Format::Ratio(ratio) => ([1.0, ratio], false),
-    };
-    for side in sides {
-        positive("format", side)?;
-    }
-    let ratio = sides[1] / sides[0];
-    if !(0.02..=50.0).contains(&ratio) {
-        let requirement = "must not be more than 50 times as long as wide";
-        return Err(Error::option("format", format!("{sides:?}"), requirement));
-    }
-    Ok(Some(Sides {
-        ratio,
-        either,
-        millimetres: (!matches!(format, Format::Ratio(_))).then_some(sides),
-    }))
 }
 
 /// Length over width of the first page as it is seen.

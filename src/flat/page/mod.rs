@@ -47,6 +47,7 @@
 mod cylinder;
 mod estimate;
 mod find;
+mod known;
 mod output;
 mod report;
 mod solve;

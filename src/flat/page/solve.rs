@@ -229,7 +229,7 @@ impl Traces {
             let Some((moved, found)) = better else { break };
             let gain = residuals.cost - found.cost;
             (best, residuals) = (moved, found);
-            if gain < 1e-4 * (1e-3 + residuals.cost.min(1.0)) {
+            if gain < 1e-3 * (1e-3 + residuals.cost.min(1.0)) {
                 break;
             }
         }

@@ -20,7 +20,7 @@ const files = [
   { name: 'files', limit: 250_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 285_000 },
-  { name: 'unroll', limit: 165_000 },
+  { name: 'unroll', limit: 215_000 },
   { name: 'patterns', limit: 220_000 },
 ];
 

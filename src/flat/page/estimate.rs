@@ -53,8 +53,8 @@ pub(super) fn estimate(
     let mut field = places.columns(0, parameters).into_owned();
     let mut centred = places.columns(parameters, 2).into_owned();
     // A wrong principal point moves everything, and the solution after it.
-    let moved = -&covariance * data.tr_mul(&traces.shifted(residuals, prior)) * share;
-    centred += &field * moved;
+    let pull = data.tr_mul(&traces.shifted(residuals, prior)) * share;
+    centred -= product(&field, &product(&covariance, &pull));
     let similarities = similarities(cylinder);
     for k in 0..parameters {
         without(&mut field, k, &similarities);
@@ -66,8 +66,8 @@ pub(super) fn estimate(
     let points = field.nrows() as f64 / 2.0;
     let pages = cylinder.pages.len() as f64;
     let width = cylinder.pages.iter().map(|page| page.width).sum::<f64>() / pages;
-    let shift = &centred * centred.transpose() * centre.powi(2);
-    let spread = &field * &covariance * field.transpose() + shift;
+    let shift = product(&centred, &centred.transpose()) * centre.powi(2);
+    let spread = product(&product(&field, &covariance), &field.transpose()) + shift;
     let mean = spread.trace() / points;
     let deviation = (2.0 * spread.norm_squared()).sqrt() / points;
     let unsure = 1.0 + 2.0 * (2.0 / free).sqrt();
@@ -81,6 +81,11 @@ pub(super) fn estimate(
         bound,
         focal,
     })
+}
+
+/// A product, by columns.
+fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    left.transpose().tr_mul(right)
 }
 
 /// Root mean square of the displacements between the flat pages of two cylinders for the same photo,

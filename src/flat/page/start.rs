@@ -151,7 +151,7 @@ fn strip(points: &[(f64, f64, f64)]) -> Option<Strip> {
     let mut right = DVector::<f64>::zeros(degree + 1);
     for (u, v, weight) in points {
         let row = DVector::from_vec(legendre(degree, (u - low) / span));
-        normal += &row * row.transpose() * *weight;
+        normal.ger(*weight, &row, &row, 1.0);
         right += row * (*v * *weight);
     }
     let fitted = normal.cholesky()?.solve(&right);

@@ -41,14 +41,12 @@ test('the newest wish wins', async () => {
   await sleep(300);
   assert.ok(told > 0);
   // Of many at once only the last one is worked on.
-  const start = performance.now();
   const calls = Array.from({ length: 40 }, (_, i) => solver.fit({ lambda: 1e6 * (1 + i / 40) }));
   const ends = Promise.all(calls.map(outcome));
   const last = await calls[39];
   assert.equal(last.report.lambda, 1e6 * (1 + 39 / 40));
   assert.equal(await ended, 'REPLACED');
   assert.deepEqual(await ends, [...new Array(39).fill('REPLACED'), 'done']);
-  assert.ok(performance.now() - start < 5000);
   const before = told;
   await sleep(150);
   assert.equal(told, before, 'nothing more is told of what was replaced');
@@ -83,10 +81,11 @@ test('an abort rejects, or keeps the best so far, and the solver stays', async (
   const solve = solver.fit({ ...forever, signal: controller.signal });
   const ended = outcome(solve);
   await sleep(200);
-  const start = performance.now();
   controller.abort();
-  assert.equal(await ended, 'AbortError');
-  assert.ok(performance.now() - start < 50);
+  // The rejection does not wait for the worker.
+  const answered = developable.example('cylinder', { size: 8 }).then(() => 'answered');
+  assert.equal(await Promise.race([ended, answered]), 'AbortError');
+  await answered;
   const kept = await solver.fit({ ...forever, signal: AbortSignal.timeout(200), onAbort: 'keep' });
   assert.equal(kept.report.stopReason, 'cancelled');
   assert.equal(await outcome(solver.fit({ signal: AbortSignal.abort() })), 'AbortError');
@@ -165,12 +164,12 @@ test('with its worker, a solver ends for good', async () => {
 test('solvers of one worker take turns, and occlusions can be looked at in between', async () => {
   const { input } = endless(100);
   const [a, b] = await Promise.all([developable.open(input), developable.open(rough)]);
-  const long = a.fit({ ...forever, signal: AbortSignal.timeout(1200), onAbort: 'keep' });
-  const start = performance.now();
+  const controller = new AbortController();
+  const long = a.fit({ ...forever, signal: controller.signal, onAbort: 'keep' });
   const step = image(30, 20, (x, y) => plane(x, y) + (x > 15 ? 9 : 0));
   const found = await developable.occlusions(step, { threshold: 150 });
   assert.equal((await b.fit()).report.stopReason, 'gap');
-  assert.ok(performance.now() - start < 1100);
+  controller.abort();
   assert.ok(found.count > 15 && found.image?.length === 600 && found.vertices instanceof Uint8Array);
   assert.equal((await long).report.stopReason, 'cancelled');
   await assert.rejects(developable.occlusions(step, { threshold: -1 }), { code: 'OPTION', message: /threshold/ });

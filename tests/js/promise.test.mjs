@@ -68,13 +68,11 @@ test('an abort rejects at once and stops the work', async () => {
   await sleep(300);
   assert.ok((await load()) > 0.1, 'it works, even if the machine is busy');
   const reason = new Error('enough');
-  const start = performance.now();
   controller.abort(reason);
-  await assert.rejects(solve, (error) => error === reason);
-  assert.ok(performance.now() - start < 50);
-  // Idle as soon as it answers: what is under way is one batch.
-  await developable.example('cylinder', { size: 8 });
-  assert.ok(performance.now() - start < 250, `${performance.now() - start} ms until idle`);
+  // Neither waits for the solve, which has no end of its own; the rejection does not wait for the worker either.
+  const answered = developable.example('cylinder', { size: 8 }).then(() => 'answered');
+  await assert.rejects(Promise.race([solve, answered]), (error) => error === reason);
+  await answered;
   const last = told;
   assert.ok((await load()) < 0.1, 'nothing goes on');
   assert.equal(told, last);
@@ -95,9 +93,7 @@ test('an abort before the start, or while the worker starts, works as well', asy
 
 test('an abort can keep the best surface so far', async () => {
   const { input, options } = endless();
-  const start = performance.now();
   const surface = await developable.fit(input, { ...options, signal: AbortSignal.timeout(400), onAbort: 'keep' });
-  assert.ok(performance.now() - start < 1500);
   const { stopReason, objective, dualBound, iterations } = surface.report;
   assert.equal(stopReason, 'cancelled');
   assert.ok(iterations > 0 && dualBound <= objective);
@@ -147,13 +143,13 @@ test('an error in onProgress ends the solve and comes out', async () => {
 
 test('solves on one worker take turns', async () => {
   const { input, options } = endless();
-  const long = developable.fit(input, { ...options, signal: AbortSignal.timeout(1500), onAbort: 'keep' });
-  // Done long before the other one, although it came later.
-  const start = performance.now();
+  const controller = new AbortController();
+  const long = developable.fit(input, { ...options, signal: controller.signal, onAbort: 'keep' });
+  // The other one has no end of its own, and came first.
   const [a, b] = await Promise.all([developable.fit(ramp), developable.fit(image(40, 40, noisy(plane, 0.1)))]);
-  assert.ok(performance.now() - start < 1200);
   assert.equal(a.report.stopReason, 'rounding');
   assert.equal(b.report.stopReason, 'gap');
+  controller.abort();
   assert.equal((await long).report.stopReason, 'cancelled');
 });
 

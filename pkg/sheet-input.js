@@ -1,6 +1,6 @@
 /** What is laid flat, and photos of it: checked as far as JS has to. */
 import { DevelopableError } from './errors.js';
-import { asCamera, cells, count } from './input.js';
+import { cells, count } from './input.js';
 import { optionsOf } from './options.js';
 import { record, typeOf, viewOf } from './values.js';
 
@@ -68,7 +68,7 @@ export function placeOf(field, { camera, extent }) {
   const { frame, uvs, camera: own } = field;
   if (extent !== undefined) return {};
   const seen = camera ?? own;
-  if (seen !== undefined) return { camera: asCamera(seen), frame };
+  if (seen !== undefined) return { camera: seen, frame };
   if (uvs !== undefined) return { uvs };
   if (frame === undefined) return {};
   throw new DevelopableError(

@@ -4,7 +4,8 @@ import { messageOf } from '../errors.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { json, mapFile, percent } from './sheets.js';
+import { json, mapFile } from './sheets.js';
+import { percent } from './terminal.js';
 
 /**
  * @param {import('./arguments.js').PageTask} task
@@ -28,7 +29,7 @@ export async function page(task, signal) {
 
 /** @param {import('../types.js').PageReport} report */
 function words({ verdict, error, errorBound, disagreement }) {
-  const likely = `${percent(error / 100)} of its width (at most ${percent(errorBound / 100)} in 95 of 100 cases)`;
+  const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases)`;
   switch (verdict) {
     case 'flat':
       return 'the page was flat: only the perspective was taken out';
@@ -37,9 +38,9 @@ function words({ verdict, error, errorBound, disagreement }) {
         `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
     case 'doubtful':
       return `warning: the flat page is doubtful: its places are wrong by ${likely}, or it hides a part of itself, or ` +
-        `its edges disagree (by ${percent(disagreement / 100)})`;
+        `its edges disagree (by ${percent(disagreement / 100, 2)})`;
     case 'notThisKind':
-      return `warning: this is no page that is curled one way: its edges disagree (by ${percent(disagreement / 100)} of ` +
+      return `warning: this is no page that is curled one way: its edges disagree (by ${percent(disagreement / 100, 2)} of ` +
         'its width); it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
     default:
       return undefined;

@@ -5,6 +5,7 @@ import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
+import { percent } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
@@ -39,7 +40,7 @@ export async function pattern(task, signal) {
   const { strain } = drawing.summary;
   if (strain > 0.01) {
     process.stderr.write(
-      `developable: warning: there is a sheet that cannot be laid flat without stretching it (by ${percent(strain)})\n`,
+      `developable: warning: there is a sheet that cannot be laid flat without stretching it (by ${percent(strain, 2)})\n`,
     );
   }
 }
@@ -80,7 +81,7 @@ export async function dewarp(task, signal) {
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
-    const strain = percent(flat.report.distortion.rms);
+    const strain = percent(flat.report.distortion.rms, 2);
     process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
   }
 }
@@ -127,11 +128,6 @@ export function spacing(task) {
  */
 function reported({ report: path }, { report, verdict }) {
   return path === undefined ? [] : [{ path, bytes: json({ verdict, ...report }) }];
-}
-
-/** @param {number} value */
-export function percent(value) {
-  return `${Number((100 * value).toPrecision(2))} %`;
 }
 
 /** @param {unknown} value */

@@ -51,6 +51,6 @@ export function announce(output, { interior, boundary, omitted, iterations, gap,
 }
 
 /** @param {number} share */
-export function percent(share) {
-  return `${Number((100 * share).toPrecision(3))} %`;
+export function percent(share, digits = 3) {
+  return `${Number((100 * share).toPrecision(digits))} %`;
 }

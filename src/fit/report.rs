@@ -164,7 +164,7 @@ pub struct LambdaChoice {
 )]
 #[non_exhaustive]
 pub struct HuberReport {
-    /// See [`Options::bend`](crate::Options::bend_radius).
+    /// See [`Options::bend_radius`](crate::Options::bend_radius).
     pub bend_radius: f64,
     /// See [`Options::flatness`](crate::Options::flatness).
     pub flatness: f64,

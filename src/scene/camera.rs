@@ -117,15 +117,11 @@ impl Intrinsics {
     /// # Errors
     /// [`Error::Option`] for an angle that is not between 0 and 180 degrees, [`Error::Empty`].
     pub fn with_field_of_view(degrees: f64, size: [usize; 2]) -> Result<Self> {
-        if !(degrees > 0.0 && degrees < 180.0) {
-            let requirement = "must be above 0 and below 180 degrees";
-            return Err(Error::option("field_of_view", degrees, requirement));
-        }
+        let [width, height] = size.map(|n| n as f64);
+        let focal = focal_length_of(degrees, width.max(height))?;
         if size.contains(&0) {
             return Err(Error::Empty { what: "photo" });
         }
-        let [width, height] = size.map(|n| n as f64);
-        let focal = width.max(height) / 2.0 / (degrees.to_radians() / 2.0).tan();
         let mut camera = Intrinsics::new(focal, focal, (width - 1.0) / 2.0, (height - 1.0) / 2.0);
         camera.size = Some(size);
         Ok(camera)
@@ -206,6 +202,15 @@ impl Intrinsics {
         }
         Ok(())
     }
+}
+
+/// The focal length, in pixels, of a field of view in degrees across so many pixels.
+pub(crate) fn focal_length_of(degrees: f64, pixels: f64) -> Result<f64> {
+    if !(degrees > 0.0 && degrees < 180.0) {
+        let requirement = "must be above 0 and below 180 degrees";
+        return Err(Error::option("field_of_view", degrees, requirement));
+    }
+    Ok(0.5 * pixels / (degrees.to_radians() / 2.0).tan())
 }
 
 fn other_proportions(own: [usize; 2], size: [usize; 2]) -> String {

@@ -22,6 +22,13 @@ const error = (code, message) => (/** @type {any} */ thrown) => {
   return true;
 };
 
+/** The warp map that the command has written. @param {string} folder */
+async function mapIn(folder) {
+  const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
+  const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
+  return { ...flat, map };
+}
+
 test('the photo lies where the camera has seen the surface', async () => {
   assert.deepEqual(seen.camera, { width, height, ...numbers });
   const surface = direct.fit(seen, { lambda: 'big' });
@@ -86,9 +93,8 @@ test('the command takes what capture apps write', async () => {
   for (const file of ['camera_matrix.csv', 'metadata.json', 'transforms.json', '205,205,126,97']) {
     const done = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', file, ...common, '-o', 'page.png', '--map', 'map.json']);
     assert.equal(done.status, 0, done.stderr);
-    const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
-    const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
-    const error = displacement(camera, { ...flat, map });
+    const flat = await mapIn(folder);
+    const error = displacement(camera, flat);
     assert.ok(error < 0.003, `${file}: ${error}`);
   }
   // The wrong file, and depths that are taken for heights.
@@ -126,9 +132,8 @@ test('a part of the photo, with straight edges, and no table beside it', async (
     '--crop', corners.join(), '-o', 'page.png', '--map', 'map.json', '--report', 'report.json',
   ]);
   assert.equal(done.status, 0, done.stderr);
-  const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
-  const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
-  const found = displacement(coarse, { ...flat, map });
+  const flat = await mapIn(folder);
+  const found = displacement(coarse, flat);
   assert.ok(found < 0.004, String(found));
   // Eight tenths of the page, in metres; straight chords in the photo cut off some of the bent edges.
   const [wide, tall] = [flat.width / flat.resolution, flat.height / flat.resolution];
@@ -149,9 +154,8 @@ test('a textured scan brings its photo along', async () => {
   await writeFile(join(folder, 'scan.glb'), direct.writeGlb({ ...surface, texture }));
   const done = await run(folder, ['dewarp', 'scan.glb', '--view', 'best-fit', '--lambda', 'big', '-o', 'page.png', '--map', 'map.json']);
   assert.equal(done.status, 0, done.stderr);
-  const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
-  const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
-  const found = displacement(photoCamera, { ...flat, map });
+  const flat = await mapIn(folder);
+  const found = displacement(photoCamera, flat);
   assert.ok(found < 0.003, String(found));
   const bare = { ...surface, uvs: undefined, colors: undefined };
   await writeFile(join(folder, 'bare.glb'), direct.writeGlb(bare));

@@ -1,5 +1,6 @@
 //! A phone's depths and photo of a bent page: where on the page is what the flat image shows?
 
+use crate::common::similarity;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
 use developable::{
@@ -120,40 +121,12 @@ impl Scene {
             let ray = self.ray(place.map(f64::from), scale);
             if let Some((_, truth)) = self.meets(origin, ray) {
                 let flat = [(i % map.width()) as f64, (i / map.width()) as f64];
-                pairs.push((truth, flat));
+                pairs.push((flat, truth));
             }
         }
         assert!(pairs.len() > 10_000, "{}", pairs.len());
         similarity(&pairs) / PAGE[0]
     }
-}
-
-/// A place on the page, and one in the flat image.
-type Pair = ([f64; 2], [f64; 2]);
-
-/// The root of the mean square of what is left after the best similarity, in units of the first.
-fn similarity(pairs: &[Pair]) -> f64 {
-    let n = pairs.len() as f64;
-    let mean = |pick: fn(&Pair) -> [f64; 2]| {
-        [0, 1].map(|k| pairs.iter().map(|pair| pick(pair)[k]).sum::<f64>() / n)
-    };
-    let (p0, q0) = (mean(|pair| pair.0), mean(|pair| pair.1));
-    let (mut qq, mut re, mut im) = (0.0, 0.0, 0.0);
-    let centred = || {
-        pairs
-            .iter()
-            .map(|(p, q)| ([p[0] - p0[0], p[1] - p0[1]], [q[0] - q0[0], q[1] - q0[1]]))
-    };
-    for (p, q) in centred() {
-        qq += q[0] * q[0] + q[1] * q[1];
-        re += p[0] * q[0] + p[1] * q[1];
-        im += p[1] * q[0] - p[0] * q[1];
-    }
-    let (re, im) = (re / qq, im / qq);
-    let rest = |(p, q): Pair| {
-        (p[0] - re * q[0] + im * q[1]).powi(2) + (p[1] - im * q[0] - re * q[1]).powi(2)
-    };
-    (centred().map(rest).sum::<f64>() / n).sqrt()
 }
 
 fn map_of(scene: &Scene, view: View) -> (WarpMap, Verdict) {

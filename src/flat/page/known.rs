@@ -2,6 +2,7 @@
 
 use super::{FocalLength, Format};
 use crate::error::{Error, Result, positive};
+use crate::scene::camera::focal_length_of;
 
 /// A diagonal of film, in millimetres.
 const FILM: f64 = 43.266_615;
@@ -16,12 +17,8 @@ pub(super) fn focal_length(
         FocalLength::Unknown => return Ok(None),
         FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, 0.003),
         FocalLength::FieldOfView(degrees) => {
-            if !(degrees > 0.0 && degrees < 180.0) {
-                let requirement = "must be above 0 and below 180 degrees";
-                return Err(Error::option("field_of_view", degrees, requirement));
-            }
-            let tangent = (degrees.to_radians() / 2.0).tan();
-            ("field_of_view", degrees, 0.5 * longer / tangent, 0.01)
+            let pixels = focal_length_of(degrees, longer)?;
+            ("field_of_view", degrees, pixels, 0.01)
         }
         FocalLength::Film35(length) => ("film35", length, length * diagonal / FILM, 0.02),
     };

@@ -5,6 +5,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use super::raster::Raster;
 use super::sites::{Site, Sites, surround};
 use crate::error::{Result, try_filled};
+use crate::math::sym2::Sym2;
 
 /// By how many standard deviations the slope across a hole may differ from those beside it.
 const UNEXPLAINED: f64 = 4.0;
@@ -199,6 +200,7 @@ impl<'a> Crossings<'a> {
         let variance = found
             .iter()
             .fold(shift, |sum, i| sum + shares[*i] * shares[*i].transpose());
+        let [_, least] = Sym2::new(normal.m11, normal.m12, normal.m22).eigenvalues();
         let difference = normal.cholesky()?.solve(&right);
         let n = found.len() as f64;
         Some(Crossing {
@@ -211,7 +213,7 @@ impl<'a> Crossings<'a> {
             spread: (squares - right.dot(&difference)).max(0.0),
             terms,
             // A pair along each of two directions has an eigenvalue of at least a half.
-            sees: least_eigenvalue(&normal) > 0.25,
+            sees: least > 0.25,
             stray: (strays / n).sqrt(),
             reach: sites.last()?.place.norm(),
         })
@@ -239,10 +241,6 @@ impl Crossing {
                 false => self.stray <= STRAY * typical.stray + fold,
             }
     }
-}
-
-fn least_eigenvalue(m: &Matrix2<f64>) -> f64 {
-    0.5 * (m.trace() - (m[(0, 0)] - m[(1, 1)]).hypot(2.0 * m[(0, 1)]))
 }
 
 /// 0 of nothing.

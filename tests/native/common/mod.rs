@@ -76,3 +76,29 @@ pub fn rms_difference(a: &Heightfield, b: &Heightfield) -> f64 {
         .collect();
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
+
+/// A place, and where what is there belongs.
+pub type Pair = ([f64; 2], [f64; 2]);
+
+/// The root of the mean square of what is left of the distances between pairs after turning, scaling and
+/// shifting the first ones: regression of complex numbers.
+pub fn similarity(pairs: &[Pair]) -> f64 {
+    let n = pairs.len() as f64;
+    let (mut from, mut to) = ([0.0; 2], [0.0; 2]);
+    for (p, q) in pairs {
+        for k in 0..2 {
+            from[k] += p[k] / n;
+            to[k] += q[k] / n;
+        }
+    }
+    let (mut re, mut im, mut pp, mut qq) = (0.0, 0.0, 0.0, 0.0);
+    for (p, q) in pairs {
+        let [a, b] = [p[0] - from[0], p[1] - from[1]];
+        let [c, d] = [q[0] - to[0], q[1] - to[1]];
+        re += a * c + b * d;
+        im += a * d - b * c;
+        pp += a * a + b * b;
+        qq += c * c + d * d;
+    }
+    ((qq - (re * re + im * im) / pp).max(0.0) / n).sqrt()
+}

@@ -2,7 +2,7 @@
 import { buildInline } from '../build/inline.mjs';
 import { buildVendor } from '../build/vendor.mjs';
 import { buildWasm } from '../build/wasm.mjs';
-import { docs, format, lint, lintWasm, nativeTests } from './rust.mjs';
+import { docs, format, lint, nativeTests } from './rust.mjs';
 import { nodeTests, pageTests, types } from './javascript.mjs';
 import { inBrowser, inNode } from './wasm.mjs';
 
@@ -10,7 +10,6 @@ import { inBrowser, inNode } from './wasm.mjs';
 export const steps = [
   { name: 'format', what: 'the layout of the Rust code', run: format },
   { name: 'lint', what: 'clippy', run: lint },
-  { name: 'lint-wasm', what: 'clippy for wasm32, which also shows that all tests compile there', run: lintWasm },
   { name: 'rust', what: 'the tests of the library, and those in its documentation', run: nativeTests },
   { name: 'docs', what: "the documentation's links and examples", run: docs },
   {

@@ -6,24 +6,17 @@ use std::sync::Arc;
 use super::admm::iteration::{Best, Level};
 use super::admm::schedule::Plan;
 use super::admm::state::State;
-use super::coarsen::coarsen;
-use super::coordinates::Coordinates;
 use super::energy::creases::Creases;
-use super::energy::problem::{Problem, position};
-use super::input::Input;
+use super::energy::problem::Problem;
+use super::linear::cg::ConjugateGradients;
 use super::options::{Bending, Energy, Options};
-use super::plate;
 use super::prolong::prolong;
 use super::report::{LevelReport, Seconds, StopReason};
-use crate::error::{Error, Result};
-use crate::heights::heightfield::Heightfield;
+use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// What it costs to set a level up, in conjugate-gradient iterations on it.
-const SET_UP: usize = 10;
-
-/// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
-const COARSEST_GRID: usize = 20;
+/// What a step of setting a level up costs, in conjugate-gradient iterations on it.
+pub(crate) const SET_UP: usize = 10;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Cascade {
@@ -31,8 +24,9 @@ pub(crate) struct Cascade {
     level: Level,
     /// The problems of the finer levels, the finest first.
     finer: Vec<Problem>,
-    /// The start of the next one of them, once the level under way is done.
-    carried: Option<State>,
+    /// The start of the next one of them, once the level under way is done, and then the system of
+    /// its z-steps.
+    carried: Option<(State, Option<ConjugateGradients>)>,
     /// The domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
     /// The levels done, the coarsest first.
@@ -64,61 +58,15 @@ pub(crate) struct Answer {
 }
 
 impl Cascade {
-    /// `warm` gives the state to start from on the finest lattice, if there is one.
+    /// From its first level, and a reason to stop that at once.
     pub(crate) fn new(
-        mut input: Input,
-        domain: Arc<Domain>,
-        scale: f64,
+        level: Level,
+        reason: Option<StopReason>,
+        finer: Vec<Problem>,
+        domains: Vec<Arc<Domain>>,
+        plan: Plan,
         options: &Options,
-        warm: impl FnOnce(&Problem, &Plan) -> Result<Option<State>>,
     ) -> Result<Self> {
-        let plan = Plan::new(options);
-        let coordinates = Coordinates::new(&input, &domain, scale);
-        let mut problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
-        let mut domains = vec![domain];
-        let mut finer = Vec::new();
-        let objective = problem.smoothness(&problem.target);
-        if !objective.is_finite() {
-            return Err(Error::Overflow {
-                spacing: problem.domain.lattice().spacing(),
-            });
-        }
-        let trivial = objective <= problem.rounding && problem.free.is_empty();
-        let warm = warm(&problem, &plan)?;
-        let mut coarse = Vec::new();
-        if !trivial {
-            // The lattices for multigrid come first: free heights are found with their help.
-            let found = coarser(&input, &domains[0])?;
-            domains.extend(found.iter().map(|(_, domain)| domain.clone()));
-            coarse = found;
-            if !problem.free.is_empty() {
-                plate::fill(&mut problem, &domains, &plan)?;
-                problem.take_first_normals(options.energy)?;
-                give_back(&mut input, &problem)?;
-                coarse = coarser(&input, &domains[0])?;
-            }
-        }
-        let state = match warm {
-            Some(state) => state,
-            None => {
-                finer.push(problem);
-                let wanted =
-                    |(_, domain): &&(Input, Arc<Domain>)| plan.wants_level(domain.interior_len());
-                for (input, domain) in coarse.iter().take_while(wanted) {
-                    finer.push(Problem::new(input, domain.clone(), &coordinates, options)?);
-                }
-                problem = finer.remove(finer.len() - 1);
-                State::new(&problem, plan.first_rho(&problem))?
-            }
-        };
-        let (level, reason) = Level::new(
-            problem,
-            state,
-            plan.on_level(!finer.is_empty(), 0),
-            &domains[finer.len()..],
-            0,
-            true,
-        )?;
         let (crease_radius, passes_left) = match options.energy {
             Energy::Huber => {
                 let Bending { crease_radius, .. } = Bending::SMOOTH.within(options);
@@ -126,7 +74,7 @@ impl Cascade {
             }
             _ => (None, options.reweighting),
         };
-        let mut component = Cascade {
+        let mut cascade = Cascade {
             level,
             finer,
             carried: None,
@@ -141,18 +89,26 @@ impl Cascade {
             reason: None,
         };
         if let Some(reason) = reason {
-            component.finish_level(reason)?;
+            cascade.finish_level(reason)?;
         }
-        Ok(component)
+        Ok(cascade)
     }
 
     /// Runs until `left` conjugate-gradient iterations are used up or it is
     /// done; then tells why.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 && self.reason.is_none() {
-            if let Some(state) = self.carried.take() {
+            if let Some((state, cg)) = self.carried.take() {
                 *left = left.saturating_sub(SET_UP);
-                self.enter_level(state)?;
+                match (cg, self.finer.last()) {
+                    (None, Some(fine)) => {
+                        let domains = &self.domains[self.finer.len() - 1..];
+                        let cg = ConjugateGradients::new(fine, domains, state.rho)?;
+                        self.carried = Some((state, Some(cg)));
+                    }
+                    (Some(cg), _) => self.enter_level(state, cg)?,
+                    (None, None) => (),
+                }
             } else if let Some(reason) = self.level.advance(left)? {
                 self.finish_level(reason)?;
             }
@@ -166,7 +122,7 @@ impl Cascade {
         if let Some(fine) = self.finer.last() {
             let rho = self.plan.finer_rho(self.level.state.rho, fine);
             let state = prolong(&self.level.problem, &self.level.state, fine, rho)?;
-            self.carried = Some(state);
+            self.carried = Some((state, None));
             return Ok(());
         }
         while self.passes_left > 0 && matches!(reason, StopReason::Gap | StopReason::Residuals) {
@@ -193,7 +149,7 @@ impl Cascade {
     }
 
     /// Begins with the next finer level.
-    fn enter_level(&mut self, state: State) -> Result<()> {
+    fn enter_level(&mut self, state: State, cg: ConjugateGradients) -> Result<()> {
         let Some(fine) = self.finer.pop() else {
             return Ok(());
         };
@@ -204,8 +160,7 @@ impl Cascade {
         // Levels take about as many iterations as the one before.
         let next_climb = 2 * self.level.report().iterations / 3;
         let may_be_affine = self.level.best.affine;
-        let domains = &self.domains[self.finer.len()..];
-        let (level, stop) = Level::new(fine, state, plan, domains, next_climb, may_be_affine)?;
+        let (level, stop) = Level::new(fine, state, cg, plan, next_climb, may_be_affine)?;
         self.level = level;
         match stop {
             Some(reason) => self.finish_level(reason),
@@ -300,40 +255,4 @@ impl Cascade {
         best.take(&state.z, &certificate);
         Ok(Some((state, best)))
     }
-}
-
-/// The input on all coarser lattices that are of use, the finest first: as long as enough stencils
-/// are left, and each stands for four of the finer ones, within a factor of 2. Where holes take most
-/// of them away, or close, the next lattice says little about the last.
-fn coarser(input: &Input, domain: &Arc<Domain>) -> Result<Vec<(Input, Arc<Domain>)>> {
-    let mut found: Vec<(Input, Arc<Domain>)> = Vec::new();
-    loop {
-        let (last, finer) = found.last().map_or((input, domain), |(i, d)| (i, d));
-        let next = coarsen(last, finer)?;
-        match next.domain() {
-            Ok(coarse) if is_of_use(finer.interior_len(), coarse.interior_len()) => {
-                found.push((next, Arc::new(coarse)));
-            }
-            _ => return Ok(found),
-        }
-    }
-}
-
-fn is_of_use(fine: usize, coarse: usize) -> bool {
-    coarse >= COARSEST_GRID && (fine / 8..=3 * fine / 8).contains(&coarse)
-}
-
-/// Puts the heights that were found for free vertices where the given ones are.
-fn give_back(input: &mut Input, problem: &Problem) -> Result<()> {
-    let domain = &problem.domain;
-    let lattice = *input.field.lattice();
-    let mut heights = input.field.heights().to_vec();
-    for cell in &problem.free {
-        let cell = *cell as usize;
-        heights[domain.lattice_index(cell)] = problem
-            .coordinates
-            .outward(position(domain, cell), problem.target[cell]);
-    }
-    input.field = Heightfield::new(lattice, heights)?;
-    Ok(())
 }

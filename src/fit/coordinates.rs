@@ -67,8 +67,8 @@ impl Coordinates {
     /// About the plane next to what is given in `I ∪ ∂I`, by confidence.
     pub(crate) fn new(input: &Input, domain: &Domain, scale: f64) -> Self {
         let field = input.field();
-        let vertices = domain.active().cells().map(|c| domain.lattice_vertex(c));
-        let plane = Plane::fit(vertices.filter_map(|(row, col)| {
+        let vertices = domain.vertices(domain.active());
+        let plane = Plane::fit(vertices.filter_map(|(_, (row, col))| {
             let vertex = field.lattice().index(row, col);
             let weight = if input.is_constrained(vertex) {
                 1.0

@@ -11,6 +11,7 @@ pub(crate) mod input;
 mod linear;
 pub(crate) mod options;
 mod plate;
+mod preparation;
 mod prolong;
 pub(crate) mod report;
 mod restore;

@@ -42,6 +42,7 @@ pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Op
     derive(serde::Serialize),
     serde(rename_all = "camelCase")
 )]
+#[non_exhaustive]
 pub struct Progress {
     /// How many finer levels are still to come; 0 on the finest one.
     pub level: usize,
@@ -64,6 +65,7 @@ pub struct Progress {
 /// Seconds spent in each phase of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Seconds {
     /// Domain, normalisation, allocation.
     pub setup: f64,
@@ -99,6 +101,7 @@ impl std::ops::Add for Seconds {
     derive(serde::Serialize),
     serde(rename_all = "camelCase")
 )]
+#[non_exhaustive]
 pub struct LevelReport {
     /// Lattice spacing, in normalised coordinates.
     pub spacing: f64,
@@ -186,6 +189,7 @@ pub struct HuberReport {
     derive(serde::Serialize),
     serde(rename_all = "camelCase")
 )]
+#[non_exhaustive]
 pub struct Report {
     /// Vertices where the Hessian is evaluated: the set `I`.
     pub interior: usize,

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::admm::schedule::Plan;
-use super::cascade::{Answer, Cascade};
+use super::cascade::{Answer, Cascade, SET_UP};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
 use super::energy::problem::Problem;
 use super::input::Input;
 use super::options::{Bending, Energy, Lambda, Options};
+use super::preparation::{Preparation, Prepared};
 use super::report::{
     HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,
 };
@@ -75,7 +76,8 @@ pub struct Solver {
     components: Components,
     /// Of the first parts.
     answers: Vec<Answer>,
-    /// The part after those.
+    /// The part after those: before its first iteration, and then.
+    preparing: Option<Preparation>,
     running: Option<Cascade>,
     /// `P(z̃)` of each part, if there are several.
     energies: Vec<f64>,
@@ -87,7 +89,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Sets up a solve. Memory: about 180 bytes for each vertex of the valid
+    /// Sets up a solve, all but what the first calls of [`Solver::advance`] do. Memory: about 180 bytes for each vertex of the valid
     /// vertices' bounding box.
     ///
     /// # Errors
@@ -157,6 +159,7 @@ impl Solver {
             domain,
             components,
             answers: Vec::new(),
+            preparing: None,
             running: None,
             energies,
             memory,
@@ -222,34 +225,43 @@ impl Solver {
         self.restart_about(self.input.clone(), options, Some(known))
     }
 
-    /// Starts parts until one has something to do.
+    /// Begins with the next part, if there is one left.
     fn next_part(&mut self) -> Result<()> {
-        while let Some(number) = self.next_number() {
-            let (input, domain) = match self.components.list.len() {
-                1 => (self.input.clone(), self.domain.clone()),
-                _ => {
-                    let input = self.components.crop(&self.input, &self.domain, number)?;
-                    let domain = Arc::new(input.domain()?);
-                    (input, domain)
-                }
-            };
-            let corner = self.components.corner(number);
-            let warm = |problem: &Problem, plan: &Plan| match &self.memory {
-                Some(memory) => memory.state(problem, plan, corner),
-                None => Ok(None),
-            };
-            let component = Cascade::new(input, domain, self.scale, &self.options, warm)?;
-            match component.reason() {
-                Some(reason) => self.answers.push(component.into_answer(reason)),
-                None => {
-                    self.running = Some(component);
-                    return Ok(());
-                }
+        let Some(number) = self.next_number() else {
+            self.memory = None;
+            self.status = Status::Stopped(self.reason());
+            return Ok(());
+        };
+        let (input, domain) = match self.components.list.len() {
+            1 => (self.input.clone(), self.domain.clone()),
+            _ => {
+                let input = self.components.crop(&self.input, &self.domain, number)?;
+                let domain = Arc::new(input.domain()?);
+                (input, domain)
+            }
+        };
+        let corner = self.components.corner(number);
+        let warm = |problem: &Problem, plan: &Plan| match &self.memory {
+            Some(memory) => memory.state(problem, plan, corner),
+            None => Ok(None),
+        };
+        let part = Preparation::new(input, domain, self.scale, &self.options, warm)?;
+        self.preparing = Some(part);
+        Ok(())
+    }
+
+    /// Goes on to what is prepared.
+    fn begin(&mut self, part: Cascade) -> Result<()> {
+        match part.reason() {
+            Some(reason) => {
+                self.answers.push(part.into_answer(reason));
+                self.next_part()
+            }
+            None => {
+                self.running = Some(part);
+                Ok(())
             }
         }
-        self.memory = None;
-        self.status = Status::Stopped(self.reason());
-        Ok(())
     }
 
     fn next_number(&self) -> Option<usize> {
@@ -283,7 +295,7 @@ impl Solver {
     /// do not depend on how the work is divided.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`] on the way to a finer level.
+    /// [`Error::OutOfMemory`] on the way to the first level or a finer one.
     pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while let Some(search) = &mut self.search
@@ -295,8 +307,21 @@ impl Solver {
             self.take_choice()?;
         }
         while left > 0 && self.status == Status::Running {
+            if let Some(preparing) = self.preparing.take() {
+                let start = Instant::now();
+                left = left.saturating_sub(SET_UP);
+                let prepared = preparing.step()?;
+                self.setup += start.elapsed().as_secs_f64();
+                match prepared {
+                    Prepared::Partly(part) => self.preparing = Some(part),
+                    Prepared::Fully(part) => self.begin(*part)?,
+                }
+                continue;
+            }
             let Some(running) = &mut self.running else {
-                break;
+                // Where memory was short the last time.
+                self.next_part()?;
+                continue;
             };
             if let Some(reason) = running.advance(&mut left)? {
                 let done = self.running.take();
@@ -319,8 +344,8 @@ impl Solver {
         self.next_part()
     }
 
-    /// Figures of the last check. While λ is [looked for](Lambda::Auto), they are the input's, on a
-    /// level above 0, and iterations those of the search, which go on being counted. While a coarse level is under way, its
+    /// Figures of the last check. Before the first one, and while λ is [looked for](Lambda::Auto), they
+    /// are the input's, on a level above 0; iterations of the search go on being counted. While a coarse level is under way, its
     /// objective and bound are scaled by the number of vertices: estimates of
     /// the finest level's, which alone certifies. Components of the surface that are
     /// still to come count as they are in the input, with 0 as their bound.
@@ -331,6 +356,11 @@ impl Solver {
             total.add_work(&answer.levels);
         }
         let mut pending = self.answers.len();
+        if let Some(preparing) = &self.preparing {
+            let problem = preparing.problem();
+            total.nuclear_norm += problem.smoothness(&problem.target);
+            pending += 1;
+        }
         if let Some(running) = &self.running {
             let level = running.level();
             let share = running.problem().domain.interior_len() as f64
@@ -345,9 +375,9 @@ impl Solver {
             (Some(search), _) => search.iterations(),
             (None, choice) => choice.map_or(0, |choice| choice.iterations),
         };
-        let level = match &self.search {
-            Some(_) => 1,
-            None => self.running.as_ref().map_or(0, Cascade::levels_left),
+        let level = match (&self.search, &self.preparing) {
+            (None, None) => self.running.as_ref().map_or(0, Cascade::levels_left),
+            _ => 1,
         };
         Progress {
             level,
@@ -390,7 +420,10 @@ impl Solver {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn surface(&self) -> Result<Surface> {
-        let unfinished = self.running.as_ref().map(Cascade::answer).transpose()?;
+        let unfinished = match (&self.preparing, &self.running) {
+            (Some(preparing), _) => Some(preparing.answer()?),
+            (None, running) => running.as_ref().map(Cascade::answer).transpose()?,
+        };
         let answers = || self.answers.iter().chain(&unfinished);
         let lattice = *self.input.field.lattice();
         let mut heights = try_filled("surface", lattice.len(), f64::NAN)?;

@@ -222,6 +222,19 @@ impl Domain {
         self.lattice.index(row, col)
     }
 
+    /// The cells of runs and their rows and columns in the lattice, row by row.
+    pub(crate) fn vertices<'a>(
+        &'a self,
+        runs: &'a RowRuns,
+    ) -> impl Iterator<Item = (usize, (usize, usize))> + Clone + 'a {
+        let (top, left) = self.corner;
+        (1..=self.rows).flat_map(move |row| {
+            let first = row * self.stride + 1;
+            let cells = runs.row(row).iter().flat_map(|run| run.start..run.end);
+            cells.map(move |cell| (cell, (row - 1 + top, cell - first + left)))
+        })
+    }
+
     /// Row and column in the lattice of a cell that is not padding.
     pub(crate) fn lattice_vertex(&self, cell: usize) -> (usize, usize) {
         (

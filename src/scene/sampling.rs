@@ -34,6 +34,7 @@ const POINTS_FOR_EACH: f64 = 4.0;
 
 /// Where a ray hit the mesh first.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Hit {
     /// Index of the triangle; of a point cloud, of the nearest point in sight.
     pub index: usize,

@@ -153,6 +153,9 @@ test('wrong inputs and options are named', () => {
 test('a solver runs in steps of the asked-for length', () => {
   const { input, options } = endless();
   const solver = new direct.Solver(input, options);
+  // What comes before the first iteration is done in steps as well.
+  assert.deepEqual([solver.progress().iteration, solver.progress().level > 0], [0, true]);
+  while (solver.progress().cgIterations === 0) assert.equal(solver.advance(0), true);
   for (const milliseconds of [0, 10, 40]) {
     const before = solver.progress();
     const start = performance.now();

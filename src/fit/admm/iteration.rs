@@ -1,7 +1,5 @@
 //! ADMM on one lattice, as a machine that runs in steps.
 
-use std::sync::Arc;
-
 use web_time::Instant;
 
 use super::ascent::{Ascent, LOOK};
@@ -13,7 +11,6 @@ use crate::fit::energy::creases::Creases;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::cg::ConjugateGradients;
 use crate::fit::report::{LevelReport, Seconds, StopReason, relative_gap};
-use crate::lattice::domain::Domain;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Level {
@@ -120,18 +117,17 @@ impl Best {
 }
 
 impl Level {
-    /// Starts from `state`, or the affine surface if that `may_be_affine`, and looks for better
+    /// Starts from `state`, with the system of its z-steps, or from the affine surface if that `may_be_affine`, and looks for better
     /// bounds from the iteration `next_climb` on; a reason to stop at once comes with it.
     pub(crate) fn new(
         problem: Problem,
         mut state: State,
+        cg: ConjugateGradients,
         plan: Plan,
-        domains: &[Arc<Domain>],
         next_climb: usize,
         may_be_affine: bool,
     ) -> Result<(Self, Option<StopReason>)> {
         let start = Instant::now();
-        let cg = ConjugateGradients::new(&problem, domains, state.rho)?;
         let certificate = state.certify(&problem);
         // A start from a coarser level need not be better than the input.
         let mut best = Best::of_input(&problem);

@@ -91,11 +91,32 @@ impl Grid {
                 }
             }
         }
-        let interior = |cell: usize| self.domain.roles()[cell] == Role::Interior;
+        let roles = self.domain.roles();
+        let interior = |cell: usize| roles[cell] == Role::Interior;
+        // Where all stencils count the same, it is enough to know how many there are.
+        let same = match &self.stencils {
+            PerCell::Same(values) => Some(lanes::double(values[0])),
+            PerCell::Each(_) => None,
+        };
         for row in 1..=self.domain.rows() {
             let offsets = self.domain.neighbour_offsets(row);
-            for &Run { start, end } in self.domain.active().row(row) {
-                for cell in start..end {
+            for &run in self.domain.active().row(row) {
+                let inverse = part_mut(&mut self.inverse_diagonal, run);
+                let Run { start, end } = run;
+                if let Some(count) = same {
+                    let n = end - start;
+                    let here = &roles[start..end];
+                    let around = offsets.map(|o| &roles[start.wrapping_add_signed(o)..][..n]);
+                    let one = |role: Role| u8::from(role == Role::Interior);
+                    for i in 0..n {
+                        let others: u8 = around.iter().map(|roles| one(roles[i])).sum();
+                        let centre = f64::from(one(here[i])) * count * as_centre;
+                        let entry = each(start + i) + centre + f64::from(others) * count * own;
+                        inverse[i] = lanes::single(self.diagonal / entry);
+                    }
+                    continue;
+                }
+                for (cell, inverse) in (start..end).zip(inverse) {
                     let around = offsets.iter().map(|o| cell.wrapping_add_signed(*o));
                     let count = |cell: usize| lanes::double(self.stencils.at(cell));
                     let others: f64 = around.filter(|n| interior(*n)).map(count).sum();
@@ -105,7 +126,7 @@ impl Grid {
                         0.0
                     };
                     let entry = each(cell) + centre + others * own;
-                    self.inverse_diagonal[cell] = lanes::single(self.diagonal / entry);
+                    *inverse = lanes::single(self.diagonal / entry);
                 }
             }
         }

@@ -12,6 +12,7 @@ const SMALLEST: f64 = 1.5;
 /// A text on a sheet.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Label {
     /// What it is about.
     pub kind: LabelKind,

@@ -76,6 +76,7 @@ impl DrawingOptions {
 /// A drawing, its lower left corner at `0, 0`; `x` to the right, `y` up, in millimetres.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Drawing {
     /// Width.
     pub width: f64,
@@ -90,6 +91,7 @@ pub struct Drawing {
 /// A sheet as it is drawn: turned so that its box is small, if that is worth it, never mirrored.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct DrawnSheet {
     /// `Sheet 1` and so on.
     pub name: String,
@@ -110,6 +112,7 @@ pub struct DrawnSheet {
 /// A line to fold along.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Line {
     /// The crease, by its place in [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
@@ -130,6 +133,7 @@ pub struct Line {
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "camelCase")
 )]
+#[non_exhaustive]
 pub struct Totals {
     /// Number of sheets.
     pub sheets: usize,

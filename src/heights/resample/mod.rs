@@ -58,9 +58,10 @@ impl HeightImage {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn sampled_on(&self, lattice: &Lattice) -> Result<Heightfield> {
         let mut heights = try_filled("lattice heights", lattice.len(), f64::NAN)?;
-        for (i, z) in heights.iter_mut().enumerate() {
-            let p = lattice.position(i / lattice.cols(), i % lattice.cols());
-            *z = sample(&Cell::around(self, p));
+        for (row, heights) in heights.chunks_mut(lattice.cols()).enumerate() {
+            for (col, z) in heights.iter_mut().enumerate() {
+                *z = sample(&Cell::around(self, lattice.position(row, col)));
+            }
         }
         Heightfield::new(*lattice, heights)
     }
@@ -90,15 +91,18 @@ impl Heightfield {
         let mut sources = try_filled("height image", pixels, NO_SOURCE)?;
         let triangle_of = |i: usize| self.triangle_at(like.position(i / width, i % width));
         let mut missing = Vec::new();
-        for (i, own) in like.values().iter().enumerate() {
-            if own.is_nan() {
-                continue;
-            }
-            values[i] = triangle_of(i).map_or(f64::NAN, |triangle| self.linear(&triangle));
-            if values[i].is_finite() {
-                sources[i] = WITHIN;
-            } else {
-                missing.push(i);
+        for row in 0..like.height() {
+            for (col, i) in (row * width..(row + 1) * width).enumerate() {
+                if like.values()[i].is_nan() {
+                    continue;
+                }
+                let triangle = self.triangle_at(like.position(row, col));
+                values[i] = triangle.map_or(f64::NAN, |triangle| self.linear(&triangle));
+                if values[i].is_finite() {
+                    sources[i] = WITHIN;
+                } else {
+                    missing.push(i);
+                }
             }
         }
 

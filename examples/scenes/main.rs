@@ -7,10 +7,12 @@
 //! ```
 //!
 //! The second form is for one size, or several (`100,150`), and for scenes and noises whose names begin
-//! so.
+//! so. `-- pictures docs` writes six of them as pictures, and the page that shows them, to the folder
+//! `docs`.
 
 mod distance;
 mod noise;
+mod pictures;
 mod shapes;
 
 use developable::{
@@ -64,8 +66,12 @@ impl Row {
     }
 }
 
-fn main() -> Result<()> {
-    let mut args = std::env::args().skip(1);
+fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
+    let mut args = std::env::args().skip(1).peekable();
+    if args.next_if_eq("pictures").is_some() {
+        let folder = args.next().ok_or("name a folder for the pictures")?;
+        return pictures::write(folder.as_ref());
+    }
     let sizes = args.next().map_or(SIZES.to_vec(), |list| {
         list.split(',').filter_map(|n| n.parse().ok()).collect()
     });

@@ -8,12 +8,15 @@
 //!
 //! The second form is for one size, or several (`100,150`), and for scenes and noises whose names begin
 //! so. `-- pictures docs` writes six of them as pictures, and the page that shows them, to the folder
-//! `docs`.
+//! `docs`; `-- meshes FOLDER` all of them as meshes, for `benches/pymeshlab/compare.py`.
 
 mod distance;
+mod meshes;
 mod noise;
 mod pictures;
 mod shapes;
+
+use std::path::Path;
 
 use developable::{
     Energy, Heightfield, Lambda, LambdaReason, Lattice, Options, Report, Result, fit,
@@ -68,9 +71,13 @@ impl Row {
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let mut args = std::env::args().skip(1).peekable();
-    if args.next_if_eq("pictures").is_some() {
-        let folder = args.next().ok_or("name a folder for the pictures")?;
-        return pictures::write(folder.as_ref());
+    for (what, write) in [
+        ("pictures", pictures::write as fn(&Path) -> _),
+        ("meshes", meshes::write),
+    ] {
+        if args.next_if_eq(what).is_some() {
+            return write(args.next().ok_or("name a folder for them")?.as_ref());
+        }
     }
     let sizes = args.next().map_or(SIZES.to_vec(), |list| {
         list.split(',').filter_map(|n| n.parse().ok()).collect()

@@ -96,7 +96,7 @@ export function make(tag, className, ...children) {
 
 /**
  * Hands a file to the browser's downloads.
- * @param {Uint8Array<ArrayBuffer> | string} content
+ * @param {Uint8Array<ArrayBuffer> | Blob | string} content
  * @param {string} type
  * @param {string} name
  */

@@ -4,7 +4,11 @@ import { element } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
 import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
-import { headline, showNotice } from './panels/headline.js';
+import { watchDrops } from './panels/drop.js';
+import { headline } from './panels/headline.js';
+import { modePanel } from './panels/mode.js';
+import { hideNotice, showNotice } from './panels/notice.js';
+import { pagePanel } from './panels/page.js';
 import { reportPanel } from './panels/report.js';
 import { runPanel } from './panels/run.js';
 import { savePanel } from './panels/save.js';
@@ -25,7 +29,16 @@ async function start() {
   reportPanel(session);
   savePanel(session);
   analysisPanel(session, show);
-  const { openExample } = sourcePanel(session);
+  const { openExample, openFile, takeMesh } = sourcePanel(session);
+  const page = pagePanel(session.api, ({ mesh }, name) => {
+    mode.enter('heights');
+    takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
+  });
+  const mode = modePanel((entered) => {
+    if (entered === 'page') page.begin();
+  });
+  element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
+  watchDrops((file) => void (mode.now === 'page' ? page.open(file) : openFile(file)));
   // Something to see at once.
   await openExample();
 }

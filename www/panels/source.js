@@ -3,7 +3,6 @@ import { designInput } from '../design.js';
 import { choosesFile, element, elements } from '../dom.js';
 import { number } from '../format.js';
 import { cameraPanel } from './camera.js';
-import { watchDrops } from './drop.js';
 import { isMesh, meshPanel } from './mesh.js';
 
 /** @import {ExampleName} from '../api.js' */
@@ -91,7 +90,6 @@ export function sourcePanel(session) {
   zero.addEventListener('change', dropZeros);
   design.addEventListener('change', () => session.amend({ design: design.checked }));
   choosesFile(element('open', HTMLButtonElement), file, (chosen) => openFile(chosen));
-  watchDrops((dropped) => void openFile(dropped));
   array.addEventListener('change', () => {
     const several = session.input?.array;
     if (several) void openFile(several.file, array.value);
@@ -113,7 +111,7 @@ export function sourcePanel(session) {
     span.textContent = spanInWords(input);
   });
 
-  return { openExample };
+  return { openExample, openFile, takeMesh: mesh.take };
 }
 
 /**

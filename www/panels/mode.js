@@ -1,0 +1,25 @@
+/** The two ways to start: from heights, or from a photo of a page alone. */
+import { element, elements } from '../dom.js';
+
+/** @typedef {'heights' | 'page'} Mode */
+
+/** @param {(mode: Mode) => void} entered */
+export function modePanel(entered) {
+  const radios = elements('input[name="mode"]', HTMLInputElement);
+  const sides = { heights: element('heights-side', HTMLElement), page: element('page-side', HTMLElement) };
+  /** @param {Mode} mode */
+  const enter = (mode) => {
+    for (const radio of radios) radio.checked = radio.value === mode;
+    sides.heights.hidden = mode !== 'heights';
+    sides.page.hidden = mode !== 'page';
+    entered(mode);
+  };
+  for (const radio of radios) radio.addEventListener('change', () => enter(/** @type {Mode} */ (radio.value)));
+  return {
+    enter,
+    /** @returns {Mode} */
+    get now() {
+      return sides.page.hidden ? 'heights' : 'page';
+    },
+  };
+}

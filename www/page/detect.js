@@ -1,6 +1,6 @@
 /** The outline of a bright page on a darker ground, where there is one beyond doubt. */
-import { reduced } from './grey.js';
-import { Outline } from './outline.js';
+import { reduced, rescaled } from './grey.js';
+import { nodeAt, Outline } from './outline.js';
 import { settle } from './snap.js';
 
 /** @import {Grey} from './grey.js' */
@@ -214,6 +214,6 @@ function bow(line) {
 function nodesOf(line, scale) {
   return [0, 1, 2, 3, 4].map((k) => {
     const [x, y] = line[Math.round((k / 4) * (line.length - 1))];
-    return { x: (x + 0.5) / scale - 0.5, y: (y + 0.5) / scale - 0.5, corner: k === 0 || k === 4, held: false };
+    return nodeAt([rescaled(x, 1 / scale), rescaled(y, 1 / scale)], k === 0 || k === 4);
   });
 }

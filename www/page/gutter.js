@@ -1,4 +1,5 @@
 /** Where an open book's gutter is: at the kink of its edges. */
+import { polynomial } from './polynomial.js';
 import { traced } from './snap.js';
 
 /** @import {Grey} from './grey.js' */
@@ -57,8 +58,6 @@ function kink(grey, nodes) {
 
 /** The line through points that fits best. @param {number[][]} points */
 function line(points) {
-  const n = points.length;
-  const [s, t] = [0, 1].map((k) => points.reduce((sum, point) => sum + point[k], 0) / n);
-  const slope = points.reduce((sum, [x, y]) => sum + (x - s) * (y - t), 0) / points.reduce((sum, [x]) => sum + (x - s) ** 2, 0);
-  return { slope, level: t - slope * s };
+  const at = polynomial(points, 1);
+  return { slope: at(1) - at(0), level: at(0) };
 }

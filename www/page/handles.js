@@ -98,6 +98,13 @@ export class Handles {
     return [(clientX - left) * this.#scale - 0.5, (clientY - top) * this.#scale - 0.5];
   }
 
+  /** Of handles that overlap, as they do under a finger, the one that is meant. @param {PointerEvent} event */
+  #nearest(event) {
+    const [x, y] = this.#place(event);
+    const off = this.#drawing.handles.map((handle) => Math.hypot(handle.x - x, handle.y - y));
+    return off.indexOf(Math.min(...off));
+  }
+
   /** @param {number} handle */
   #add(handle) {
     const button = make('button', 'handle');
@@ -107,7 +114,7 @@ export class Handles {
     button.addEventListener('focus', () => this.#doings.choose?.(handle));
     button.addEventListener('blur', () => this.#magnifier.hide());
     button.addEventListener('pointerdown', (event) => {
-      if (event.button === 0) this.#drag(event, button, handle);
+      if (event.button === 0) this.#drag(event, button, this.#nearest(event));
     });
     button.addEventListener('keydown', (event) => {
       const arrow = ARROWS[event.key];

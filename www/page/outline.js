@@ -12,6 +12,7 @@ import { through } from './curve.js';
  * @typedef {object} Node
  * @property {number} x
  * @property {number} y
+ * @property {Point} home where it was put, near which it is drawn to what the photo shows
  * @property {boolean} corner
  * @property {boolean} held whether it was put where it is, and is not to be moved by what the photo shows
  */
@@ -102,9 +103,37 @@ export class Outline {
       // As bent as they were.
       const curve = through(nodes.map(({ x, y }) => [x, y]), 40);
       return [...straight(from, gutter[edge], 2), ...straight(gutter[edge], to, 2).slice(1)].map((node) =>
-        (node.corner ? node : { ...node, ...nearestAcross(curve, node, from, to) }));
+        (node.corner ? node : nodeAt(nearestAcross(curve, node, from, to), false)));
     }));
     return copy;
+  }
+
+  /**
+   * Moves a node; of a corner, what is free of its parts goes along.
+   * @param {Which} which
+   * @param {Point} to
+   */
+  move(which, [x, y]) {
+    const moved = this.at(which);
+    const before = { x: moved.x, y: moved.y };
+    Object.assign(moved, { x, y, home: [x, y] });
+    if (!moved.corner) return;
+    for (const nodes of this.spans(which.edge)) {
+      const [first, last] = [nodes[0], nodes[nodes.length - 1]];
+      if (first !== moved && last !== moved) continue;
+      const fixed = first === moved ? last : first;
+      // The similarity that keeps the other corner, as a complex factor.
+      const [ax, ay, bx, by] = [before.x - fixed.x, before.y - fixed.y, x - fixed.x, y - fixed.y];
+      const square = ax * ax + ay * ay;
+      if (square === 0) continue;
+      const [re, im] = [(bx * ax + by * ay) / square, (by * ax - bx * ay) / square];
+      for (const node of nodes.slice(1, -1)) {
+        if (node.held) continue;
+        const [dx, dy] = [node.x - fixed.x, node.y - fixed.y];
+        [node.x, node.y] = [fixed.x + re * dx - im * dy, fixed.y + im * dx + re * dy];
+        node.home = [node.x, node.y];
+      }
+    }
   }
 
   /**
@@ -119,7 +148,7 @@ export class Outline {
     const along = (/** @type {{ x: number, y: number }} */ node) => axis[0] * node.x + axis[1] * node.y;
     const found = nodes.findIndex((node) => along(node) > along({ x, y }));
     const node = found <= 0 ? (found === 0 ? 1 : nodes.length - 1) : found;
-    nodes.splice(node, 0, { x, y, corner: false, held: false });
+    nodes.splice(node, 0, nodeAt([x, y], false));
     return { edge, node };
   }
 
@@ -152,6 +181,11 @@ export class Outline {
   }
 }
 
+/** @param {Point} place @param {boolean} corner @returns {Node} */
+export function nodeAt([x, y], corner) {
+  return { x, y, home: [x, y], corner, held: false };
+}
+
 /**
  * @param {Point} from
  * @param {Point} to
@@ -161,7 +195,7 @@ export class Outline {
 function straight(from, to, between = BETWEEN) {
   return Array.from({ length: between + 2 }, (_, i) => {
     const t = i / (between + 1);
-    return { x: from[0] + t * (to[0] - from[0]), y: from[1] + t * (to[1] - from[1]), corner: i === 0 || i === between + 1, held: false };
+    return nodeAt([from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])], i === 0 || i === between + 1);
   });
 }
 
@@ -181,9 +215,8 @@ function direction(nodes) {
 function nearestAcross(curve, place, from, to) {
   const along = (/** @type {number} */ x, /** @type {number} */ y) => (to[0] - from[0]) * x + (to[1] - from[1]) * y;
   const wanted = along(place.x, place.y);
-  const off = ([x, y] = from) => Math.abs(along(x, y) - wanted);
-  const [x, y] = curve.reduce((best, point) => (off(point) < off(best) ? point : best));
-  return { x, y };
+  const off = (/** @type {Point} */ [x, y]) => Math.abs(along(x, y) - wanted);
+  return curve.reduce((best, point) => (off(point) < off(best) ? point : best));
 }
 
 /** @param {string} word */

@@ -15,7 +15,7 @@ import { settle, traced } from './snap.js';
  * @typedef {object} PageEvents
  * @property {PagePhoto} photo another one
  * @property {{ outline: Outline, traces: Traces }} outline
- * @property {null} working
+ * @property {boolean} working whether a newer flat page is to come
  * @property {DewarpedPage} flat of the reduced photo
  * @property {unknown} problem why there is none
  */
@@ -34,6 +34,8 @@ export class PageSession extends Events {
   options = {};
 
   #flattening;
+  /** @type {Wish | null} */
+  #newest = null;
 
   /** @param {Api} api */
   constructor(api) {
@@ -102,10 +104,9 @@ export class PageSession extends Events {
     const { photo, outline } = this;
     const node = outline.at(which);
     if (!photo || !node) return;
-    node.x = Math.min(Math.max(x, -0.5), photo.width - 0.5);
-    node.y = Math.min(Math.max(y, -0.5), photo.height - 0.5);
+    outline.move(which, [Math.min(Math.max(x, -0.5), photo.width - 0.5), Math.min(Math.max(y, -0.5), photo.height - 0.5)]);
     node.held = held || !this.snapping;
-    if (ended && this.snapping && !node.held) settle(photo.grey, outline, node);
+    if (ended && this.snapping && !node.held) settle(photo.grey, outline);
     this.#changed();
   }
 
@@ -145,11 +146,13 @@ export class PageSession extends Events {
     const wish = this.wish();
     if (!wish) return;
     this.emit('outline', { outline: this.outline, traces: wish.traces });
-    this.emit('working', null);
+    this.emit('working', true);
+    this.#newest = wish;
     void this.#flattening.preview(wish, (done) => {
       if (done.wish.photo !== this.photo) return;
       if ('flat' in done) this.emit('flat', done.flat);
       else this.emit('problem', done.error);
+      if (done.wish === this.#newest) this.emit('working', false);
     });
   }
 

@@ -6,6 +6,7 @@
  */
 import { normals, through } from './curve.js';
 import { brightness, rescaled } from './grey.js';
+import { robust } from './polynomial.js';
 
 /** @import {Grey} from './grey.js' */
 /** @import {Node, Outline, Point} from './outline.js' */
@@ -17,11 +18,13 @@ const REACH = 0.014;
 /** Pixels on both sides whose mean is compared: of a printed line less is left than of the page's edge. */
 const SIDE = 4;
 /** Grey levels that an edge at the end of that reach has to have more than one on the line itself. */
-const FARTHEST = 30;
+const FARTHEST = 20;
 /** Grey levels below which a gradient is none. */
 const FAINT = 8;
 /** Of a course, what one step aside costs against a gradient of that many grey levels. */
-const STIFF = 6;
+const STIFF = 2;
+/** Grey levels at which a gradient counts half of the most: what is dark all along counts more than what is black here and there. */
+const ENOUGH = 40;
 
 /**
  * @typedef {object} Trace
@@ -89,8 +92,9 @@ function course(grey, line, room) {
   });
   const [rising, falling] = [1, -1].map((sign) => best(slopes, room, most, sign));
   const { sign, path } = rising.score >= falling.score ? rising : falling;
-  const offsets = path.map((k, i) => k - most + vertex(slopes[i], k));
-  return { offsets, seen: path.map((k, i) => sign * slopes[i][k] >= FAINT) };
+  const peaks = path.map((k, i) => sharpest(slopes[i], k, sign));
+  const offsets = peaks.map((k, i) => k - most + vertex(slopes[i], k));
+  return { offsets, seen: peaks.map((k, i) => sign * slopes[i][k] >= FAINT) };
 }
 
 /**
@@ -120,7 +124,7 @@ function best(slopes, room, most, sign) {
         const one = scores[j] - STIFF * step * step;
         if (one > score) [score, previous] = [one, j];
       }
-      next[k] = score + Math.max(0, sign * slope[k]) - FARTHEST * ((k - most) / (most + 1)) ** 2;
+      next[k] = score + worth(sign * slope[k]) - FARTHEST * ((k - most) / (most + 1)) ** 2;
       back[k] = previous;
     }
     scores = next;
@@ -130,6 +134,25 @@ function best(slopes, room, most, sign) {
   path[slopes.length - 1] = scores.indexOf(Math.max(...scores));
   for (let i = slopes.length - 1; i > 0; i--) path[i - 1] = from[i][path[i]];
   return { score: Math.max(...scores), path, sign };
+}
+
+/** What a gradient counts. @param {number} slope */
+function worth(slope) {
+  return slope > 0 ? (2 * ENOUGH * slope) / (slope + ENOUGH) : 0;
+}
+
+/**
+ * The place of the largest gradient next to a course.
+ * @param {Float64Array} slope
+ * @param {number} k
+ * @param {number} sign
+ */
+function sharpest(slope, k, sign) {
+  let best = k;
+  for (let j = Math.max(0, k - 2); j <= Math.min(slope.length - 1, k + 2); j++) {
+    if (sign * slope[j] > sign * slope[best]) best = j;
+  }
+  return best;
 }
 
 /** Where the parabola through a value and its neighbours has its vertex. @param {Float64Array} values @param {number} k */
@@ -144,12 +167,15 @@ function vertex(values, k) {
  * Moves what is not held to the edges that the photo shows: corners to where two of them meet.
  * @param {Grey} grey
  * @param {Outline} outline is changed
- * @param {Node} [only] the one that is to be moved
  */
-export function settle(grey, outline, only) {
-  /** @param {Node} node */
-  const free = (node) => !node.held && (only === undefined || node === only);
-  const reach = reachOf(grey) / grey.scale;
+export function settle(grey, outline) {
+  const reach = 1.5 * reachOf(grey) / grey.scale;
+  const free = outline.edges.flat().filter(({ held }) => !held);
+  for (const node of free) [node.x, node.y] = node.home;
+  /** @param {Node} node @param {Point} to */
+  const draw = (node, to) => {
+    if (Math.hypot(to[0] - node.home[0], to[1] - node.home[1]) < reach) [node.x, node.y] = to;
+  };
   // Of moved corners others follow.
   for (let pass = 0; pass < 2; pass++) {
     /** The courses without their ends, which are what is looked for. @type {Trace[][]} */
@@ -161,10 +187,10 @@ export function settle(grey, outline, only) {
       if (straight.seen < 0.5) return;
       side.forEach((corner, edge) => {
         const trace = traces[edge][i === 0 ? 0 : traces[edge].length - 1];
-        if (!free(corner) || trace.seen < 0.5) return;
+        if (corner.held || trace.seen < 0.5) return;
         const near = i === 0 ? trace.points : trace.points.toReversed();
         const met = meeting(near, edge === 0 ? straight.points : straight.points.toReversed());
-        if (met && Math.hypot(met[0] - corner.x, met[1] - corner.y) < 1.5 * reach) [corner.x, corner.y] = met;
+        if (met) draw(corner, met);
       });
     });
     for (const edge of /** @type {const} */ ([0, 1])) {
@@ -172,9 +198,8 @@ export function settle(grey, outline, only) {
         const { points, seen } = traced(grey, nodes);
         if (seen < 0.3) continue;
         for (const node of nodes) {
-          if (node.corner || !free(node)) continue;
-          const near = nearest(points, node);
-          if (Math.hypot(near[0] - node.x, near[1] - node.y) < 1.5 * reach) [node.x, node.y] = near;
+          if (node.corner || node.held) continue;
+          draw(node, nearest(points, node));
         }
       }
     }
@@ -198,7 +223,7 @@ function loose(grey, nodes) {
  */
 function meeting(one, other) {
   // The ends themselves are not where an edge was seen.
-  const [p, q] = [one, other].map((points) => points.slice(2, 2 + Math.max(6, points.length >> 2)));
+  const [p, q] = [one, other].map((points) => points.slice(2, 2 + Math.max(8, points.length >> 3)));
   if (p.length < 5 || q.length < 5) return null;
   // Along the first course, and across it.
   const [ax, ay] = [p[p.length - 1][0] - p[0][0], p[p.length - 1][1] - p[0][1]];
@@ -206,8 +231,8 @@ function meeting(one, other) {
   const [ux, uy] = [ax / length, ay / length];
   /** @param {Point} point */
   const local = ([x, y]) => [(x - p[0][0]) * ux + (y - p[0][1]) * uy, (y - p[0][1]) * ux - (x - p[0][0]) * uy];
-  const bent = fitted(p.map(local), 2);
-  const line = fitted(q.map(local).map(([s, t]) => [t, s]), 1);
+  const bent = robust(p.map(local), 2);
+  const line = robust(q.map(local).map(([s, t]) => [t, s]), 1);
   let [s, t] = [0, 0];
   for (let i = 0; i < 20; i++) {
     t = bent(s);
@@ -215,40 +240,6 @@ function meeting(one, other) {
   }
   if (!Number.isFinite(s) || Math.abs(line(bent(s)) - s) > 0.01 * length) return null;
   return [p[0][0] + s * ux - t * uy, p[0][1] + s * uy + t * ux];
-}
-
-/**
- * A polynomial by least squares, without the worst fifth of the points.
- * @param {number[][]} points
- * @param {1 | 2} degree
- * @returns {(s: number) => number}
- */
-function fitted(points, degree) {
-  const first = polynomial(points, degree);
-  const off = (/** @type {number[]} */ [s, t]) => Math.abs(first(s) - t);
-  const kept = points.toSorted((a, b) => off(a) - off(b)).slice(0, Math.max(degree + 2, Math.ceil(0.8 * points.length)));
-  return polynomial(kept, degree);
-}
-
-/**
- * @param {number[][]} points
- * @param {number} degree
- * @returns {(s: number) => number}
- */
-function polynomial(points, degree) {
-  const n = degree + 1;
-  const rows = Array.from({ length: n }, (_, i) => [
-    ...Array.from({ length: n }, (_, j) => points.reduce((sum, [s]) => sum + s ** (i + j), 0)),
-    points.reduce((sum, [s, t]) => sum + t * s ** i, 0),
-  ]);
-  for (let k = 0; k < n; k++) {
-    for (let i = 0; i < n; i++) {
-      if (i === k) continue;
-      const factor = rows[i][k] / rows[k][k];
-      for (let j = k; j <= n; j++) rows[i][j] -= factor * rows[k][j];
-    }
-  }
-  return (s) => rows.reduce((sum, row, i) => sum + (row[n] / row[i]) * s ** i, 0);
 }
 
 /**

@@ -12,6 +12,7 @@ export function modePanel(entered) {
     for (const radio of radios) radio.checked = radio.value === mode;
     sides.heights.hidden = mode !== 'heights';
     sides.page.hidden = mode !== 'page';
+    for (const name of /** @type {const} */ (['heights', 'page'])) element(`drop-${name}`, HTMLElement).hidden = name !== mode;
     entered(mode);
   };
   for (const radio of radios) radio.addEventListener('change', () => enter(/** @type {Mode} */ (radio.value)));

@@ -48,11 +48,10 @@ export function pageResultPanel(api, session, goOn) {
     about.replaceChildren();
     enable(false);
   });
-  session.on('working', () => figure.setAttribute('aria-busy', 'true'));
+  session.on('working', (working) => figure.setAttribute('aria-busy', String(working)));
   session.on('flat', (flat) => {
     shown = flat;
     const { width, height, data, report } = flat;
-    figure.setAttribute('aria-busy', 'false');
     view.show(imagePicture(canvasOf(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
     empty.hidden = true;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat) : '';
@@ -63,7 +62,6 @@ export function pageResultPanel(api, session, goOn) {
   });
   session.on('problem', (error) => {
     shown = null;
-    figure.setAttribute('aria-busy', 'false');
     view.show(null);
     empty.hidden = false;
     empty.textContent = 'No flat page from these edges';

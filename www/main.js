@@ -28,8 +28,8 @@ async function start() {
   curvePanel(session);
   reportPanel(session);
   savePanel(session);
-  analysisPanel(session, show);
-  const { openExample, openFile, takeMesh } = sourcePanel(session);
+  const { choose } = analysisPanel(session, show);
+  const { openExample, openFiles, takeMesh } = sourcePanel(session, choose);
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
     takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
@@ -38,7 +38,7 @@ async function start() {
     if (entered === 'page') page.begin();
   });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
-  watchDrops((file) => void (mode.now === 'page' ? page.open(file) : openFile(file)));
+  watchDrops((files) => void (mode.now === 'page' ? page.open(files[0]) : openFiles(files)));
   // Something to see at once.
   await openExample();
 }

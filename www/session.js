@@ -27,6 +27,8 @@ import { Events } from './events.js';
  * @property {{ mesh: Mesh, options: SampleMeshOptions }} [seen] the mesh, and how the lattice was taken from it
  * @property {Float64Array} [truth] the surface without noise, where it is known
  * @property {string} [kind] of file, in words; examples have none
+ * @property {string} [dataType] what the file stores, such as `u16`
+ * @property {{ name: string, image: ImageData }} [photo] that came with it
  */
 
 /**

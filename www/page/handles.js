@@ -92,15 +92,19 @@ export class Handles {
     this.#magnifier.show(this.#photo, [x, y], lines.map(({ points }) => points));
   }
 
-  /** @param {PointerEvent} event @returns {[number, number]} */
-  #place({ clientX, clientY }) {
+  /**
+   * Where in the photo something happened.
+   * @param {MouseEvent} event
+   * @returns {[number, number]}
+   */
+  place({ clientX, clientY }) {
     const { left, top } = this.box.getBoundingClientRect();
     return [(clientX - left) * this.#scale - 0.5, (clientY - top) * this.#scale - 0.5];
   }
 
   /** Of handles that overlap, as they do under a finger, the one that is meant. @param {PointerEvent} event */
   #nearest(event) {
-    const [x, y] = this.#place(event);
+    const [x, y] = this.place(event);
     const off = this.#drawing.handles.map((handle) => Math.hypot(handle.x - x, handle.y - y));
     return off.indexOf(Math.min(...off));
   }
@@ -140,10 +144,10 @@ export class Handles {
    */
   #drag(event, holder, handle) {
     const { x, y } = this.#drawing.handles[handle];
-    const [px, py] = this.#place(event);
+    const [px, py] = this.place(event);
     /** @param {PointerEvent} moved @returns {[number, number]} */
     const to = (moved) => {
-      const [u, v] = this.#place(moved);
+      const [u, v] = this.place(moved);
       return [x + u - px, y + v - py];
     };
     holder.setPointerCapture(event.pointerId);
@@ -187,7 +191,7 @@ export class Handles {
       svg.addEventListener('pointermove', (moved) => {
         if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < PULL) return;
         over.abort();
-        this.#drag(event, svg, pull(Number(pulls), this.#place(event)));
+        this.#drag(event, svg, pull(Number(pulls), this.place(event)));
       }, { signal });
       for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => over.abort(), { signal });
       event.preventDefault();

@@ -31,7 +31,7 @@ export function meshPanel(session) {
 
   /**
    * Takes the heights that are seen from a direction as the input.
-   * @param {Pick<Input, 'name' | 'kind'>} file
+   * @param {Pick<Input, 'name' | 'kind' | 'photo'>} file
    * @param {() => Promise<Mesh>} load
    * @param {SampleMeshOptions} options
    * @param {string} doing
@@ -53,7 +53,7 @@ export function meshPanel(session) {
     const { input } = session;
     if (!input?.seen) return;
     const { mesh, options } = input.seen;
-    void see({ name: input.name, kind: input.kind }, async () => mesh, { ...options, ...change }, 'The mesh could not be seen so');
+    void see({ name: input.name, kind: input.kind, photo: input.photo }, async () => mesh, { ...options, ...change }, 'The mesh could not be seen so');
   };
   for (const button of buttons) {
     button.addEventListener('click', () => again({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
@@ -94,16 +94,22 @@ export function meshPanel(session) {
 
   return {
     /**
-     * @param {Pick<Input, 'name' | 'kind'>} file
+     * @param {Pick<Input, 'name' | 'kind' | 'photo'>} file
      * @param {() => Promise<Mesh>} load
      * @param {string} doing
      */
     take: (file, load, doing) => see(file, load, { view: 'best-fit', resolution: wanted() }, doing),
-    /** @param {File} file */
-    open(file) {
+    /**
+     * @param {File} file
+     * @param {readonly File[]} [beside] what it may name: materials, textures, buffers
+     */
+    open(file, beside = []) {
       const kind = NAMES.exec(file.name)?.[1].toUpperCase();
       const called = file.name.replace(NAMES, '') || 'mesh';
-      return this.take({ name: called, kind }, () => session.api.readMesh(file), `“${file.name}” could not be read`);
+      return this.take({ name: called, kind }, async () => {
+        const files = new Map(await Promise.all(beside.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
+        return session.api.readMesh(file, { files });
+      }, `“${file.name}” could not be read`);
     },
   };
 }
@@ -119,6 +125,6 @@ function spanInWords({ positions, triangles, missing = [] }) {
     return number(high - low);
   });
   const what = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
-  const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which the page does not read.` : '';
+  const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which were not opened with it.` : '';
   return `${what}; x, y and z span ${sides.join(', ')}.${without}`;
 }

@@ -10,15 +10,12 @@
 
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
-/** @typedef {import('../pkg/types.js').Dewarped} Dewarped */
-/** @typedef {import('../pkg/types.js').Unrolling} Unrolling */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 /**
  * @typedef {object} FlatOptions
  * @property {number} [dots]
  * @property {boolean} trim
  * @property {[number, number][]} [crop]
- * @property {[number, number]} [clicked] a place in the photo, of which only the part there is wanted
  */
 
 export class Analyses {
@@ -118,54 +115,11 @@ export class Analyses {
    * @param {Result} result
    * @param {Photo} photo
    * @param {FlatOptions} options
-   * @returns {Promise<Dewarped>}
    */
-  async dewarp(result, photo, { clicked, ...options }) {
-    if (clicked) return this.dewarp(await this.#partAt(result, photo, clicked), photo, options);
-    const { surface } = result;
+  dewarp({ surface }, photo, options) {
     return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, (worker) =>
       worker.dewarp(surface, photo, options));
   }
-
-  /**
-   * The connected part of a surface that a place of the photo shows, or what is nearest to it.
-   * @param {Result} result
-   * @param {Photo} photo
-   * @param {readonly [number, number]} place
-   * @returns {Promise<Result>}
-   */
-  async #partAt(result, photo, place) {
-    const [flat, sheet] = await Promise.all([this.dewarp(result, photo, { trim: false }), this.unroll(result)]);
-    const part = partAt(flat, sheet, place);
-    const { surface } = result;
-    return this.#once(surface, `part ${part}`, async () => {
-      const heights = new Float64Array(surface.heights.length).fill(NaN);
-      sheet.vertices.forEach((vertex, i) => {
-        if (sheet.parts[i] === part) heights[vertex] = surface.heights[vertex];
-      });
-      return { ...result, surface: { ...surface, heights } };
-    });
-  }
-}
-
-/**
- * @param {Dewarped} flat
- * @param {Unrolling} sheet
- * @param {readonly [number, number]} place in the photo
- */
-function partAt({ width, map, corner, resolution }, { places, parts }, [x, y]) {
-  let [pixel, least] = [0, Infinity];
-  for (let i = 0; 2 * i < map.length; i++) {
-    const off = (map[2 * i] - x) ** 2 + (map[2 * i + 1] - y) ** 2;
-    if (off < least) [pixel, least] = [i, off];
-  }
-  const [u, v] = [corner[0] + ((pixel % width) + 0.5) / resolution, corner[1] - (Math.floor(pixel / width) + 0.5) / resolution];
-  let [vertex, nearest] = [0, Infinity];
-  for (let i = 0; i < parts.length; i++) {
-    const off = (places[2 * i] - u) ** 2 + (places[2 * i + 1] - v) ** 2;
-    if (off < nearest) [vertex, nearest] = [i, off];
-  }
-  return parts[vertex];
 }
 
 let photos = 0;

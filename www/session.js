@@ -24,7 +24,8 @@ import { Events } from './events.js';
  * @property {string} [unit] of lengths, where it is known
  * @property {SampledMesh} [lattice] what is solved in the place of the pixels, which show it
  * @property {{ file: File, names: readonly string[], name: string }} [array] of a file with several
- * @property {{ mesh: Mesh, options: SampleMeshOptions }} [seen] the mesh, and how the lattice was taken from it
+ * @property {{ mesh: Mesh, options: SampleMeshOptions, whole?: Mesh }} [seen] the mesh, what it is a part of, and how the
+ *   lattice was taken from it
  * @property {Float64Array} [truth] the surface without noise, where it is known
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`

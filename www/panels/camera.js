@@ -3,8 +3,8 @@ import { choosesFile, element } from '../dom.js';
 import { number } from '../format.js';
 
 /** @import {Mesh, PhotoCamera} from '../api.js' */
+/** @import {Called} from '../seen.js' */
 /** @import {Input, Session} from '../session.js' */
-/** @typedef {Pick<Input, 'name' | 'kind' | 'photo'>} Called */
 
 /** Depths that are larger than that are no metres. */
 const FAR = 100;

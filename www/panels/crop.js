@@ -1,4 +1,4 @@
-/** Which part of a photo is wanted: within a polygon whose corners are dragged, or the part of the surface that was clicked. */
+/** Which part of a photo is wanted: what lies within a polygon whose corners are dragged, or where it was clicked. */
 import { element } from '../dom.js';
 import { Handles } from '../page/handles.js';
 
@@ -7,17 +7,18 @@ import { Handles } from '../page/handles.js';
 /** Where the polygon's corners are for a start, as shares of the photo. @type {Place[]} */
 const BEGIN = [[0.15, 0.15], [0.85, 0.15], [0.85, 0.85], [0.15, 0.85]];
 
-/** @param {() => void} changed */
-export function cropPanel(changed) {
+/**
+ * @param {object} doings
+ * @param {() => void} doings.changed the polygon is another
+ * @param {(place: Place) => void} doings.click the photo was clicked there
+ */
+export function cropPanel({ changed, click }) {
   const over = element('photo-over', HTMLElement);
   const toggle = element('crop', HTMLButtonElement);
-  const all = element('all-parts', HTMLButtonElement);
   /** @type {ImageData | null} */
   let photo = null;
   /** @type {Place[]} */
   let polygon = [];
-  /** @type {Place | null} */
-  let clicked = null;
 
   const handles = new Handles(over, {
     move: (corner, [x, y], { ended }) => {
@@ -41,7 +42,6 @@ export function cropPanel(changed) {
   });
   const draw = () => {
     toggle.setAttribute('aria-pressed', String(polygon.length > 0));
-    all.hidden = clicked === null;
     handles.draw({
       handles: polygon.map(([x, y], i) => ({ x, y, name: `Corner ${i + 1} of the crop`, kind: 'corner' })),
       lines: polygon.map((place, i) => ({ points: [place, polygon[(i + 1) % polygon.length]], kind: 'edge', pulls: i })),
@@ -49,7 +49,6 @@ export function cropPanel(changed) {
   };
   const forget = () => {
     polygon = [];
-    clicked = null;
     draw();
   };
 
@@ -63,15 +62,7 @@ export function cropPanel(changed) {
   over.addEventListener('click', (event) => {
     // Not at the end of a drag.
     if (!photo || !(event.target instanceof Element) || event.target.closest('.handle, svg')) return;
-    clicked = handles.place(event);
-    draw();
-    changed();
-  });
-  all.addEventListener('click', () => {
-    clicked = null;
-    draw();
-    toggle.focus();
-    changed();
+    click(handles.place(event));
   });
 
   return {
@@ -84,9 +75,9 @@ export function cropPanel(changed) {
       forget();
     },
     forget,
-    /** @returns {{ crop?: Place[], clicked?: Place }} */
-    get wish() {
-      return { ...(polygon.length > 0 && { crop: polygon.map(([x, y]) => /** @type {Place} */ ([x, y])) }), ...(clicked && { clicked }) };
+    /** Corners, where there are any. @returns {Place[] | undefined} */
+    get polygon() {
+      return polygon.length > 0 ? polygon.map(([x, y]) => /** @type {Place} */ ([x, y])) : undefined;
     },
   };
 }

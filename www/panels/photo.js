@@ -1,6 +1,8 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
 import { choosesFile, download, element } from '../dom.js';
+import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
+import { see } from '../seen.js';
 import { photographed } from '../views/print.js';
 import { cropPanel } from './crop.js';
 
@@ -31,12 +33,33 @@ export function photoPanel(session, analyses, changed) {
   /** @type {Dewarped | null} */
   let flat = null;
 
-  const crop = cropPanel(changed);
+  const all = element('all-parts', HTMLButtonElement);
+  const crop = cropPanel({ changed, click: (place) => void onlyPart(place) });
+
+  /**
+   * Takes the part of the mesh that the photo shows at a place, or all of it.
+   * @param {readonly [number, number] | null} place
+   */
+  const onlyPart = async (place) => {
+    const { input } = session;
+    if (!input?.seen || !photo) return;
+    const { mesh, options, whole = mesh } = input.seen;
+    const part = place && partAt(whole, [(place[0] + 0.5) / photo.width, 1 - (place[1] + 0.5) / photo.height]);
+    if (place && !part) return;
+    const own = { name: name.textContent ?? '', image: photo };
+    const taken = await see(
+      session, { name: input.name, kind: input.kind, photo: own }, async () => part ?? whole, options,
+      'This part could not be taken', part ? whole : undefined,
+    );
+    if (taken) await session.run();
+  };
+  all.addEventListener('click', () => void onlyPart(null));
 
   session.on('cleared', () => {
     const own = session.input?.photo;
     photo = own?.image ?? null;
     name.textContent = own?.name ?? hint;
+    all.hidden = session.input?.seen?.whole === undefined;
     crop.forget();
   });
 
@@ -103,7 +126,7 @@ export function photoPanel(session, analyses, changed) {
         }
       }
       crop.show(photo);
-      return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked, ...crop.wish } };
+      return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked, crop: crop.polygon } };
     },
     /** @param {Dewarped | null} made what can be saved */
     made: (made) => {

@@ -28,8 +28,6 @@ export class PageSession extends Events {
   outline = Outline.within({ width: 1, height: 1 });
   /** Whether edges are drawn to what the photo shows. */
   snapping = true;
-  /** Whether the outline was found in the photo. */
-  found = false;
   /** @type {Options} */
   options = {};
 
@@ -50,24 +48,34 @@ export class PageSession extends Events {
    */
   show(photo, pages = 1) {
     this.photo = photo;
+    this.#begin(photo, pages);
     this.emit('photo', photo);
-    this.suggest(pages);
+    this.#changed();
   }
 
-  /** An outline to start from. @param {number} [pages] */
-  suggest(pages = this.outline.pages) {
-    const { photo } = this;
-    if (!photo) return;
-    const outline = suggested(photo.grey);
-    this.found = outline !== null;
-    this.outline = outline ?? Outline.within(photo);
-    if (pages === 2) this.divide();
-    else this.#changed();
+  /** An outline to start from, again. */
+  suggest() {
+    if (!this.photo) return;
+    this.#begin(this.photo, this.outline.pages);
+    this.#changed();
+  }
+
+  /** @param {PagePhoto} photo @param {number} pages */
+  #begin(photo, pages) {
+    this.outline = suggested(photo.grey) ?? Outline.within(photo);
+    if (pages === 2) this.#divide(photo);
   }
 
   divide() {
-    this.outline = this.outline.divided(gutterOf(this.outline, this.snapping ? this.photo?.grey ?? null : null));
-    this.#settled();
+    if (!this.photo) return;
+    this.#divide(this.photo);
+    this.#changed();
+  }
+
+  /** @param {PagePhoto} photo */
+  #divide({ grey }) {
+    this.outline = this.outline.divided(gutterOf(this.outline, this.snapping ? grey : null));
+    if (this.snapping) settle(grey, this.outline);
   }
 
   join() {

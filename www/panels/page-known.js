@@ -30,7 +30,8 @@ export function pageKnownPanel(session) {
     input.setCustomValidity(input.value === '' || (number > 0 && number < most) ? '' : `It must be a number above 0${most < Infinity ? ` and below ${most}` : ''}.`);
     return input.value !== '' && input.reportValidity();
   };
-  const update = () => {
+  /** @returns {Options} */
+  const read = () => {
     sides.hidden = format.value !== 'own';
     const known = CAMERAS[camera.value];
     field.hidden = known === undefined;
@@ -44,8 +45,9 @@ export function pageKnownPanel(session) {
     else if (format.value === 'own' && sound(wide) && sound(high)) options.page = [wide.valueAsNumber, high.valueAsNumber];
     else if (format.value === 'a4-wide') options.page = [297, 210];
     if (known && sound(value, known.most)) Object.assign(options, known.options(value.valueAsNumber));
-    session.know(options);
+    return options;
   };
+  const update = () => session.know(read());
   for (const control of [format, wide, high, value]) control.addEventListener('change', update);
   camera.addEventListener('change', () => {
     value.value = '';
@@ -56,7 +58,11 @@ export function pageKnownPanel(session) {
   }
   for (const radio of bent) radio.addEventListener('change', () => session.turn());
 
-  session.on('photo', update);
+  session.on('photo', () => {
+    // Another photo may be another camera's.
+    camera.value = 'auto';
+    session.options = read();
+  });
   session.on('outline', ({ outline }) => {
     for (const radio of pages) radio.checked = radio.value === String(outline.pages);
     for (const radio of bent) radio.checked = (radio.value === 'sides') === outline.sideways;

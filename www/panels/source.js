@@ -34,6 +34,8 @@ export function sourcePanel(session, choose) {
   const mesh = meshPanel(session);
   const camera = cameraPanel(session, mesh.take);
   const designHint = element('design-hint', HTMLElement);
+  /** The file whose scale was asked about. */
+  let doubted = '';
   /** The open file's values as they are stored. @type {Float64Array} */
   let stored = new Float64Array();
 
@@ -138,8 +140,15 @@ export function sourcePanel(session, choose) {
     pixelSize.value = plain(input.pixelSize);
     heightScale.value = plain(input.heightScale);
     span.textContent = spanInWords(input);
-    doubt.textContent = doubtOf(input);
-    doubt.hidden = doubt.textContent === '';
+    const words = doubtOf(input);
+    // Its room is kept while the same file is scaled, or what is clicked next would move away.
+    if (words === '' && doubted === input.name) doubt.dataset.settled = '';
+    else {
+      delete doubt.dataset.settled;
+      doubt.hidden = words === '';
+      doubt.textContent = words;
+      doubted = words === '' ? '' : input.name;
+    }
   });
 
   return { openExample, openFiles, takeMesh: mesh.take };

@@ -35,10 +35,15 @@ async function start() {
     takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
   });
   const mode = modePanel((entered) => {
-    if (entered === 'page') page.begin();
+    if (entered === 'photo') page.begin();
   });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
-  watchDrops((files) => void (mode.now === 'page' ? page.open(files[0]) : openFiles(files)));
+  watchDrops((files) => {
+    if (mode.now === 'photo' && files.length === 1) return void page.open(files[0]);
+    // What comes together is no photo alone.
+    mode.enter('heights');
+    void openFiles(files);
+  });
   // Something to see at once.
   await openExample();
 }

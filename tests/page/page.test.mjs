@@ -19,7 +19,7 @@ async function flattened(page) {
 
 /** @param {Page} page @param {string} name @param {Buffer} bytes */
 async function openPhoto(page, name, bytes) {
-  await page.locator('input[name="mode"][value="page"]').check({ force: true });
+  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
   await drop(page, name, bytes);
   await page.locator('#page-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
   await flattened(page);
@@ -233,7 +233,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
 });
 
 pageTest('the open book has its gutter where both pages meet', async (page) => {
-  await page.locator('input[name="mode"][value="page"]').check({ force: true });
+  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
   await page.locator('input[value="book"]').check({ force: true });
   await page.locator('#page-caption', { hasText: 'book' }).waitFor();
   await flattened(page);

@@ -1,18 +1,18 @@
 /** The two ways to start: from heights, or from a photo of a page alone. */
 import { element, elements } from '../dom.js';
 
-/** @typedef {'heights' | 'page'} Mode */
+/** @typedef {'heights' | 'photo'} Mode */
 
 /** @param {(mode: Mode) => void} entered */
 export function modePanel(entered) {
   const radios = elements('input[name="mode"]', HTMLInputElement);
-  const sides = { heights: element('heights-side', HTMLElement), page: element('page-side', HTMLElement) };
+  const sides = { heights: element('heights-side', HTMLElement), photo: element('page-side', HTMLElement) };
   /** @param {Mode} mode */
   const enter = (mode) => {
     for (const radio of radios) radio.checked = radio.value === mode;
     sides.heights.hidden = mode !== 'heights';
-    sides.page.hidden = mode !== 'page';
-    for (const name of /** @type {const} */ (['heights', 'page'])) element(`drop-${name}`, HTMLElement).hidden = name !== mode;
+    sides.photo.hidden = mode !== 'photo';
+    for (const name of /** @type {const} */ (['heights', 'photo'])) element(`drop-${name}`, HTMLElement).hidden = name !== mode;
     entered(mode);
   };
   for (const radio of radios) radio.addEventListener('change', () => enter(/** @type {Mode} */ (radio.value)));
@@ -20,7 +20,7 @@ export function modePanel(entered) {
     enter,
     /** @returns {Mode} */
     get now() {
-      return sides.page.hidden ? 'heights' : 'page';
+      return sides.photo.hidden ? 'heights' : 'photo';
     },
   };
 }

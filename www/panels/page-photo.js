@@ -2,6 +2,7 @@
 import { element, followDevicePixels } from '../dom.js';
 import { number } from '../format.js';
 import { Handles } from '../page/handles.js';
+import { canvasOf } from '../views/dewarped.js';
 
 /** @import {PageSession} from '../page/session.js' */
 /** @import {Which} from '../page/outline.js' */
@@ -56,12 +57,8 @@ export function pagePhotoPanel(session) {
   const paint = () => {
     const context = canvas.getContext('2d');
     if (!context || !session.photo) return;
-    const { small } = session.photo;
-    const whole = document.createElement('canvas');
-    Object.assign(whole, { width: small.width, height: small.height });
-    whole.getContext('2d')?.putImageData(small, 0, 0);
     context.imageSmoothingQuality = 'high';
-    context.drawImage(whole, 0, 0, canvas.width, canvas.height);
+    context.drawImage(canvasOf(session.photo.small), 0, 0, canvas.width, canvas.height);
   };
   followDevicePixels(canvas, paint);
 

@@ -7,6 +7,7 @@ import type {
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
   SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
+export { parseCamera } from './camera-file.js';
 export * from './types.js';
 
 /** What is not needed by everybody, each in a wasm file of its own. */

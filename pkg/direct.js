@@ -11,6 +11,7 @@ import { makeDisposable } from './platform.js';
 import { asPhoto, placeOf, placedOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
+export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
 export { readPhoto };
 

@@ -7,6 +7,7 @@ import type {
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
   SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
 } from './types.js';
+export { parseCamera } from './camera-file.js';
 export * from './types.js';
 
 export interface WorkerOptions {

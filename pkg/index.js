@@ -3,6 +3,7 @@ import { DevelopableWorker } from './client.js';
 import { optionsOf } from './options.js';
 import { reading } from './values.js';
 
+export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
 export { DevelopableWorker };
 

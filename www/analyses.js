@@ -11,6 +11,12 @@
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
+/**
+ * @typedef {object} FlatOptions
+ * @property {number} [dots]
+ * @property {boolean} trim
+ * @property {[number, number][]} [crop]
+ */
 
 export class Analyses {
   #api;
@@ -108,10 +114,10 @@ export class Analyses {
   /**
    * @param {Result} result
    * @param {Photo} photo
-   * @param {{ dots?: number, trim: boolean }} options
+   * @param {FlatOptions} options
    */
   dewarp({ surface }, photo, options) {
-    return this.#once(surface, `dewarp ${numberOf(photo)} ${options.dots} ${options.trim}`, (worker) =>
+    return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, (worker) =>
       worker.dewarp(surface, photo, options));
   }
 }

@@ -6,6 +6,8 @@
 /** @typedef {import('../pkg/index.js').OpenSolver} OpenSolver */
 /** @typedef {import('../pkg/types.js').DetectedOcclusions} Occlusions */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
+/** @typedef {import('../pkg/types.js').PageReport} PageReport */
+/** @typedef {import('../pkg/types.js').PhotoCamera} PhotoCamera */
 /** @typedef {import('../pkg/types.js').Report} Report */
 /** @typedef {import('../pkg/types.js').StopReason} StopReason */
 /** @typedef {import('../pkg/types.js').Surface} Surface */

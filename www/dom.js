@@ -33,12 +33,22 @@ export function elements(selector, type) {
  * @param {(file: File) => unknown} take
  */
 export function choosesFile(button, input, take) {
+  choosesFiles(button, input, ([file]) => take(file));
+}
+
+/**
+ * The same for several at once.
+ * @param {HTMLButtonElement} button
+ * @param {HTMLInputElement} input
+ * @param {(files: File[]) => unknown} take at least one
+ */
+export function choosesFiles(button, input, take) {
   button.addEventListener('click', () => input.click());
   input.addEventListener('change', () => {
-    const file = input.files?.[0];
+    const files = [...input.files ?? []];
     // So that choosing the same file again, perhaps mended, is a change.
     input.value = '';
-    if (file) take(file);
+    if (files.length > 0) take(files);
   });
 }
 
@@ -96,7 +106,7 @@ export function make(tag, className, ...children) {
 
 /**
  * Hands a file to the browser's downloads.
- * @param {Uint8Array<ArrayBuffer> | string} content
+ * @param {Uint8Array<ArrayBuffer> | Blob | string} content
  * @param {string} type
  * @param {string} name
  */

@@ -4,7 +4,11 @@ import { element } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
 import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
-import { headline, showNotice } from './panels/headline.js';
+import { watchDrops } from './panels/drop.js';
+import { headline } from './panels/headline.js';
+import { modePanel } from './panels/mode.js';
+import { hideNotice, showNotice } from './panels/notice.js';
+import { pagePanel } from './panels/page.js';
 import { reportPanel } from './panels/report.js';
 import { runPanel } from './panels/run.js';
 import { savePanel } from './panels/save.js';
@@ -24,8 +28,22 @@ async function start() {
   curvePanel(session);
   reportPanel(session);
   savePanel(session);
-  analysisPanel(session, show);
-  const { openExample } = sourcePanel(session);
+  const { choose } = analysisPanel(session, show);
+  const { openExample, openFiles, takeMesh } = sourcePanel(session, choose);
+  const page = pagePanel(session.api, ({ mesh }, name) => {
+    mode.enter('heights');
+    takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
+  });
+  const mode = modePanel((entered) => {
+    if (entered === 'photo') page.begin();
+  });
+  element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
+  watchDrops((files) => {
+    if (mode.now === 'photo' && files.length === 1) return void page.open(files[0]);
+    // What comes together is no photo alone.
+    mode.enter('heights');
+    void openFiles(files);
+  });
   // Something to see at once.
   await openExample();
 }

@@ -6,6 +6,7 @@
  * ends the one before. And once an input has been run, every change of a setting
  * runs it again, so that what is seen is what is set.
  */
+import { Events } from './events.js';
 
 /** @import {Api, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
@@ -23,9 +24,12 @@
  * @property {string} [unit] of lengths, where it is known
  * @property {SampledMesh} [lattice] what is solved in the place of the pixels, which show it
  * @property {{ file: File, names: readonly string[], name: string }} [array] of a file with several
- * @property {{ mesh: Mesh, options: SampleMeshOptions }} [seen] the mesh, and how the lattice was taken from it
+ * @property {{ mesh: Mesh, options: SampleMeshOptions, whole?: Mesh }} [seen] the mesh, what it is a part of, and how the
+ *   lattice was taken from it
  * @property {Float64Array} [truth] the surface without noise, where it is known
  * @property {string} [kind] of file, in words; examples have none
+ * @property {string} [dataType] what the file stores, such as `u16`
+ * @property {{ name: string, image: ImageData }} [photo] that came with it
  */
 
 /**
@@ -43,7 +47,7 @@
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 
 /**
- * @typedef {object} Events
+ * @typedef {object} SessionEvents
  * @property {Input} input another input, or the same understood otherwise
  * @property {Settings} start a run has begun
  * @property {Progress} progress
@@ -55,9 +59,8 @@
  * @property {{ doing: string, error: unknown }} failure
  */
 
-/** @template T @typedef {(value: T) => void} Listener */
-
-export class Session {
+/** @extends {Events<SessionEvents>} */
+export class Session extends Events {
   /** @type {Settings} */
   settings = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0 };
   /** @type {Input | null} */
@@ -67,8 +70,6 @@ export class Session {
   /** @type {Phase} */
   phase = 'starting';
 
-  /** @type {{ [E in keyof Events]?: Listener<Events[E]>[] }} */
-  #listeners = {};
   /** @type {AbortController | null} */
   #job = null;
   /** The solver in the worker, which remembers its last answer. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
@@ -82,34 +83,15 @@ export class Session {
 
   /** @param {Api} api */
   constructor(api) {
+    super();
     this.api = api;
-  }
-
-  /**
-   * @template {keyof Events} E
-   * @param {E} event
-   * @param {Listener<Events[E]>} listener
-   */
-  on(event, listener) {
-    /** @type {Listener<Events[E]>[]} */
-    const listeners = (this.#listeners[event] ??= []);
-    listeners.push(listener);
-  }
-
-  /**
-   * @template {keyof Events} E
-   * @param {E} event
-   * @param {Events[E]} value
-   */
-  #emit(event, value) {
-    for (const listener of this.#listeners[event] ?? []) listener(value);
   }
 
   /** @param {Phase} phase */
   #enter(phase) {
     if (this.phase === phase) return;
     this.phase = phase;
-    this.#emit('phase', phase);
+    this.emit('phase', phase);
   }
 
   /**
@@ -118,7 +100,7 @@ export class Session {
    * @param {unknown} error
    */
   fail(doing, error) {
-    this.#emit('failure', { doing, error });
+    this.emit('failure', { doing, error });
   }
 
   /**
@@ -137,8 +119,8 @@ export class Session {
       this.input = input;
       this.result = null;
       this.#tried = false;
-      this.#emit('input', input);
-      this.#emit('cleared', null);
+      this.emit('input', input);
+      this.emit('cleared', null);
       void this.#look();
       return true;
     } catch (error) {
@@ -156,7 +138,7 @@ export class Session {
   amend(change) {
     if (!this.input) return;
     this.input = { ...this.input, ...change };
-    this.#emit('input', this.input);
+    this.emit('input', this.input);
     void this.#look();
     if (this.#tried) void this.run();
   }
@@ -174,7 +156,7 @@ export class Session {
     if (!input) return;
     const job = (this.#job = new AbortController());
     this.#tried = true;
-    this.#emit('start', settings);
+    this.emit('start', settings);
     this.#enter('running');
     const { coarsening, ...options } = settings;
     try {
@@ -186,16 +168,16 @@ export class Session {
         signal: job.signal,
         onAbort: 'keep',
         onProgress: (progress) => {
-          if (this.#job === job && !job.signal.aborted) this.#emit('progress', progress);
+          if (this.#job === job && !job.signal.aborted) this.emit('progress', progress);
         },
       });
       if (this.#job !== job) return;
       this.result = { input, settings, surface };
-      this.#emit('result', this.result);
+      this.emit('result', this.result);
     } catch (error) {
       if (this.#job !== job) return;
       this.#forget();
-      this.#emit('unsolved', null);
+      this.emit('unsolved', null);
       this.fail('This could not be solved', error);
     } finally {
       if (this.#job === job) {
@@ -234,15 +216,15 @@ export class Session {
     const turn = ++this.#looked;
     const { input, settings: { occlusionThreshold: threshold, coarsening } } = this;
     if (!input || input.design || threshold === undefined) {
-      this.#emit('occlusions', null);
+      this.emit('occlusions', null);
       return;
     }
     try {
       const found = await this.api.occlusions(heightsOf(input), { threshold, ...spacingOf(input, coarsening) });
-      if (turn === this.#looked) this.#emit('occlusions', found);
+      if (turn === this.#looked) this.emit('occlusions', found);
     } catch (error) {
       if (turn !== this.#looked) return;
-      this.#emit('occlusions', null);
+      this.emit('occlusions', null);
       this.fail('Occlusions could not be looked for', error);
     }
   }

@@ -1,7 +1,7 @@
 /** What happened, in plain words. */
-import { count, percentAtMost, seconds } from './format.js';
+import { count, percent, percentAtMost, seconds } from './format.js';
 
-/** @import {Energy, Report, StopReason, Verdict} from './api.js' */
+/** @import {Energy, PageReport, Report, StopReason, Verdict} from './api.js' */
 
 /** @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
@@ -46,6 +46,35 @@ export const FLATTENED = {
   unrolled: 'Made flat: lengths are those on the page.',
   stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
 };
+
+/**
+ * What came of making a page flat by its edges.
+ * @param {PageReport} report
+ */
+export function pageVerdict({ verdict }) {
+  switch (verdict) {
+    case 'flat': return 'The page was flat: only the perspective was taken out.';
+    case 'unrolled': return 'Made flat: both edges agree on how the page is bent.';
+    case 'unchecked': return 'Made flat, but nothing checks the bend.';
+    case 'doubtful': return 'Doubtful: look at it closely.';
+    default: return 'This is no page that is curled one way.';
+  }
+}
+
+/**
+ * How far the flat page is to be trusted.
+ * @param {PageReport} report
+ */
+export function pageErrors({ verdict, error, errorBound }) {
+  const likely = `wrong by about ${percent(error / 100)} of its width, and in 95 of 100 cases by less than ${percent(errorBound / 100)}`;
+  switch (verdict) {
+    case 'flat':
+    case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;
+    case 'unchecked': return `There are few points along the edges, or one of them looks straight however the page is bent. If it is curled one way, places on it are ${likely}.`;
+    case 'doubtful': return `Its edges disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;
+    default: return 'Its edges do not fit together. It is folded or crumpled, for which depth is needed, or an edge is traced wrongly: correct it, or choose the other two edges.';
+  }
+}
 
 /** A gap above this says little: the objective could be twice the optimum. */
 const USEFUL = 0.5;

@@ -145,3 +145,29 @@ test('the command takes depths with --intrinsics', async () => {
     assert.match(result.stderr, message);
   }
 });
+
+test('cameras from the files of other programs', () => {
+  const numbers = { fx: 1400, fy: 1410, cx: 960, cy: 720 };
+  const images = [{ width: 256, height: 192 }, { width: 1920, height: 1440 }];
+  const sized = { ...numbers, width: 1920, height: 1440 };
+  /** The image that they are for follows from the middle. @type {[string, object][]} */
+  const known = [
+    ['1400,0,960\n0,1410,720\n0,0,1\n', sized],
+    ['1400 0 960\r\n0 1410 720\r\n0 0 1', sized],
+    [JSON.stringify([[1400, 0, 960], [0, 1410, 720], [0, 0, 1]]), sized],
+    [JSON.stringify({ intrinsics: [1400, 0, 0, 0, 1410, 0, 960, 720, 1] }), sized],
+    [JSON.stringify({ camera: numbers }), sized],
+    [JSON.stringify({ fl_x: 1400, fl_y: 1410, cx: 960, cy: 720, w: 1920, h: 1440, k1: 0.1 }), { ...sized, k1: 0.1 }],
+    [JSON.stringify({ camera_matrix: { data: [1400, 0, 960, 0, 1410, 720, 0, 0, 1] }, distortion_coefficients: { data: [0.1, 0, 0, 0, 0.02] } }),
+      { ...sized, k1: 0.1, k2: 0, p1: 0, p2: 0, k3: 0.02 }],
+  ];
+  for (const [text, expected] of known) assert.deepEqual(developable.parseCamera(text, images), expected, text);
+  assert.deepEqual(direct.parseCamera(known[0][0]), numbers, 'of no image that is known');
+  for (const [text, message] of /** @type {[string, RegExp][]} */ ([
+    ['', /no camera/], ['{', /no camera/], ['[]', /no camera/], ['{"camera":null}', /no camera/], ['1,2,3', /no camera/],
+    ['1400,0,9600\n0,1410,720\n0,0,1', /far from the middle of 256 × 192 and of 1920 × 1440/],
+  ])) {
+    assert.throws(() => developable.parseCamera(text, images), (/** @type {any} */ error) =>
+      error instanceof developable.DevelopableError && error.code === 'INPUT' && message.test(error.message), text);
+  }
+});

@@ -68,6 +68,7 @@ const calls = {
   readMesh: { args: { bytes: ply }, options: 'readMesh' },
   sampleMesh: { args: { mesh }, options: 'sampleMesh' },
   backProject: { args: { input: bent, camera } },
+  parseCamera: { args: { text: JSON.stringify(camera), images: [{ width: 8, height: 8 }] } },
   paint: { args: { input: shaded, picture: photo }, options: 'paint' },
   analyze: { args: { input: hex }, options: 'analyze' },
   patches: { args: { input: hex }, options: 'patches' },

@@ -95,7 +95,7 @@ pageTest('what has the focus can be seen to have it', async (page) => {
 
 pageTest('every control has a name', async (page) => {
   const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll('button, input:not([type="file"]), select, progress, canvas')]
+    [...document.querySelectorAll('button, input:not([type="file"]), select, progress, canvas:not([aria-hidden])')]
       .filter((control) => {
         const labels = /** @type {HTMLInputElement} */ (control).labels;
         return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();

@@ -2,7 +2,7 @@
 import { Analyses } from '../analyses.js';
 import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
-import { dewarped } from '../views/dewarped.js';
+import { dewarped, photoPicture } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
 import { rulings } from '../views/rulings.js';
 import { sheet } from '../views/sheet.js';
@@ -37,13 +37,22 @@ export function analysisPanel(session, show) {
     panel.setAttribute('aria-busy', 'false');
   };
 
+  /** What is shown now: while it is only worked out anew it stays, with its handles. */
+  let present = '';
+  /** @type {Result | null} */
+  let presentOf = null;
+
   const update = async () => {
     const turn = ++asked;
     const { result } = session;
     const name = chosen();
-    photo.show(name === 'dewarped');
+    const anew = present === name && presentOf === result;
+    [present, presentOf] = [name, result];
     photo.made(null);
-    put({});
+    if (!anew) {
+      photo.show(name === 'dewarped');
+      put({});
+    }
     panel.hidden = name === 'shaded';
     if (name === 'shaded') return;
     if (!result) {
@@ -51,13 +60,15 @@ export function analysisPanel(session, show) {
       return;
     }
     panel.setAttribute('aria-busy', 'true');
-    about.textContent = 'Working it out…';
+    if (!anew) about.textContent = 'Working it out…';
     try {
       const shown = await (name === 'dewarped' ? flat(result) : VIEWS[name](analyses, result));
       if (turn === asked) put(shown);
     } catch (error) {
       if (turn !== asked) return;
-      put({});
+      // The photo stays, with what may be wrong on it.
+      const wish = name === 'dewarped' ? await photo.wish(result).catch(() => null) : null;
+      put(wish ? { before: photoPicture(wish.photo) } : {});
       session.fail('This view could not be worked out', error);
     }
   };
@@ -66,7 +77,7 @@ export function analysisPanel(session, show) {
   const flat = async (result) => {
     const turn = asked;
     const wish = await photo.wish(result);
-    if (!wish) return { about: [make('p', 'muted', 'Open a photo that shows what the heights show, from above; it may have more pixels.')] };
+    if (!wish) return { about: [make('p', 'muted', 'Open a photo that shows what the heights show: from above, or for depths from the same place. It may have more pixels.')] };
     const shown = await dewarped(analyses, result, wish.photo, wish.options);
     if (turn === asked) photo.made(shown.flat);
     return shown;
@@ -81,4 +92,11 @@ export function analysisPanel(session, show) {
   for (const radio of radios) radio.addEventListener('change', renew);
   session.on('result', renew);
   session.on('cleared', renew);
+  return {
+    /** @param {string} view */
+    choose(view) {
+      for (const radio of radios) radio.checked = radio.value === view;
+      renew();
+    },
+  };
 }

@@ -1,42 +1,115 @@
 /** Depths from a camera, put where it has seen them: a mesh, of which a view is taken. */
-import { element } from '../dom.js';
+import { choosesFile, element } from '../dom.js';
+import { number } from '../format.js';
 
-/** @import {Mesh} from '../api.js' */
+/** @import {Mesh, PhotoCamera} from '../api.js' */
+/** @import {Called} from '../seen.js' */
 /** @import {Input, Session} from '../session.js' */
+
+/** Depths that are larger than that are no metres. */
+const FAR = 100;
 
 /**
  * @param {Session} session
- * @param {(file: Pick<Input, 'name' | 'kind'>, load: () => Promise<Mesh>, doing: string) => void} take
+ * @param {(file: Called, load: () => Promise<Mesh>, doing: string) => Promise<boolean>} take
  */
 export function cameraPanel(session, take) {
   const wanted = element('is-depth', HTMLInputElement);
   const panel = element('camera', HTMLElement);
   const [fx, fy, cx, cy, scale] = ['fx', 'fy', 'cx', 'cy', 'scale'].map((name) => element(`camera-${name}`, HTMLInputElement));
   const fields = [fx, fy, cx, cy, scale];
+  const angle = element('camera-angle', HTMLInputElement);
+  const about = element('camera-about', HTMLElement);
+  const span = element('camera-span', HTMLElement);
+  /** What a file says besides what is shown: the images that its numbers are for, the lens. @type {Partial<PhotoCamera>} */
+  let further = {};
 
-  wanted.addEventListener('change', () => {
-    panel.hidden = !wanted.checked;
+  const tell = () => {
     const { input } = session;
     if (!input) return;
-    // Most cameras look through the middle.
-    cx.value = String((input.width - 1) / 2);
-    cy.value = String((input.height - 1) / 2);
+    const { width = input.width, height = input.height, k1, k2, k3, p1, p2 } = further;
+    const lens = [k1, k2, k3, p1, p2].some((value) => value) ? ', and a lens that distorts' : '';
+    about.textContent = `For images of ${width} × ${height} pixels${lens}.`;
+    const [near, far] = rangeOf(input.data).map((depth) => depth * scale.valueAsNumber);
+    span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
+  };
+  /** Most cameras look through the middle. @param {Input} input */
+  const begin = ({ width, height, data, dataType = '' }) => {
+    further = {};
+    cx.value = String((width - 1) / 2);
+    cy.value = String((height - 1) / 2);
+    angle.value = '';
+    // Whole numbers are millimetres, and what is small is metres.
+    scale.value = dataType.startsWith('f') && rangeOf(data)[1] < FAR ? '1' : '0.001';
+    tell();
+  };
+  const ask = () => {
+    wanted.checked = true;
+    panel.hidden = false;
+    if (session.input) begin(session.input);
+  };
+  /** @param {PhotoCamera} camera */
+  const fill = ({ fx: x, fy: y, cx: across, cy: down, depthScale, rotation, translation, ...rest }) => {
+    further = rest;
+    [x, y, across, down, depthScale ?? scale.valueAsNumber].forEach((value, i) => (fields[i].value = String(value)));
+    tell();
+  };
+
+  wanted.addEventListener('change', () => (wanted.checked ? ask() : (panel.hidden = true)));
+  scale.addEventListener('change', tell);
+  angle.addEventListener('change', () => {
+    const { input } = session;
+    const sound = angle.valueAsNumber > 0 && angle.valueAsNumber < 180;
+    angle.setCustomValidity(sound || angle.value === '' ? '' : 'It must be an angle above 0° and below 180°.');
+    if (!angle.reportValidity() || !sound || !input) return;
+    const { width = input.width, height = input.height } = further;
+    fx.value = fy.value = String(Number((Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360)).toPrecision(6)));
   });
-  element('back-project', HTMLButtonElement).addEventListener('click', () => {
+  /** @param {File} file */
+  const read = async (file) => {
     const { input } = session;
-    if (!input) return;
+    if (!input) return false;
+    try {
+      const camera = session.api.parseCamera(await file.text(), [input, ...(input.photo ? [input.photo.image] : [])].map(({ width, height }) => ({ width, height })));
+      if (session.input !== input) return false;
+      ask();
+      fill(camera);
+      return true;
+    } catch (error) {
+      session.fail(`“${file.name}” could not be used`, error);
+      return false;
+    }
+  };
+  choosesFile(element('camera-open', HTMLButtonElement), element('camera-file', HTMLInputElement), read);
+
+  const project = async () => {
+    const { input } = session;
+    if (!input) return false;
     for (const field of fields) {
       const sound = Number.isFinite(field.valueAsNumber) && (field === cx || field === cy || field.valueAsNumber > 0);
       field.setCustomValidity(sound ? '' : `It must be a number${field === cx || field === cy ? '' : ' above 0'}.`);
-      if (!field.reportValidity()) return;
+      if (!field.reportValidity()) return false;
     }
     const [x, y, across, down, depthScale] = fields.map((field) => field.valueAsNumber);
-    const { name, width, height, data } = input;
-    const camera = { fx: x, fy: y, cx: across, cy: down, depthScale };
-    take({ name, kind: 'depths' }, () => session.api.backProject({ width, height, data }, camera), 'The depths could not be put in space');
-  });
+    const { name, width, height, data, photo } = input;
+    const camera = { ...further, fx: x, fy: y, cx: across, cy: down, depthScale };
+    return take({ name, kind: 'depths', photo }, () => session.api.backProject({ width, height, data }, camera), 'The depths could not be put in space');
+  };
+  element('back-project', HTMLButtonElement).addEventListener('click', project);
   session.on('cleared', () => {
     wanted.checked = false;
     panel.hidden = true;
   });
+  return { ask, read, project };
+}
+
+/** Without what is no depth. @param {Float64Array} data */
+function rangeOf(data) {
+  let [near, far] = [Infinity, -Infinity];
+  for (const depth of data) {
+    if (!(depth > 0 && depth < Infinity)) continue;
+    near = Math.min(near, depth);
+    far = Math.max(far, depth);
+  }
+  return [near, far];
 }

@@ -1,7 +1,7 @@
 /** Files dropped anywhere on the page. */
 import { element } from '../dom.js';
 
-/** @param {(file: File) => void} take */
+/** @param {(files: File[]) => void} take */
 export function watchDrops(take) {
   const veil = element('drop', HTMLElement);
   /** Entering a child comes before leaving its parent, so the two are counted. */
@@ -29,7 +29,7 @@ export function watchDrops(take) {
     if (!hasFiles(event)) return;
     event.preventDefault();
     leave();
-    const file = event.dataTransfer?.files[0];
-    if (file) take(file);
+    const files = [...event.dataTransfer?.files ?? []];
+    if (files.length > 0) take(files);
   });
 }

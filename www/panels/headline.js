@@ -2,7 +2,8 @@
 import { element } from '../dom.js';
 import { count } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { complaint, improvement, verdict } from '../words.js';
+import { improvement, verdict } from '../words.js';
+import { hideNotice, showFailure } from './notice.js';
 
 /** @import {Result, Session} from '../session.js' */
 
@@ -33,18 +34,7 @@ export function headline(session) {
     if (phase === 'idle' && !session.input) say('Nothing to show yet.', 'Choose an example or open a file.');
   });
   session.on('unsolved', () => say('Not solved.', session.result ? 'The result before it stays.' : ''));
-  session.on('failure', ({ doing, error }) => showNotice(complaint(doing, error)));
-  element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
-}
-
-/** @param {string} message */
-export function showNotice(message) {
-  element('notice-text', HTMLElement).textContent = message;
-  element('notice', HTMLElement).hidden = false;
-}
-
-function hideNotice() {
-  element('notice', HTMLElement).hidden = true;
+  session.on('failure', ({ doing, error }) => showFailure(doing, error));
 }
 
 /** @param {Session} session */

@@ -1,10 +1,11 @@
 /** Meshes and point clouds: turned, and seen as heights from a direction. */
 import { element, elements } from '../dom.js';
 import { count, number } from '../format.js';
-import { gridOver, interpolated } from '../surface/lattice.js';
+import { see } from '../seen.js';
 import { MeshView } from '../surface/mesh-view.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
+/** @import {Called} from '../seen.js' */
 /** @import {Input, Session} from '../session.js' */
 
 const NAMES = /\.(obj|ply|stl|glb|gltf)$/i;
@@ -29,22 +30,6 @@ export function meshPanel(session) {
   /** @type {Mesh | null} */
   let shown = null;
 
-  /**
-   * Takes the heights that are seen from a direction as the input.
-   * @param {Pick<Input, 'name' | 'kind'>} file
-   * @param {() => Promise<Mesh>} load
-   * @param {SampleMeshOptions} options
-   * @param {string} doing
-   */
-  const see = (file, load, options, doing) => session.open(doing, async () => {
-    const mesh = await load();
-    const lattice = await session.api.sampleMesh(mesh, options);
-    const grid = gridOver(lattice);
-    const data = interpolated(lattice, lattice.heights, grid);
-    if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
-    return { ...file, ...grid, heightScale: 1, data, lattice, seen: { mesh, options } };
-  });
-
   /** The package knows what suits a mesh, and what a point cloud. */
   const wanted = () => (resolution.value === '' ? undefined : resolution.valueAsNumber);
 
@@ -52,8 +37,8 @@ export function meshPanel(session) {
   const again = (change) => {
     const { input } = session;
     if (!input?.seen) return;
-    const { mesh, options } = input.seen;
-    void see({ name: input.name, kind: input.kind }, async () => mesh, { ...options, ...change }, 'The mesh could not be seen so');
+    const { mesh, options, whole } = input.seen;
+    void see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', whole);
   };
   for (const button of buttons) {
     button.addEventListener('click', () => again({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
@@ -94,18 +79,29 @@ export function meshPanel(session) {
 
   return {
     /**
-     * @param {Pick<Input, 'name' | 'kind'>} file
+     * @param {Called} file
      * @param {() => Promise<Mesh>} load
      * @param {string} doing
      */
-    take: (file, load, doing) => see(file, load, { view: 'best-fit', resolution: wanted() }, doing),
-    /** @param {File} file */
-    open(file) {
+    take: (file, load, doing) => see(session, file, load, { view: 'best-fit', resolution: wanted() }, doing),
+    /**
+     * @param {File} file
+     * @param {readonly File[]} [beside] what it may name: materials, textures, buffers
+     */
+    open(file, beside = []) {
       const kind = NAMES.exec(file.name)?.[1].toUpperCase();
       const called = file.name.replace(NAMES, '') || 'mesh';
-      return this.take({ name: called, kind }, () => session.api.readMesh(file), `“${file.name}” could not be read`);
+      return this.take({ name: called, kind }, async () => {
+        const files = new Map(await Promise.all(beside.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
+        return session.api.readMesh(file, { files });
+      }, `“${file.name}” could not be read`);
     },
   };
+}
+
+/** @param {Input} input @returns {Called} */
+function calledAs({ name, kind, photo }) {
+  return { name, kind, photo };
 }
 
 /** @param {Mesh} mesh */
@@ -119,6 +115,6 @@ function spanInWords({ positions, triangles, missing = [] }) {
     return number(high - low);
   });
   const what = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
-  const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which the page does not read.` : '';
+  const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which were not opened with it.` : '';
   return `${what}; x, y and z span ${sides.join(', ')}.${without}`;
 }

@@ -1,12 +1,17 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
 import { choosesFile, download, element } from '../dom.js';
+import { partAt } from '../mesh-part.js';
+import { pixelsOf } from '../pixels.js';
+import { see } from '../seen.js';
 import { photographed } from '../views/print.js';
+import { cropPanel } from './crop.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 /** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
 
-/** @typedef {{ photo: ImageData, options: { dots?: number, trim: boolean } }} Wish */
+/** @typedef {import('../analyses.js').FlatOptions} FlatOptions */
+/** @typedef {{ photo: ImageData, options: FlatOptions }} Wish */
 
 /**
  * @param {Session} session
@@ -28,11 +33,35 @@ export function photoPanel(session, analyses, changed) {
   /** @type {Dewarped | null} */
   let flat = null;
 
-  const forget = () => {
-    photo = null;
-    name.textContent = hint;
+  const all = element('all-parts', HTMLButtonElement);
+  const crop = cropPanel({ changed, click: (place) => void onlyPart(place) });
+
+  /**
+   * Takes the part of the mesh that the photo shows at a place, or all of it.
+   * @param {readonly [number, number] | null} place
+   */
+  const onlyPart = async (place) => {
+    const { input } = session;
+    if (!input?.seen || !photo) return;
+    const { mesh, options, whole = mesh } = input.seen;
+    const part = place && partAt(whole, [(place[0] + 0.5) / photo.width, 1 - (place[1] + 0.5) / photo.height]);
+    if (place && !part) return;
+    const own = { name: name.textContent ?? '', image: photo };
+    const taken = await see(
+      session, { name: input.name, kind: input.kind, photo: own }, async () => part ?? whole, options,
+      'This part could not be taken', part ? whole : undefined,
+    );
+    if (taken) await session.run();
   };
-  session.on('cleared', forget);
+  all.addEventListener('click', () => void onlyPart(null));
+
+  session.on('cleared', () => {
+    const own = session.input?.photo;
+    photo = own?.image ?? null;
+    name.textContent = own?.name ?? hint;
+    all.hidden = session.input?.seen?.whole === undefined;
+    crop.forget();
+  });
 
   choosesFile(open, file, async (chosen) => {
     const { result } = session;
@@ -73,13 +102,21 @@ export function photoPanel(session, analyses, changed) {
     /** @param {boolean} wanted */
     show: (wanted) => {
       panel.hidden = !wanted;
+      if (!wanted) crop.show(null);
     },
     /**
      * The photo that there is, or else a print, where the true surface is known.
      * @param {Result} result
      * @returns {Promise<Wish | null>}
      */
-    async wish({ input }) {
+    async wish({ input, surface }) {
+      if (!photo && surface.texture) {
+        const { data, width } = await session.api.readPhoto(surface.texture);
+        if (session.input === input && !photo) {
+          photo = new ImageData(data, width);
+          name.textContent = 'the scan’s own texture';
+        }
+      }
       if (!photo && input.truth) {
         const known = { ...input, truth: input.truth };
         const printed = photographed(known, await analyses.sheetOfTruth(known));
@@ -88,7 +125,8 @@ export function photoPanel(session, analyses, changed) {
           name.textContent = 'a page printed on the true surface';
         }
       }
-      return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked } };
+      crop.show(photo);
+      return photo && { photo, options: { dots: dots.value === '' ? undefined : dots.valueAsNumber, trim: trim.checked, crop: crop.polygon } };
     },
     /** @param {Dewarped | null} made what can be saved */
     made: (made) => {
@@ -96,24 +134,6 @@ export function photoPanel(session, analyses, changed) {
       for (const button of [png, map]) button.disabled = made === null;
     },
   };
-}
-
-/**
- * Whatever pictures the browser knows.
- * @param {File} file
- */
-async function pixelsOf(file) {
-  const bitmap = await createImageBitmap(file).catch(() => {
-    throw new Error('it is no picture that this browser can read');
-  });
-  const canvas = document.createElement('canvas');
-  canvas.width = bitmap.width;
-  canvas.height = bitmap.height;
-  const context = canvas.getContext('2d');
-  if (!context) throw new Error('the browser gives no canvas of that size');
-  context.drawImage(bitmap, 0, 0);
-  bitmap.close();
-  return context.getImageData(0, 0, canvas.width, canvas.height);
 }
 
 /** The warp map: for each pixel its place in the photo, null where there is no sheet. @param {Dewarped} flat */

@@ -1,16 +1,21 @@
 /** Where the heights come from: an example, or a file with its scale. */
 import { designInput } from '../design.js';
-import { choosesFile, element, elements } from '../dom.js';
+import { doubtOf } from '../doubts.js';
+import { choosesFiles, element, elements } from '../dom.js';
 import { number } from '../format.js';
+import { pixelsOf } from '../pixels.js';
+import { isCamera, together } from '../together.js';
 import { cameraPanel } from './camera.js';
-import { watchDrops } from './drop.js';
 import { isMesh, meshPanel } from './mesh.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
 
-/** @param {Session} session */
-export function sourcePanel(session) {
+/**
+ * @param {Session} session
+ * @param {(view: string) => void} choose a view of the result
+ */
+export function sourcePanel(session, choose) {
   const radios = elements('input[name="example"]', HTMLInputElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
@@ -21,13 +26,16 @@ export function sourcePanel(session) {
   const pixelSize = element('pixel-size', HTMLInputElement);
   const heightScale = element('height-scale', HTMLInputElement);
   const span = element('scale-span', HTMLElement);
+  const doubt = element('scale-doubt', HTMLElement);
   const zero = element('zero-is-nothing', HTMLInputElement);
   const design = element('is-design', HTMLInputElement);
   const arrayField = element('array-field', HTMLElement);
   const array = element('array', HTMLSelectElement);
   const mesh = meshPanel(session);
-  cameraPanel(session, mesh.take);
+  const camera = cameraPanel(session, mesh.take);
   const designHint = element('design-hint', HTMLElement);
+  /** The file whose scale was asked about. */
+  let doubted = '';
   /** The open file's values as they are stored. @type {Float64Array} */
   let stored = new Float64Array();
 
@@ -49,28 +57,50 @@ export function sourcePanel(session) {
   /**
    * @param {File} chosen
    * @param {string} [wanted] array of it
+   * @param {File} [picture] that goes with it
    */
-  const openFile = async (chosen, wanted) => {
-    if (isMesh(chosen.name)) return void mesh.open(chosen);
+  const openFile = async (chosen, wanted, picture) => {
+    if (isMesh(chosen.name)) return mesh.open(chosen);
+    if (isCamera(chosen)) return camera.read(chosen);
     /** @type {Float64Array} */
     let values = stored;
     const opened = await session.open(`“${chosen.name}” could not be read`, async () => {
       const names = await arraysOf(session, chosen);
       const several = names.length > 1 ? { file: chosen, names, name: wanted ?? names[0] } : undefined;
       const options = several && { array: several.name };
-      const { format, dataType, width, height, data, pixelSize: side, heightScale: step, unit } = await session.api.read(chosen, options);
+      const { format, dataType, width, height, data, pixelSize: side, heightScale: step, unit } = await session.api.read(chosen, options).catch(plainly);
+      const photo = picture && { name: picture.name, image: await pixelsOf(picture) };
       if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
       if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
       if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
       values = data;
       const name = chosen.name.replace(/\.[^.]*$/, '') || 'heights';
       const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
-      return { name, kind, width, height, data, pixelSize: side, heightScale: step, unit: unit ?? undefined, array: several };
+      return { name, kind, dataType, photo, width, height, data, pixelSize: side, heightScale: step, unit: unit ?? undefined, array: several };
     });
-    if (!opened) return;
+    if (!opened) return false;
     stored = values;
     zero.checked = false;
     design.checked = false;
+    return true;
+  };
+
+  /** What belongs together, or one file. @param {readonly File[]} files */
+  const openFiles = async (files) => {
+    if (files.length === 1) return void openFile(files[0]);
+    const { mesh: scan, depths, photo, camera: numbers } = await together(files);
+    if (scan) return void mesh.open(scan, files.filter((file) => file !== scan));
+    if (!depths) {
+      session.fail('These files could not be put together', new Error('there are neither a mesh nor depths (a TIFF, EXR, PFM, NPY or 16-bit PNG) among them'));
+      return;
+    }
+    if (!(await openFile(depths, undefined, photo))) return;
+    camera.ask();
+    if (!numbers) return;
+    // All that is needed is there.
+    if (!(await camera.read(numbers)) || !(await camera.project()) || !photo) return;
+    choose('dewarped');
+    await session.run();
   };
 
   const dropZeros = () => {
@@ -90,8 +120,7 @@ export function sourcePanel(session) {
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
   zero.addEventListener('change', dropZeros);
   design.addEventListener('change', () => session.amend({ design: design.checked }));
-  choosesFile(element('open', HTMLButtonElement), file, (chosen) => openFile(chosen));
-  watchDrops((dropped) => void openFile(dropped));
+  choosesFiles(element('open', HTMLButtonElement), file, openFiles);
   array.addEventListener('change', () => {
     const several = session.input?.array;
     if (several) void openFile(several.file, array.value);
@@ -111,9 +140,18 @@ export function sourcePanel(session) {
     pixelSize.value = plain(input.pixelSize);
     heightScale.value = plain(input.heightScale);
     span.textContent = spanInWords(input);
+    const words = doubtOf(input);
+    // Its room is kept while the same file is scaled, or what is clicked next would move away.
+    if (words === '' && doubted === input.name) doubt.dataset.settled = '';
+    else {
+      delete doubt.dataset.settled;
+      doubt.hidden = words === '';
+      doubt.textContent = words;
+      doubted = words === '' ? '' : input.name;
+    }
   });
 
-  return { openExample };
+  return { openExample, openFiles, takeMesh: mesh.take };
 }
 
 /**
@@ -125,6 +163,12 @@ async function arraysOf(session, file) {
   if (!/\.npz$/i.test(file.name)) return [];
   const arrays = await session.api.npzArrays(file);
   return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
+}
+
+/** Says what to do with a photo. @param {unknown} error @returns {never} */
+function plainly(error) {
+  if (!(error instanceof Error && /colour/.test(error.message))) throw error;
+  throw new Error('it is in colour, and no heights follow from that. A photo alone is made flat under “A photo of a page”; with its depths, open both together');
 }
 
 /** @param {string} type such as u16 */

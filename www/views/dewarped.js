@@ -1,10 +1,11 @@
 /** A photo of the surface, and the same made flat. */
-import { number, percent } from '../format.js';
+import { doubtOf } from '../doubts.js';
+import { count, number, percent } from '../format.js';
 import { imagePicture } from '../surface/picture.js';
 import { FLATTENED } from '../words.js';
 import { figures, say } from './legend.js';
 
-/** @import {Analyses} from '../analyses.js' */
+/** @import {Analyses, FlatOptions} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {Shown} from './shown.js' */
 /** @typedef {import('../../pkg/types.js').Dewarped} Dewarped */
@@ -13,27 +14,36 @@ import { figures, say } from './legend.js';
  * @param {Analyses} analyses
  * @param {Result} result
  * @param {ImageData} photo
- * @param {{ dots?: number, trim: boolean }} options
+ * @param {FlatOptions} options
  * @returns {Promise<Shown & { flat: Dewarped }>}
  */
 export async function dewarped(analyses, result, photo, options) {
   const flat = await analyses.dewarp(result, photo, options);
-  const { width, height, data, resolution, verdict, report: { distortion } } = flat;
+  const { width, height, data, resolution, verdict, report: { distortion, parts, crossings } } = flat;
+  const doubt = doubtOf(result.input);
   const unit = result.input.unit ?? 'unit';
   return {
     flat,
-    before: imagePicture(canvasOf(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`),
+    before: photoPicture(photo),
     after: imagePicture(canvasOf(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`),
     about: [
-      say(FLATTENED[verdict]),
+      say(doubt || FLATTENED[verdict]),
       figures([
         ['Flat image', `${width} × ${height} pixels`],
         ['Resolution', `${number(resolution, 4)} pixels per ${unit}`],
         ['Size', `${number(width / resolution)} × ${number(height / resolution)} ${result.input.unit ?? 'units'}`],
         ['Strain, root mean square', percent(distortion.rms)],
+        ['Above 1 % of strain', `${percent(distortion.above)} of the area`],
+        ['Overlaps', crossings === 0 ? 'none' : `borders cross ${count(crossings)} times`],
+        ...(parts > 1 ? [/** @type {const} */ (['Parts', `${count(parts)}: click one in the photo to have it alone`])] : []),
       ]),
     ],
   };
+}
+
+/** @param {ImageData} photo */
+export function photoPicture(photo) {
+  return imagePicture(canvasOf(photo), 'Photo', `The photo, ${photo.width} × ${photo.height} pixels`);
 }
 
 /** @param {ImageData} image */

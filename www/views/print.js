@@ -1,4 +1,5 @@
 /** A printed page on an example's true surface, photographed from above: something to make flat. */
+import { printed } from '../printed.js';
 import { normalsOf, UNIT } from '../surface/normals.js';
 import { fillTriangles } from '../surface/triangles.js';
 import { extentOf } from './sheet.js';
@@ -6,9 +7,8 @@ import { extentOf } from './sheet.js';
 /** @import {Input} from '../session.js' */
 /** @typedef {import('../../pkg/types.js').Unrolling} Unrolling */
 
-/** Pixels along the longer side: of the photo, about; of the print. */
+/** Pixels along the longer side of the photo, about. */
 const PHOTO = 1000;
-const PRINT = 1400;
 const LIGHT = [-0.45, 0.4, 0.8];
 
 /**
@@ -23,7 +23,7 @@ export function photographed(input, { triangles, positions, places }) {
   const out = new Uint32Array(photo.data.buffer);
 
   const extent = extentOf(places);
-  const page = print(extent.width, extent.height);
+  const page = printed(extent.width, extent.height);
   const ink = new Uint32Array(page.data.buffer);
   const dots = (page.width - 1) / extent.width;
   const seen = new Float64Array(places.length);
@@ -55,43 +55,4 @@ function dimmed(colour, light) {
   /** @param {number} shift */
   const part = (shift) => Math.round(((colour >>> shift) & 255) * light) << shift;
   return (0xff000000 | part(16) | part(8) | part(0)) >>> 0;
-}
-
-const TEXT = 'What bends like paper can be laid flat again without a stretch or a tear. '
-  + 'Seen from above, lines that were printed straight become curves, and what slants away becomes narrow. '
-  + 'From the heights it follows how far each point is from its neighbours along the sheet, and so where it was before the sheet was bent. ';
-
-/**
- * @param {number} wide
- * @param {number} high
- */
-function print(wide, high) {
-  const scale = (PRINT - 1) / Math.max(wide, high);
-  const [width, height] = [Math.ceil(wide * scale) + 1, Math.ceil(high * scale) + 1];
-  const canvas = document.createElement('canvas');
-  Object.assign(canvas, { width, height });
-  const context = canvas.getContext('2d', { willReadFrequently: true });
-  if (!context) return new ImageData(width, height);
-  context.fillStyle = '#fbfaf5';
-  context.fillRect(0, 0, width, height);
-  const [margin, line] = [width * 0.08, width * 0.034];
-  context.fillStyle = '#22618f';
-  context.font = `700 ${line * 1.7}px serif`;
-  context.fillText('On laying paper flat', margin, margin + line * 1.4);
-  context.fillStyle = '#23282d';
-  context.font = `${line * 0.78}px serif`;
-  const words = TEXT.repeat(12).split(' ');
-  const foot = height - margin - 4 * line;
-  for (let y = margin + 3.6 * line; y < foot; y += line) {
-    let text = '';
-    while (words.length > 0 && context.measureText(`${text} ${words[0]}`).width < width - 2 * margin) text += ` ${words.shift()}`;
-    context.fillText(text.trim(), margin, y);
-    context.fillRect(margin, y + 0.25 * line, width - 2 * margin, 2);
-  }
-  const square = (width - 2 * margin) / 24;
-  for (let i = 0; i < 24; i++) context.fillRect(margin + i * square, height - margin - (i % 2 === 0 ? 2 : 1) * square, square, square);
-  context.lineWidth = 3;
-  context.strokeStyle = '#22618f';
-  context.strokeRect(margin / 2, margin / 2, width - margin, height - margin);
-  return context.getImageData(0, 0, width, height);
 }

@@ -71,7 +71,7 @@ export function png16(width, values) {
 }
 
 /** @param {string} type @param {Buffer} data */
-function chunk(type, data) {
+export function chunk(type, data) {
   const body = Buffer.concat([Buffer.from(type, 'latin1'), data]);
   const length = Buffer.alloc(4);
   length.writeUInt32BE(data.length);

@@ -206,13 +206,25 @@ export function look(page, selector) {
  * @param {string} name
  * @param {Buffer} bytes
  */
-export async function drop(page, name, bytes) {
-  const transfer = await page.evaluateHandle(({ name, content }) => {
-    const data = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
+export function drop(page, name, bytes) {
+  return dropAll(page, { [name]: bytes });
+}
+
+/**
+ * Drops several files at once.
+ * @param {Page} page
+ * @param {Record<string, Buffer>} files
+ */
+export async function dropAll(page, files) {
+  const contents = Object.entries(files).map(([name, bytes]) => ({ name, content: bytes.toString('base64') }));
+  const transfer = await page.evaluateHandle((all) => {
     const transfer = new DataTransfer();
-    transfer.items.add(new File([data], name));
+    for (const { name, content } of all) {
+      const data = Uint8Array.from(atob(content), (character) => character.charCodeAt(0));
+      transfer.items.add(new File([data], name));
+    }
     return transfer;
-  }, { name, content: bytes.toString('base64') });
+  }, contents);
   for (const type of ['dragenter', 'dragover', 'drop']) {
     await page.dispatchEvent('main', type, { dataTransfer: transfer });
   }

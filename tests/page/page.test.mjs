@@ -1,0 +1,315 @@
+/** A photo of a curled page alone: found, dragged, held, made flat and saved. */
+import assert from 'node:assert/strict';
+import { parsed } from './support/numbers.mjs';
+import { downloaded, drop, look, pageTest, painted } from './support/page.mjs';
+import { camera, dottedPhoto, misplaced, parsePng, seen } from './support/photos.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {import('./support/photos.mjs').Place} Place */
+
+const photo = dottedPhoto();
+/** So like its ground that it is not found by itself. */
+const pale = dottedPhoto({ page: 225, ground: 195 });
+
+/** @param {Page} page */
+async function flattened(page) {
+  await page.locator('#flat-view[aria-busy="false"]').waitFor({ state: 'attached' });
+  await painted(page);
+}
+
+/** @param {Page} page @param {string} name @param {Buffer} bytes */
+async function openPhoto(page, name, bytes) {
+  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+  await drop(page, name, bytes);
+  await page.locator('#page-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
+  await flattened(page);
+}
+
+/** @param {Page} page @param {string} name */
+const handle = (page, name) => page.getByRole('button', { name: new RegExp(`^${name}`) });
+
+/** Where a handle is, in pixels of the photo. @param {Page} page @param {string} name @returns {Promise<Place>} */
+async function placeOf(page, name) {
+  const [, x, y] = /at (-?\d+), (-?\d+)$/.exec(await handle(page, name).getAttribute('aria-label') ?? '') ?? [];
+  return [Number(x), Number(y)];
+}
+
+/** From pixels of the photo to those of the page. @param {Page} page @param {Place} place @returns {Promise<Place>} */
+async function onPage(page, [x, y]) {
+  const box = await page.locator('#page-photo').boundingBox();
+  assert.ok(box);
+  return [box.x + ((x + 0.5) / camera.width) * box.width, box.y + ((y + 0.5) / camera.height) * box.height];
+}
+
+/** @param {Page} page @param {string} name @param {Place} to */
+async function drag(page, name, to) {
+  await page.mouse.move(...await onPage(page, await placeOf(page, name)));
+  await page.mouse.down();
+  await page.mouse.move(...await onPage(page, to), { steps: 4 });
+  await page.mouse.up();
+}
+
+/** @param {Page} page */
+async function flatPng(page) {
+  const { name, bytes } = await downloaded(page, () => page.getByRole('button', { name: 'Page PNG' }).click());
+  return { name, ...parsePng(bytes) };
+}
+
+/** @param {Page} page @param {string} name */
+async function told(page, name) {
+  const figure = page.locator('#flat-about .figures div').filter({ has: page.locator('dt', { hasText: name }) });
+  return (await figure.locator('dd').innerText()).trim();
+}
+
+const CORNERS = /** @type {const} */ ([['Upper left corner', 0, 0], ['Upper right corner', 1, 0], ['Lower left corner', 0, 1], ['Lower right corner', 1, 1]]);
+const BENDS = /** @type {const} */ ([['upper', 0], ['lower', 1]]);
+
+pageTest('a page on a dark ground is found, and its dots come out evenly', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  for (const [name, s, t] of CORNERS) {
+    const [[x, y], [u, v]] = [await placeOf(page, name), seen(s, t)];
+    assert.ok(Math.hypot(x - u, y - v) < 2.5, `${name} at ${x}, ${y}, not at ${u}, ${v}`);
+  }
+  assert.match(await page.locator('#flat-verdict').innerText(), /^Made flat: both edges agree/);
+  assert.ok((await look(page, '#flat-canvas')).covered > 0.2);
+  const flat = await flatPng(page);
+  assert.equal(flat.name, 'letter-flat.png');
+  assert.ok(Math.abs(flat.height / flat.width / (297 / 210) - 1) < 0.015, `${flat.width} × ${flat.height}`);
+  const error = misplaced(flat);
+  assert.ok(error < 0.003, `dots are off by ${100 * error} % of the width`);
+  // What is claimed is about what it is.
+  const [likely, bound] = [parsed(await told(page, 'Likely error')), parsed(await told(page, 'In 95 of 100'))];
+  assert.ok(likely < bound && bound < 1 && 100 * error < 2 * bound, `${likely}, ${bound}, ${100 * error}`);
+
+  const jpeg = await downloaded(page, () => page.getByRole('button', { name: 'Page JPEG' }).click());
+  assert.equal(jpeg.name, 'letter-flat.jpg');
+  assert.deepEqual([...jpeg.bytes.subarray(0, 3)], [0xff, 0xd8, 0xff]);
+});
+
+pageTest('corners and points are dragged where nothing is found, and edges are drawn to the page', async (page) => {
+  await openPhoto(page, 'pale.png', pale);
+  assert.deepEqual(await placeOf(page, 'Upper left corner'), [120, 90], 'a quadrilateral to start from');
+  for (const [name, s, t] of CORNERS) {
+    const [x, y] = seen(s, t);
+    await drag(page, name, [x + 3, y - 2]);
+  }
+  for (const [edge, t] of BENDS) {
+    for (const k of [1, 2, 3]) {
+      const [x, y] = seen(k / 4, t);
+      await drag(page, `Point ${k} of the ${edge} edge`, [x - 2, y + 4]);
+    }
+  }
+  await flattened(page);
+  // Let go, they are where the photo has them.
+  for (const [name, s, t] of CORNERS) {
+    const [[x, y], [u, v]] = [await placeOf(page, name), seen(s, t)];
+    assert.ok(Math.hypot(x - u, y - v) < 2.5, `${name} at ${x}, ${y}, not at ${u}, ${v}`);
+  }
+  assert.match(await page.locator('#flat-verdict').innerText(), /^Made flat: both edges agree/);
+  const error = misplaced(await flatPng(page));
+  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
+});
+
+pageTest('without drawing edges to the photo, all stays where it is put', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  await page.getByLabel('Draw edges to what the photo shows').uncheck();
+  const wanted = /** @type {Place} */ ([300, 200]);
+  await drag(page, 'Upper left corner', wanted);
+  await flattened(page);
+  const [x, y] = await placeOf(page, 'Upper left corner');
+  assert.ok(Math.hypot(x - 300, y - 200) < 2, `${x}, ${y}`);
+  assert.doesNotMatch(await page.locator('#flat-verdict').innerText(), /both edges agree/, 'few points, wrongly put');
+  await page.getByRole('button', { name: 'Start again' }).click();
+  await flattened(page);
+  const [u, v] = seen(0, 0);
+  const again = await placeOf(page, 'Upper left corner');
+  assert.ok(Math.hypot(again[0] - u, again[1] - v) < 2.5, `${again}`);
+});
+
+pageTest('the flat page follows while a corner is dragged, and a magnifier shows what is under it', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  const before = (await look(page, '#flat-canvas')).hash;
+  await page.mouse.move(...await onPage(page, await placeOf(page, 'Lower right corner')));
+  await page.mouse.down();
+  assert.ok((await look(page, '#page-photo > .magnifier')).covered > 0.9);
+  // Frames go on being drawn while it is worked out.
+  const frames = await page.evaluateHandle(() => {
+    const counted = { frames: 0, answers: 0 };
+    const count = () => {
+      counted.frames++;
+      requestAnimationFrame(count);
+    };
+    count();
+    new MutationObserver(() => counted.answers++).observe(/** @type {Element} */ (document.querySelector('#flat-about')), { childList: true });
+    return counted;
+  });
+  const [x, y] = seen(0.7, 0.9);
+  await page.mouse.move(...await onPage(page, [x, y]), { steps: 8 });
+  await flattened(page);
+  const { frames: drawn, answers } = await frames.jsonValue();
+  assert.ok(answers >= 1 && drawn > answers, `${drawn} frames, ${answers} answers`);
+  assert.notEqual((await look(page, '#flat-canvas')).hash, before);
+  await page.mouse.up();
+  assert.equal(await page.locator('#page-photo > .magnifier').isVisible(), false);
+});
+
+pageTest('everything on the photo can be done by keyboard', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  const corner = handle(page, 'Upper right corner');
+  await corner.focus();
+  const [x, y] = await placeOf(page, 'Upper right corner');
+  await page.keyboard.press('Shift+ArrowLeft');
+  await page.keyboard.press('ArrowDown');
+  const [u, v] = await placeOf(page, 'Upper right corner');
+  assert.ok(u <= x - 9 && u > x - 60 && v > y && v < y + 6, `${x}, ${y} to ${u}, ${v}`);
+  assert.match(await corner.getAttribute('class') ?? '', /held/, 'it is not drawn back');
+  assert.ok(await page.locator('#page-photo > .magnifier').isVisible());
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('#page-photo > .magnifier').isVisible(), false);
+
+  const points = page.getByRole('button', { name: /^Point \d of the lower edge/ });
+  assert.equal(await points.count(), 3);
+  await points.first().focus();
+  await page.keyboard.press('Delete');
+  assert.equal(await points.count(), 2);
+  assert.match(await page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? ''), /^Lower left corner/, 'the focus is not lost');
+  await page.getByRole('button', { name: 'Add a point' }).press('Enter');
+  assert.equal(await points.count(), 3);
+  assert.match(await page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? ''), /^Point 1 of the lower edge/);
+  await page.getByRole('button', { name: 'Remove the point' }).press('Enter');
+  assert.equal(await points.count(), 2);
+  await handle(page, 'Lower left corner').press('Delete');
+  assert.equal(await handle(page, 'Lower left corner').count(), 1, 'corners stay');
+});
+
+pageTest('an edge is pulled into a further point', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  const [one, other] = [await placeOf(page, 'Point 1 of the upper edge'), await placeOf(page, 'Point 2 of the upper edge')];
+  const from = await onPage(page, [(one[0] + other[0]) / 2, (one[1] + other[1]) / 2]);
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  await page.mouse.move(from[0], from[1] + 30, { steps: 5 });
+  const points = page.getByRole('button', { name: /^Point \d of the upper edge/ });
+  assert.equal(await points.count(), 4);
+  await page.mouse.up();
+  await flattened(page);
+  assert.match(await page.locator('#flat-verdict').innerText(), /no page|Doubtful|cannot/, 'it was pulled away from the page');
+});
+
+pageTest('known: format, focal length, what is bent, two pages', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  // The photo does not tell its camera, but the page's perspective does.
+  assert.match(await page.locator('#focal-hint').innerText(), /found from the perspective/);
+  const found = parsed(await told(page, 'Focal length'));
+  assert.ok(Math.abs(found / camera.fx - 1) < 0.05, `${found}`);
+
+  await page.getByLabel('Format of each page').selectOption('a4');
+  await flattened(page);
+  const [wide, high] = (await told(page, 'Size')).split('×').map(parsed);
+  assert.ok(Math.abs(wide - 210) < 1.5 && Math.abs(high - 297) < 2, `${wide} × ${high}`);
+  await page.locator('#focal').selectOption('pixels');
+  await page.getByLabel('Value').fill(String(camera.fx));
+  await page.getByLabel('Value').press('Tab');
+  await flattened(page);
+  assert.ok(Math.abs(parsed(await told(page, 'Focal length')) / camera.fx - 1) < 0.01);
+  await page.getByLabel('Format of each page').selectOption('own');
+  for (const [label, value] of [['Width in mm', '100'], ['Height in mm', '400']]) {
+    await page.getByLabel(label).fill(value);
+    await page.getByLabel(label).press('Tab');
+  }
+  await flattened(page);
+  assert.match(await page.locator('#flat-verdict').innerText(), /cannot be made flat/);
+  assert.match(await page.locator('#flat-detail').innerText(), /format/);
+  assert.ok(await page.getByRole('button', { name: 'Page PNG' }).isDisabled());
+
+  await page.getByLabel('Format of each page').selectOption('');
+  await page.getByRole('radio', { name: 'Left, right' }).check({ force: true });
+  await flattened(page);
+  assert.equal(await page.getByRole('button', { name: /of the left edge/ }).count(), 3);
+  await page.getByRole('radio', { name: 'Top, bottom' }).check({ force: true });
+  await page.getByRole('radio', { name: 'Two pages' }).check({ force: true });
+  await flattened(page);
+  assert.equal(await page.getByRole('button', { name: /end of the gutter/ }).count(), 2);
+});
+
+pageTest('the open book has its gutter where both pages meet', async (page) => {
+  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+  await page.locator('input[value="book"]').check({ force: true });
+  await page.locator('#page-caption', { hasText: 'book' }).waitFor();
+  await flattened(page);
+  assert.ok(await page.getByRole('radio', { name: 'Two pages' }).isChecked());
+  assert.match(await page.locator('#flat-verdict').innerText(), /^Made flat: both edges agree/);
+  // Two upright A4 pages.
+  const ratio = parsed(await told(page, 'Width to height'));
+  assert.ok(Math.abs(ratio / (420 / 297) - 1) < 0.015, `${ratio}`);
+});
+
+pageTest('what is no photo gets a message, and what was there stays', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  const before = [await page.locator('#page-caption').innerText(), (await look(page, '#flat-canvas')).hash];
+  for (const [name, bytes] of /** @type {const} */ ([
+    ['notes.jpg', Buffer.from('no picture')],
+    ['cut.png', photo.subarray(0, 400)],
+    ['none.png', Buffer.alloc(0)],
+  ])) {
+    await drop(page, name, bytes);
+    await page.getByRole('alert').filter({ hasText: name }).waitFor();
+    assert.deepEqual([await page.locator('#page-caption').innerText(), (await look(page, '#flat-canvas')).hash], before);
+  }
+  await page.getByRole('button', { name: 'Dismiss' }).click();
+  assert.equal(await page.getByRole('alert').isVisible(), false);
+});
+
+pageTest('the flat page goes on as a surface', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  await page.getByRole('button', { name: 'Go on with it as a surface' }).click();
+  await page.locator('#mesh-name', { hasText: 'letter (photo)' }).waitFor();
+  assert.ok((await look(page, '#input-canvas')).covered > 0.3);
+});
+
+const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+
+pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(excess <= 0, `${excess} pixels stick out`);
+  for (const one of await page.locator('.handle').all()) {
+    const box = await one.boundingBox();
+    assert.ok(box && box.width >= 44 && box.height >= 44, 'large enough for a finger');
+  }
+  const [x, y] = await placeOf(page, 'Lower left corner');
+  const scrolled = await page.evaluate(() => window.scrollY);
+  const touch = await page.context().newCDPSession(page);
+  const [fromX, fromY] = await onPage(page, [x, y]);
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x: fromX + 8, y: fromY + 8 }] });
+  for (const k of [1, 2, 3, 4]) {
+    await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [{ x: fromX + 8 + 5 * k, y: fromY + 8 - 12 * k }] });
+  }
+  await painted(page);
+  assert.ok(await page.locator('#page-photo > .magnifier').isVisible());
+  const [u, v] = await placeOf(page, 'Lower left corner');
+  const box = await page.locator('#page-photo').boundingBox();
+  assert.ok(box);
+  const scale = camera.width / box.width;
+  assert.ok(Math.abs(u - x - 20 * scale) < 2 * scale && Math.abs(v - y + 48 * scale) < 2 * scale, `${u - x}, ${v - y}`);
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  assert.equal(await page.evaluate(() => window.scrollY), scrolled);
+  // The photo stays in sight while the flat page is looked at.
+  await page.locator('#flat-about').scrollIntoViewIfNeeded();
+  const pinned = await page.locator('#page-photo').boundingBox();
+  assert.ok(pinned && pinned.y >= 0 && pinned.y < 100, JSON.stringify(pinned));
+}, phone);
+
+for (const width of [360, 768, 1280]) {
+  pageTest(`nothing of it sticks out at ${width} pixels, and every control has a name`, async (page) => {
+    await openPhoto(page, 'letter.png', photo);
+    const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(excess <= 0, `${excess} pixels`);
+    const nameless = await page.evaluate(() => [...document.querySelectorAll('#page-side :is(button, input:not([type="file"]), select, canvas:not([aria-hidden]))')]
+      .filter((control) => {
+        const { labels } = /** @type {HTMLInputElement} */ (control);
+        return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();
+      }).map((control) => control.outerHTML));
+    assert.deepEqual(nameless, []);
+  }, { viewport: { width, height: 800 } });
+}

@@ -1,0 +1,148 @@
+/** Photos of a curled page of dots, whose places are known in closed form, and what became of the dots. */
+import { deflateSync, inflateSync } from 'node:zlib';
+import { meets } from '../../js/support/phone.mjs';
+import { chunk } from './files.mjs';
+
+/** @typedef {[x: number, y: number]} Place */
+/** @typedef {{ width: number, height: number, data: Uint8Array }} Pixels RGBA */
+
+/** A phone's camera, 43 cm from an A4 page that is tilted by 25°. */
+export const camera = { width: 800, height: 600, fx: 640, fy: 640, cx: 394, cy: 303 };
+const [radius, tilt, away, wide, high] = [0.12, (25 * Math.PI) / 180, 0.43, 0.21, 0.297];
+/** Dots across and down, at the middles of equal cells. */
+export const dots = { across: 6, down: 8 };
+
+/**
+ * Where a place of the page is seen, in shares of its width and height from its upper left corner.
+ * @param {number} s
+ * @param {number} t
+ * @returns {Place}
+ */
+export function seen(s, t) {
+  const angle = ((s - 0.5) * wide) / radius;
+  const [u, v, w] = [radius * Math.sin(angle), (t - 0.5) * high + Math.sin(tilt) * away, radius * (1 - Math.cos(angle)) + Math.cos(tilt) * away];
+  const [y, z] = [Math.cos(tilt) * v - Math.sin(tilt) * w, Math.sin(tilt) * v + Math.cos(tilt) * w];
+  return [camera.cx + (camera.fx * u) / z, camera.cy + (camera.fy * y) / z];
+}
+
+/**
+ * A page of dots on a ground.
+ * @param {{ page: number, ground: number }} [greys]
+ * @returns {Buffer} a PNG
+ */
+export function dottedPhoto({ page, ground } = { page: 240, ground: 60 }) {
+  const { width, height } = camera;
+  const data = new Uint8Array(4 * width * height).fill(255);
+  const grey = (/** @type {number} */ col, /** @type {number} */ row) => {
+    const place = meets(camera, col, row);
+    if (!place) return ground;
+    const [s, t] = [(place[1] / wide + 0.5) * dots.across, (place[2] / high + 0.5) * dots.down];
+    const [ds, dt] = [(s % 1) - 0.5, (t % 1) - 0.5];
+    return Math.hypot((ds * wide) / dots.across, (dt * high) / dots.down) < 0.008 ? 20 : page;
+  };
+  for (let i = 0; i < width * height; i++) {
+    const [col, row] = [i % width, Math.floor(i / width)];
+    let sum = 0;
+    for (const [dx, dy] of [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]]) sum += grey(col + dx, row + dy);
+    data.fill(sum / 4, 4 * i, 4 * i + 3);
+  }
+  return png({ width, height, data });
+}
+
+/** A PNG of RGBA bytes. @param {Pixels} pixels */
+export function png({ width, height, data }) {
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 6], 8);
+  const rows = Buffer.alloc(height * (1 + 4 * width));
+  for (let row = 0; row < height; row++) rows.set(data.subarray(4 * row * width, 4 * (row + 1) * width), row * (1 + 4 * width) + 1);
+  return Buffer.concat([
+    Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'),
+    chunk('IHDR', head), chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0)),
+  ]);
+}
+
+/** The pixels of a PNG of RGBA bytes. @param {Buffer} bytes @returns {Pixels} */
+export function parsePng(bytes) {
+  const [width, height, depth, kind] = [bytes.readUInt32BE(16), bytes.readUInt32BE(20), bytes[24], bytes[25]];
+  if (depth !== 8 || kind !== 6) throw new Error(`not RGBA bytes but ${depth} bits of kind ${kind}`);
+  const parts = [];
+  for (let at = 8; at < bytes.length; at += 12 + bytes.readUInt32BE(at)) {
+    if (bytes.toString('latin1', at + 4, at + 8) === 'IDAT') parts.push(bytes.subarray(at + 8, at + 8 + bytes.readUInt32BE(at)));
+  }
+  const rows = inflateSync(Buffer.concat(parts));
+  const stride = 4 * width;
+  const data = new Uint8Array(stride * height);
+  for (let row = 0; row < height; row++) {
+    const filter = rows[row * (stride + 1)];
+    for (let i = 0; i < stride; i++) {
+      const at = row * stride + i;
+      const left = i >= 4 ? data[at - 4] : 0;
+      const above = row > 0 ? data[at - stride] : 0;
+      const corner = i >= 4 && row > 0 ? data[at - stride - 4] : 0;
+      data[at] = rows[row * (stride + 1) + 1 + i] + [0, left, above, (left + above) >> 1, paeth(left, above, corner)][filter];
+    }
+  }
+  return { width, height, data };
+}
+
+/** @param {number} a @param {number} b @param {number} c */
+function paeth(a, b, c) {
+  const [pa, pb, pc] = [Math.abs(b - c), Math.abs(a - c), Math.abs(a + b - 2 * c)];
+  return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
+}
+
+/**
+ * How far the dots of a flat image are from where they are on the page: root of the mean square after the best
+ * similarity, as a share of the page's width.
+ * @param {Pixels} flat
+ */
+export function misplaced(flat) {
+  const found = darkSpots(flat);
+  const { across, down } = dots;
+  if (found.length !== across * down) throw new Error(`${found.length} dots`);
+  const rows = found.sort((a, b) => a[1] - b[1]);
+  /** @type {[Place, Place][]} */
+  const pairs = Array.from({ length: down }, (_, j) => rows.slice(j * across, (j + 1) * across).sort((a, b) => a[0] - b[0]))
+    .flatMap((row, j) => row.map((place, i) => /** @type {[Place, Place]} */ ([[((i + 0.5) / across) * wide, ((j + 0.5) / down) * high], place])));
+  const mean = [0, 1].map((k) => [0, 1].map((axis) => pairs.reduce((sum, pair) => sum + pair[k][axis], 0) / pairs.length));
+  let [pp, qq, re, im] = [0, 0, 0, 0];
+  for (const pair of pairs) {
+    const [[p, q], [x, y]] = pair.map((place, k) => place.map((value, axis) => value - mean[k][axis]));
+    pp += p * p + q * q;
+    qq += x * x + y * y;
+    re += p * x + q * y;
+    im += q * x - p * y;
+  }
+  return Math.sqrt(Math.max(0, pp - (re * re + im * im) / qq) / pairs.length) / wide;
+}
+
+/** The middles of the dark spots within a bright page. @param {Pixels} image @returns {Place[]} */
+function darkSpots({ width, height, data }) {
+  const darkness = (/** @type {number} */ i) => (data[4 * i + 3] === 255 ? Math.max(0, 128 - data[4 * i]) : 0);
+  const done = new Uint8Array(width * height);
+  /** @type {Place[]} */
+  const spots = [];
+  for (let start = 0; start < done.length; start++) {
+    if (done[start] || darkness(start) === 0) continue;
+    const open = [start];
+    done[start] = 1;
+    let [sum, x, y, rim] = [0, 0, 0, false];
+    for (let i = open.pop(); i !== undefined; i = open.pop()) {
+      const [col, row] = [i % width, Math.floor(i / width)];
+      sum += darkness(i);
+      x += darkness(i) * col;
+      y += darkness(i) * row;
+      // What is left of the ground.
+      rim ||= col < 2 || row < 2 || col > width - 3 || row > height - 3;
+      for (const j of [i - 1, i + 1, i - width, i + width]) {
+        if (j < 0 || j >= done.length || done[j] || darkness(j) === 0) continue;
+        done[j] = 1;
+        open.push(j);
+      }
+    }
+    if (!rim && sum > 500) spots.push([x / sum, y / sum]);
+  }
+  return spots;
+}

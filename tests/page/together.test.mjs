@@ -1,0 +1,198 @@
+/** Files that belong together: depths with their photo and camera, scans with their textures; and a part of the photo. */
+import assert from 'node:assert/strict';
+import { meets } from '../js/support/phone.mjs';
+import { grid, npy, png16 } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
+import { downloaded, drop, dropAll, open, pageTest, painted, runBy } from './support/page.mjs';
+import { camera, dots, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {[number, number]} Place */
+
+/** The depth camera sees what the photo does, more coarsely. */
+const coarse = camera.width / 256;
+const depthCamera = {
+  width: 256, height: 192, fx: camera.fx / coarse, fy: camera.fy / coarse,
+  cx: (camera.cx + 0.5) / coarse - 0.5, cy: (camera.cy + 0.5) / coarse - 0.5,
+};
+/** Metres, `beside` the page what lies there. @param {number} beside */
+const depths = (beside) => grid(256, 192, (col, row) => meets(depthCamera, col, row)?.[0] ?? beside);
+const photo = dottedPhoto();
+const coloured = png({ width: 16, height: 16, data: Uint8Array.from({ length: 1024 }, (_, i) => [200, 100, 50, 255][i % 4]) });
+const { width, height, fx, fy, cx, cy } = camera;
+const numbers = Buffer.from(JSON.stringify({ w: width, h: height, K: [fx, 0, 0, 0, fy, 0, cx, cy, 1] }));
+
+/** @param {Page} page */
+async function flattened(page) {
+  await page.locator('#analysis[aria-busy="false"]').waitFor();
+  await painted(page);
+}
+
+/** @param {Page} page */
+async function flatPng(page) {
+  await flattened(page);
+  return parsePng((await downloaded(page, () => page.getByRole('button', { name: 'Flat PNG' }).click())).bytes);
+}
+
+/** From pixels of the photo to those of the page. @param {Page} page @param {Place} place @returns {Promise<Place>} */
+async function onPage(page, [x, y]) {
+  const box = await page.locator('#photo-over').boundingBox();
+  assert.ok(box);
+  return [box.x + ((x + 0.5) / width) * box.width, box.y + ((y + 0.5) / height) * box.height];
+}
+
+pageTest('depths, photo and camera in one drop come out flat', async (page) => {
+  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, depths(0)), 'camera.json': numbers }));
+  await page.locator('#about-view .said', { hasText: 'Made flat' }).waitFor();
+  assert.equal(await page.locator('#photo-name').innerText(), 'IMG_1.png');
+  assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths)');
+  const error = misplaced(await flatPng(page));
+  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
+});
+
+pageTest('without the camera’s file it is asked for, and may be typed', async (page) => {
+  await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
+  await page.locator('#camera').waitFor();
+  assert.ok(await page.getByLabel('These are depths from a camera').isChecked());
+  // A tenth of a millimetre.
+  await page.getByLabel('Depth scale').fill('0.0001');
+  await page.getByLabel('Depth scale').press('Tab');
+  assert.match(await page.locator('#camera-span').innerText(), /0\.3\d* to 0\.\d+ away/);
+  const angle = (360 / Math.PI) * Math.atan(128 / depthCamera.fx);
+  await page.getByLabel('or field of view').fill(String(angle));
+  await page.getByLabel('or field of view').press('Tab');
+  assert.ok(Math.abs(Number(await page.getByLabel('Focal length fx').inputValue()) / depthCamera.fx - 1) < 1e-4);
+  await page.getByLabel('Centre cx').fill(String(depthCamera.cx));
+  await page.getByLabel('Centre cy').fill(String(depthCamera.cy));
+  await page.getByRole('button', { name: 'Put in space' }).click();
+  await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
+  await page.getByRole('radio', { name: 'Dewarped', exact: true }).check({ force: true });
+  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  const error = misplaced(await flatPng(page));
+  assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
+});
+
+pageTest('a camera that cannot belong to the image is refused', async (page) => {
+  await open(page, 'depth.npy', npy(256, depths(0)));
+  await page.getByLabel('These are depths from a camera').check();
+  await drop(page, 'other.json', Buffer.from(JSON.stringify({ name: 'a phone' })));
+  await page.getByRole('alert').filter({ hasText: 'other.json' }).filter({ hasText: 'no camera in it' }).waitFor();
+  await drop(page, 'far.csv', Buffer.from('900,0,2000\n0,900,1500\n0,0,1\n'));
+  await page.getByRole('alert').filter({ hasText: 'far from the middle' }).waitFor();
+  await page.getByLabel('Centre cx').fill('2000');
+  await page.getByRole('button', { name: 'Put in space' }).click();
+  await page.getByRole('alert').filter({ hasText: 'images of another size' }).waitFor();
+});
+
+pageTest('the part of the photo that is clicked, or within corners, is made flat alone', async (page) => {
+  // A table behind the page, in two parts.
+  const scene = depths(0).map((depth, i) => depth || (i % 256 < 60 ? 0.75 : 0));
+  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers }));
+  await flattened(page);
+  const told = async (/** @type {string} */ name) => {
+    const figure = page.locator('#about-view .figures div').filter({ has: page.locator('dt', { hasText: name }) });
+    return (await figure.count()) > 0 ? (await figure.locator('dd').innerText()).trim() : '';
+  };
+  assert.match(await told('Parts'), /^2/);
+  const middle = await onPage(page, seen(0.5, 0.5));
+  await runBy(page, () => page.mouse.click(...middle));
+  await flattened(page);
+  assert.equal(await told('Parts'), '');
+  const [wide, high] = (await told('Size')).split('×').map(parsed);
+  // Of the scene's 0.7 m the page is left, less its rim, where depths are mixed.
+  assert.ok(Math.abs(wide / 0.21 - 1) < 0.12 && Math.abs(high / 0.297 - 1) < 0.12, `${wide} × ${high}`);
+  const error = misplaced(await flatPng(page));
+  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
+
+  // By corners, the first of them by mouse, the others by keys.
+  await page.getByRole('button', { name: 'Crop', exact: true }).click();
+  await flattened(page);
+  const corners = /** @type {const} */ ([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]]);
+  for (const [i, [s, t]] of corners.entries()) {
+    const corner = page.getByRole('button', { name: new RegExp(`^Corner ${i + 1} of the crop`) });
+    const box = await corner.boundingBox();
+    assert.ok(box);
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(...await onPage(page, seen(s, t)), { steps: 3 });
+    await page.mouse.up();
+    await flattened(page);
+  }
+  const [cropWide, cropHigh] = (await told('Size')).split('×').map(parsed);
+  // Straight lines in the photo cut off some of what is between bent ones.
+  assert.ok(Math.abs(cropWide / (0.8 * 0.21) - 1) < 0.06 && Math.abs(cropHigh / (0.8 * 0.297) - 1) < 0.12, `${cropWide} × ${cropHigh}`);
+  const first = page.getByRole('button', { name: /^Corner 1 of the crop/ });
+  await first.focus();
+  await page.keyboard.press('Shift+ArrowRight');
+  await flattened(page);
+  assert.ok(await first.evaluate((button) => button === document.activeElement), 'the focus is not lost');
+  await first.press('Delete');
+  await flattened(page);
+  assert.equal(await page.getByRole('button', { name: /of the crop/ }).count(), 3);
+  await page.getByRole('button', { name: 'Crop', exact: true }).click();
+  await flattened(page);
+  assert.equal(await page.getByRole('button', { name: /of the crop/ }).count(), 0);
+  await runBy(page, () => page.getByRole('button', { name: 'All parts' }).click());
+  await flattened(page);
+  assert.match(await told('Parts'), /^2/);
+});
+
+pageTest('a scan in OBJ brings its material and texture along', async (page) => {
+  // The page of the photo, seen from above: its texture is the flat page.
+  const [n, m, radius] = [40, 12, 0.12];
+  const lines = ['mtllib page.mtl', 'usemtl paper'];
+  for (let j = 0; j <= m; j++) {
+    for (let i = 0; i <= n; i++) {
+      const angle = ((i / n - 0.5) * 0.21) / radius;
+      lines.push(`v ${radius * Math.sin(angle)} ${0.297 * (j / m - 0.5)} ${radius * Math.cos(angle)}`, `vt ${i / n} ${j / m}`);
+    }
+  }
+  for (let j = 0; j < m; j++) {
+    for (let i = 0; i < n; i++) {
+      const [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([x, y]) => y * (n + 1) + x + 1);
+      lines.push(`f ${a}/${a} ${b}/${b} ${c}/${c}`, `f ${a}/${a} ${c}/${c} ${d}/${d}`);
+    }
+  }
+  await dropAll(page, {
+    'page.obj': Buffer.from(`${lines.join('\n')}\n`),
+    'page.mtl': Buffer.from('newmtl paper\nmap_Kd page.png\n'),
+    'page.png': flatDots(420, 594),
+  });
+  await page.locator('#mesh-name', { hasText: 'page (OBJ)' }).waitFor();
+  assert.doesNotMatch(await page.locator('#mesh-span').innerText(), /Without/);
+  await page.getByRole('radio', { name: 'Dewarped', exact: true }).check({ force: true });
+  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  const error = misplaced(await flatPng(page));
+  assert.match(await page.locator('#photo-name').innerText(), /texture/);
+  assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
+});
+
+pageTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
+  const doubt = page.locator('#scale-doubt');
+  await open(page, 'metres.npy', npy(60, grid(60, 40, (col) => 0.02 * Math.sin(col / 20))));
+  assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
+  await page.getByLabel('Pixel size').fill('0.001');
+  await page.getByLabel('Pixel size').press('Tab');
+  assert.equal(await doubt.isVisible(), false);
+  await open(page, 'levels.png', png16(60, grid(60, 40, (col) => 20000 + 100 * col)));
+  assert.match(await doubt.innerText(), /does not say how high/);
+  // A photo among heights.
+  await drop(page, 'holiday.png', coloured);
+  await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'A photo of a page' }).waitFor();
+});
+
+pageTest('what does not belong together gets a message', async (page) => {
+  await dropAll(page, { 'a.jpg': photo, 'b.jpg': photo });
+  await page.getByRole('alert').filter({ hasText: 'neither a mesh nor depths' }).waitFor();
+});
+
+/** The flat page itself. @param {number} wide @param {number} high */
+function flatDots(wide, high) {
+  const data = new Uint8Array(4 * wide * high).fill(255);
+  for (let i = 0; i < wide * high; i++) {
+    const [s, t] = [(((i % wide) + 0.5) / wide) * dots.across, ((Math.floor(i / wide) + 0.5) / high) * dots.down];
+    const off = Math.hypot(((s % 1) - 0.5) * (0.21 / dots.across), ((t % 1) - 0.5) * (0.297 / dots.down));
+    data.fill(off < 0.008 ? 20 : 240, 4 * i, 4 * i + 3);
+  }
+  return png({ width: wide, height: high, data });
+}

@@ -1,0 +1,48 @@
+/** A photo that was opened: its pixels once, and a reduced copy of them to show and to look for edges in. */
+import { drawn, pixelsOf } from '../pixels.js';
+import { greyOf } from './grey.js';
+
+/** @import {Api} from '../api.js' */
+/** @import {Grey} from './grey.js' */
+
+/** Pixels along the longer side of the reduced copy, at most. */
+const SMALL = 1280;
+
+/**
+ * @typedef {object} PagePhoto
+ * @property {string} name of its file, without its ending
+ * @property {number} width
+ * @property {number} height
+ * @property {Uint8ClampedArray<ArrayBuffer>} data
+ * @property {number} [film35] focal length as for a film of 36 by 24 mm, where its file tells it
+ * @property {ImageData} small
+ * @property {Grey} grey the same, whose `scale` is its pixels for one of the photo
+ */
+
+/**
+ * @param {InstanceType<Api['DevelopableWorker']>} worker
+ * @param {File} file
+ * @returns {Promise<PagePhoto>}
+ */
+export async function openPhoto(worker, file) {
+  const photo = await worker.readPhoto(file).catch((/** @type {unknown} */ error) =>
+    // The browser may know kinds of pictures that the package does not.
+    pixelsOf(file).catch(() => {
+      throw error;
+    }));
+  return photoOf(photo, file.name.replace(/\.[^.]*$/, '') || 'photo');
+}
+
+/**
+ * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer>, film35?: number }} pixels
+ * @param {string} name
+ * @returns {Promise<PagePhoto>}
+ */
+export async function photoOf({ width, height, data, film35 }, name) {
+  if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
+  const scale = Math.min(1, SMALL / Math.max(width, height));
+  const bitmap = await createImageBitmap(new ImageData(data, width, height));
+  const small = drawn(bitmap, width * scale, height * scale);
+  bitmap.close();
+  return { name, width, height, data, film35, small, grey: greyOf(small, scale) };
+}

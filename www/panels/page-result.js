@@ -1,0 +1,143 @@
+/** The flat page beside its photo: what it is worth in words, its figures, and its files. */
+import { download, element, elements } from '../dom.js';
+import { degrees, number, percent } from '../format.js';
+import { imagePicture, PictureView } from '../surface/picture.js';
+import { canvasOf } from '../views/dewarped.js';
+import { figures } from '../views/legend.js';
+import { pageErrors, pageVerdict } from '../words.js';
+import { showFailure } from './notice.js';
+
+/** @import {Api} from '../api.js' */
+/** @import {DewarpedPage} from '../page/flatten.js' */
+/** @import {PageSession} from '../page/session.js' */
+
+/** How each kind of file is made of a flat image. @type {Record<string, { type: string, write: (api: Api, flat: DewarpedPage) => Promise<Uint8Array<ArrayBuffer> | Blob> }>} */
+const FILES = {
+  png: { type: 'image/png', write: (api, flat) => api.writePhoto(flat) },
+  jpg: { type: 'image/jpeg', write: (_, flat) => jpeg(flat) },
+};
+
+/**
+ * @param {Api} api
+ * @param {PageSession} session
+ * @param {(flat: DewarpedPage, name: string) => void} goOn with the page as a surface
+ */
+export function pageResultPanel(api, session, goOn) {
+  const figure = element('flat-view', HTMLElement);
+  const view = new PictureView(element('flat-canvas', HTMLCanvasElement));
+  const empty = element('flat-empty', HTMLElement);
+  const verdict = element('flat-verdict', HTMLElement);
+  const detail = element('flat-detail', HTMLElement);
+  const about = element('flat-about', HTMLElement);
+  const caption = element('flat-caption', HTMLElement);
+  const buttons = elements('button[data-flat]', HTMLButtonElement);
+  const surface = element('flat-surface', HTMLButtonElement);
+  /** @type {DewarpedPage | null} */
+  let shown = null;
+
+  /** @param {boolean} ready */
+  const enable = (ready) => {
+    for (const button of [...buttons, surface]) button.disabled = !ready;
+  };
+  session.on('photo', () => {
+    shown = null;
+    view.show(null);
+    empty.hidden = false;
+    empty.textContent = 'Working it out…';
+    caption.textContent = '';
+    about.replaceChildren();
+    enable(false);
+  });
+  session.on('working', (working) => figure.setAttribute('aria-busy', String(working)));
+  session.on('flat', (flat) => {
+    shown = flat;
+    const { width, height, data, report } = flat;
+    view.show(imagePicture(canvasOf(new ImageData(data, width, height)), 'Flat', 'The page made flat'));
+    empty.hidden = true;
+    caption.textContent = flat.unit === 'mm' ? sizeOf(flat) : '';
+    verdict.textContent = pageVerdict(report);
+    detail.textContent = pageErrors(report);
+    about.replaceChildren(figures(factsOf(flat, session.photo?.grey.scale ?? 1)));
+    enable(true);
+  });
+  session.on('problem', (error) => {
+    shown = null;
+    view.show(null);
+    empty.hidden = false;
+    empty.textContent = 'No flat page from these edges';
+    caption.textContent = '';
+    verdict.textContent = 'It cannot be made flat like this.';
+    detail.textContent = sentence(error);
+    about.replaceChildren();
+    enable(false);
+  });
+
+  for (const button of buttons) {
+    const { type, write } = FILES[button.dataset.flat ?? 'png'];
+    button.addEventListener('click', async () => {
+      const wish = session.wish();
+      if (!wish || !shown || button.getAttribute('aria-busy') === 'true') return;
+      button.setAttribute('aria-busy', 'true');
+      try {
+        const file = await write(api, await session.whole(wish));
+        download(file, type, `${wish.photo.name}-flat.${button.dataset.flat}`);
+      } catch (error) {
+        showFailure('The flat page could not be written', error);
+      } finally {
+        button.setAttribute('aria-busy', 'false');
+      }
+    });
+  }
+  surface.addEventListener('click', () => {
+    if (shown) goOn(shown, session.photo?.name ?? 'page');
+  });
+}
+
+/** @param {DewarpedPage} flat */
+function sizeOf({ size: [wide, high], unit }) {
+  return unit === 'mm' ? `${number(wide, 4)} × ${number(high, 4)} mm` : `${number(wide / high, 3)} : 1`;
+}
+
+/**
+ * @param {DewarpedPage} flat
+ * @param {number} scale pixels of the reduced photo for one of the whole one
+ * @returns {[string, string][]}
+ */
+function factsOf(flat, scale) {
+  const { verdict, error, errorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual } = flat.report;
+  const wrong = verdict === 'notThisKind';
+  return [
+    ['Likely error', wrong ? '–' : `${percent(error / 100)} of the width`],
+    ['In 95 of 100 cases below', wrong ? '–' : percent(errorBound / 100)],
+    ['Edges disagree by', `${percent(disagreement / 100)} of the width`],
+    ['Points off the edges', `${number(residual / scale, 2)} pixels`],
+    ['Bent by', degrees((bend * Math.PI) / 180)],
+    ['Tilted by', degrees((tilt * Math.PI) / 180)],
+    ['Focal length', `${number(focalLength / scale, 4)} pixels ± ${percent(focalDeviation / 100)}`],
+    [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat)],
+  ];
+}
+
+/** @param {unknown} error */
+function sentence(error) {
+  const words = error instanceof Error ? error.message : String(error);
+  return `${words[0].toUpperCase()}${words.slice(1).replace(/\.$/, '')}.`;
+}
+
+/**
+ * On white, for JPEG knows nothing that is transparent.
+ * @param {DewarpedPage} flat
+ * @returns {Promise<Blob>}
+ */
+async function jpeg({ width, height, data }) {
+  const image = canvasOf(new ImageData(data, width, height));
+  const canvas = document.createElement('canvas');
+  Object.assign(canvas, { width, height });
+  const context = canvas.getContext('2d');
+  if (!context) throw new Error('the browser gives no canvas of that size');
+  context.fillStyle = '#fff';
+  context.fillRect(0, 0, width, height);
+  context.drawImage(image, 0, 0);
+  return new Promise((resolve, reject) =>
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser writes no JPEG of that size'))), 'image/jpeg', 0.92));
+}

@@ -1,0 +1,54 @@
+/** Which of several files is what: a mesh and what it names, or depths with their photo and their camera. */
+import { isMesh } from './panels/mesh.js';
+
+/**
+ * @typedef {object} Together
+ * @property {File} [mesh]
+ * @property {File} [depths]
+ * @property {File} [photo]
+ * @property {File} [camera]
+ * @property {File[]} others
+ */
+
+const CAMERA = /\.(json|csv|txt)$/i;
+const HEIGHTS = /\.(tiff?|exr|pfm|npy|npz)$/i;
+
+/** Whether it is a text with the numbers of a camera, by its name. @param {File} file */
+export function isCamera({ name }) {
+  return CAMERA.test(name);
+}
+
+/**
+ * @param {readonly File[]} files
+ * @returns {Promise<Together>}
+ */
+export async function together(files) {
+  /** @type {Together} */
+  const found = { others: [] };
+  for (const file of files) {
+    const kind = await kindOf(file);
+    if (kind && !found[kind]) found[kind] = file;
+    else found.others.push(file);
+  }
+  return found;
+}
+
+/**
+ * @param {File} file
+ * @returns {Promise<'mesh' | 'depths' | 'photo' | 'camera' | null>}
+ */
+async function kindOf(file) {
+  const { name } = file;
+  if (isMesh(name)) return 'mesh';
+  if (CAMERA.test(name)) return 'camera';
+  if (/conf/i.test(name)) return null;
+  if (HEIGHTS.test(name)) return 'depths';
+  if (/\.png$/i.test(name) && (/depth/i.test(name) || await isGrey16(file))) return 'depths';
+  return /\.(png|jpe?g|webp|avif|heic)$/i.test(name) ? 'photo' : null;
+}
+
+/** Whether it is a PNG of 16 bits of grey, as depth cameras write it. @param {File} file */
+async function isGrey16(file) {
+  const head = new Uint8Array(await file.slice(0, 26).arrayBuffer());
+  return head[24] === 16 && head[25] === 0;
+}

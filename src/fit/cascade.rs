@@ -3,11 +3,10 @@
 
 use std::sync::Arc;
 
-use super::admm::iteration::{Best, Level};
+use super::admm::iteration::Best;
 use super::admm::schedule::Plan;
-use super::admm::state::State;
 use super::energy::creases::Creases;
-use super::energy::problem::Problem;
+use super::heightfields::{Level, Problem, State};
 use super::linear::cg::ConjugateGradients;
 use super::options::{Bending, Energy, Options};
 use super::prolong::prolong;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::admm::schedule::Plan;
-use super::energy::problem::Problem;
+use super::heightfields::Problem;
 use super::linear::multigrid::Multigrid;
 use super::linear::precise::Precise;
 use crate::error::Result;

@@ -4,16 +4,16 @@
 use std::mem;
 use std::sync::Arc;
 
-use super::admm::iteration::{Best, Level};
+use super::admm::iteration::Best;
 use super::admm::schedule::Plan;
-use super::admm::state::State;
 use super::cascade::{Answer, Cascade};
 use super::coarsen::coarsen;
 use super::coordinates::Coordinates;
 use super::energy::creases::Creases;
-use super::energy::problem::{Problem, position};
+use super::heightfields::{Level, Problem, State};
 use super::input::Input;
 use super::linear::cg::ConjugateGradients;
+use super::operator::lattice::position;
 use super::options::Options;
 use super::plate;
 use super::report::{Seconds, StopReason};
@@ -93,7 +93,7 @@ impl Preparation {
         let energy = problem.smoothness(&problem.target);
         if !energy.is_finite() {
             return Err(Error::Overflow {
-                spacing: problem.domain.lattice().spacing(),
+                spacing: problem.operator.domain.lattice().spacing(),
             });
         }
         let trivial = energy <= problem.rounding && problem.free.is_empty();
@@ -246,12 +246,13 @@ impl FirstLevel {
 
 /// Puts the heights that were found for free vertices where the given ones are.
 fn give_back(input: &mut Input, problem: &Problem) -> Result<()> {
-    let domain = &problem.domain;
+    let domain = &problem.operator.domain;
     let lattice = *input.field.lattice();
     let mut heights = input.field.heights().to_vec();
     for cell in &problem.free {
         let cell = *cell as usize;
         heights[domain.lattice_index(cell)] = problem
+            .operator
             .coordinates
             .outward(position(domain, cell), problem.target[cell]);
     }

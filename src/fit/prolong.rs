@@ -4,8 +4,7 @@
 //! interpolated linearly, which keeps creases; `Y` more smoothly, by the rules of Loop's subdivision
 //! surfaces, for every kink of it is a residual.
 
-use super::admm::state::State;
-use super::energy::problem::Problem;
+use super::heightfields::{Problem, State};
 use crate::error::Result;
 use crate::lattice::coarsening::parents;
 use crate::lattice::domain::{Domain, Role};
@@ -19,12 +18,12 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
     let mut state = State::new(fine, rho)?;
     // At the same ρ, `V` is linear in `Y` and `H`.
     let v = from.v_at(coarse, rho)?;
-    let roles = coarse.domain.roles();
-    let domain = &fine.domain;
+    let roles = coarse.operator.domain.roles();
+    let domain = &fine.operator.domain;
     let (top, left) = domain.corner();
     for row in 1..=domain.rows() {
-        let sources =
-            [0, 1].map(|col| Sources::new(&coarse.domain, parents(top + row - 1, left + col)));
+        let sources = [0, 1]
+            .map(|col| Sources::new(&coarse.operator.domain, parents(top + row - 1, left + col)));
         for i in domain
             .active()
             .row(row)
@@ -33,7 +32,7 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
         {
             let col = i - row * domain.stride() - 1;
             let sources = &sources[col % 2];
-            let cell = |offset: isize| sources.cell(col / 2, offset, &coarse.domain);
+            let cell = |offset: isize| sources.cell(col / 2, offset, &coarse.operator.domain);
             let (a, b) = (cell(0), cell(sources.other));
             if let (Some(a), Some(b)) = (a, b)
                 && roles[a].is_active()
@@ -145,21 +144,21 @@ mod tests {
             let [x, y] = domain.lattice().position(row, col);
             5.0 * x - 3.0 * y + 1.0
         };
-        for cell in coarse.domain.active().cells() {
-            state.z[cell] = plane(&coarse.domain, cell);
+        for cell in coarse.operator.domain.active().cells() {
+            state.z[cell] = plane(&coarse.operator.domain, cell);
         }
-        for cell in coarse.domain.interior().cells() {
+        for cell in coarse.operator.domain.interior().cells() {
             state.set_matrices(cell, dual, hessian);
         }
         let carried = prolong(&coarse, &state, &fine, 0.2).unwrap();
         let mut checked = 0;
-        for cell in fine.domain.interior().cells() {
-            let (row, col) = fine.domain.lattice_vertex(cell);
+        for cell in fine.operator.domain.interior().cells() {
+            let (row, col) = fine.operator.domain.lattice_vertex(cell);
             if (3..14).contains(&row) && (3..14).contains(&col) {
                 let (y, h) = carried.matrices(&fine, cell);
                 assert!((y - dual).dot(y - dual) < 1e-24, "{row} {col}: {y:?}");
                 assert!((h - hessian).dot(h - hessian) < 1e-24, "{row} {col}: {h:?}");
-                assert!((carried.z[cell] - plane(&fine.domain, cell)).abs() < 1e-12);
+                assert!((carried.z[cell] - plane(&fine.operator.domain, cell)).abs() < 1e-12);
                 checked += 1;
             }
         }

@@ -10,7 +10,7 @@ use super::admm::schedule::Plan;
 use super::cascade::{Answer, Cascade, SET_UP};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
-use super::energy::problem::Problem;
+use super::heightfields::Problem;
 use super::input::Input;
 use super::options::{Bending, Energy, Lambda, Options};
 use super::preparation::{Preparation, Prepared};
@@ -363,8 +363,8 @@ impl Solver {
         }
         if let Some(running) = &self.running {
             let level = running.level();
-            let share = running.problem().domain.interior_len() as f64
-                / level.problem.domain.interior_len() as f64;
+            let share = running.problem().operator.domain.interior_len() as f64
+                / level.problem.operator.domain.interior_len() as f64;
             total.add(&level.best, share);
             total.add_work(&running.levels());
             pending += 1;

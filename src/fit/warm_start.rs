@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use super::admm::schedule::Plan;
-use super::admm::state::State;
 use super::cascade::Answer;
 use super::components::Components;
-use super::energy::problem::{Problem, position};
+use super::heightfields::{Problem, State};
+use super::operator::lattice::position;
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
@@ -46,18 +46,26 @@ impl WarmStart {
         let rho = first.first_rho;
         let mut state = State::new(problem, rho)?;
         let mut found = 0;
-        for cell in problem.domain.active().cells() {
-            let (row, col) = problem.domain.lattice_vertex(cell);
+        for cell in problem.operator.domain.active().cells() {
+            let (row, col) = problem.operator.domain.lattice_vertex(cell);
             let vertex = (row + corner.0, col + corner.1);
             let Some((answer, old)) = self.find(vertex) else {
                 continue;
             };
             found += 1;
-            let (from, to) = (&answer.problem.coordinates, &problem.coordinates);
-            let z = from.outward(position(&answer.problem.domain, old), answer.state.z[old]);
-            state.z[cell] = to.inward(position(&problem.domain, cell), z);
+            let (from, to) = (
+                &answer.problem.operator.coordinates,
+                &problem.operator.coordinates,
+            );
+            let z = from.outward(
+                position(&answer.problem.operator.domain, old),
+                answer.state.z[old],
+            );
+            state.z[cell] = to.inward(position(&problem.operator.domain, cell), z);
             let interior = |domain: &Domain, cell: usize| domain.roles()[cell] == Role::Interior;
-            if interior(&problem.domain, cell) && interior(&answer.problem.domain, old) {
+            if interior(&problem.operator.domain, cell)
+                && interior(&answer.problem.operator.domain, old)
+            {
                 let (dual, hessian) = answer.state.matrices(&answer.problem, old);
                 // Hessians scale as one over lengths.
                 state.set_matrices(cell, dual, hessian.scale(from.scale / to.scale));
@@ -82,6 +90,6 @@ impl WarmStart {
         let answer = self.answers.get(number)?;
         let (top, left) = self.components.corner(number);
         let own = ((row - top) as isize, (col - left) as isize);
-        Some((answer, answer.problem.domain.cell(own)?))
+        Some((answer, answer.problem.operator.domain.cell(own)?))
     }
 }

@@ -1,6 +1,5 @@
 //! A number for each cell, which mostly is the same for all.
 
-use super::domain::Domain;
 use super::runs::Run;
 use crate::error::{Result, try_filled};
 use crate::math::lanes::narrow;
@@ -9,23 +8,24 @@ use crate::math::lanes::narrow;
 /// value it is one row that stays in the cache.
 #[derive(Debug, Clone)]
 pub(crate) enum PerCell<T> {
-    /// One row of the value.
+    /// As many as in the longest run.
     Same(Vec<T>),
-    /// The padded box.
+    /// All cells.
     Each(Vec<T>),
 }
 
 impl<T: Copy> PerCell<T> {
-    pub(crate) fn same(domain: &Domain, value: T) -> Self {
-        PerCell::Same(vec![value; domain.stride()])
+    /// For runs of up to `longest` cells.
+    pub(crate) fn same(longest: usize, value: T) -> Self {
+        PerCell::Same(vec![value; longest])
     }
 
-    /// The values of `run` in `row`.
+    /// The values of `run`.
     #[inline(always)]
-    pub(crate) fn run(&self, domain: &Domain, row: usize, run: Run) -> &[T] {
+    pub(crate) fn run(&self, run: Run) -> &[T] {
         let n = run.end - run.start;
         match self {
-            PerCell::Same(values) => &values[run.start - row * domain.stride()..][..n],
+            PerCell::Same(values) => &values[..n],
             PerCell::Each(values) => &values[run.start..][..n],
         }
     }
@@ -43,15 +43,15 @@ impl PerCell<f64> {
     ///
     /// # Errors
     /// Out of memory.
-    pub(crate) fn narrow_into(&self, domain: &Domain, to: &mut PerCell<f32>) -> Result<()> {
+    pub(crate) fn narrow_into(&self, to: &mut PerCell<f32>) -> Result<()> {
         match (self, &mut *to) {
             (PerCell::Each(from), PerCell::Each(to)) => narrow(from, to),
             (PerCell::Each(from), PerCell::Same(_)) => {
-                let mut each = try_filled("weights", domain.cells(), 0.0)?;
+                let mut each = try_filled("weights", from.len(), 0.0)?;
                 narrow(from, &mut each);
                 *to = PerCell::Each(each);
             }
-            (PerCell::Same(from), _) => *to = PerCell::same(domain, from[0] as f32),
+            (PerCell::Same(from), _) => *to = PerCell::same(from.len(), from[0] as f32),
         }
         Ok(())
     }

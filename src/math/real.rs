@@ -5,6 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// What the row kernels need of a number; its default is 0.
 pub(crate) trait Real:
     Copy
+    + std::fmt::Debug
+    + 'static
     + Default
     + PartialOrd
     + Add<Output = Self>

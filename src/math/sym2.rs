@@ -29,6 +29,18 @@ impl Sym2 {
         [self.mean + self.diff, self.off, self.mean - self.diff]
     }
 
+    /// From its coordinates `[mean, diff, off]`.
+    #[inline(always)]
+    pub(crate) fn from_coordinates([mean, diff, off]: [f64; 3]) -> Self {
+        Sym2 { mean, diff, off }
+    }
+
+    /// Its coordinates `[mean, diff, off]`.
+    #[inline(always)]
+    pub(crate) fn coordinates(self) -> [f64; 3] {
+        [self.mean, self.diff, self.off]
+    }
+
     /// Distance of either eigenvalue from their mean.
     #[inline(always)]
     pub(crate) fn radius(self) -> f64 {

@@ -9,6 +9,7 @@
 use super::balance::balanced_bound;
 use super::iteration::Level;
 use crate::error::Result;
+use crate::fit::operator::{Operator, Solver};
 
 /// The screening length `(κ/2λ)^¼`, in sizes of the domain: bends are then a millionth of what they
 /// could be.
@@ -24,7 +25,7 @@ const ENOUGH: [f64; 2] = [1e-4, 1e-9];
 /// Most iterations for it.
 const STEPS: usize = 100;
 
-impl Level {
+impl<O: Operator> Level<O> {
     /// Takes the affine surface, and a bound about it, where it is better than the best one so far.
     pub(super) fn try_affine(&mut self) -> Result<()> {
         let trivial = self.best.objective() <= self.best.rounding;
@@ -37,13 +38,12 @@ impl Level {
         if objective > self.best.objective() {
             return Ok(());
         }
-        let stiffness = 2.0 * self.problem.lambda * (STIFF * self.problem.size()).powi(4);
-        self.cg.set_rho(stiffness);
-        let multigrid = self.cg.multigrid();
+        let stiffness = 2.0 * self.problem.lambda * (STIFF * self.problem.operator.size()).powi(4);
+        self.solver.set_rho(stiffness);
         let (state, problem) = (&mut self.state, &self.problem);
         let enough = (ENOUGH[usize::from(problem.loose)], STEPS);
-        let balanced = balanced_bound(state, problem, &z, stiffness, multigrid, enough)?;
-        self.cg.set_rho(self.state.rho);
+        let balanced = balanced_bound(state, problem, &z, stiffness, &mut self.solver, enough)?;
+        self.solver.set_rho(self.state.rho);
         self.cg_iterations += balanced.steps;
         self.best.dual_bound = self.best.dual_bound.max(balanced.bound);
         self.best.take_affine(&z, cost);

@@ -14,10 +14,9 @@ use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::{HuberStep, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
-use crate::lattice::domain::Domain;
+use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
-use crate::lattice::stencil::{HessianMap, Ring, Rolling, weights_of};
 use crate::math::lanes::{self, narrow, widen};
 use crate::math::sym2::{Sym2, clamp};
 
@@ -28,10 +27,6 @@ const STEPS: usize = 8;
 /// half of what the last one did.
 const LOOKS: [usize; 2] = [2, 8];
 const REACH: f64 = 1.5;
-
-/// `h⁴‖CᵀC‖` of the unbounded lattice, where two of the three second differences are at their
-/// largest and the third vanishes; of a part of it no more.
-const NORM: f32 = 256.0 / 9.0;
 
 /// Share of the last step that the `k`-th one starts ahead with. On a scan, ten steps come
 /// furthest with 0.7, fifty with what grows to 0.95.
@@ -52,21 +47,21 @@ struct Search {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Ascent {
+pub(crate) struct Ascent<O: Operator> {
     search: Search,
     /// `Y` after the last step, and further on in its direction, where the next one starts.
-    last: Matrices<f32>,
-    ahead: Matrices<f32>,
+    last: Coordinates<f32>,
+    ahead: Coordinates<f32>,
     /// `z_Y` for `Y = 0`, and of what lies ahead.
     base: Vec<f32>,
     heights: Vec<f32>,
-    /// 0 at constrained cells, which stay where they are.
+    /// 0 at constrained vertices, which stay where they are.
     mobility: PerCell<f32>,
     /// The energy's `ω`.
     weight: PerCell<f32>,
-    rolling: Rolling<f32>,
-    /// A row in double precision.
-    row: Matrices<f64>,
+    scratch: O::Scratch<f32>,
+    /// A run in double precision.
+    row: Coordinates<f64>,
 }
 
 /// What follows a gradient step: the proximal map of the conjugates.
@@ -93,21 +88,24 @@ impl Proximal for HuberStep<f32> {
 }
 
 /// Symmetric matrices, a vector for each coordinate of [`Sym2`].
-type Matrices<T> = [Vec<T>; 3];
+type Coordinates<T> = [Vec<T>; 3];
 
 #[inline(always)]
-fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
+fn run_of<T>(matrices: &mut Coordinates<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
     matrices.each_mut().map(|values| &mut values[start..end])
 }
 
-impl Ascent {
-    pub(crate) fn new(problem: &Problem) -> Result<Self> {
-        let domain = &problem.domain;
-        let zeros = || try_filled("bound", domain.cells(), 0.0);
-        let matrices = || Ok([zeros()?, zeros()?, zeros()?]);
-        let mut mobility = PerCell::same(domain, 1.0);
+impl<O: Operator> Ascent<O> {
+    pub(crate) fn new(problem: &Problem<O>) -> Result<Self> {
+        let operator = &problem.operator;
+        let zeros = |cells| try_filled("bound", cells, 0.0);
+        let matrices = || {
+            let zeros = || zeros(operator.stencil_cells());
+            Ok([zeros()?, zeros()?, zeros()?])
+        };
+        let mut mobility = PerCell::same(operator.longest_run(), 1.0);
         if !problem.constrained.is_empty() {
-            let mut each = try_filled("bound", domain.cells(), 1.0)?;
+            let mut each = try_filled("bound", operator.vertex_cells(), 1.0)?;
             for cell in &problem.constrained {
                 each[*cell as usize] = 0.0;
             }
@@ -117,12 +115,12 @@ impl Ascent {
             search: Search::default(),
             last: matrices()?,
             ahead: matrices()?,
-            base: zeros()?,
-            heights: zeros()?,
+            base: zeros(operator.vertex_cells())?,
+            heights: zeros(operator.vertex_cells())?,
             mobility,
-            weight: PerCell::same(domain, 1.0),
-            rolling: Rolling::new(domain),
-            row: std::array::from_fn(|_| vec![0.0; domain.stride()]),
+            weight: PerCell::same(operator.longest_run(), 1.0),
+            scratch: operator.scratch()?,
+            row: std::array::from_fn(|_| vec![0.0; operator.longest_run()]),
         })
     }
 
@@ -133,8 +131,8 @@ impl Ascent {
     /// Out of memory.
     pub(crate) fn begin(
         &mut self,
-        state: &mut State,
-        problem: &Problem,
+        state: &mut State<O>,
+        problem: &Problem<O>,
         bound: f64,
         goal: f64,
     ) -> Result<()> {
@@ -150,13 +148,14 @@ impl Ascent {
 
     /// A few steps more, which cost about [`LOOK`] conjugate-gradient iterations; the best bound
     /// once the search is over.
-    pub(crate) fn look(&mut self, state: &mut State, problem: &Problem) -> Option<f64> {
+    pub(crate) fn look(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Option<f64> {
         match problem.kind {
             Kind::Huber(bends) => {
-                let tau = 2.0 * problem.lambda * problem.spacing.powi(4) / f64::from(NORM);
-                self.steps(&problem.domain, bends.single(tau));
+                let unit = problem.operator.spacing().powi(4);
+                let tau = 2.0 * problem.lambda * unit / f64::from(problem.operator.norm());
+                self.steps(&problem.operator, bends.single(tau));
             }
-            _ => self.steps(&problem.domain, Projection),
+            _ => self.steps(&problem.operator, Projection),
         }
         let next = self.bound(state, problem);
         let [least, most] = LOOKS;
@@ -171,52 +170,49 @@ impl Ascent {
         over.then_some(search.best)
     }
 
-    fn steps(&mut self, domain: &Domain, proximal: impl Proximal) {
+    fn steps(&mut self, operator: &O, proximal: impl Proximal) {
         let before = self.search.looks * STEPS;
         for step in before..before + STEPS {
-            self.step(domain, proximal, momentum(step));
+            self.step(operator, proximal, momentum(step));
         }
     }
 
     /// From the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
     /// a step need not be smaller.
-    fn start(&mut self, state: &mut State, problem: &Problem) -> Result<()> {
-        let domain = &problem.domain;
+    fn start(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Result<()> {
         let law = state.law(problem);
-        problem.weight.narrow_into(domain, &mut self.weight)?;
-        let unit = 2.0 * problem.lambda * problem.spacing * problem.spacing;
-        for row in 1..=domain.rows() {
-            for run in domain.active().row(row) {
-                let Run { start, end } = *run;
-                let weight = problem.fidelity.run(domain, row, *run);
-                let (z, target) = (&state.z[start..end], &problem.target[start..end]);
-                let [base, ..] = row_of(&mut self.row, end - start);
-                for i in 0..base.len() {
-                    base[i] = unit * (z[i] + weight[i] * (target[i] - z[i]));
-                }
-                narrow(base, &mut self.base[start..end]);
+        problem.weight.narrow_into(&mut self.weight)?;
+        let spacing = problem.operator.spacing();
+        let unit = 2.0 * problem.lambda * spacing * spacing;
+        for run in problem.operator.vertices().all() {
+            let Run { start, end } = *run;
+            let weight = problem.fidelity.run(*run);
+            let (z, target) = (&state.z[start..end], &problem.target[start..end]);
+            let [base, ..] = row_of(&mut self.row, end - start);
+            for i in 0..base.len() {
+                base[i] = unit * (z[i] + weight[i] * (target[i] - z[i]));
             }
-            for run in domain.interior().row(row) {
-                let v = state.v.run(*run);
-                let weight = problem.weight.run(domain, row, *run);
-                let [mean, diff, off] = row_of(&mut self.row, weight.len());
-                for i in 0..weight.len() {
-                    let dual = law.dual(v.get(i), weight[i]);
-                    (mean[i], diff[i], off[i]) = (dual.mean, dual.diff, dual.off);
-                }
-                for to in [&mut self.last, &mut self.ahead] {
-                    for (from, to) in [&*mean, diff, off].into_iter().zip(run_of(to, *run)) {
-                        narrow(from, to);
-                    }
+            narrow(base, &mut self.base[start..end]);
+        }
+        for run in problem.operator.stencils().all() {
+            let v = state.v.run(*run);
+            let weight = problem.weight.run(*run);
+            let [mean, diff, off] = row_of(&mut self.row, weight.len());
+            for i in 0..weight.len() {
+                let dual = law.dual(v.get(i), weight[i]);
+                (mean[i], diff[i], off[i]) = dual.coordinates().into();
+            }
+            for to in [&mut self.last, &mut self.ahead] {
+                for (from, to) in [&*mean, diff, off].into_iter().zip(run_of(to, *run)) {
+                    narrow(from, to);
                 }
             }
         }
         Ok(())
     }
 
-    /// One step, in one pass: each row of the dual follows the heights around it as soon as they are
-    /// there.
-    fn step(&mut self, domain: &Domain, proximal: impl Proximal, momentum: f32) {
+    /// One step, in one pass.
+    fn step(&mut self, operator: &O, proximal: impl Proximal, momentum: f32) {
         let Ascent {
             last,
             ahead,
@@ -224,112 +220,94 @@ impl Ascent {
             heights,
             mobility,
             weight,
-            rolling,
+            scratch,
             ..
         } = self;
-        let map = HessianMap::unit();
-        let follow =
-            |last: &mut Matrices<f32>, ahead: &mut Matrices<f32>, heights: &[f32], row: usize| {
-                for run in domain.interior().row(row) {
-                    let ring = Ring::new(heights, domain, row, *run);
-                    let weight = weight.run(domain, row, *run);
-                    let ([l1, l2, l3], [a1, a2, a3]) = (run_of(last, *run), run_of(ahead, *run));
-                    for i in 0..weight.len() {
-                        let [g1, g2, g3] = map.coordinates(ring.differences(i));
-                        let up = |from: f32, gradient: f32| from + gradient * (1.0 / NORM);
-                        let [n1, n2, n3] = proximal
-                            .apply([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
-                        a1[i] = n1 + momentum * (n1 - l1[i]);
-                        a2[i] = n2 + momentum * (n2 - l2[i]);
-                        a3[i] = n3 + momentum * (n3 - l3[i]);
-                        (l1[i], l2[i], l3[i]) = (n1, n2, n3);
-                    }
-                }
-            };
-        rolling.sweep(
-            domain,
-            &mut (&mut *last, &mut *ahead, &mut *heights),
-            |(_, ahead, _), row, weights| {
-                for run in domain.interior().row(row) {
-                    let [mean, diff, off] = run_of(ahead, *run);
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    for i in 0..w1.len() {
-                        (w1[i], w2[i], w3[i]) = map.adjoint_of([mean[i], diff[i], off[i]]).into();
-                    }
+        let share = 1.0 / operator.norm();
+        operator.sweep_back(
+            scratch,
+            heights,
+            &mut (last, ahead),
+            |(_, ahead), run, mut matrices| {
+                let [mean, diff, off] = run_of(ahead, run);
+                for i in 0..mean.len() {
+                    matrices.set(i, [mean[i], diff[i], off[i]]);
                 }
             },
-            |(last, ahead, heights), row, sums| {
-                for run in domain.active().row(row) {
-                    let sum = sums.run(*run);
-                    let Run { start, end } = *run;
-                    let mobility = mobility.run(domain, row, *run);
-                    let base = &base[start..end];
-                    let heights = &mut heights[start..end];
-                    for i in 0..heights.len() {
-                        heights[i] = base[i] - mobility[i] * sum.at(i);
-                    }
+            |_, run, sums, heights| {
+                let mobility = mobility.run(run);
+                let base = &base[run.start..run.end];
+                for i in 0..heights.len() {
+                    heights[i] = base[i] - mobility[i] * sums.at(i);
                 }
-                if row > 1 {
-                    follow(last, ahead, heights, row - 1);
+            },
+            |(last, ahead), run, hessians| {
+                let weight = weight.run(run);
+                let ([l1, l2, l3], [a1, a2, a3]) = (run_of(last, run), run_of(ahead, run));
+                for i in 0..weight.len() {
+                    let [g1, g2, g3] = hessians.at(i);
+                    let up = |from: f32, gradient: f32| from + gradient * share;
+                    let [n1, n2, n3] =
+                        proximal.apply([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
+                    a1[i] = n1 + momentum * (n1 - l1[i]);
+                    a2[i] = n2 + momentum * (n2 - l2[i]);
+                    a3[i] = n3 + momentum * (n3 - l3[i]);
+                    (l1[i], l2[i], l3[i]) = (n1, n2, n3);
                 }
             },
         );
-        follow(last, ahead, heights, domain.rows());
     }
 
     /// `D` of the dual after the last step.
-    fn bound(&mut self, state: &mut State, problem: &Problem) -> f64 {
+    fn bound(&mut self, state: &mut State<O>, problem: &Problem<O>) -> f64 {
         let Ascent {
             last, row: wide, ..
         } = self;
         let law = state.law(problem);
-        let State { rolling, terms, .. } = state;
-        let (domain, map) = (&problem.domain, problem.map);
+        let State {
+            z, scratch, terms, ..
+        } = state;
         let [[conjugates, ..], [inners, quadratics, ..]] = terms;
         let (mut inner, mut quadratic, mut conjugate) = (0.0, 0.0, 0.0);
         let costs = problem.kind != Kind::Nuclear;
-        rolling.sweep(
-            domain,
+        // Of the Hessians of `z` there is no use here.
+        problem.operator.sweep(
+            scratch,
+            z,
             &mut (last, wide),
-            |(last, wide), row, weights| {
-                for run in domain.interior().row(row) {
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    let weight = problem.weight.run(domain, row, *run);
-                    let n = weight.len();
-                    let mut wide = row_of(wide, n);
-                    for (from, to) in run_of(last, *run).into_iter().zip(&mut wide) {
-                        widen(from, to);
-                    }
-                    let [mean, diff, off] = wide;
-                    for i in 0..n {
-                        let (mean, diff, off) = (mean[i], diff[i], off[i]);
-                        // Single precision may have ended just outside.
-                        let dual = Nuclear.dual(Sym2 { mean, diff, off }, weight[i]);
-                        (w1[i], w2[i], w3[i]) = map.adjoint(dual).into();
-                        if costs {
-                            conjugates[i] = law.conjugate(dual, weight[i]);
-                        }
-                    }
+            |(last, wide), run, _, mut matrices| {
+                let weight = problem.weight.run(run);
+                let n = weight.len();
+                let mut wide = row_of(wide, n);
+                for (from, to) in run_of(last, run).into_iter().zip(&mut wide) {
+                    widen(from, to);
+                }
+                let [mean, diff, off] = wide;
+                for i in 0..n {
+                    let (mean, diff, off) = (mean[i], diff[i], off[i]);
+                    // Single precision may have ended just outside.
+                    let dual = Nuclear.dual(Sym2 { mean, diff, off }, weight[i]);
+                    matrices.set(i, dual.coordinates());
                     if costs {
-                        conjugate += lanes::sum(&conjugates[..n]);
+                        conjugates[i] = law.conjugate(dual, weight[i]);
                     }
+                }
+                if costs {
+                    conjugate += lanes::sum(&conjugates[..n]);
                 }
             },
-            |_, row, sums| {
-                for run in domain.active().row(row) {
-                    let sum = sums.run(*run);
-                    let n = run.end - run.start;
-                    let target = &problem.target[run.start..][..n];
-                    let inverse = problem.inverse_fidelity.run(domain, row, *run);
-                    let (inners, quadratics) = (&mut inners[..n], &mut quadratics[..n]);
-                    for i in 0..n {
-                        let adjoint = sum.at(i);
-                        inners[i] = adjoint * target[i];
-                        quadratics[i] = adjoint * adjoint * inverse[i];
-                    }
-                    inner += lanes::sum(inners);
-                    quadratic += lanes::sum(quadratics);
+            |_, run, sums| {
+                let n = run.end - run.start;
+                let target = &problem.target[run.start..][..n];
+                let inverse = problem.inverse_fidelity.run(run);
+                let (inners, quadratics) = (&mut inners[..n], &mut quadratics[..n]);
+                for i in 0..n {
+                    let adjoint = sums.at(i);
+                    inners[i] = adjoint * target[i];
+                    quadratics[i] = adjoint * adjoint * inverse[i];
                 }
+                inner += lanes::sum(inners);
+                quadratic += lanes::sum(quadratics);
             },
         );
         dual_bound(problem, inner, quadratic, conjugate, 1.0)
@@ -338,7 +316,7 @@ impl Ascent {
 
 /// The first `n` values of each coordinate.
 #[inline(always)]
-fn row_of(row: &mut Matrices<f64>, n: usize) -> [&mut [f64]; 3] {
+fn row_of(row: &mut Coordinates<f64>, n: usize) -> [&mut [f64]; 3] {
     row.each_mut().map(|values| &mut values[..n])
 }
 

@@ -11,9 +11,8 @@ use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::Law;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::multigrid::Multigrid;
-use crate::fit::linear::precise::Precise;
-use crate::lattice::stencil::{Ring, weights_of};
+use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
+use crate::math::sym2::Sym2;
 
 /// Residual at which the dual is balanced, relative to the first, and most iterations.
 pub(super) const ENOUGH: (f64, usize) = (1e-9, 100);
@@ -26,94 +25,79 @@ pub(super) struct Balanced {
     q: Vec<f64>,
 }
 
-/// Balances the iterate's dual about the surface `z`. The matrix of `multigrid` is that of the
+/// Balances the iterate's dual about the surface `z`. The matrix of the `solver` is that of the
 /// stiffness.
-pub(super) fn balanced_bound(
-    state: &mut State,
-    problem: &Problem,
+pub(super) fn balanced_bound<O: Operator>(
+    state: &mut State<O>,
+    problem: &Problem<O>,
     z: &[f64],
     stiffness: f64,
-    multigrid: &mut Multigrid,
+    solver: &mut O::Solver,
     enough: (f64, usize),
 ) -> Result<Balanced> {
-    let mut q = try_filled("certificate", problem.domain.cells(), 0.0)?;
-    let mut precise = Precise::new(problem)?;
-    state.balance(problem, z, &q, stiffness, &mut precise.residual);
-    let steps = precise.solve(problem, stiffness, multigrid, &mut q, enough);
-    let bound = state.balance(problem, z, &q, stiffness, &mut precise.residual);
+    let zeros = || try_filled("certificate", problem.operator.vertex_cells(), 0.0);
+    let (mut q, mut residual) = (zeros()?, zeros()?);
+    state.balance(problem, z, &q, stiffness, &mut residual);
+    let steps = solver.solve_precisely(problem, stiffness, &mut residual, &mut q, enough)?;
+    let bound = state.balance(problem, z, &q, stiffness, &mut residual);
     Ok(Balanced { bound, steps, q })
 }
 
-impl State {
+impl<O: Operator> State<O> {
     /// Goes on from the balanced dual.
     pub(super) fn take_balanced(
         &mut self,
-        problem: &Problem,
+        problem: &Problem<O>,
         stiffness: f64,
         Balanced { q, .. }: &Balanced,
     ) {
         let law = self.law(problem);
-        let domain = &problem.domain;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let ring = Ring::new(q, domain, row, *run);
-                let weight = problem.weight.run(domain, row, *run);
-                let mut v = self.v.run(*run);
-                for (i, weight) in weight.iter().enumerate() {
-                    let change = problem.map.hessian(ring.differences(i)).scale(stiffness);
-                    v.set(i, law.dual(v.get(i), *weight) + change);
-                }
-            }
-        }
+        problem.operator.hessians(q, |stencil, hessian| {
+            let dual = law.dual(self.v.get(stencil), problem.weight.at(stencil));
+            self.v.set(stencil, dual + hessian.scale(stiffness));
+        });
     }
 
     /// `D(t(Y + κCq))` for the best feasible `t`; the residual
     /// `−(2λw(z + q − z̃) + Cᵀ(Y + κCq))` goes to `residual`.
     fn balance(
         &mut self,
-        problem: &Problem,
+        problem: &Problem<O>,
         z: &[f64],
         q: &[f64],
         stiffness: f64,
         residual: &mut [f64],
     ) -> f64 {
         let law = self.law(problem);
-        let State { v, rolling, .. } = self;
-        let domain = &problem.domain;
+        let State { v, scratch, .. } = self;
         let fidelity = 2.0 * problem.lambda;
         let (mut excess, mut conjugate) = (0.0f64, 0.0);
         let (mut inner, mut quadratic) = (0.0, 0.0);
-        rolling.sweep(
-            domain,
+        problem.operator.sweep(
+            scratch,
+            q,
             v,
-            |v, row, weights| {
-                for run in domain.interior().row(row) {
-                    let ring = Ring::new(q, domain, row, *run);
-                    let v = v.run(*run);
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    let weight = problem.weight.run(domain, row, *run);
-                    for i in 0..w1.len() {
-                        let change = problem.map.hessian(ring.differences(i)).scale(stiffness);
-                        let y = law.dual(v.get(i), weight[i]) + change;
-                        (w1[i], w2[i], w3[i]) = problem.map.adjoint(y).into();
-                        excess = excess.max(law.size(y, weight[i]));
-                        conjugate += law.conjugate(y, weight[i]);
-                    }
+            |v, run, hessians, mut matrices| {
+                let v = v.run(run);
+                let weight = problem.weight.run(run);
+                for i in 0..weight.len() {
+                    let change = Sym2::from_coordinates(hessians.at(i)).scale(stiffness);
+                    let y = law.dual(v.get(i), weight[i]) + change;
+                    matrices.set(i, y.coordinates());
+                    excess = excess.max(law.size(y, weight[i]));
+                    conjugate += law.conjugate(y, weight[i]);
                 }
             },
-            |_, row, sums| {
-                for run in domain.active().row(row) {
-                    let sum = sums.run(*run);
-                    let weight = problem.fidelity.run(domain, row, *run);
-                    let inverse = problem.inverse_fidelity.run(domain, row, *run);
-                    for (i, cell) in (run.start..run.end).enumerate() {
-                        let adjoint = sum.at(i);
-                        let offset = z[cell] + q[cell] - problem.target[cell];
-                        let gradient = fidelity * (weight[i] * offset) + adjoint;
-                        residual[cell] = -gradient;
-                        inner += adjoint * problem.target[cell];
-                        quadratic += adjoint * adjoint * inverse[i];
-                    }
+            |_, run, sums| {
+                let weight = problem.fidelity.run(run);
+                let inverse = problem.inverse_fidelity.run(run);
+                for (i, vertex) in (run.start..run.end).enumerate() {
+                    let adjoint = sums.at(i);
+                    let offset = z[vertex] + q[vertex] - problem.target[vertex];
+                    let gradient = fidelity * (weight[i] * offset) + adjoint;
+                    residual[vertex] = -gradient;
+                    inner += adjoint * problem.target[vertex];
+                    quadratic += adjoint * adjoint * inverse[i];
                 }
             },
         );

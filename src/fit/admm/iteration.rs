@@ -1,4 +1,4 @@
-//! ADMM on one lattice, as a machine that runs in steps.
+//! ADMM, as a machine that runs in steps.
 
 use web_time::Instant;
 
@@ -9,20 +9,20 @@ use super::state::{Certificate, State};
 use crate::error::Result;
 use crate::fit::energy::creases::Creases;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::operator::{Operator, Solver};
 use crate::fit::report::{LevelReport, Seconds, StopReason, relative_gap};
 
 #[derive(Debug, Clone)]
-pub(crate) struct Level {
-    pub problem: Problem,
-    pub state: State,
+pub(crate) struct Level<O: Operator> {
+    pub problem: Problem<O>,
+    pub state: State<O>,
     pub best: Best,
     /// The penalty at the start.
     pub first_rho: f64,
     pub seconds: Seconds,
     pub(super) plan: Plan,
-    pub(super) cg: ConjugateGradients,
-    ascent: Option<Ascent>,
+    pub(super) solver: O::Solver,
+    ascent: Option<Ascent<O>>,
     /// A check whose search for a better bound is under way, and how much `z` changed before it.
     checking: Option<(Certificate, f64)>,
     /// The iteration from which on it is worth it again, and the first one of this pass.
@@ -67,7 +67,7 @@ const MOST_RECOVERIES: usize = 6;
 
 impl Best {
     /// The input itself: its objective is finite, and 0 is a bound of every energy.
-    pub(crate) fn of_input(problem: &Problem) -> Self {
+    pub(crate) fn of_input<O: Operator>(problem: &Problem<O>) -> Self {
         Best {
             z: problem.target.clone(),
             fidelity: 0.0,
@@ -116,13 +116,14 @@ impl Best {
     }
 }
 
-impl Level {
-    /// Starts from `state`, with the system of its z-steps, or from the affine surface if that `may_be_affine`, and looks for better
-    /// bounds from the iteration `next_climb` on; a reason to stop at once comes with it.
+impl<O: Operator> Level<O> {
+    /// Starts from `state`, with the solver of its z-steps, or from the affine surface if that
+    /// `may_be_affine`, and looks for better bounds from the iteration `next_climb` on; a reason to
+    /// stop at once comes with it.
     pub(crate) fn new(
-        problem: Problem,
-        mut state: State,
-        cg: ConjugateGradients,
+        problem: Problem<O>,
+        mut state: State<O>,
+        solver: O::Solver,
         plan: Plan,
         next_climb: usize,
         may_be_affine: bool,
@@ -140,7 +141,7 @@ impl Level {
             seconds: Seconds::default(),
             plan,
             first_energy: 0.0,
-            cg,
+            solver,
             ascent: None,
             checking: None,
             next_climb,
@@ -166,8 +167,8 @@ impl Level {
 
     pub(crate) fn report(&self) -> LevelReport {
         LevelReport {
-            spacing: self.problem.spacing,
-            interior: self.problem.domain.interior_len(),
+            spacing: self.problem.operator.spacing(),
+            interior: self.problem.operator.stencils().len(),
             iterations: self.iteration,
             cg_iterations: self.cg_iterations,
         }
@@ -213,18 +214,18 @@ impl Level {
             let tight = self.plan.cg_tolerance > 0.0;
             if tight
                 && self.round == 0
-                && self.cg.relative_residual(&self.problem) <= self.plan.cg_tolerance
+                && self.solver.relative_residual(&self.problem) <= self.plan.cg_tolerance
             {
                 return true;
             }
             let reduction = self.plan.cg_reduction(&self.problem, self.iteration);
             let goal = reduction * self.first_energy;
-            while self.z_step < limit && self.cg.energy() > goal {
+            while self.z_step < limit && self.solver.energy() > goal {
                 if *left == 0 {
                     return false;
                 }
                 *left -= 1;
-                if !self.cg.step(&self.problem.domain) {
+                if !self.solver.step(&self.problem.operator) {
                     break;
                 }
                 self.z_step += 1;
@@ -233,19 +234,20 @@ impl Level {
             }
             let moved = self.round > 0;
             self.round = 0;
-            self.cg.correct(&self.problem.domain, &mut self.state.z);
+            self.solver
+                .correct(&self.problem.operator, &mut self.state.z);
             if !tight || !moved || self.z_step >= limit {
                 return true;
             }
-            self.state.update(&self.problem, 0.0, &mut self.cg);
-            self.first_energy = self.cg.energy();
+            self.state.update(&self.problem, 0.0, &mut self.solver);
+            self.first_energy = self.solver.energy();
         }
     }
 
     /// Makes the z-step's right-hand side anew.
     fn start_z_step(&mut self) {
-        self.state.update(&self.problem, 0.0, &mut self.cg);
-        self.first_energy = self.cg.energy();
+        self.state.update(&self.problem, 0.0, &mut self.solver);
+        self.first_energy = self.solver.energy();
     }
 
     /// H-step, dual update and, when one is due, the certificate.
@@ -260,12 +262,12 @@ impl Level {
         let relaxation = self.plan.relaxation(self.iteration);
         let state = &mut self.state;
         let change = if check && self.plan.measures_change(&self.problem) {
-            state.update_and_measure(&self.problem, relaxation, &mut self.cg)
+            state.update_and_measure(&self.problem, relaxation, &mut self.solver)
         } else {
-            state.update(&self.problem, relaxation, &mut self.cg);
+            state.update(&self.problem, relaxation, &mut self.solver);
             0.0
         };
-        self.first_energy = self.cg.energy();
+        self.first_energy = self.solver.energy();
         self.seconds.h_step += start.elapsed().as_secs_f64();
         if !check {
             return Ok(None);
@@ -285,9 +287,9 @@ impl Level {
         if balance {
             self.balanced = self.iteration;
             let (z, rho) = (self.state.z.clone(), self.state.rho);
-            let multigrid = self.cg.multigrid();
+            let (state, solver) = (&mut self.state, &mut self.solver);
             let Balanced { bound, steps, .. } =
-                balanced_bound(&mut self.state, &self.problem, &z, rho, multigrid, ENOUGH)?;
+                balanced_bound(state, &self.problem, &z, rho, solver, ENOUGH)?;
             self.cg_iterations += steps;
             certificate.dual_bound = certificate.dual_bound.max(bound);
         }
@@ -347,7 +349,7 @@ impl Level {
         if reason.is_none() && due && rho != self.state.rho {
             self.tuned = self.iteration;
             self.state.set_rho(&self.problem, rho);
-            self.cg.set_rho(rho);
+            self.solver.set_rho(rho);
             self.start_z_step();
         }
         reason

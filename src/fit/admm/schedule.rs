@@ -6,6 +6,7 @@ use super::iteration::Best;
 use super::state::Certificate;
 use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem::Problem;
+use crate::fit::operator::Operator;
 use crate::fit::options::{Energy, Options, Schedule};
 use crate::fit::report::StopReason;
 
@@ -158,29 +159,29 @@ impl Plan {
     }
 
     /// The penalty to start from.
-    pub(crate) fn first_rho(&self, problem: &Problem) -> f64 {
+    pub(crate) fn first_rho<O: Operator>(&self, problem: &Problem<O>) -> f64 {
         match self.schedule {
             // Creases have Hessians of order 1/h, which makes h the natural unit of ρ.
-            Schedule::Default => self.within_bounds(problem.spacing, problem),
+            Schedule::Default => self.within_bounds(problem.operator.spacing(), problem),
             Schedule::Paper => 1e-6,
         }
     }
 
     /// The penalty to go on with on the lattice of half the spacing.
-    pub(crate) fn finer_rho(&self, rho: f64, fine: &Problem) -> f64 {
+    pub(crate) fn finer_rho<O: Operator>(&self, rho: f64, fine: &Problem<O>) -> f64 {
         self.within_bounds(FINER * rho, fine)
     }
 
     /// Where the optimum is nearly affine the relative primal residual stays at 1, and
     /// balancing alone would let ρ grow without end. There is no use for a screening
     /// length (ρ/2λ)^¼ beyond a part of the domain's size.
-    fn within_bounds(&self, rho: f64, problem: &Problem) -> f64 {
-        let size = problem.size();
+    fn within_bounds<O: Operator>(&self, rho: f64, problem: &Problem<O>) -> f64 {
+        let size = problem.operator.size();
         if problem.loose {
             // No screening length, but the ratio of dual and Hessian of a surface as large as this.
             return rho.min(10.0 * size);
         }
-        let length = (SCREENING * size).min(CELLS * problem.spacing);
+        let length = (SCREENING * size).min(CELLS * problem.operator.spacing());
         rho.min(2.0 * problem.lambda * length.powi(4))
     }
 
@@ -192,7 +193,12 @@ impl Plan {
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.
-    pub(crate) fn cg_limit(&self, problem: &Problem, iteration: usize, gap: f64) -> usize {
+    pub(crate) fn cg_limit<O: Operator>(
+        &self,
+        problem: &Problem<O>,
+        iteration: usize,
+        gap: f64,
+    ) -> usize {
         if problem.loose {
             self.cg_free
         } else if iteration == 0 {
@@ -206,7 +212,7 @@ impl Plan {
 
     /// The squares of the residual at which a z-step, or a round of it, ends early, relative to its
     /// first ones.
-    pub(crate) fn cg_reduction(&self, problem: &Problem, iteration: usize) -> f64 {
+    pub(crate) fn cg_reduction<O: Operator>(&self, problem: &Problem<O>, iteration: usize) -> f64 {
         match self.schedule {
             Schedule::Paper => SINGLE,
             Schedule::Default if iteration == 0 || problem.loose => 0.0,
@@ -215,7 +221,7 @@ impl Plan {
     }
 
     /// Whether [`Plan::stop`] and [`Plan::next_rho`] ask for the change of the Hessians.
-    pub(crate) fn measures_change(&self, problem: &Problem) -> bool {
+    pub(crate) fn measures_change<O: Operator>(&self, problem: &Problem<O>) -> bool {
         self.schedule == Schedule::Paper || problem.loose
     }
 
@@ -241,14 +247,14 @@ impl Plan {
     }
 
     /// Whether an affine surface is worth a try.
-    pub(crate) fn tries_affine(&self, problem: &Problem) -> bool {
+    pub(crate) fn tries_affine<O: Operator>(&self, problem: &Problem<O>) -> bool {
         self.schedule == Schedule::Default
             && !self.follows_normals
             && problem.constrained.is_empty()
     }
 
     /// Whether an iterate of such a gap is worth the search for a better bound.
-    pub(crate) fn climbs(&self, problem: &Problem, gap: f64) -> bool {
+    pub(crate) fn climbs<O: Operator>(&self, problem: &Problem<O>, gap: f64) -> bool {
         self.schedule == Schedule::Default
             && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
             && !problem.loose
@@ -306,9 +312,9 @@ impl Plan {
 
     /// Residual balancing (Boyd et al., Sec. 3.4.1), by what the residuals cost: the penalty to go on
     /// with.
-    pub(crate) fn next_rho(
+    pub(crate) fn next_rho<O: Operator>(
         &self,
-        problem: &Problem,
+        problem: &Problem<O>,
         rho: f64,
         certificate: &Certificate,
         change: f64,
@@ -345,9 +351,9 @@ impl Plan {
 
     /// Whether to stop after `iteration` iterations, the last of which moved the
     /// Hessians by `change = ρ‖ΔH‖`, and why.
-    pub(crate) fn stop(
+    pub(crate) fn stop<O: Operator>(
         &self,
-        problem: &Problem,
+        problem: &Problem<O>,
         iteration: usize,
         certificate: &Certificate,
         change: f64,
@@ -369,7 +375,7 @@ impl Plan {
             Schedule::Default => certified.then_some(StopReason::Gap),
             Schedule::Paper => {
                 // Four entries of a Hessian, as in the paper.
-                let entries = 4.0 * problem.domain.interior_len() as f64;
+                let entries = 4.0 * problem.operator.stencils().len() as f64;
                 let absolute = entries.sqrt() * ABSOLUTE;
                 // Before the first iteration both residuals vanish without meaning anything.
                 let met = iteration > 0

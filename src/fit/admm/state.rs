@@ -1,8 +1,7 @@
 //! The ADMM iterate and the two passes over it: the update of Hessians and
 //! dual, and the certificate.
 //!
-//! Paper, Eq. 18 and 19, in the form of one matrix `V = Y + ρH` per interior
-//! vertex, from which both follow: for the nuclear norm, the dual `Y = ρU` is the
+//! Paper, Eq. 18 and 19, in the form of one matrix `V = Y + ρH` per stencil, from which both follow: for the nuclear norm, the dual `Y = ρU` is the
 //! projection of `V` onto the dual ball, and `ρH = V − Y` its soft threshold
 //! (`law` has the other energies). So `Y` is feasible by construction, and
 //! nothing else has to be stored.
@@ -10,20 +9,19 @@
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::{Any, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
 use crate::lattice::runs::Run;
-use crate::lattice::stencil::{Ring, Rolling, weights_of};
 use crate::math::lanes;
 use crate::math::sym2::Sym2;
 
-/// `z` and `V` on the padded box.
+/// `z` at the operator's vertices and `V` at its stencils.
 #[derive(Debug, Clone)]
-pub(crate) struct State {
+pub(crate) struct State<O: Operator> {
     pub z: Vec<f64>,
     pub(crate) v: MatrixField,
     pub rho: f64,
-    pub(super) rolling: Rolling<f64>,
-    /// A row of what the certificate sums, over matrices and over heights.
+    pub(super) scratch: O::Scratch<f64>,
+    /// A run of what the certificate sums, over matrices and over heights.
     pub(super) terms: [Terms; 2],
 }
 
@@ -44,7 +42,7 @@ fn add_sums<const N: usize>(sums: &mut [f64; SUMS], terms: [&mut [f64]; N]) {
     }
 }
 
-/// A symmetric matrix per cell, each coordinate of [`Sym2`] contiguous.
+/// A symmetric matrix per stencil, each coordinate of [`Sym2`] contiguous.
 #[derive(Debug, Clone)]
 pub(crate) struct MatrixField {
     mean: Vec<f64>,
@@ -61,8 +59,9 @@ pub(super) struct MatrixRun<'a> {
 
 impl MatrixField {
     /// Zeros.
-    pub(super) fn new(problem: &Problem) -> Result<Self> {
-        let zeros = || try_filled("Hessians and dual", problem.domain.cells(), 0.0);
+    pub(super) fn new<O: Operator>(problem: &Problem<O>) -> Result<Self> {
+        let cells = problem.operator.stencil_cells();
+        let zeros = || try_filled("Hessians and dual", cells, 0.0);
         Ok(MatrixField {
             mean: zeros()?,
             diff: zeros()?,
@@ -85,17 +84,14 @@ impl MatrixField {
     }
 
     /// From `V = Y + ρH` to `Y + factor · ρH`.
-    fn rescale(&mut self, problem: &Problem, law: impl Law, factor: f64) {
-        let domain = &problem.domain;
-        for row in 1..=domain.rows() {
-            for run in domain.interior().row(row) {
-                let weight = problem.weight.run(domain, row, *run);
-                let mut v = self.run(*run);
-                for (i, weight) in weight.iter().enumerate() {
-                    let value = v.get(i);
-                    let dual = law.dual(value, *weight);
-                    v.set(i, dual + (value - dual).scale(factor));
-                }
+    fn rescale<O: Operator>(&mut self, problem: &Problem<O>, law: impl Law, factor: f64) {
+        for run in problem.operator.stencils().all() {
+            let weight = problem.weight.run(*run);
+            let mut v = self.run(*run);
+            for (i, weight) in weight.iter().enumerate() {
+                let value = v.get(i);
+                let dual = law.dual(value, *weight);
+                v.set(i, dual + (value - dual).scale(factor));
             }
         }
     }
@@ -156,18 +152,19 @@ impl Certificate {
     }
 }
 
-impl State {
+impl<O: Operator> State<O> {
     /// `z = z̃`, `H = U = 0`.
-    pub(crate) fn new(problem: &Problem, rho: f64) -> Result<Self> {
-        let mut z = try_filled("heights", problem.domain.cells(), 0.0)?;
+    pub(crate) fn new(problem: &Problem<O>, rho: f64) -> Result<Self> {
+        let operator = &problem.operator;
+        let mut z = try_filled("heights", operator.vertex_cells(), 0.0)?;
         z.copy_from_slice(&problem.target);
         Ok(State {
             z,
             v: MatrixField::new(problem)?,
             rho,
-            rolling: Rolling::new(&problem.domain),
+            scratch: operator.scratch()?,
             terms: std::array::from_fn(|_| {
-                std::array::from_fn(|_| vec![0.0; problem.domain.stride()])
+                std::array::from_fn(|_| vec![0.0; operator.longest_run()])
             }),
         })
     }
@@ -182,13 +179,13 @@ impl State {
     }
 
     /// Changes ρ, leaving `H` and `Y` as they are.
-    pub(crate) fn set_rho(&mut self, problem: &Problem, rho: f64) {
+    pub(crate) fn set_rho(&mut self, problem: &Problem<O>, rho: f64) {
         self.v.rescale(problem, self.law(problem), rho / self.rho);
         self.rho = rho;
     }
 
     /// `V` of the same `H` and `Y` at another ρ.
-    pub(crate) fn v_at(&self, problem: &Problem, rho: f64) -> Result<MatrixField> {
+    pub(crate) fn v_at(&self, problem: &Problem<O>, rho: f64) -> Result<MatrixField> {
         let mut v = MatrixField::new(problem)?;
         for (to, from) in [
             (&mut v.mean, &self.v.mean),
@@ -201,15 +198,15 @@ impl State {
         Ok(v)
     }
 
-    /// `Y` and `H` at an interior cell.
-    pub(crate) fn matrices(&self, problem: &Problem, cell: usize) -> (Sym2, Sym2) {
+    /// `Y` and `H` at a stencil.
+    pub(crate) fn matrices(&self, problem: &Problem<O>, cell: usize) -> (Sym2, Sym2) {
         let v = self.v.get(cell);
         let weight = problem.weight.at(cell);
         let dual = self.law(problem).dual(v, weight);
         (dual, (v - dual).scale(1.0 / self.rho))
     }
 
-    /// Sets both at an interior cell.
+    /// Sets both at a stencil.
     pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
         self.v.set(cell, dual + hessian.scale(self.rho));
     }
@@ -217,184 +214,165 @@ impl State {
     /// H-step and dual update with the given over-relaxation, then the residual
     /// `b − A z = 2λ(z̃ − z) + Cᵀ(ρH − Y − ρCz)` that the next z-step starts
     /// from, in one pass. Relaxation 0 leaves `H` and `Y` as they are.
-    pub(crate) fn update(
-        &mut self,
-        problem: &Problem,
-        relaxation: f64,
-        cg: &mut ConjugateGradients,
-    ) {
+    pub(crate) fn update(&mut self, problem: &Problem<O>, relaxation: f64, solver: &mut O::Solver) {
         match problem.kind {
-            Kind::Nuclear => self.update_of::<false>(Nuclear, problem, relaxation, cg),
+            Kind::Nuclear => self.update_of::<false>(Nuclear, problem, relaxation, solver),
             Kind::Huber(bends) => {
-                self.update_of::<false>(bends.law(self.rho), problem, relaxation, cg)
+                self.update_of::<false>(bends.law(self.rho), problem, relaxation, solver)
             }
             // One kernel for all the others: less code, and measuring costs little.
-            _ => self.update_and_measure(problem, relaxation, cg),
+            _ => self.update_and_measure(problem, relaxation, solver),
         };
     }
 
     /// The same; returns `ρ‖ΔH‖`, the change of the Hessians.
     pub(crate) fn update_and_measure(
         &mut self,
-        problem: &Problem,
+        problem: &Problem<O>,
         relaxation: f64,
-        cg: &mut ConjugateGradients,
+        solver: &mut O::Solver,
     ) -> f64 {
-        self.update_of::<true>(self.law(problem), problem, relaxation, cg)
+        self.update_of::<true>(self.law(problem), problem, relaxation, solver)
     }
 
-    pub(super) fn law(&self, problem: &Problem) -> Any {
+    pub(super) fn law(&self, problem: &Problem<O>) -> Any {
         Any::new(problem.kind, self.rho)
     }
 
     fn update_of<const MEASURE: bool>(
         &mut self,
         law: impl Law,
-        problem: &Problem,
+        problem: &Problem<O>,
         relaxation: f64,
-        cg: &mut ConjugateGradients,
+        solver: &mut O::Solver,
     ) -> f64 {
         let State {
             z,
             v,
             rho,
-            rolling,
+            scratch,
             terms,
         } = self;
-        let [[squares, ..], [row_of_residual, ..]] = terms;
+        let [[squares, ..], [wide, ..]] = terms;
         let mut change = 0.0;
         let (z, rho) = (z.as_slice(), *rho);
-        let domain = &problem.domain;
-        let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
-        let scale = cg.residual_scale();
-        let residual = &mut cg.residual;
-        rolling.sweep(
-            domain,
+        let fidelity = 2.0 * problem.lambda;
+        let scale = solver.residual_scale();
+        let residual = solver.residual();
+        problem.operator.sweep(
+            scratch,
+            z,
             v,
-            |v, row, weights| {
-                for run in domain.interior().row(row) {
-                    let ring = Ring::new(z, domain, row, *run);
-                    let mut v = v.run(*run);
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    let weight = problem.weight.run(domain, row, *run);
-                    let n = w1.len();
-                    for i in 0..n {
-                        let hessian = map.hessian(ring.differences(i)).scale(rho);
-                        let old = v.get(i);
-                        let old_dual = law.dual(old, weight[i]);
-                        let step = hessian - old + old_dual;
-                        let new = old + step.scale(relaxation);
-                        v.set(i, new);
-                        let dual = law.dual(new, weight[i]);
-                        if MEASURE {
-                            let moved = new - dual - old + old_dual;
-                            squares[i] = moved.dot(moved);
-                        }
-                        (w1[i], w2[i], w3[i]) = map.adjoint(new - dual - dual - hessian).into();
-                    }
+            |v, run, hessians, mut matrices| {
+                let mut v = v.run(run);
+                let weight = problem.weight.run(run);
+                let n = run.end - run.start;
+                for i in 0..n {
+                    let hessian = Sym2::from_coordinates(hessians.at(i)).scale(rho);
+                    let old = v.get(i);
+                    let old_dual = law.dual(old, weight[i]);
+                    let step = hessian - old + old_dual;
+                    let new = old + step.scale(relaxation);
+                    v.set(i, new);
+                    let dual = law.dual(new, weight[i]);
                     if MEASURE {
-                        change += lanes::sum(&squares[..n]);
+                        let moved = new - dual - old + old_dual;
+                        squares[i] = moved.dot(moved);
                     }
+                    matrices.set(i, (new - dual - dual - hessian).coordinates());
+                }
+                if MEASURE {
+                    change += lanes::sum(&squares[..n]);
                 }
             },
-            |_, row, sums| {
-                for run in domain.active().row(row) {
-                    let sum = sums.run(*run);
-                    let n = run.end - run.start;
-                    let z = &z[run.start..][..n];
-                    let target = &problem.target[run.start..][..n];
-                    let wide = &mut row_of_residual[..n];
-                    let weight = problem.fidelity.run(domain, row, *run);
-                    for i in 0..n {
-                        let value = fidelity * (weight[i] * (target[i] - z[i])) + sum.at(i);
-                        wide[i] = scale * value;
-                    }
-                    lanes::narrow(wide, &mut residual[run.start..][..n]);
+            |_, run, sums| {
+                let n = run.end - run.start;
+                let z = &z[run.start..][..n];
+                let target = &problem.target[run.start..][..n];
+                let wide = &mut wide[..n];
+                let weight = problem.fidelity.run(run);
+                for i in 0..n {
+                    let value = fidelity * (weight[i] * (target[i] - z[i])) + sums.at(i);
+                    wide[i] = scale * value;
                 }
+                lanes::narrow(wide, &mut residual[run.start..][..n]);
             },
         );
-        cg.restart(domain);
+        solver.restart(&problem.operator);
         change.sqrt()
     }
 
     /// Objective, dual bound and residuals, in one pass.
-    pub(crate) fn certify(&mut self, problem: &Problem) -> Certificate {
+    pub(crate) fn certify(&mut self, problem: &Problem<O>) -> Certificate {
         match problem.kind {
             Kind::Nuclear => self.certify_of(Nuclear, problem),
             _ => self.certify_of(self.law(problem), problem),
         }
     }
 
-    fn certify_of(&mut self, law: impl Law, problem: &Problem) -> Certificate {
+    fn certify_of(&mut self, law: impl Law, problem: &Problem<O>) -> Certificate {
         let State {
             z,
             v,
             rho,
-            rolling,
+            scratch,
             terms,
         } = self;
         let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
-        let domain = &problem.domain;
-        let (map, fidelity) = (problem.map, 2.0 * problem.lambda);
-        let (mut matrices, mut heights) = ([0.0; SUMS], [0.0; SUMS]);
-        let [matrix_terms, height_terms] = terms;
-        rolling.sweep(
-            domain,
+        let fidelity = 2.0 * problem.lambda;
+        let (mut stencil_sums, mut vertex_sums) = ([0.0; SUMS], [0.0; SUMS]);
+        let [stencil_terms, vertex_terms] = terms;
+        problem.operator.sweep(
+            scratch,
+            z,
             v,
-            |v, row, weights| {
-                for run in domain.interior().row(row) {
-                    let ring = Ring::new(z, domain, row, *run);
-                    let v = v.run(*run);
-                    let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    let weight = problem.weight.run(domain, row, *run);
-                    let n = w1.len();
-                    let [t1, t2, t3, t4, t5, t6] = terms_of(matrix_terms, n);
-                    for i in 0..n {
-                        let hessian = map.hessian(ring.differences(i));
-                        let value = v.get(i);
-                        let y = law.dual(value, weight[i]);
-                        (w1[i], w2[i], w3[i]) = map.adjoint(y).into();
-                        let h = (value - y).scale(inverse_rho);
-                        let gap = hessian - h;
-                        t1[i] = law.value(hessian, weight[i]);
-                        t2[i] = gap.dot(gap);
-                        t3[i] = hessian.dot(hessian);
-                        t4[i] = h.dot(h);
-                        t5[i] = y.dot(y);
-                        t6[i] = law.conjugate(y, weight[i]);
-                    }
-                    add_sums(&mut matrices, [t1, t2, t3, t4, t5, t6]);
+            |v, run, hessians, mut matrices| {
+                let v = v.run(run);
+                let weight = problem.weight.run(run);
+                let n = run.end - run.start;
+                let [t1, t2, t3, t4, t5, t6] = terms_of(stencil_terms, n);
+                for i in 0..n {
+                    let hessian = Sym2::from_coordinates(hessians.at(i));
+                    let value = v.get(i);
+                    let y = law.dual(value, weight[i]);
+                    matrices.set(i, y.coordinates());
+                    let h = (value - y).scale(inverse_rho);
+                    let gap = hessian - h;
+                    t1[i] = law.value(hessian, weight[i]);
+                    t2[i] = gap.dot(gap);
+                    t3[i] = hessian.dot(hessian);
+                    t4[i] = h.dot(h);
+                    t5[i] = y.dot(y);
+                    t6[i] = law.conjugate(y, weight[i]);
                 }
+                add_sums(&mut stencil_sums, [t1, t2, t3, t4, t5, t6]);
             },
-            |_, row, sums| {
-                for run in domain.active().row(row) {
-                    let sum = sums.run(*run);
-                    let n = run.end - run.start;
-                    let z = &z[run.start..][..n];
-                    let target = &problem.target[run.start..][..n];
-                    let weight = problem.fidelity.run(domain, row, *run);
-                    let inverse = problem.inverse_fidelity.run(domain, row, *run);
-                    let [t1, t2, t3, t4, t5, t6] = terms_of(height_terms, n);
-                    for i in 0..n {
-                        let offset = z[i] - target[i];
-                        let adjoint = sum.at(i);
-                        let gradient = fidelity * (weight[i] * offset) + adjoint;
-                        let square = adjoint * adjoint;
-                        // Nothing is asked of the gradient at constrained cells.
-                        let asked = inverse[i] > 0.0;
-                        t1[i] = weight[i] * (offset * offset);
-                        t2[i] = adjoint * target[i];
-                        t3[i] = square * inverse[i];
-                        t4[i] = if asked { gradient * gradient } else { 0.0 };
-                        t5[i] = if asked { square } else { 0.0 };
-                        t6[i] = gradient * gradient * inverse[i];
-                    }
-                    add_sums(&mut heights, [t1, t2, t3, t4, t5, t6]);
+            |_, run, sums| {
+                let n = run.end - run.start;
+                let z = &z[run.start..][..n];
+                let target = &problem.target[run.start..][..n];
+                let weight = problem.fidelity.run(run);
+                let inverse = problem.inverse_fidelity.run(run);
+                let [t1, t2, t3, t4, t5, t6] = terms_of(vertex_terms, n);
+                for i in 0..n {
+                    let offset = z[i] - target[i];
+                    let adjoint = sums.at(i);
+                    let gradient = fidelity * (weight[i] * offset) + adjoint;
+                    let square = adjoint * adjoint;
+                    // Nothing is asked of the gradient at constrained vertices.
+                    let asked = inverse[i] > 0.0;
+                    t1[i] = weight[i] * (offset * offset);
+                    t2[i] = adjoint * target[i];
+                    t3[i] = square * inverse[i];
+                    t4[i] = if asked { gradient * gradient } else { 0.0 };
+                    t5[i] = if asked { square } else { 0.0 };
+                    t6[i] = gradient * gradient * inverse[i];
                 }
+                add_sums(&mut vertex_sums, [t1, t2, t3, t4, t5, t6]);
             },
         );
-        let [nuclear, primal, image, split, dual_norm, conjugate] = matrices;
-        let [distance, inner, quadratic, dual, dual_size, cost] = heights;
+        let [nuclear, primal, image, split, dual_norm, conjugate] = stencil_sums;
+        let [distance, inner, quadratic, dual, dual_size, cost] = vertex_sums;
         let bound = dual_bound(problem, inner, quadratic, conjugate, law.largest());
         Certificate {
             fidelity: problem.lambda * distance,
@@ -413,8 +391,8 @@ impl State {
 /// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
 /// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where that
 /// overflows, what is left is `t = 0`. Always finite, and never below 0.
-pub(super) fn dual_bound(
-    problem: &Problem,
+pub(super) fn dual_bound<O: Operator>(
+    problem: &Problem<O>,
     inner: f64,
     quadratic: f64,
     conjugate: f64,

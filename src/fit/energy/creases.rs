@@ -4,8 +4,9 @@
 //! a logarithm there (Candès, Wakin and Boyd, Enhancing Sparsity by Reweighted ℓ₁ Minimization,
 //! 2008), so that creases keep their angle. Each pass is a convex problem for itself.
 
-use super::problem::{Problem, spread};
+use super::problem::Problem;
 use crate::error::Result;
+use crate::fit::operator::Operator;
 use crate::lattice::per_cell::PerCell;
 
 /// The least weight.
@@ -20,7 +21,7 @@ const SETTLED: f64 = 0.02;
 /// What a pass is about.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Creases {
-    /// Interior vertices with a weight below 1.
+    /// Stencils with a weight below 1.
     pub vertices: usize,
     /// Those among them, and among the pass before's, whose weight has changed.
     pub changed: usize,
@@ -33,24 +34,24 @@ impl Creases {
     }
 }
 
-impl Problem {
-    /// `ω = min(1, T/s̄)`, where `s̄` is `‖H(z)‖_*` spread over the neighbours once, if enough
+impl<O: Operator> Problem<O> {
+    /// `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` spread over the neighbours once, if enough
     /// vertices change by that. `radius` is `1/T`.
     pub(crate) fn reweight_creases(&mut self, z: &[f64], radius: f64) -> Result<Creases> {
         let mut weights = self.norms(z)?;
-        spread(&self.domain, &mut weights);
+        self.operator.spread(&mut weights);
         let mut creases = Creases::default();
-        for cell in self.domain.interior().cells() {
-            let sharpness = radius * weights[cell];
+        for stencil in self.operator.stencils().cells() {
+            let sharpness = radius * weights[stencil];
             let weight = if sharpness > 1.0 {
                 (1.0 / sharpness).max(LEAST)
             } else {
                 1.0
             };
-            let before = self.weight.at(cell);
+            let before = self.weight.at(stencil);
             creases.vertices += usize::from(weight < 1.0);
             creases.changed += usize::from((weight - before).abs() > CHANGE * before);
-            weights[cell] = weight;
+            weights[stencil] = weight;
         }
         if creases.is_worth() {
             self.weight = PerCell::Each(weights);

@@ -1,4 +1,4 @@
-//! The energy on one lattice, and its norm's proximal map, value and conjugate.
+//! The energy, and its norm's proximal map, value and conjugate.
 
 pub(crate) mod creases;
 pub(crate) mod law;

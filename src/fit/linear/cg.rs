@@ -15,16 +15,17 @@ use std::sync::Arc;
 
 use super::grid::{part, part_mut};
 use super::multigrid::Multigrid;
+use super::precise::Precise;
 use crate::error::{Result, try_filled};
-use crate::fit::energy::problem::Problem;
+use crate::fit::heightfields::Problem;
+use crate::fit::operator::lattice::LatticeOperator;
+use crate::fit::operator::{Operator, Solver};
 use crate::lattice::domain::Domain;
 use crate::math::lanes;
 
 #[derive(Debug, Clone)]
 pub(crate) struct ConjugateGradients {
-    /// `b − A z`, in the system's scale: whoever changes `b` or `z` writes it
-    /// (times [`Self::residual_scale`]) and calls [`Self::restart`].
-    pub residual: Vec<f32>,
+    residual: Vec<f32>,
     correction: Vec<f32>,
     direction: Vec<f32>,
     image: Vec<f32>,
@@ -43,42 +44,41 @@ impl ConjugateGradients {
     /// For a problem on the first of `domains`, each of which has twice the
     /// spacing of the one before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
-        let zeros = || try_filled("conjugate gradients", problem.domain.cells(), 0.0);
+        let domain = &problem.operator.domain;
+        let zeros = || try_filled("conjugate gradients", domain.cells(), 0.0);
         let largest = problem.target.iter().fold(0.0f64, |m, z| m.max(z.abs()));
         Ok(ConjugateGradients {
             residual: zeros()?,
             correction: zeros()?,
             direction: zeros()?,
             image: zeros()?,
-            row: vec![0.0; problem.domain.stride()],
+            row: vec![0.0; domain.stride()],
             multigrid: Multigrid::new(problem, domains, rho)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
             energy: 0.0,
             previous: 0.0,
         })
     }
+}
 
-    /// Changes `A`; the residual must be made anew.
-    pub(crate) fn set_rho(&mut self, rho: f64) {
+impl Solver<LatticeOperator> for ConjugateGradients {
+    fn set_rho(&mut self, rho: f64) {
         self.multigrid.set(rho);
     }
 
-    /// The preconditioner.
-    pub(crate) fn multigrid(&mut self) -> &mut Multigrid {
-        &mut self.multigrid
+    fn residual(&mut self) -> &mut [f32] {
+        &mut self.residual
     }
 
-    /// Factor from `b − A z` to the system's scale.
-    pub(crate) fn residual_scale(&self) -> f64 {
+    fn residual_scale(&self) -> f64 {
         1.0 / (self.multigrid.matrix().diagonal * self.unit)
     }
 
-    /// Starts anew from the residual that was just written.
-    pub(crate) fn restart(&mut self, domain: &Domain) {
+    fn restart(&mut self, operator: &LatticeOperator) {
         self.previous = 0.0;
         self.energy = 0.0;
         self.multigrid.matrix().pin(&mut self.residual);
-        for run in domain.active().all() {
+        for run in operator.vertices().all() {
             part_mut(&mut self.correction, *run).fill(0.0);
             self.energy += lanes::weighted_square(
                 part(&self.residual, *run),
@@ -87,15 +87,13 @@ impl ConjugateGradients {
         }
     }
 
-    /// `‖r‖²` in the norm of the inverse diagonal.
-    pub(crate) fn energy(&self) -> f64 {
+    fn energy(&self) -> f64 {
         self.energy
     }
 
-    /// `‖r‖` relative to `‖2λ z̃‖`, in that norm.
-    pub(crate) fn relative_residual(&self, problem: &Problem) -> f64 {
+    fn relative_residual(&self, problem: &Problem) -> f64 {
         let matrix = self.multigrid.matrix();
-        let squares = problem.domain.active().cells().map(|cell| {
+        let squares = problem.operator.vertices().cells().map(|cell| {
             let weight = 2.0 * problem.lambda * problem.fidelity.at(cell);
             let b = weight * self.residual_scale() * problem.target[cell];
             b * b * lanes::double(matrix.inverse_diagonal[cell])
@@ -103,9 +101,8 @@ impl ConjugateGradients {
         (self.energy / squares.sum::<f64>()).sqrt()
     }
 
-    /// Adds the correction found so far to `z`.
-    pub(crate) fn correct(&mut self, domain: &Domain, z: &mut [f64]) {
-        for run in domain.active().all() {
+    fn correct(&mut self, operator: &LatticeOperator, z: &mut [f64]) {
+        for run in operator.vertices().all() {
             let correction = part(&self.correction, *run);
             let wide = &mut self.row[..correction.len()];
             lanes::widen(correction, wide);
@@ -115,15 +112,13 @@ impl ConjugateGradients {
         }
     }
 
-    /// One iteration on the correction. Returns `false`, and changes nothing,
-    /// when nothing is left that single precision could improve.
-    pub(crate) fn step(&mut self, domain: &Domain) -> bool {
+    fn step(&mut self, operator: &LatticeOperator) -> bool {
         if self.energy <= 0.0 {
             return false;
         }
         let preconditioned = self.multigrid.precondition(&mut self.residual);
         let mut product = 0.0;
-        for run in domain.active().all() {
+        for run in operator.vertices().all() {
             product += lanes::dot(part(&self.residual, *run), part(preconditioned, *run));
         }
         let beta = if self.previous > 0.0 {
@@ -131,7 +126,7 @@ impl ConjugateGradients {
         } else {
             0.0
         };
-        for run in domain.active().all() {
+        for run in operator.vertices().all() {
             let preconditioned = part(preconditioned, *run);
             for (p, s) in part_mut(&mut self.direction, *run)
                 .iter_mut()
@@ -147,7 +142,7 @@ impl ConjugateGradients {
         }
         let alpha = (product / curvature) as f32;
         let mut energy = 0.0;
-        for run in domain.active().all() {
+        for run in operator.vertices().all() {
             let correction = part_mut(&mut self.correction, *run);
             let residual = part_mut(&mut self.residual, *run);
             let direction = part(&self.direction, *run);
@@ -161,6 +156,20 @@ impl ConjugateGradients {
         self.previous = product;
         self.energy = energy;
         true
+    }
+
+    fn solve_precisely(
+        &mut self,
+        problem: &Problem,
+        rho: f64,
+        residual: &mut Vec<f64>,
+        x: &mut [f64],
+        enough: (f64, usize),
+    ) -> Result<usize> {
+        let mut precise = Precise::with_residual(problem, std::mem::take(residual))?;
+        let steps = precise.solve(problem, rho, &mut self.multigrid, x, enough);
+        *residual = precise.residual;
+        Ok(steps)
     }
 }
 
@@ -201,17 +210,17 @@ mod tests {
             let coordinates = Coordinates::new(&input, &domains[0], 1.0);
             let options = Options::default().lambda(1e4);
             let problem = Problem::new(&input, domains[0].clone(), &coordinates, &options).unwrap();
-            let rho = 4.0 * problem.spacing;
+            let rho = 4.0 * problem.operator.spacing;
             let mut cg = ConjugateGradients::new(&problem, &domains, rho).unwrap();
             // Plain conjugate gradients would need about √κ times as many as this.
-            for cell in problem.domain.active().cells() {
+            for cell in problem.operator.domain.active().cells() {
                 cg.residual[cell] = problem.target[cell] as f32;
             }
-            cg.restart(&problem.domain);
+            cg.restart(&problem.operator);
             let first = cg.energy();
             let mut steps = 0;
             while cg.energy() > 1e-8 * first {
-                assert!(cg.step(&problem.domain));
+                assert!(cg.step(&problem.operator));
                 steps += 1;
                 assert!(steps <= 12, "{cols}: {:e}", cg.energy() / first);
             }

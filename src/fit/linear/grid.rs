@@ -58,12 +58,12 @@ impl Grid {
             fidelity: if varied {
                 PerCell::Each(try_filled("multigrid", domain.cells(), 0.0)?)
             } else {
-                PerCell::same(&domain, 0.0)
+                PerCell::same(domain.stride(), 0.0)
             },
             constrained,
             own: 0.0,
             sum: 0.0,
-            stencils: PerCell::same(&domain, 1.0),
+            stencils: PerCell::same(domain.stride(), 1.0),
             inverse_diagonal: try_filled("diagonal", domain.cells(), 0.0)?,
             rolling: Rolling::new(&domain),
             domain,
@@ -176,14 +176,10 @@ impl Grid {
         columns
     }
 
-    /// One pass down `x`: `after(x, row, run, sums)` sees `ρCᵀCx` in each run of a
+    /// One pass down `x`: `after(x, run, sums)` sees `ρCᵀCx` in each run of a
     /// row, and may write `x` there, since no later row reads it.
     #[inline(always)]
-    fn pass(
-        &mut self,
-        x: &mut [f32],
-        mut after: impl FnMut(&mut [f32], usize, Run, &Gather<'_, f32>),
-    ) {
+    fn pass(&mut self, x: &mut [f32], mut after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>)) {
         let Grid {
             domain,
             own,
@@ -200,7 +196,7 @@ impl Grid {
                 for run in domain.interior().row(row) {
                     let ring = Ring::new(x, domain, row, *run);
                     let [w1, w2, w3] = weights_of(weights, domain, row, *run);
-                    let count = stencils.run(domain, row, *run);
+                    let count = stencils.run(*run);
                     for i in 0..w1.len() {
                         let [d1, d2, d3] = ring.differences(i);
                         let common = sum * (d1 + d2 + d3);
@@ -212,7 +208,7 @@ impl Grid {
             },
             |x, row, sums| {
                 for run in domain.active().row(row) {
-                    after(x, row, *run, sums);
+                    after(x, *run, sums);
                 }
             },
         );
@@ -220,12 +216,11 @@ impl Grid {
 
     /// `image = A x`. Returns `x·Ax`. (`x` is not changed.)
     pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
-        let domain = self.domain.clone();
         let fidelity = self.take_fidelity();
         let mut product = 0.0;
-        self.pass(x, |x, row, run, sums| {
+        self.pass(x, |x, run, sums| {
             let sum = sums.run(run);
-            let fidelity = fidelity.run(&domain, row, run);
+            let fidelity = fidelity.run(run);
             let x = part(x, run);
             let image = part_mut(image, run);
             for i in 0..x.len() {
@@ -239,11 +234,10 @@ impl Grid {
 
     /// `residual = b − A x`. (`x` is not changed.)
     pub(crate) fn residual(&mut self, x: &mut [f32], b: &[f32], residual: &mut [f32]) {
-        let domain = self.domain.clone();
         let fidelity = self.take_fidelity();
-        self.pass(x, |x, row, run, sums| {
+        self.pass(x, |x, run, sums| {
             let sum = sums.run(run);
-            let fidelity = fidelity.run(&domain, row, run);
+            let fidelity = fidelity.run(run);
             let x = part(x, run);
             let b = part(b, run);
             let residual = part_mut(residual, run);
@@ -264,12 +258,11 @@ impl Grid {
         momentum: f32,
         weight: f32,
     ) {
-        let domain = self.domain.clone();
         let fidelity = self.take_fidelity();
         let inverse = std::mem::take(&mut self.inverse_diagonal);
-        self.pass(x, |x, row, run, sums| {
+        self.pass(x, |x, run, sums| {
             let sum = sums.run(run);
-            let fidelity = fidelity.run(&domain, row, run);
+            let fidelity = fidelity.run(run);
             let x = part_mut(x, run);
             let b = part(b, run);
             let d = part_mut(d, run);

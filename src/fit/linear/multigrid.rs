@@ -15,7 +15,7 @@ use super::border::coarser_counts;
 use super::grid::{Grid, LARGEST_EIGENVALUE, part, part_mut};
 use super::transfer::Transfer;
 use crate::error::{Result, try_filled};
-use crate::fit::energy::problem::Problem;
+use crate::fit::heightfields::Problem;
 use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
 use crate::math::lanes;
@@ -86,7 +86,7 @@ impl Multigrid {
             .map(|pair| Transfer::new(&pair[0], &pair[1]))
             .collect();
         let mut floors: Vec<Floor> = Vec::with_capacity(domains.len());
-        let mut spacing = problem.spacing;
+        let mut spacing = problem.operator.spacing;
         let varied = matches!(problem.fidelity, PerCell::Each(_));
         for (i, domain) in domains.iter().enumerate() {
             let zeros = || try_filled("multigrid", domain.cells(), 0.0);
@@ -204,7 +204,7 @@ impl Shares {
         let PerCell::Each(weights) = &problem.fidelity else {
             return Ok(None);
         };
-        let domain = &problem.domain;
+        let domain = &problem.operator.domain;
         let zeros = || try_filled("multigrid", domain.cells(), 0.0);
         let (mut fidelity, mut constrained) = (zeros()?, zeros()?);
         for cell in domain.active().cells() {

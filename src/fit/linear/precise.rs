@@ -7,7 +7,7 @@
 
 use super::multigrid::Multigrid;
 use crate::error::{Result, try_filled};
-use crate::fit::energy::problem::Problem;
+use crate::fit::heightfields::Problem;
 use crate::lattice::stencil::{Ring, Rolling, weights_of};
 use crate::math::lanes;
 
@@ -24,14 +24,19 @@ pub(crate) struct Precise {
 
 impl Precise {
     pub(crate) fn new(problem: &Problem) -> Result<Self> {
-        let cells = problem.domain.cells();
+        let cells = problem.operator.domain.cells();
+        Precise::with_residual(problem, try_filled("conjugate gradients", cells, 0.0)?)
+    }
+
+    pub(crate) fn with_residual(problem: &Problem, residual: Vec<f64>) -> Result<Self> {
+        let cells = residual.len();
         let zeros = || try_filled("conjugate gradients", cells, 0.0);
         Ok(Precise {
-            residual: zeros()?,
+            residual,
             direction: zeros()?,
             image: zeros()?,
             single: try_filled("conjugate gradients", cells, 0.0)?,
-            rolling: Rolling::new(&problem.domain),
+            rolling: Rolling::new(&problem.operator.domain),
         })
     }
 
@@ -40,7 +45,7 @@ impl Precise {
         self.direction.copy_from_slice(z);
         self.apply(problem, rho);
         let fidelity = 2.0 * problem.lambda;
-        for cell in problem.domain.active().cells() {
+        for cell in problem.operator.domain.active().cells() {
             let given = fidelity * problem.fidelity.at(cell) * problem.target[cell];
             self.residual[cell] = given - self.image[cell];
         }
@@ -59,7 +64,7 @@ impl Precise {
         for cell in &problem.constrained {
             self.residual[*cell as usize] = 0.0;
         }
-        let cells = || problem.domain.active().cells();
+        let cells = || problem.operator.domain.active().cells();
         let goal = tolerance * self.distance(problem, multigrid);
         let mut previous = 0.0;
         for step in 0..steps {
@@ -100,7 +105,7 @@ impl Precise {
     /// many orders of magnitude do not upset.
     fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
         let inverse = &multigrid.matrix().inverse_diagonal;
-        let cells = problem.domain.active().cells();
+        let cells = problem.operator.domain.active().cells();
         let moved = cells.map(|cell| (self.residual[cell] * lanes::double(inverse[cell])).abs());
         moved.fold(0.0, f64::max)
     }
@@ -113,7 +118,7 @@ impl Precise {
             rolling,
             ..
         } = self;
-        let (domain, map) = (&problem.domain, problem.map);
+        let (domain, map) = (&problem.operator.domain, problem.operator.map);
         let fidelity = 2.0 * problem.lambda;
         let mut product = 0.0;
         rolling.sweep(
@@ -132,7 +137,7 @@ impl Precise {
             |image, row, sums| {
                 for run in domain.active().row(row) {
                     let sum = sums.run(*run);
-                    let weight = problem.fidelity.run(domain, row, *run);
+                    let weight = problem.fidelity.run(*run);
                     for (i, cell) in (run.start..run.end).enumerate() {
                         let value = fidelity * weight[i] * direction[cell] + sum.at(i);
                         image[cell] = value;

@@ -1,0 +1,103 @@
+//! The energy of a heightfield: that of the lattice's operator.
+
+use std::sync::Arc;
+
+use super::admm::{iteration, state};
+use super::coordinates::Coordinates;
+use super::energy::law::Kind;
+use super::energy::problem;
+use super::input::Input;
+use super::operator::lattice::{LatticeOperator, position};
+use super::options::Options;
+use crate::error::{Error, Result, try_filled};
+use crate::lattice::domain::Domain;
+
+pub(crate) type Problem = problem::Problem<LatticeOperator>;
+pub(crate) type State = state::State<LatticeOperator>;
+pub(crate) type Level = iteration::Level<LatticeOperator>;
+
+/// Heights and Hessians are at most so large, and the spacing; and at least one over it.
+const LARGEST: f64 = 1e130;
+const FARTHEST: f64 = 1e50;
+
+impl Problem {
+    pub(crate) fn new(
+        input: &Input,
+        domain: Arc<Domain>,
+        coordinates: &Coordinates,
+        options: &Options,
+    ) -> Result<Self> {
+        let mut target = try_filled("input heights", domain.cells(), 0.0)?;
+        let mut largest = 0.0f64;
+        for cell in domain.active().cells() {
+            let height = input.field().heights()[domain.lattice_index(cell)];
+            target[cell] = coordinates.inward(position(&domain, cell), height);
+            largest = largest.max((coordinates.scale * height).abs());
+        }
+        let operator = LatticeOperator::new(domain.clone(), coordinates);
+        let spacing = operator.spacing;
+        check_range(&domain, input.field().heights(), &target, largest, spacing)?;
+        let mut problem =
+            Problem::under(operator, options.lambda.value(), target, Kind::of(options));
+        problem.set_fidelity(
+            |cell| input.weight(domain.lattice_index(cell)),
+            |cell| input.is_constrained(domain.lattice_index(cell)),
+            options.tie_break,
+        )?;
+        problem.take_first_normals(options.energy)?;
+        // Each Hessian is a handful of heights over h², each with its own rounding error.
+        problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
+        Ok(problem)
+    }
+
+    /// `Σ ω f(H)` of the input, by the parts that cells belong to.
+    pub(crate) fn smoothness_by(&self, parts: usize, part: impl Fn(usize) -> usize) -> Vec<f64> {
+        let mut sums = vec![0.0; parts];
+        self.each_cost(&self.target, |cell, cost| sums[part(cell)] += cost);
+        sums
+    }
+
+    /// Calls `write` with each vertex of `I ∪ ∂I` and its height in the user's units.
+    pub(crate) fn write_heights(&self, z: &[f64], mut write: impl FnMut((usize, usize), f64)) {
+        let LatticeOperator {
+            domain,
+            coordinates,
+            ..
+        } = &self.operator;
+        for cell in domain.active().cells() {
+            let height = coordinates.outward(position(domain, cell), z[cell]);
+            write(domain.lattice_vertex(cell), height);
+        }
+    }
+}
+
+/// Whether the squares of heights and Hessians, summed and times any λ, can be told from 0 and from
+/// infinity. Heights that differ from a plane by rounding errors only are fine.
+///
+/// # Errors
+/// [`Error::Overflow`] or [`Error::Underflow`].
+fn check_range(
+    domain: &Domain,
+    heights: &[f64],
+    target: &[f64],
+    largest: f64,
+    h: f64,
+) -> Result<()> {
+    let spacing = domain.lattice().spacing();
+    let cells = || domain.active().cells();
+    let finite = cells().all(|cell| target[cell].is_finite());
+    let bend = cells().fold(0.0f64, |m, cell| m.max(target[cell].abs()));
+    let hessian = |height: f64| height / (h * h);
+    let affine = bend <= 16.0 * f64::EPSILON * largest && largest >= 1.0 / LARGEST;
+    let zero = bend == 0.0 && cells().all(|cell| heights[domain.lattice_index(cell)] == 0.0);
+    // As what a NaN is not.
+    let small_enough = h >= 1.0 / FARTHEST && largest.max(hessian(largest)) <= LARGEST;
+    if !(finite && small_enough) {
+        return Err(Error::Overflow { spacing });
+    }
+    let large_enough = affine || zero || bend.min(hessian(bend)) >= 1.0 / LARGEST;
+    if h > FARTHEST || !large_enough {
+        return Err(Error::Underflow { spacing });
+    }
+    Ok(())
+}

@@ -1,0 +1,148 @@
+//! The operator `C` from heights to Hessians, as the energy and ADMM see it: which vertices and
+//! stencils there are, the two sweeps over them, and who solves the z-step.
+//!
+//! Heights are arrays over the operator's vertices, Hessians and duals over its stencils. Both may
+//! have gaps: what counts are the runs.
+
+pub(crate) mod lattice;
+
+use std::fmt::Debug;
+
+use super::energy::problem::Problem;
+use crate::error::Result;
+use crate::lattice::runs::{RowRuns, Run};
+use crate::math::real::Real;
+use crate::math::sym2::Sym2;
+
+/// A linear operator `C` from a height at each vertex to a symmetric 2×2 matrix at each stencil.
+///
+/// Kernels are closures that get one run at a time, with views of that run only, so that their loops
+/// vectorise. A method that takes several calls each of them in one place, so that it is inlined.
+pub(crate) trait Operator: Clone + Debug + 'static {
+    /// What a sweep needs besides.
+    type Scratch<T: Real>: Clone + Debug;
+    type Hessians<'a, T: Real>: Hessians<T>;
+    type Matrices<'a, T: Real>: Matrices<T>;
+    type Sums<'a, T: Real>: Sums<T>;
+    type Solver: Solver<Self>;
+
+    /// The unknowns.
+    fn vertices(&self) -> &RowRuns;
+    /// Where Hessians are.
+    fn stencils(&self) -> &RowRuns;
+    /// Length of an array over the vertices.
+    fn vertex_cells(&self) -> usize;
+    /// Length of an array over the stencils.
+    fn stencil_cells(&self) -> usize;
+    /// No run is longer.
+    fn longest_run(&self) -> usize;
+
+    /// From a vertex to the next, in normalised coordinates, and from one end to the other.
+    fn spacing(&self) -> f64;
+    fn size(&self) -> f64;
+    /// At least `h⁴‖CᵀC‖`, `h` being the spacing.
+    fn norm(&self) -> f32;
+    /// The coordinates of a vertex, whose linear functions `C` does not see.
+    fn place(&self, vertex: usize) -> [f64; 2];
+
+    /// For sweeps in one precision.
+    ///
+    /// # Errors
+    /// Out of memory.
+    fn scratch<T: Real>(&self) -> Result<Self::Scratch<T>>;
+
+    /// Calls `visit` with each stencil and `Cz` there, in order.
+    fn hessians(&self, z: &[f64], visit: impl FnMut(usize, Sym2));
+
+    /// One pass over `Cz` and `CᵀY`: `at_stencils` gets each run's Hessians and is to write its `Y`
+    /// all along, `at_vertices` then gets each run of `CᵀY`. Which of the two has its turn before the
+    /// other has been everywhere is not said.
+    fn sweep<S: ?Sized>(
+        &self,
+        scratch: &mut Self::Scratch<f64>,
+        z: &[f64],
+        state: &mut S,
+        at_stencils: impl FnMut(&mut S, Run, Self::Hessians<'_, f64>, Self::Matrices<'_, f64>),
+        at_vertices: impl FnMut(&mut S, Run, Self::Sums<'_, f64>),
+    );
+
+    /// The same the other way round, in single precision and with `h²C` in the place of `C`:
+    /// `at_stencils` writes `Y`, `at_vertices` turns `CᵀY` into heights, and `follow` gets the Hessians
+    /// of these.
+    fn sweep_back<S: ?Sized>(
+        &self,
+        scratch: &mut Self::Scratch<f32>,
+        heights: &mut [f32],
+        state: &mut S,
+        at_stencils: impl FnMut(&mut S, Run, Self::Matrices<'_, f32>),
+        at_vertices: impl FnMut(&mut S, Run, Self::Sums<'_, f32>, &mut [f32]),
+        follow: impl FnMut(&mut S, Run, Self::Hessians<'_, f32>),
+    );
+
+    /// What turns `Cz` into the second fundamental form, at each stencil: the upward part of the
+    /// surface's unit normal for heights (paper, Eq. 24), 1 for what is that form already.
+    fn normals(&self, z: &[f64], to: &mut [f64]);
+
+    /// The mean over each stencil (weight 2) and those at its neighbours (weight 1).
+    fn spread(&self, values: &mut [f64]);
+}
+
+/// The Hessians of one run, by the coordinates of [`Sym2`].
+pub(crate) trait Hessians<T> {
+    fn at(&self, i: usize) -> [T; 3];
+}
+
+/// The matrices `Y` of one run, likewise.
+pub(crate) trait Matrices<T> {
+    fn set(&mut self, i: usize, matrix: [T; 3]);
+}
+
+/// `CᵀY` of one run.
+pub(crate) trait Sums<T> {
+    fn at(&self, i: usize) -> T;
+}
+
+/// The z-step: finds the correction of `A δ = b − A z`, `A = 2λw + ρCᵀC`, over the vertices that are
+/// not constrained.
+pub(crate) trait Solver<O: Operator>: Clone + Debug {
+    /// Changes `A`; the residual must be made anew.
+    fn set_rho(&mut self, rho: f64);
+
+    /// `b − A z`, in the system's scale: whoever changes `b` or `z` writes it (times
+    /// [`Self::residual_scale`]) and calls [`Self::restart`].
+    fn residual(&mut self) -> &mut [f32];
+
+    /// Factor from `b − A z` to the system's scale.
+    fn residual_scale(&self) -> f64;
+
+    /// Starts anew from the residual that was just written.
+    fn restart(&mut self, operator: &O);
+
+    /// `‖r‖²` in the norm of the inverse diagonal.
+    fn energy(&self) -> f64;
+
+    /// `‖r‖` relative to `‖2λw z̃‖`, in that norm.
+    fn relative_residual(&self, problem: &Problem<O>) -> f64;
+
+    /// One iteration on the correction. Returns `false`, and changes nothing, when nothing is left to
+    /// improve.
+    fn step(&mut self, operator: &O) -> bool;
+
+    /// Adds the correction found so far to `z`.
+    fn correct(&mut self, operator: &O, z: &mut [f64]);
+
+    /// In double precision, adds to `x` until the residual, which is given for `x`, is `tolerance` of
+    /// what it was, or after so many `steps`. Returns how many there were; the residual is of no use
+    /// afterwards. The `ρ` must be that of [`Self::set_rho`].
+    ///
+    /// # Errors
+    /// Out of memory.
+    fn solve_precisely(
+        &mut self,
+        problem: &Problem<O>,
+        rho: f64,
+        residual: &mut Vec<f64>,
+        x: &mut [f64],
+        enough: (f64, usize),
+    ) -> Result<usize>;
+}

@@ -1,7 +1,5 @@
 //! Runs of consecutive cells, which the kernels sweep over.
 
-use super::domain::Role;
-
 /// A run of consecutive cells in one row of the padded box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Run {
@@ -19,7 +17,8 @@ pub(crate) struct RowRuns {
 }
 
 impl RowRuns {
-    pub(super) fn new(roles: &[Role], stride: usize, belongs: impl Fn(Role) -> bool) -> Self {
+    /// Of the cells that belong, in rows of `stride`.
+    pub(crate) fn new<R: Copy>(roles: &[R], stride: usize, belongs: impl Fn(R) -> bool) -> Self {
         let mut first = vec![0];
         let mut runs: Vec<Run> = Vec::new();
         for (row, cells) in roles.chunks(stride).enumerate() {

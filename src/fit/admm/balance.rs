@@ -38,7 +38,7 @@ pub(super) fn balanced_bound<O: Operator>(
     let zeros = || try_filled("certificate", problem.operator.vertex_cells(), 0.0);
     let (mut q, mut residual) = (zeros()?, zeros()?);
     state.balance(problem, z, &q, stiffness, &mut residual);
-    let steps = solver.solve_precisely(problem, stiffness, &mut residual, &mut q, enough)?;
+    let steps = solver.solve_precisely(problem, &mut residual, &mut q, enough)?;
     let bound = state.balance(problem, z, &q, stiffness, &mut residual);
     Ok(Balanced { bound, steps, q })
 }

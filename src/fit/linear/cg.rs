@@ -32,6 +32,7 @@ pub(crate) struct ConjugateGradients {
     /// A row in double precision.
     row: Vec<f64>,
     multigrid: Multigrid,
+    rho: f64,
     /// Heights of size 1 in the system's scale.
     unit: f64,
     /// `‖r‖²` in the norm of the inverse diagonal.
@@ -54,6 +55,7 @@ impl ConjugateGradients {
             image: zeros()?,
             row: vec![0.0; domain.stride()],
             multigrid: Multigrid::new(problem, domains, rho)?,
+            rho,
             unit: if largest > 0.0 { largest } else { 1.0 },
             energy: 0.0,
             previous: 0.0,
@@ -63,6 +65,7 @@ impl ConjugateGradients {
 
 impl Solver<LatticeOperator> for ConjugateGradients {
     fn set_rho(&mut self, rho: f64) {
+        self.rho = rho;
         self.multigrid.set(rho);
     }
 
@@ -161,13 +164,12 @@ impl Solver<LatticeOperator> for ConjugateGradients {
     fn solve_precisely(
         &mut self,
         problem: &Problem,
-        rho: f64,
         residual: &mut Vec<f64>,
         x: &mut [f64],
         enough: (f64, usize),
     ) -> Result<usize> {
         let mut precise = Precise::with_residual(problem, std::mem::take(residual))?;
-        let steps = precise.solve(problem, rho, &mut self.multigrid, x, enough);
+        let steps = precise.solve(problem, self.rho, &mut self.multigrid, x, enough);
         *residual = precise.residual;
         Ok(steps)
     }

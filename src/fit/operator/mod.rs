@@ -4,7 +4,14 @@
 //! Heights are arrays over the operator's vertices, Hessians and duals over its stencils. Both may
 //! have gaps: what counts are the runs.
 
+#[cfg(feature = "sprs")]
+mod jacobi;
 pub(crate) mod lattice;
+#[cfg(feature = "sprs")]
+#[cfg_attr(not(test), expect(dead_code, reason = "for meshes, which are to come"))]
+mod sparse;
+#[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
+mod tests;
 
 use std::fmt::Debug;
 
@@ -132,15 +139,14 @@ pub(crate) trait Solver<O: Operator>: Clone + Debug {
     fn correct(&mut self, operator: &O, z: &mut [f64]);
 
     /// In double precision, adds to `x` until the residual, which is given for `x`, is `tolerance` of
-    /// what it was, or after so many `steps`. Returns how many there were; the residual is of no use
-    /// afterwards. The `ρ` must be that of [`Self::set_rho`].
+    /// what it was, or after so many `steps`. Returns how many there were; what is left of the
+    /// residual is of no use.
     ///
     /// # Errors
     /// Out of memory.
     fn solve_precisely(
         &mut self,
         problem: &Problem<O>,
-        rho: f64,
         residual: &mut Vec<f64>,
         x: &mut [f64],
         enough: (f64, usize),

@@ -1,0 +1,452 @@
+//! ADMM under an operator that is no lattice's: the same lattice as a matrix, and scattered points
+//! against a conic solver.
+
+use std::sync::Arc;
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettingsBuilder, DefaultSolver, IPSolver, SecondOrderConeT, SolverStatus,
+};
+use nalgebra::{DMatrix, DVector};
+use sprs::TriMat;
+
+use super::sparse::SparseOperator;
+use super::{Hessians, Matrices, Operator, Solver, Sums};
+use crate::fit::admm::iteration::Level;
+use crate::fit::admm::schedule::Plan;
+use crate::fit::admm::state::State;
+use crate::fit::coordinates::Coordinates;
+use crate::fit::energy::law::Kind;
+use crate::fit::energy::problem;
+use crate::fit::heightfields;
+use crate::fit::report::StopReason;
+use crate::lattice::domain::Domain;
+use crate::{Energy, Heightfield, HessianOperator, Input, Lattice, Options, Schedule};
+
+type Problem = problem::Problem<SparseOperator>;
+
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut random = oorandom::Rand64::new(seed.into());
+    move || 2.0 * random.rand_float() - 1.0
+}
+
+/// A noisy crease over a disk with a hole, `cols` vertices across.
+fn disk(cols: usize) -> Heightfield {
+    let lattice = Lattice::new(cols, cols, 1.0 / cols as f64).unwrap();
+    let mut noise = noise(5);
+    let heights = (0..lattice.len()).map(|i| {
+        let [x, y] = lattice.position(i / cols, i % cols);
+        let r = (x - 0.5).hypot(y + 0.43);
+        let height = 0.3 * (x + 0.4 * y - 0.3).abs() + 0.1 * (6.0 * y).sin() + 0.02 * noise();
+        if r < 0.46 && (x - 0.6).hypot(y + 0.4) > 0.12 {
+            height
+        } else {
+            f64::NAN
+        }
+    });
+    Heightfield::new(lattice, heights.collect()).unwrap()
+}
+
+/// One instance under both operators.
+struct Both {
+    domain: Arc<Domain>,
+    lattice: heightfields::Problem,
+    sparse: Problem,
+}
+
+impl Both {
+    fn new(input: &Input, options: &Options) -> Self {
+        let domain = Arc::new(input.domain().unwrap());
+        let coordinates = Coordinates::new(input, &domain, 1.0);
+        let lattice =
+            heightfields::Problem::new(input, domain.clone(), &coordinates, options).unwrap();
+        let all = *domain.lattice();
+        let vertices = || (0..all.len()).map(|i| (i / all.cols(), i % all.cols()));
+        let hessian = HessianOperator::new(&domain);
+        let operator = SparseOperator::new(
+            &hessian.to_sparse(),
+            hessian.vertices().map(|(r, c)| all.index(r, c)).collect(),
+            vertices().map(|(r, c)| all.position(r, c)).collect(),
+            all.spacing(),
+        )
+        .unwrap();
+        let mut target = vec![0.0; all.len()];
+        for cell in domain.active().cells() {
+            target[domain.lattice_index(cell)] = lattice.target[cell];
+        }
+        let lambda = options.lambda.value();
+        let mut sparse = Problem::under(operator, lambda, target, Kind::of(options));
+        let weight = |vertex| input.weight(vertex);
+        let constrained = |vertex| input.is_constrained(vertex);
+        sparse
+            .set_fidelity(weight, constrained, options.tie_break)
+            .unwrap();
+        Both {
+            domain,
+            lattice,
+            sparse,
+        }
+    }
+
+    /// Heights of the lattice's cells in the order of the matrix's columns.
+    fn of_cells(&self, z: &[f64]) -> Vec<f64> {
+        let mut heights = vec![0.0; self.domain.lattice().len()];
+        for cell in self.domain.active().cells() {
+            heights[self.domain.lattice_index(cell)] = z[cell];
+        }
+        heights
+    }
+}
+
+/// ADMM from the input to the end, on one level.
+fn solve<O: Operator>(
+    problem: problem::Problem<O>,
+    coarser: &<O::Solver as Solver<O>>::Coarser,
+    options: &Options,
+) -> (Level<O>, StopReason) {
+    let plan = Plan::new(options);
+    let state = State::new(&problem, plan.first_rho(&problem)).unwrap();
+    let (mut level, mut reason) = Level::new(problem, state, plan, coarser, 0, true).unwrap();
+    while reason.is_none() {
+        reason = level.advance(&mut 1000).unwrap();
+    }
+    (level, reason.unwrap())
+}
+
+/// Both answers are certified, each bound is one for the other as well, and the surfaces are as close
+/// as strong convexity says: `λ min w ‖z − z*‖² ≤ P − D`.
+fn assert_alike(both: &Both, lattice: &Level<impl Operator>, sparse: &Level<SparseOperator>) {
+    let (a, b) = (&lattice.best, &sparse.best);
+    let bound = a.dual_bound.max(b.dual_bound);
+    let gaps = [a, b].map(|best| best.objective() - bound);
+    let rounding = 1e-12 * bound;
+    assert!(
+        gaps.iter().all(|gap| *gap >= -rounding),
+        "{gaps:?} of {bound}"
+    );
+    let problem = &both.sparse;
+    let vertices = || problem.operator.vertices().cells();
+    let least = vertices().fold(f64::MAX, |m, v| m.min(problem.fidelity.at(v)));
+    let radius = |gap: f64| ((gap + rounding) / (problem.lambda * least)).sqrt();
+    let z = both.of_cells(&a.z);
+    let distance = vertices()
+        .map(|v| (z[v] - b.z[v]).powi(2))
+        .sum::<f64>()
+        .sqrt();
+    let allowed = radius(gaps[0]) + radius(gaps[1]);
+    assert!(distance <= allowed, "{distance} beyond {allowed}");
+}
+
+fn options(lambda: f64) -> Options {
+    Options::default()
+        .lambda(lambda)
+        .gap(1e-5)
+        .max_iterations(20_000)
+}
+
+#[test]
+fn a_lattice_as_a_matrix_has_its_sweeps() {
+    let both = Both::new(&Input::new(disk(20)), &options(1e4));
+    let (lattice, sparse) = (&both.lattice.operator, &both.sparse.operator);
+    let mut noise = noise(7);
+    let mut z = vec![0.0; lattice.vertex_cells()];
+    for cell in lattice.vertices().cells() {
+        z[cell] = noise();
+    }
+    let y: Vec<[f64; 3]> = (0..sparse.stencil_cells())
+        .map(|_| [noise(), noise(), noise()])
+        .collect();
+    // From the lattice's cells to the numbers of its stencils.
+    let numbers: Vec<usize> = lattice.stencils().cells().collect();
+    let number = |cell: usize| numbers.binary_search(&cell).unwrap();
+    let columns = both.of_cells(&z);
+    let scale = lattice.spacing.powi(-2);
+    let close = |a: f64, b: f64, size: f64| assert!((a - b).abs() < size, "{a} for {b}");
+
+    fn run<O: Operator>(operator: &O, z: &[f64], y: impl Fn(usize) -> [f64; 3]) -> [Vec<f64>; 4] {
+        let hessians = || vec![0.0; 3 * operator.stencil_cells()];
+        let heights = || vec![0.0; operator.vertex_cells()];
+        let mut found = (hessians(), heights());
+        operator.sweep(
+            &mut operator.scratch().unwrap(),
+            z,
+            &mut found,
+            |(found, _), run, hessians, mut matrices| {
+                for (i, stencil) in (run.start..run.end).enumerate() {
+                    found[3 * stencil..][..3].copy_from_slice(&hessians.at(i));
+                    matrices.set(i, y(stencil));
+                }
+            },
+            |(_, found), run, sums| {
+                for (i, vertex) in (run.start..run.end).enumerate() {
+                    found[vertex] = sums.at(i);
+                }
+            },
+        );
+        let mut back = hessians();
+        let mut single = vec![0.0f32; operator.vertex_cells()];
+        operator.sweep_back(
+            &mut operator.scratch().unwrap(),
+            &mut single,
+            &mut back,
+            |_, run, mut matrices| {
+                for (i, stencil) in (run.start..run.end).enumerate() {
+                    matrices.set(i, y(stencil).map(|y| y as f32));
+                }
+            },
+            |_, run, sums, heights| {
+                assert_eq!(heights.len(), run.end - run.start);
+                for (i, height) in heights.iter_mut().enumerate() {
+                    *height = sums.at(i);
+                }
+            },
+            |back, run, hessians| {
+                for (i, stencil) in (run.start..run.end).enumerate() {
+                    back[3 * stencil..][..3].copy_from_slice(&hessians.at(i).map(f64::from));
+                }
+            },
+        );
+        [
+            found.0,
+            found.1,
+            single.iter().map(|z| (*z).into()).collect(),
+            back,
+        ]
+    }
+    let [h1, a1, s1, b1] = run(lattice, &z, |cell| y[number(cell)]);
+    let [h2, a2, s2, b2] = run(sparse, &columns, |stencil| y[stencil]);
+    for (stencil, cell) in numbers.iter().enumerate() {
+        for k in 0..3 {
+            close(h2[3 * stencil + k], h1[3 * cell + k], 1e-13 * scale);
+            close(b2[3 * stencil + k], b1[3 * cell + k], 1e-4);
+        }
+    }
+    for ((a, b), size) in [(a1, a2), (s1, s2)].into_iter().zip([1e-13 * scale, 1e-5]) {
+        let a = both.of_cells(&a);
+        for vertex in sparse.vertices().cells() {
+            close(b[vertex], a[vertex], size);
+        }
+    }
+    assert_eq!(sparse.vertices().len(), lattice.vertices().len());
+    let (mut a, mut b) = (z.clone(), Vec::new());
+    b.extend(numbers.iter().map(|cell| z[*cell]));
+    lattice.spread(&mut a);
+    sparse.spread(&mut b);
+    for (stencil, cell) in numbers.iter().enumerate() {
+        close(b[stencil], a[*cell], 1e-14);
+    }
+    // That of a part of the lattice is a little smaller.
+    let ratio = sparse.norm() / lattice.norm();
+    assert!((0.95..=1.1).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn a_lattice_as_a_matrix_has_its_answer_under_every_energy() {
+    let input = Input::new(disk(16));
+    for energy in [
+        Energy::Nuclear,
+        Energy::Huber,
+        Energy::Frobenius,
+        Energy::SquaredNuclear,
+    ] {
+        let options = options(1e4).energy(energy);
+        let both = Both::new(&input, &options);
+        let (lattice, a) = solve(both.lattice.clone(), &[both.domain.clone()], &options);
+        let (sparse, b) = solve(both.sparse.clone(), &(), &options);
+        assert_eq!([a, b], [StopReason::Gap; 2], "{energy:?}");
+        assert_alike(&both, &lattice, &sparse);
+    }
+}
+
+#[test]
+fn passes_and_the_papers_schedule_run_on_a_matrix() {
+    let input = Input::new(disk(16));
+    let options = options(1e4);
+    let both = Both::new(&input, &options);
+    let (mut lattice, _) = solve(both.lattice.clone(), &[both.domain.clone()], &options);
+    let (mut sparse, _) = solve(both.sparse.clone(), &(), &options);
+    for _ in 0..2 {
+        fn pass<O: Operator>(level: &mut Level<O>) {
+            let mut reason = level.reweight().unwrap();
+            while reason.is_none() {
+                reason = level.advance(&mut 1000).unwrap();
+            }
+            assert_eq!(reason, Some(StopReason::Gap));
+        }
+        pass(&mut lattice);
+        pass(&mut sparse);
+    }
+    // Weights follow from surfaces that agree to within the gap only.
+    let [a, b] = [lattice.best.objective(), sparse.best.objective()];
+    assert!((a - b).abs() < 1e-3 * a, "{a} and {b}");
+
+    let huber = options.energy(Energy::Huber);
+    let both = Both::new(&input, &huber);
+    let (mut lattice, _) = solve(both.lattice.clone(), &[both.domain.clone()], &huber);
+    let (mut sparse, _) = solve(both.sparse.clone(), &(), &huber);
+    let (a, _) = lattice.reweight_creases(1.0).unwrap();
+    let (b, _) = sparse.reweight_creases(1.0).unwrap();
+    assert!(a.vertices > 10 && a.is_worth() && b.is_worth(), "{a:?}");
+    assert!(a.vertices.abs_diff(b.vertices) <= 2, "{a:?} {b:?}");
+
+    let paper = huber.energy(Energy::Nuclear).schedule(Schedule::Paper);
+    let (level, reason) = solve(both.sparse, &(), &paper);
+    assert_eq!(reason, StopReason::Residuals);
+    assert!(level.best.objective() > level.best.dual_bound);
+}
+
+#[test]
+fn weights_constraints_and_free_vertices_are_the_same_on_a_matrix() {
+    let field = disk(14);
+    let n = field.lattice().len();
+    let weights: Vec<f64> = (0..n).map(|i| [0.0, 1.0, 3.0][i % 3]).collect();
+    let held = |i: usize| i % 11 == 0 && field.heights()[i].is_finite();
+    let heights = (0..n).map(|i| {
+        if held(i) {
+            field.heights()[i]
+        } else {
+            f64::NAN
+        }
+    });
+    let input = Input::new(field.clone())
+        .with_confidence(weights)
+        .and_then(|input| input.with_constraints(heights.collect()))
+        .unwrap();
+    let options = options(1e4).gap(1e-4);
+    let both = Both::new(&input, &options);
+    assert!(both.sparse.loose && !both.sparse.free.is_empty());
+    let (lattice, a) = solve(both.lattice.clone(), &[both.domain.clone()], &options);
+    let (sparse, b) = solve(both.sparse.clone(), &(), &options);
+    assert_eq!([a, b], [StopReason::Gap; 2]);
+    assert_alike(&both, &lattice, &sparse);
+    for vertex in &both.sparse.constrained {
+        let vertex = *vertex as usize;
+        assert_eq!(sparse.best.z[vertex], both.sparse.target[vertex]);
+    }
+}
+
+/// Scattered points, each but those at the border with a quadratic through the eight around it.
+fn scattered(side: usize) -> (sprs::CsMat<f64>, Vec<usize>, Vec<[f64; 2]>) {
+    let mut noise = noise(11);
+    let h = 1.0 / side as f64;
+    let mut places = Vec::new();
+    for i in 0..side * side {
+        let at = [i % side, i / side];
+        places.push(at.map(|k| h * (k as f64 + 0.25 * noise())));
+    }
+    let inside = 1..side - 1;
+    let centres: Vec<usize> = (0..side * side)
+        .filter(|i| inside.contains(&(i % side)) && inside.contains(&(i / side)))
+        .collect();
+    let mut triplets = TriMat::new((3 * centres.len(), places.len()));
+    for (stencil, centre) in centres.iter().enumerate() {
+        let around = [-1isize, 0, 1]
+            .into_iter()
+            .flat_map(|r| [-1, 0, 1].map(|c| centre.wrapping_add_signed(r * side as isize + c)));
+        let around: Vec<usize> = around.filter(|other| other != centre).collect();
+        let design = DMatrix::from_fn(8, 5, |i, k| {
+            let [x, y] = [0, 1].map(|k| places[around[i]][k] - places[*centre][k]);
+            [0.5 * x * x, x * y, 0.5 * y * y, x, y][k]
+        });
+        let fit = design.pseudo_inverse(1e-12).unwrap();
+        for k in 0..3 {
+            for (i, vertex) in around.iter().enumerate() {
+                triplets.add_triplet(3 * stencil + k, *vertex, fit[(k, i)]);
+            }
+            triplets.add_triplet(3 * stencil + k, *centre, -fit.row(k).sum());
+        }
+    }
+    (triplets.to_csr(), centres, places)
+}
+
+/// `min λ‖z − z̃‖² + Σ ω ‖H‖_*` as a second-order cone program: `t ≥ ‖H‖_*` where
+/// `t ≥ |h_xx + h_yy|` and `t ≥ ‖(h_xx − h_yy, 2h_xy)‖`.
+fn conic(matrix: &sprs::CsMat<f64>, target: &[f64], lambda: f64) -> (f64, Vec<f64>) {
+    let (n, stencils) = (target.len(), matrix.rows() / 3);
+    let quadratic =
+        DMatrix::from_diagonal_element(n, n, 2.0 * lambda).resize(n + stencils, n + stencils, 0.0);
+    let mut linear = DVector::zeros(n + stencils);
+    let mut left = DMatrix::zeros(5 * stencils, n + stencils);
+    for (i, z) in target.iter().enumerate() {
+        linear[i] = -2.0 * lambda * z;
+    }
+    for stencil in 0..stencils {
+        linear[n + stencil] = 1.0;
+        left[(5 * stencil, n + stencil)] = -1.0;
+        left[(5 * stencil + 2, n + stencil)] = -1.0;
+    }
+    for (entry, (row, vertex)) in matrix {
+        let first = row / 3 * 5;
+        match row % 3 {
+            0 => {
+                left[(first + 1, vertex)] -= entry;
+                left[(first + 3, vertex)] -= entry;
+            }
+            1 => left[(first + 4, vertex)] -= 2.0 * entry,
+            _ => {
+                left[(first + 1, vertex)] -= entry;
+                left[(first + 3, vertex)] += entry;
+            }
+        }
+    }
+    let rows = |m: &DMatrix<f64>| -> Vec<Vec<f64>> {
+        m.row_iter()
+            .map(|row| row.iter().copied().collect())
+            .collect()
+    };
+    let cones: Vec<_> = (0..stencils)
+        .flat_map(|_| [SecondOrderConeT(2), SecondOrderConeT(3)])
+        .collect();
+    let settings = DefaultSettingsBuilder::default()
+        .verbose(false)
+        .tol_gap_abs(1e-11)
+        .tol_gap_rel(1e-11)
+        .tol_feas(1e-11)
+        .build()
+        .unwrap();
+    let mut solver = DefaultSolver::new(
+        &CscMatrix::from(&rows(&quadratic)),
+        linear.as_slice(),
+        &CscMatrix::from(&rows(&left)),
+        &vec![0.0; 5 * stencils],
+        &cones,
+        settings,
+    )
+    .unwrap();
+    solver.solve();
+    assert_eq!(solver.solution.status, SolverStatus::Solved);
+    let squares: f64 = target.iter().map(|z| z * z).sum();
+    let z = solver.solution.x[..n].to_vec();
+    (solver.solution.obj_val + lambda * squares, z)
+}
+
+#[test]
+fn scattered_points_have_the_optimum_of_a_conic_solver() {
+    let side = 10;
+    let (matrix, centres, places) = scattered(side);
+    let mut noise = noise(3);
+    let heights = places
+        .iter()
+        .map(|[x, y]| 0.4 * (x - y + 0.1).abs() + 0.02 * noise());
+    let target: Vec<f64> = heights.collect();
+    let lambda = 3e3;
+    let (optimum, z) = conic(&matrix, &target, lambda);
+    let operator = SparseOperator::new(&matrix, centres, places, 1.0 / side as f64).unwrap();
+    // The input is no plane: the affine functions are looked for among all of them.
+    let problem = Problem::under(operator, lambda, target, Kind::Nuclear);
+    let (level, reason) = solve(problem, &(), &options(lambda).gap(1e-7));
+    assert_eq!(reason, StopReason::Gap);
+    let best = &level.best;
+    let slack = 1e-9 * optimum;
+    assert!(best.dual_bound <= optimum + slack && optimum <= best.objective() + slack);
+    assert!(best.objective() - best.dual_bound <= 1.01e-7 * optimum);
+    let distance = z
+        .iter()
+        .zip(&best.z)
+        .map(|(a, b)| (a - b).powi(2))
+        .sum::<f64>();
+    assert!(
+        lambda * distance <= best.objective() - optimum + slack,
+        "{distance:e}"
+    );
+}

@@ -14,7 +14,7 @@ use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::{HuberStep, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
+use crate::fit::operator::{Hessians as _, Matrices as _, Operator, Sums as _};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
 use crate::math::lanes::{self, narrow, widen};
@@ -50,8 +50,8 @@ struct Search {
 pub(crate) struct Ascent<O: Operator> {
     search: Search,
     /// `Y` after the last step, and further on in its direction, where the next one starts.
-    last: Coordinates<f32>,
-    ahead: Coordinates<f32>,
+    last: Matrices<f32>,
+    ahead: Matrices<f32>,
     /// `z_Y` for `Y = 0`, and of what lies ahead.
     base: Vec<f32>,
     heights: Vec<f32>,
@@ -61,7 +61,7 @@ pub(crate) struct Ascent<O: Operator> {
     weight: PerCell<f32>,
     scratch: O::Scratch<f32>,
     /// A run in double precision.
-    row: Coordinates<f64>,
+    row: Matrices<f64>,
 }
 
 /// What follows a gradient step: the proximal map of the conjugates.
@@ -88,10 +88,10 @@ impl Proximal for HuberStep<f32> {
 }
 
 /// Symmetric matrices, a vector for each coordinate of [`Sym2`].
-type Coordinates<T> = [Vec<T>; 3];
+type Matrices<T> = [Vec<T>; 3];
 
 #[inline(always)]
-fn run_of<T>(matrices: &mut Coordinates<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
+fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
     matrices.each_mut().map(|values| &mut values[start..end])
 }
 
@@ -316,7 +316,7 @@ impl<O: Operator> Ascent<O> {
 
 /// The first `n` values of each coordinate.
 #[inline(always)]
-fn row_of(row: &mut Coordinates<f64>, n: usize) -> [&mut [f64]; 3] {
+fn row_of(row: &mut Matrices<f64>, n: usize) -> [&mut [f64]; 3] {
     row.each_mut().map(|values| &mut values[..n])
 }
 

@@ -80,12 +80,12 @@ impl<O: Operator> State<O> {
             |v, run, hessians, mut matrices| {
                 let v = v.run(run);
                 let weight = problem.weight.run(run);
-                for i in 0..weight.len() {
+                for (i, weight) in weight.iter().enumerate() {
                     let change = Sym2::from_coordinates(hessians.at(i)).scale(stiffness);
-                    let y = law.dual(v.get(i), weight[i]) + change;
+                    let y = law.dual(v.get(i), *weight) + change;
                     matrices.set(i, y.coordinates());
-                    excess = excess.max(law.size(y, weight[i]));
-                    conjugate += law.conjugate(y, weight[i]);
+                    excess = excess.max(law.size(y, *weight));
+                    conjugate += law.conjugate(y, *weight);
                 }
             },
             |_, run, sums| {

@@ -134,11 +134,8 @@ pub(crate) struct JacobiGradients {
     unit: f64,
 }
 
-impl Solver<SparseOperator> for JacobiGradients {
-    /// Nothing.
-    type Coarser = ();
-
-    fn new(problem: &Problem<SparseOperator>, (): &(), rho: f64) -> Result<Self> {
+impl JacobiGradients {
+    pub(super) fn new(problem: &Problem<SparseOperator>, rho: f64) -> Result<Self> {
         let operator = &problem.operator;
         let cells = operator.vertex_cells();
         let mut fidelity = try_filled("conjugate gradients", cells, 0.0)?;
@@ -162,7 +159,9 @@ impl Solver<SparseOperator> for JacobiGradients {
             unit: if largest > 0.0 { largest } else { 1.0 },
         })
     }
+}
 
+impl Solver<SparseOperator> for JacobiGradients {
     fn set_rho(&mut self, rho: f64) {
         self.system.set_rho(rho);
     }

@@ -10,8 +10,10 @@ use clarabel::solver::{
 use nalgebra::{DMatrix, DVector};
 use sprs::TriMat;
 
+use super::jacobi::JacobiGradients;
 use super::sparse::SparseOperator;
-use super::{Hessians, Matrices, Operator, Solver, Sums};
+use super::{Hessians, Matrices, Operator, Sums};
+use crate::error::Result;
 use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
 use crate::fit::admm::state::State;
@@ -19,6 +21,7 @@ use crate::fit::coordinates::Coordinates;
 use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem;
 use crate::fit::heightfields;
+use crate::fit::linear::cg::ConjugateGradients;
 use crate::fit::report::StopReason;
 use crate::lattice::domain::Domain;
 use crate::{Energy, Heightfield, HessianOperator, Input, Lattice, Options, Schedule};
@@ -100,17 +103,23 @@ impl Both {
 
 /// ADMM from the input to the end, on one level.
 fn solve<O: Operator>(
-    problem: problem::Problem<O>,
-    coarser: &<O::Solver as Solver<O>>::Coarser,
+    problem: &problem::Problem<O>,
+    solver: impl Fn(&problem::Problem<O>, f64) -> Result<O::Solver>,
     options: &Options,
 ) -> (Level<O>, StopReason) {
     let plan = Plan::new(options);
-    let state = State::new(&problem, plan.first_rho(&problem)).unwrap();
-    let (mut level, mut reason) = Level::new(problem, state, plan, coarser, 0, true).unwrap();
+    let state = State::new(problem, plan.first_rho(problem)).unwrap();
+    let solver = solver(problem, state.rho).unwrap();
+    let (mut level, mut reason) =
+        Level::new(problem.clone(), state, solver, plan, 0, true).unwrap();
     while reason.is_none() {
         reason = level.advance(&mut 1000).unwrap();
     }
     (level, reason.unwrap())
+}
+
+fn multigrid(problem: &heightfields::Problem, rho: f64) -> Result<ConjugateGradients> {
+    ConjugateGradients::new(problem, &[problem.operator.domain.clone()], rho)
 }
 
 /// Both answers are certified, each bound is one for the other as well, and the surfaces are as close
@@ -251,8 +260,8 @@ fn a_lattice_as_a_matrix_has_its_answer_under_every_energy() {
     ] {
         let options = options(1e4).energy(energy);
         let both = Both::new(&input, &options);
-        let (lattice, a) = solve(both.lattice.clone(), &[both.domain.clone()], &options);
-        let (sparse, b) = solve(both.sparse.clone(), &(), &options);
+        let (lattice, a) = solve(&both.lattice, multigrid, &options);
+        let (sparse, b) = solve(&both.sparse, JacobiGradients::new, &options);
         assert_eq!([a, b], [StopReason::Gap; 2], "{energy:?}");
         assert_alike(&both, &lattice, &sparse);
     }
@@ -263,8 +272,8 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let input = Input::new(disk(16));
     let options = options(1e4);
     let both = Both::new(&input, &options);
-    let (mut lattice, _) = solve(both.lattice.clone(), &[both.domain.clone()], &options);
-    let (mut sparse, _) = solve(both.sparse.clone(), &(), &options);
+    let (mut lattice, _) = solve(&both.lattice, multigrid, &options);
+    let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &options);
     for _ in 0..2 {
         fn pass<O: Operator>(level: &mut Level<O>) {
             let mut reason = level.reweight().unwrap();
@@ -282,15 +291,15 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
 
     let huber = options.energy(Energy::Huber);
     let both = Both::new(&input, &huber);
-    let (mut lattice, _) = solve(both.lattice.clone(), &[both.domain.clone()], &huber);
-    let (mut sparse, _) = solve(both.sparse.clone(), &(), &huber);
+    let (mut lattice, _) = solve(&both.lattice, multigrid, &huber);
+    let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &huber);
     let (a, _) = lattice.reweight_creases(1.0).unwrap();
     let (b, _) = sparse.reweight_creases(1.0).unwrap();
     assert!(a.vertices > 10 && a.is_worth() && b.is_worth(), "{a:?}");
     assert!(a.vertices.abs_diff(b.vertices) <= 2, "{a:?} {b:?}");
 
     let paper = huber.energy(Energy::Nuclear).schedule(Schedule::Paper);
-    let (level, reason) = solve(both.sparse, &(), &paper);
+    let (level, reason) = solve(&both.sparse, JacobiGradients::new, &paper);
     assert_eq!(reason, StopReason::Residuals);
     assert!(level.best.objective() > level.best.dual_bound);
 }
@@ -315,8 +324,8 @@ fn weights_constraints_and_free_vertices_are_the_same_on_a_matrix() {
     let options = options(1e4).gap(1e-4);
     let both = Both::new(&input, &options);
     assert!(both.sparse.loose && !both.sparse.free.is_empty());
-    let (lattice, a) = solve(both.lattice.clone(), &[both.domain.clone()], &options);
-    let (sparse, b) = solve(both.sparse.clone(), &(), &options);
+    let (lattice, a) = solve(&both.lattice, multigrid, &options);
+    let (sparse, b) = solve(&both.sparse, JacobiGradients::new, &options);
     assert_eq!([a, b], [StopReason::Gap; 2]);
     assert_alike(&both, &lattice, &sparse);
     for vertex in &both.sparse.constrained {
@@ -434,7 +443,7 @@ fn scattered_points_have_the_optimum_of_a_conic_solver() {
     let operator = SparseOperator::new(&matrix, centres, places, 1.0 / side as f64).unwrap();
     // The input is no plane: the affine functions are looked for among all of them.
     let problem = Problem::under(operator, lambda, target, Kind::Nuclear);
-    let (level, reason) = solve(problem, &(), &options(lambda).gap(1e-7));
+    let (level, reason) = solve(&problem, JacobiGradients::new, &options(lambda).gap(1e-7));
     assert_eq!(reason, StopReason::Gap);
     let best = &level.best;
     let slack = 1e-9 * optimum;

@@ -4,14 +4,10 @@
 //! Heights are arrays over the operator's vertices, Hessians and duals over its stencils. Both may
 //! have gaps: what counts are the runs.
 
-#[cfg(feature = "sprs")]
-mod jacobi;
 pub(crate) mod lattice;
 #[cfg(feature = "sprs")]
 #[cfg_attr(not(test), expect(dead_code, reason = "for meshes, which are to come"))]
 mod sparse;
-#[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
-mod tests;
 
 use std::fmt::Debug;
 

@@ -1,9 +1,9 @@
 //! The z-step of a sparse matrix: conjugate gradients with Jacobi's preconditioner.
 
-use super::sparse::SparseOperator;
-use super::{Operator, Solver};
+use super::SparseOperator;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
+use crate::fit::operator::{Operator, Solver};
 use crate::math::lanes;
 
 /// Iterations of a step: together they do about as much as a V-cycle, for which ADMM's schedule is.

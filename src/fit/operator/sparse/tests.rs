@@ -10,9 +10,8 @@ use clarabel::solver::{
 use nalgebra::{DMatrix, DVector};
 use sprs::TriMat;
 
+use super::SparseOperator;
 use super::jacobi::JacobiGradients;
-use super::sparse::SparseOperator;
-use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::Result;
 use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
@@ -22,6 +21,7 @@ use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
 use crate::fit::report::StopReason;
 use crate::lattice::domain::Domain;
 use crate::{Energy, Heightfield, HessianOperator, Input, Lattice, Options, Schedule};
@@ -119,7 +119,7 @@ fn solve<O: Operator>(
 }
 
 fn multigrid(problem: &heightfields::Problem, rho: f64) -> Result<ConjugateGradients> {
-    ConjugateGradients::new(problem, &[problem.operator.domain.clone()], rho)
+    ConjugateGradients::new(problem, std::slice::from_ref(&problem.operator.domain), rho)
 }
 
 /// Both answers are certified, each bound is one for the other as well, and the surfaces are as close
@@ -309,7 +309,7 @@ fn weights_constraints_and_free_vertices_are_the_same_on_a_matrix() {
     let field = disk(14);
     let n = field.lattice().len();
     let weights: Vec<f64> = (0..n).map(|i| [0.0, 1.0, 3.0][i % 3]).collect();
-    let held = |i: usize| i % 11 == 0 && field.heights()[i].is_finite();
+    let held = |i: usize| i.is_multiple_of(11) && field.heights()[i].is_finite();
     let heights = (0..n).map(|i| {
         if held(i) {
             field.heights()[i]

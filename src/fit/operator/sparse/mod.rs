@@ -1,8 +1,12 @@
 //! An operator that is given as a sparse matrix, as for what is no lattice.
 
+mod jacobi;
+#[cfg(all(test, not(target_arch = "wasm32")))] // clarabel is native
+mod tests;
+
 use sprs::{CsMat, TriMat};
 
-use super::jacobi::JacobiGradients;
+use self::jacobi::JacobiGradients;
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::{Result, try_filled};
 use crate::lattice::runs::{RowRuns, Run};
@@ -122,13 +126,13 @@ impl SparseOperator {
     }
 
     /// `image = CᵀC x`, by way of three numbers for each stencil.
-    pub(super) fn normal(&self, x: &[f64], matrices: &mut [f64], image: &mut [f64]) {
+    fn normal(&self, x: &[f64], matrices: &mut [f64], image: &mut [f64]) {
         apply(&self.double.rows, x, matrices);
         apply(&self.double.adjoint, matrices, image);
     }
 
     /// The diagonal of `CᵀC`.
-    pub(super) fn normal_diagonal(&self) -> Result<Vec<f64>> {
+    fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
         let Pair { rows, .. } = &self.double;
         for (entry, vertex) in rows.data().iter().zip(rows.indices()) {

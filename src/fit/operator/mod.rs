@@ -22,7 +22,7 @@ use crate::math::sym2::Sym2;
 /// Kernels are closures that get one run at a time, with views of that run only, so that their loops
 /// vectorise. A method that takes several calls each of them in one place, so that it is inlined.
 pub(crate) trait Operator: Clone + Debug + 'static {
-    /// What a sweep needs besides.
+    /// What a sweep works with.
     type Scratch<T: Real>: Clone + Debug;
     type Hessians<'a, T: Real>: Hessians<T>;
     type Matrices<'a, T: Real>: Matrices<T>;
@@ -57,9 +57,9 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     /// Calls `visit` with each stencil and `Cz` there, in order.
     fn hessians(&self, z: &[f64], visit: impl FnMut(usize, Sym2));
 
-    /// One pass over `Cz` and `CᵀY`: `at_stencils` gets each run's Hessians and is to write its `Y`
-    /// all along, `at_vertices` then gets each run of `CᵀY`. Which of the two has its turn before the
-    /// other has been everywhere is not said.
+    /// One pass over `Cz` and `CᵀY`: `at_stencils` gets each run's Hessians and must write its `Y`
+    /// everywhere, `at_vertices` gets each run of `CᵀY` as soon as it is complete, which may be before
+    /// the last stencils have had their turn.
     fn sweep<S: ?Sized>(
         &self,
         scratch: &mut Self::Scratch<f64>,

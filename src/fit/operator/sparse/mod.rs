@@ -31,6 +31,24 @@ struct Pair<T> {
     adjoint: CsMat<T>,
 }
 
+impl<T: Real> Pair<T> {
+    fn hessians<'a>(&'a self, run: Run, heights: &'a [T]) -> RunHessians<'a, T> {
+        RunHessians {
+            rows: &self.rows,
+            first: run.start,
+            heights,
+        }
+    }
+
+    fn sums<'a>(&'a self, run: Run, matrices: &'a [T]) -> RunSums<'a, T> {
+        RunSums {
+            adjoint: &self.adjoint,
+            first: run.start,
+            matrices,
+        }
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(crate) struct SparseOperator {
     double: Pair<f64>,
@@ -258,12 +276,9 @@ impl Operator for SparseOperator {
     }
 
     fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
-        let hessians = RunHessians {
-            rows: &self.double.rows,
-            first: 0,
-            heights: z,
-        };
-        for stencil in 0..self.centres.len() {
+        let (start, end) = (0, self.centres.len());
+        let hessians = self.double.hessians(Run { start, end }, z);
+        for stencil in start..end {
             visit(stencil, Sym2::from_coordinates(hessians.at(stencil)));
         }
     }
@@ -276,24 +291,13 @@ impl Operator for SparseOperator {
         mut at_stencils: impl FnMut(&mut S, Run, RunHessians<'_, f64>, RunMatrices<'_, f64>),
         mut at_vertices: impl FnMut(&mut S, Run, RunSums<'_, f64>),
     ) {
-        let Pair { rows, adjoint } = &self.double;
+        let pair = &self.double;
         for run in self.stencils.all() {
-            let hessians = RunHessians {
-                rows,
-                first: run.start,
-                heights: z,
-            };
             let values = &mut matrices[3 * run.start..3 * run.end];
-            at_stencils(state, *run, hessians, RunMatrices { values });
+            at_stencils(state, *run, pair.hessians(*run, z), RunMatrices { values });
         }
         for run in self.vertices.all() {
-            let first = run.start;
-            let sums = RunSums {
-                adjoint,
-                first,
-                matrices,
-            };
-            at_vertices(state, *run, sums);
+            at_vertices(state, *run, pair.sums(*run, matrices));
         }
     }
 
@@ -306,27 +310,21 @@ impl Operator for SparseOperator {
         mut at_vertices: impl FnMut(&mut S, Run, RunSums<'_, f32>, &mut [f32]),
         mut follow: impl FnMut(&mut S, Run, RunHessians<'_, f32>),
     ) {
-        let Pair { rows, adjoint } = &self.single;
+        let pair = &self.single;
         for run in self.stencils.all() {
             let values = &mut matrices[3 * run.start..3 * run.end];
             at_stencils(state, *run, RunMatrices { values });
         }
         for run in self.vertices.all() {
-            let first = run.start;
-            let sums = RunSums {
-                adjoint,
-                first,
-                matrices,
-            };
-            at_vertices(state, *run, sums, &mut heights[run.start..run.end]);
+            at_vertices(
+                state,
+                *run,
+                pair.sums(*run, matrices),
+                &mut heights[run.start..run.end],
+            );
         }
         for run in self.stencils.all() {
-            let hessians = RunHessians {
-                rows,
-                first: run.start,
-                heights,
-            };
-            follow(state, *run, hessians);
+            follow(state, *run, pair.hessians(*run, heights));
         }
     }
 

@@ -9,7 +9,7 @@ import { OpenSolver } from './open.js';
 import { asEdges, pageOptions, plainEdges } from './page-input.js';
 import { optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, extentOf, placedOptions } from './sheet-input.js';
+import { asPhoto, extentOf, placedOptions, printOptions } from './sheet-input.js';
 import { orAborted, solve } from './solve.js';
 import { asText, plainCopy, reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
@@ -334,10 +334,14 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.readPhoto(transfer(file, [file.buffer])));
   }
 
-  /** @param {import('./types.js').Photo} photo */
-  async writePhoto(photo) {
+  /**
+   * @param {import('./types.js').SizedPhoto} photo
+   * @param {import('./types.js').WritePhotoOptions} [given]
+   */
+  async writePhoto(photo, given) {
+    const options = printOptions(photo, given);
     const sent = copied(photo);
-    return this.#request((remote) => remote.writePhoto(sent));
+    return this.#request((remote) => remote.writePhoto(sent, options));
   }
 
   /**

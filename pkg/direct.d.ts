@@ -4,8 +4,8 @@ import type {
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
-  ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
-  SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
+  ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
+  SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
@@ -168,7 +168,10 @@ export function dewarpPage(
  * take `load('images')`.
  */
 export function readPhoto(bytes: Uint8Array | ArrayBuffer): DecodedPhoto;
-/** 8-bit RGBA PNG. */
-export function writePhoto(photo: Photo): Uint8Array<ArrayBuffer>;
+/**
+ * A photo or flat image as PNG (with alpha where something is transparent), JPEG or PDF (white there), which state
+ * how large it is where that is known.
+ */
+export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Uint8Array<ArrayBuffer>;
 /** One of the procedural examples. */
 export function example(name: ExampleName, options?: ExampleOptions): Example;

@@ -1,6 +1,6 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { DevelopableError } from './errors.js';
-import { isImage, refuseMesh } from './formats.js';
+import { isGltf, isImage, refuseMesh } from './formats.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
 import { files, images, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh } from './mesh-input.js';
@@ -8,7 +8,7 @@ import { optionsOf } from './options.js';
 import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, placeOf, placedOptions } from './sheet-input.js';
+import { asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
 export { parseCamera } from './camera-file.js';
@@ -247,15 +247,17 @@ export function readMesh(bytes, given) {
   const file = asBytes(bytes);
   const { files: beside, ...options } = optionsOf('readMesh', given);
   const pairs = asFiles(beside);
-  return meshes.call((wasm) => wasm.readMesh(file, pairs, options));
+  const mesh = meshes.call((wasm) => wasm.readMesh(file, pairs, options));
+  // The only one of the formats that says what its lengths are.
+  return isGltf(file, options) ? { ...mesh, unit: /** @type {const} */ ('m') } : mesh;
 }
 
 /** @type {typeof import('./direct.js').sampleMesh} */
 export function sampleMesh(mesh, given) {
-  const { textures, camera, ...bare } = asMesh(mesh);
+  const { textures, camera, unit, ...bare } = asMesh(mesh);
   const options = optionsOf('sampleMesh', given);
   const { textureOf, ...seen } = meshes.call((wasm) => wasm.sampleMesh(bare, options));
-  return inColour({ ...seen, ...(camera && { camera }) }, textureOf, textures);
+  return inColour({ ...seen, ...(camera && { camera }), ...(unit && { unit }) }, textureOf, textures);
 }
 
 /** @type {typeof import('./direct.js').paint} */
@@ -267,11 +269,11 @@ export function paint(input, picture, options) {
 /** @type {typeof import('./direct.js').backProject} */
 export function backProject(input, intrinsics) {
   const image = asImage(input);
-  const camera = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
+  const { unit, ...camera } = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
   const mesh = meshes.call((wasm) => wasm.backProject(image, camera));
   // A photo of another size has other numbers.
   const { width, height } = image;
-  return { ...mesh, camera: { width, height, ...camera } };
+  return { ...mesh, camera: { width, height, ...camera }, ...(unit && { unit }) };
 }
 
 /** @type {typeof import('./direct.js').analyze} */
@@ -348,7 +350,8 @@ export function dewarp(input, photo, given) {
   const options = placedOptions('dewarp', input, given);
   const [field, pixels] = [asField(input), asPhoto(photo)];
   const placed = { ...options, ...placeOf(field, options) };
-  return sheets.call((wasm) => wasm.dewarp(field, pixels, placed));
+  const { unit } = carriedOf(field);
+  return { ...sheets.call((wasm) => wasm.dewarp(field, pixels, placed)), ...(unit && { unit }) };
 }
 
 /** @type {typeof import('./direct.js').dewarpPage} */
@@ -359,9 +362,10 @@ export function dewarpPage(photo, edges, given) {
 }
 
 /** @type {typeof import('./direct.js').writePhoto} */
-export function writePhoto(photo) {
+export function writePhoto(photo, given) {
   const { width, height, data } = asPhoto(photo);
-  return bytesOf((wasm) => wasm.writePhoto(width, height, data));
+  const options = printOptions(photo, given);
+  return bytesOf((wasm) => wasm.writePhoto(width, height, data, options));
 }
 
 /** @type {typeof import('./direct.js').example} */

@@ -4,8 +4,8 @@ import type {
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
-  ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions,
-  SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions,
+  ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
+  SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
@@ -146,7 +146,7 @@ export function dewarpPage(
   photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
 ): Promise<DewarpedPage>;
 export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
-export function writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;
+export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
 /** Stops the shared worker, calls under way reject with code `DISPOSED`; a later call starts a new one. */
 export function dispose(): void;
@@ -197,7 +197,7 @@ export class DevelopableWorker {
     photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
   ): Promise<DewarpedPage>;
   readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
-  writePhoto(photo: Photo): Promise<Uint8Array<ArrayBuffer>>;
+  writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Promise<Uint8Array<ArrayBuffer>>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
   /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
   readonly connected: boolean;

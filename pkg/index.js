@@ -84,7 +84,7 @@ export const dewarpPage = (photo, edges, options) => worker().dewarpPage(photo, 
 /** @type {typeof import('./index.js').readPhoto} */
 export const readPhoto = (bytes) => worker().readPhoto(bytes);
 /** @type {typeof import('./index.js').writePhoto} */
-export const writePhoto = (photo) => worker().writePhoto(photo);
+export const writePhoto = (photo, options) => worker().writePhoto(photo, options);
 /** @type {typeof import('./index.js').example} */
 export const example = (name, options) => worker().example(name, options);
 

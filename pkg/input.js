@@ -21,7 +21,7 @@ const ARRAYS = [
 ];
 
 /** What an image and heights on the lattice may both have; `kind` is what tells them apart once they are checked. */
-const COMMON = /** @type {const} */ (['kind', 'mask', 'noData', 'confidence', 'constraints', 'occlusions']);
+const COMMON = /** @type {const} */ (['kind', 'mask', 'noData', 'confidence', 'constraints', 'occlusions', 'unit']);
 
 const IMAGE = /** @type {const} */ ([...COMMON, 'width', 'height', 'data', 'pixelSize', 'heightScale']);
 
@@ -30,7 +30,7 @@ const LATTICE = /** @type {const} */ ([
 ]);
 
 /** What results have that are inputs in turn: of `read`, and of `fit`. */
-const RESULTS = { image: ['format', 'dataType', 'unit'], lattice: ['image', 'report'] };
+const RESULTS = { image: ['format', 'dataType'], lattice: ['image', 'report'] };
 
 const SHAPES =
   'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +
@@ -144,7 +144,7 @@ function latticeInput(said) {
 }
 
 /** An image without what is at its pixels. @param {Said} said */
-function pixels({ width, height, mask, noData, pixelSize, heightScale }) {
+function pixels({ width, height, mask, noData, pixelSize, heightScale, unit }) {
   const size = { width: count('width', width), height: count('height', height) };
   cells('the image', size.width, size.height);
   return {
@@ -154,11 +154,12 @@ function pixels({ width, height, mask, noData, pixelSize, heightScale }) {
     noData: optional('noData', noData),
     pixelSize: optional('pixelSize', pixelSize),
     heightScale: optional('heightScale', heightScale),
+    unit: unitOf(unit),
   };
 }
 
 /** A lattice without what is at its vertices. @param {Said} said */
-function vertices({ rows, cols, spacing, origin, mask, noData, frame, camera, colors, uvs, texture }) {
+function vertices({ rows, cols, spacing, origin, mask, noData, unit, frame, camera, colors, uvs, texture }) {
   const size = { rows: count('rows', rows), cols: count('cols', cols) };
   const total = cells('the lattice', size.rows, size.cols);
   return {
@@ -168,6 +169,7 @@ function vertices({ rows, cols, spacing, origin, mask, noData, frame, camera, co
     origin: origin === undefined ? undefined : /** @type {[number, number]} */ (tuple('origin', 2, origin)),
     mask: flags('mask', mask),
     noData: optional('noData', noData),
+    unit: unitOf(unit),
     frame: frame === undefined ? undefined : asFrame(frame),
     camera: camera === undefined ? undefined : asCamera(camera),
     colors: each('colors', 3, total, optionalFloats('colors', colors)),
@@ -185,6 +187,17 @@ function asFrame(given) {
   /** @param {string} name @param {unknown} axis */
   const own = (name, axis) => /** @type {[number, number, number]} */ (tuple(`${name} of the frame`, 3, axis));
   return { right: own('right', right), up: own('up', up), towards: own('towards', towards) };
+}
+
+/**
+ * The unit of all lengths, if it is known.
+ * @param {unknown} given
+ * @returns {import('./types.js').Unit | undefined}
+ */
+export function unitOf(given) {
+  if (given === undefined || given === null) return undefined;
+  if (given === 'mm' || given === 'm') return given;
+  throw new DevelopableError('INPUT', `unit must be 'mm' or 'm', or left out where it is not known, but is ${show(given)}`);
 }
 
 /**
@@ -212,14 +225,16 @@ function tuple(name, length, given) {
 }
 
 /**
- * What a surface has from its input: the axes of a view, the camera, colours, texture coordinates and texture.
+ * What a surface has from its input: the unit, the axes of a view, the camera, colours, texture coordinates and texture.
  * @param {Image | Lattice} field
- * @returns {Partial<Pick<Heightfield, 'frame' | 'camera' | 'colors' | 'uvs' | 'texture'>>}
+ * @returns {Partial<Pick<import('./types.js').Surface, 'unit' | 'frame' | 'camera' | 'colors' | 'uvs' | 'texture'>>}
  */
 export function carriedOf(field) {
-  if (field.kind === 'image') return {};
+  const unit = unitOf(field.unit);
+  if (field.kind === 'image') return { ...(unit && { unit }) };
   const { frame, camera, colors, uvs, texture } = field;
   return {
+    ...(unit && { unit }),
     ...(frame && { frame }),
     ...(camera && { camera }),
     ...(colors && { colors }),

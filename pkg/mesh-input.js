@@ -1,17 +1,17 @@
 /** Meshes as inputs: checked as far as JS has to, in arrays of the types that Rust reads. */
 import { DevelopableError } from './errors.js';
-import { asBytes, asCamera, numbers, optionalFloats, typed } from './input.js';
+import { asBytes, asCamera, numbers, optionalFloats, typed, unitOf } from './input.js';
 import { asPhoto } from './sheet-input.js';
 import { reading, record, refuseUnknown, typeOf } from './values.js';
 
-const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera']);
+const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit']);
 
 /**
  * @param {import('./types.js').Mesh} mesh
  * @returns {import('./types.js').Mesh & { textures?: (Uint8Array | import('./sheet-input.js').Pixels)[] }}
  */
 export function asMesh(mesh) {
-  const { positions, triangles, colors, uvs, textureOf, textures, camera } = record('INPUT', 'the mesh', mesh, MESH);
+  const { positions, triangles, colors, uvs, textureOf, textures, camera, unit } = record('INPUT', 'the mesh', mesh, MESH);
   refuseUnknown('INPUT', 'property of the mesh', mesh, MESH);
   if (positions === undefined) {
     throw new DevelopableError(
@@ -26,6 +26,7 @@ export function asMesh(mesh) {
     uvs: optionalFloats('uvs', uvs),
     textureOf: textureOf === undefined ? undefined : Int32Array.from(numbers('textureOf', textureOf)),
     camera: camera === undefined ? undefined : asCamera(camera),
+    unit: unitOf(unit),
     textures: textures === undefined
       ? undefined
       : reading('INPUT', 'textures', () => [.../** @type {Iterable<unknown>} */ (textures)].map(asPicture)),

@@ -100,8 +100,9 @@ const handOver = { transfer: flag };
 const control = { signal, onAbort: choice('reject', 'keep'), onProgress: callback };
 const extent = numbers(4, 'four numbers: left, bottom, right and top');
 const lens = { fx: number, fy: number, cx: number, cy: number, width: whole, height: whole, k1: number, k2: number, p1: number, p2: number, k3: number };
-const camera = { ...lens, depthScale: number, depth: choice('planar', 'ray'), margin: whole };
+const seeing = { ...lens, depthScale: number, depth: choice('planar', 'ray'), margin: whole };
 const patching = { bend: number, fold: number, smallest: number };
+const mapping = { dots: number, map: flag, grid: either(flag, number) };
 const unrolling = { tolerance: number, maxIterations: whole };
 
 const solver = {
@@ -139,9 +140,9 @@ export const OPTIONS = {
     view: either(choice(...directions), numbers(3, 'a vector of three numbers')),
     resolution: whole,
   },
-  camera,
+  camera: { ...seeing, unit: choice('mm', 'm') },
   photoCamera: {
-    ...camera,
+    ...seeing,
     rotation: rows(3, numbers(3, 'three numbers'), 'three rows of three numbers: a rotation matrix'),
     translation: numbers(3, 'three numbers'),
   },
@@ -161,7 +162,7 @@ export const OPTIONS = {
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
   pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
-  dewarp: { ...resampled, ...unrolling, dots: number, trim: flag, crop: corners, extent, camera: photoCamera },
+  dewarp: { ...resampled, ...unrolling, ...mapping, trim: flag, crop: corners, extent, camera: photoCamera },
   dewarpPage: {
     focalLength: number,
     fieldOfView: number,
@@ -170,8 +171,9 @@ export const OPTIONS = {
     ruler: anything,
     centre: numbers(2, 'two numbers: x and y in the photo'),
     accuracy: number,
-    dots: number,
+    ...mapping,
   },
+  writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: whole, dotsPerMillimetre: number },
   writeObj: { materials: text },
   writePdf: { paper: choice('a4', 'letter') },
   writeGlb: { texture: anything },

@@ -215,7 +215,7 @@ export const service = {
   async dewarp(input, photo, options) {
     await loaded('unroll');
     const result = direct.dewarp(heights(input), photo, options);
-    return transfer(result, buffersOf(result.data, result.map));
+    return transfer(result, buffersOf(result.data, result.map, result.grid?.places));
   },
 
   /** @type {(photo: import('./types.js').Photo, edges: import('./types.js').PageEdges | readonly import('./types.js').PageEdges[], options?: import('./types.js').DewarpPageOptions) => Promise<import('./types.js').DewarpedPage>} */
@@ -223,7 +223,7 @@ export const service = {
     await loaded('unroll');
     const result = direct.dewarpPage(photo, edges, options);
     const { positions, triangles, uvs } = result.mesh;
-    return transfer(result, buffersOf(result.data, result.map, positions, triangles, uvs));
+    return transfer(result, buffersOf(result.data, result.map, result.grid?.places, positions, triangles, uvs));
   },
 
   /**

@@ -49,6 +49,27 @@ export function placedOptions(call, input, given) {
 }
 
 /**
+ * The options of writing a photo, with the resolution that it states itself, as a flat image does.
+ * @param {import('./types.js').SizedPhoto} photo
+ * @param {import('./types.js').WritePhotoOptions | undefined} given
+ */
+export function printOptions(photo, given) {
+  const options = optionsOf('writePhoto', given);
+  if (options.dotsPerMillimetre !== undefined) return options;
+  const { resolution, unit } = record('INPUT', 'the photo', photo, ['resolution', 'unit']);
+  const millimetres = { mm: 1, m: 1000 }[String(unit)];
+  if (typeof resolution === 'number' && millimetres !== undefined) {
+    return { ...options, dotsPerMillimetre: resolution / millimetres };
+  }
+  if (options.format !== 'pdf') return options;
+  throw new DevelopableError(
+    'INPUT',
+    'a PDF has its true size, and nothing says how large this picture is: pass `dotsPerMillimetre`, or a picture that was ' +
+      'made flat where the unit of lengths is known (`unit` of depths and heights, `page` or `ruler` of a page by its edges)',
+  );
+}
+
+/**
  * What says where in a photo the points of a field are: a camera, texture coordinates or a part of the plane.
  * @param {import('./input.js').Image | import('./input.js').Lattice} field
  * @param {import('./types.js').DewarpOptions} options

@@ -38,6 +38,9 @@ export interface Known {
   occlusions?: Uint8Array;
 }
 
+/** The unit of all lengths of an input or result: what true sizes take. */
+export type Unit = 'mm' | 'm';
+
 /** Heights at the centres of square pixels, row by row, top row first. */
 export interface HeightImage extends Known {
   width: number;
@@ -52,6 +55,8 @@ export interface HeightImage extends Known {
   pixelSize?: number;
   /** Height of one step of `data` and `constraints`, in the same unit. Default 1. */
   heightScale?: number;
+  /** That unit, where it is known; flat images and files have their true size by it. */
+  unit?: Unit | null;
 }
 
 /** Heights at the vertices of a hexagonal lattice: row 0 at the top, odd rows half a spacing to the left. */
@@ -74,6 +79,8 @@ export interface Heightfield extends Known {
    * is taken at either end.
    */
   brokenEdges?: Uint8Array;
+  /** The unit of all lengths, where it is known. */
+  unit?: Unit | null;
   /** The axes of these coordinates in space, which a written mesh is turned back to. Default: x, y and z. */
   frame?: Frame;
   /** The camera that has seen the depths, which a photo from the same place is laid on by. */
@@ -115,6 +122,8 @@ export interface Mesh {
   missing?: string[];
   /** The camera that has seen it, if it is what one has. */
   camera?: PhotoCamera;
+  /** The unit of all lengths, where it is known: metres of glTF. */
+  unit?: Unit | null;
 }
 
 /** A pinhole camera, in pixels: the centre of the top left one is (0, 0), rows count down. */
@@ -129,6 +138,8 @@ export interface Intrinsics {
   cy: number;
   /** Length of one step of the depths; 0.001 makes metres of millimetres. Default 1. */
   depthScale?: number;
+  /** The unit of these lengths, where it is known: flat images and files have their true size by it. */
+  unit?: Unit;
   /** `'planar'`: distance along the axis, as most cameras give it; `'ray'`: from the camera itself. Default `'planar'`. */
   depth?: 'planar' | 'ray';
   /** Width of the images that these numbers are for, which others of the same proportions are finer or coarser than. */
@@ -146,7 +157,7 @@ export interface Intrinsics {
 }
 
 /** The camera of a photo, and where it is beside that of the depths. */
-export interface PhotoCamera extends Intrinsics {
+export interface PhotoCamera extends Omit<Intrinsics, 'unit'> {
   /**
    * Rows of a rotation matrix R: a point p of the depths' camera is at R p + t for this one, x to the right, y down,
    * z ahead, as OpenCV has it. Default: none.
@@ -463,6 +474,8 @@ export interface Surface {
    * from the vertices, which are what meets them exactly.
    */
   image?: SurfaceImage;
+  /** The unit of all lengths, where it was known of the input. */
+  unit?: Unit;
   /** The input's. */
   frame?: Frame;
   /** The input's. */
@@ -642,6 +655,26 @@ export interface Photo {
 
 /** A PNG, JPEG or WebP file, or its pixels. */
 export type Picture = Uint8Array | ArrayBuffer | Photo;
+
+/** A photo that may say how large what it shows is, as flat images do. */
+export interface SizedPhoto extends Photo {
+  /** Pixels per unit of length. */
+  resolution?: number;
+  /** That unit; of others, such as widths of a page, no size follows. */
+  unit?: Unit | 'page';
+}
+
+export interface WritePhotoOptions {
+  /** The kind of file. Default `'png'`. */
+  format?: 'png' | 'jpeg' | 'pdf';
+  /** Quality of JPEG, and of the picture in a PDF, from 1 to 100. Default 90. */
+  quality?: number;
+  /**
+   * Pixels for each millimetre of what is shown. Default: by the photo's own `resolution` and `unit`. It makes the
+   * page of a PDF, and is stated in PNG (in whole pixels per metre) and JPEG (in whole pixels per inch or centimetre).
+   */
+  dotsPerMillimetre?: number;
+}
 
 export interface PaintOptions {
   /**
@@ -884,6 +917,13 @@ export interface WritePdfOptions {
 export interface DewarpOptions extends UnrollOptions {
   /** Pixels of the flat image per unit of length. Default: as many as the photo has. */
   dots?: number;
+  /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. Default true. */
+  map?: boolean;
+  /**
+   * Whether it is wanted on a grid of points, too; a number is the largest error that is allowed between
+   * them, in pixels of the photo. Default false; 0.25 for true.
+   */
+  grid?: boolean | number;
   /** Cut off the margins: keep the largest upright rectangle that is all sheet. Default false. */
   trim?: boolean;
   /**
@@ -904,17 +944,42 @@ export interface DewarpOptions extends UnrollOptions {
   camera?: PhotoCamera;
 }
 
+/**
+ * A warp map in little room: places in the photo at the nodes of a grid over the flat image, to be interpolated
+ * bilinearly. Node (i, j), column i of row j, lies at the pixel (i · step[0], j · step[1]), (0, 0) being the centre of
+ * the upper left one; the last node at that of the lower right one.
+ */
+export interface WarpGrid {
+  columns: number;
+  rows: number;
+  /** Pixels of the flat image from one node to the next, to the right and down. */
+  step: [number, number];
+  /**
+   * x, y of each node in the photo, row by row; NaN where there is no sheet around it. Nodes just beside the sheet
+   * have the place at which the map would go on.
+   */
+  places: Float32Array;
+  /** How far what is interpolated is from the full map over the sheet, in pixels of the photo: root mean square. */
+  rms: number;
+  /** The same, at most. Above what was allowed where 40000 nodes are not enough for it, as with sharp creases. */
+  maximum: number;
+}
+
 /** A flat image, transparent where there is no sheet; `new ImageData(data, width)` shows it. */
 export interface Dewarped extends DecodedPhoto {
   /** Pixels per unit of length. */
   resolution: number;
+  /** That unit, where the surface's is known. */
+  unit?: Unit;
   /** Where the upper left corner lies on the sheet. */
   corner: [number, number];
   /**
    * The warp map: for each pixel its place x, y in the photo, in its pixels, (0, 0) being the
-   * centre of the upper left one; NaN where there is no sheet.
+   * centre of the upper left one; NaN where there is no sheet. Empty where it was not wanted.
    */
   map: Float32Array;
+  /** The same on a grid, where it was wanted. */
+  grid?: WarpGrid;
   verdict: Verdict;
   report: UnrollReport;
 }
@@ -954,6 +1019,13 @@ export interface DewarpPageOptions {
   accuracy?: number;
   /** Pixels of the flat image per unit of length. Default: as many as the photo has of the page. */
   dots?: number;
+  /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. Default true. */
+  map?: boolean;
+  /**
+   * Whether it is wanted on a grid of points, too; a number is the largest error that is allowed between
+   * them, in pixels of the photo. Default false; 0.25 for true.
+   */
+  grid?: boolean | number;
 }
 
 /**
@@ -988,7 +1060,7 @@ export interface PageReport {
 }
 
 /** A flat page, or both of a spread beside each other. */
-export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report'> {
+export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'unit'> {
   /** Width and height of the flat page, or of both together. */
   size: [number, number];
   /** The unit of all lengths: millimetres where a format or a ruler is given, else a page's width. */

@@ -10,7 +10,7 @@ import { split, usage } from './flags.js';
  * @typedef {import('./flags.js').Values} Values
  * @typedef {Exclude<import('./commands.js').Command, 'info'>} WritingCommand
  * @typedef {import('../types.js').SolverOptions} SolverOptions
- * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json' | '.mtl'} Extension
+ * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json' | '.mtl' | '.jpg' | '.jpeg'} Extension
  *
  * @typedef {{ numbers?: import('../types.js').Intrinsics, file?: string, ray: boolean }} CameraTask numbers, or a file of them
  *
@@ -28,6 +28,7 @@ import { split, usage } from './flags.js';
  * @property {number} [spacing]
  * @property {number} [pixelSize]
  * @property {number} [heightScale]
+ * @property {import('../types.js').Unit} [unit]
  * @property {number} [noData]
  * @property {boolean} normalize
  *
@@ -52,9 +53,11 @@ import { split, usage } from './flags.js';
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, map?: string,
+ *   quality?: number,
  * }} DewarpTask
  * @typedef {{
- *   command: 'page', input: string, output: string, written: string[], edges: string, report?: string, map?: string,
+ *   command: 'page', input: string, output: string, extension: Extension, written: string[], edges: string, report?: string,
+ *   map?: string, quality?: number,
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
@@ -64,6 +67,7 @@ const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr',
 const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const papers = /** @type {const} */ (['a4', 'letter', 'none']);
 const lattices = /** @type {const} */ (['square', 'hex']);
+const units = /** @type {const} */ (['mm', 'm']);
 
 /** What each command can write. @type {Record<WritingCommand, readonly Extension[]>} */
 const extensions = {
@@ -75,7 +79,7 @@ const extensions = {
   rulings: ['.json', '.obj'],
   unroll: ['.obj', '.json'],
   pattern: [...drawings, '.json'],
-  dewarp: ['.png'],
+  dewarp: ['.png', '.jpg', '.jpeg', '.pdf'],
 };
 
 /** Commands that tell something, for which standard output will do. */
@@ -132,6 +136,7 @@ export function parse(args) {
     spacing: number('spacing', values),
     pixelSize: number('pixel-size', values),
     heightScale: number('height-scale', values),
+    unit: values.unit === undefined ? undefined : choice('unit', values.unit, units),
     noData: number('no-data', values),
     normalize: !values['no-normalize'],
   };
@@ -206,7 +211,18 @@ export function parse(args) {
         throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
       }
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
-      return { command, ...fitting, asIs, texture, photoCamera, crop: corners(values.crop), dots: number('dots', values), trim: values.trim === true, map };
+      return {
+        command,
+        ...fitting,
+        asIs,
+        texture,
+        photoCamera,
+        crop: corners(values.crop),
+        dots: number('dots', values),
+        trim: values.trim === true,
+        map,
+        quality: number('quality', values),
+      };
     default:
       return { command, ...fitting };
   }
@@ -224,13 +240,16 @@ const pageFlags = /** @type {const} */ (['focal', 'fov', 'page']);
  */
 function page(input, output, edges, values) {
   const { report, map } = values;
-  const known = ['edges', 'output', 'report', 'map', 'dots', ...pageFlags];
+  const known = ['edges', 'output', 'report', 'map', 'dots', 'quality', ...pageFlags];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
   if (stray !== undefined) throw usage(`--${stray} is for heights, and with --edges the input is a photo`, 'dewarp');
   if (values.focal !== undefined && values.fov !== undefined) {
     throw usage('--focal and --fov say the same: give one of them', 'dewarp');
   }
-  extension('output', output, extensions.dewarp);
+  const kind = extension('output', output, extensions.dewarp);
+  if (kind === '.pdf' && values.page === undefined) {
+    throw usage('a .pdf has its true size: --page a4, letter or WIDTHxHEIGHT in millimetres says how large the page is', 'dewarp');
+  }
   if (map !== undefined) extension('map', map, ['.npy', '.json']);
   if (report !== undefined) apart({ report }, { output, input, map, edges });
   if (map !== undefined) apart({ map }, { output, input, edges });
@@ -239,10 +258,12 @@ function page(input, output, edges, values) {
     command: 'page',
     input,
     output,
+    extension: kind,
     written: [output, report, map].filter((path) => path !== undefined),
     edges,
     report,
     map,
+    quality: number('quality', values),
     options: {
       dots: number('dots', values),
       focalLength: number('focal', values),

@@ -18,6 +18,8 @@ import { usage } from './flags.js';
 
 /** @satisfies {readonly Flag[]} */
 const heights = ['lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'no-data'];
+/** Of photos that are written. @satisfies {readonly Flag[]} */
+const printed = ['unit', 'quality'];
 /** @satisfies {readonly Flag[]} */
 const mesh = ['view', 'resolution', 'intrinsics', 'ray'];
 /** @satisfies {readonly Flag[]} */
@@ -144,13 +146,15 @@ export const commands = {
     terms: {
       INPUT: `${INPUT}. With --edges the photo`,
       PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
-      IMAGE: '.png, transparent where there is no sheet',
+      IMAGE:
+        '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
+        'others state their resolution, where the unit of lengths is known: --unit, or with --edges --page',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'map', ...page],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'map', ...printed, ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',
-      'dewarp d.png --intrinsics cam.csv --texture photo.jpg -o page.png',
+      'dewarp d.png --intrinsics cam.csv --texture photo.jpg -o page.pdf',
       'dewarp scan.glb -o page.png --view best-fit',
       'dewarp photo.jpg --edges edges.json --page a4 -o page.png',
     ],

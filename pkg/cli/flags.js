@@ -81,6 +81,11 @@ export const sections = {
         value: 'P',
         help: 'width of a pixel in the unit of the heights (default: what the file says, or else 1)',
       },
+      unit: {
+        value: 'U',
+        help: 'mm or m: the unit of these lengths, for true sizes (default: what the file says; m of depths in metres or ' +
+          'with a scale, mm of others in whole numbers)',
+      },
       'height-scale': {
         value: 'S',
         help: "factor from the file's values to heights (default: what the file says, 1 for floats, NPY and NPZ; for " +
@@ -107,7 +112,7 @@ export const sections = {
         value: 'fx,fy,cx,cy[,scale]|FILE',
         help: 'INPUT holds the depths that a camera with these numbers (in pixels; the centre of the top left one is ' +
           '0,0) has seen; 0 and below are none. It is taken for a mesh, in which jumps are not bridged; scale makes ' +
-          'lengths of depths. x is to the right, y up, the axis along -z. Or the file that a capture app or a ' +
+          'metres of depths. x is to the right, y up, the axis along -z. Or the file that a capture app or a ' +
           'calibration has written: .json with fx, fy, cx, cy or a camera matrix (and width, height, distortion), .csv ' +
           'with the matrix; whole numbers are millimetres then, others metres',
       },
@@ -191,10 +196,12 @@ export const sections = {
         help: 'a4 or letter: a .pdf on pages that are put together by the crosses on them; none (the default): on one page',
       },
       dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
+      quality: { value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
       trim: { help: 'cut off the margins where there is no sheet' },
       map: {
         value: 'FILE',
-        help: '.npy (height, width, 2) or .json: for each pixel of the flat image its place x, y in the photo',
+        help: '.npy (height, width, 2): for each pixel of the flat image its place x, y in the photo; or .json: the same for the ' +
+          'points of a grid, between which it is bilinear to a quarter of a pixel',
       },
     },
   },

@@ -39,6 +39,8 @@ export async function readInput(task) {
       height: file.height,
       pixelSize,
       heightScale,
+      // Pixels of another size may be in another unit.
+      unit: task.unit ?? (task.pixelSize === undefined ? file.unit : undefined),
       ...known,
       ...(task.design ? {} : { data: file.data, noData: asStored(task.noData, file) }),
       constraints: pins && pinned(pins, task.free),
@@ -52,6 +54,7 @@ export async function readInput(task) {
     rows: file.height,
     cols: file.width,
     spacing: task.spacing ?? pixelSize,
+    unit: task.unit,
     ...known,
     ...(task.design ? {} : { heights: scaled(without(file.data, noData)) }),
     constraints: pins && scaled(pinned(pins, task.free ?? noData)),
@@ -103,7 +106,8 @@ function checkScale({ input, noData, command = '' }, file) {
 /** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
-  return developable.sampleMesh(await readMesh(task), { view, resolution, spacing });
+  const mesh = await readMesh(task);
+  return developable.sampleMesh({ ...mesh, unit: task.unit ?? mesh.unit }, { view, resolution, spacing });
 }
 
 /**
@@ -171,7 +175,7 @@ function contains(polygon, x, y) {
 }
 
 /**
- * Depths in whole numbers are millimetres, if nothing says otherwise, and those of floats in metres.
+ * Depths in whole numbers are millimetres, if nothing says otherwise, and those of floats in metres; a scale makes metres.
  * @param {import('./arguments.js').CameraTask} camera
  * @param {ReadResult} file
  * @param {Size} [photo]
@@ -179,11 +183,15 @@ function contains(polygon, x, y) {
  */
 async function depthCamera({ numbers, file: path, ray }, file, photo) {
   const depth = ray ? 'ray' : 'planar';
-  if (path === undefined) return { .../** @type {import('../types.js').Intrinsics} */ (numbers), depth };
+  const whole = /^[ui]/.test(file.dataType);
+  if (path === undefined) {
+    const given = /** @type {import('../types.js').Intrinsics} */ (numbers);
+    return { ...given, depth, unit: whole && given.depthScale === undefined ? 'mm' : 'm' };
+  }
   const images = [file, ...(photo ? [photo] : [])].map(({ width, height }) => ({ width, height }));
   const camera = await readCamera(path, images);
   const { rotation, translation, ...own } = camera;
-  return { depthScale: /^[ui]/.test(file.dataType) ? 0.001 : 1, ...own, depth };
+  return { depthScale: whole ? 0.001 : 1, ...own, depth, unit: 'm' };
 }
 
 /**

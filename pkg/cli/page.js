@@ -4,7 +4,7 @@ import { messageOf } from '../errors.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { json, mapFile } from './sheets.js';
+import { json, mapFile, mapOptions, printed } from './sheets.js';
 import { percent } from './terminal.js';
 
 /**
@@ -17,11 +17,11 @@ export async function page(task, signal) {
   const bytes = await readBytes(task.input);
   const photo = await about(task.input, () => developable.readPhoto(bytes));
   const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
-  const flat = await developable.dewarpPage(photo, edges, options);
-  const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }];
+  const flat = await developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map) });
+  const files = [{ path: task.output, bytes: await printed(task, flat) }];
   const { size, unit, report } = flat;
   if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...report, size, unit }) });
-  if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(task.map, flat) });
+  if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, photo) });
   await writeWhole(files, signal);
   const told = words(report);
   if (told !== undefined) process.stderr.write(`developable: ${told}\n`);

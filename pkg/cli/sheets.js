@@ -68,14 +68,16 @@ export async function dewarp(task, signal) {
   const given = task.texture === undefined ? undefined : await readPhoto(task.texture);
   // Of a camera elsewhere it is not known yet which depths lie beside the part that is wanted.
   const wanted = task.photoCamera === undefined ? task.crop : undefined;
-  const { surface, options } = await flattened({ ...task, photo: given && { ...given, wanted } }, signal);
+  const { surface, options } = await flattened({ ...task, photo: given && { ...given, wanted } }, signal, (input) => {
+    if (task.extension === '.pdf') checkUnit(input);
+  });
   const photo = given ?? await textureOf(task.input, surface);
   const camera = task.photoCamera === undefined ? undefined : await readCamera(task.photoCamera, [photo]);
   const { dots, trim, crop } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, dots, trim, crop, camera });
-  const files = [{ path: task.output, bytes: await developable.writePhoto(flat) }, ...reported(task, flat)];
+  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, crop, camera });
+  const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, flat)];
   if (task.map !== undefined) {
-    files.push({ path: task.map, bytes: mapFile(task.map, flat) });
+    files.push({ path: task.map, bytes: mapFile(flat, photo) });
   }
   await writeWhole(files, signal);
   if (flat.verdict === 'flat') {
@@ -84,6 +86,26 @@ export async function dewarp(task, signal) {
     const strain = percent(flat.report.distortion.rms, 2);
     process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
   }
+}
+
+/** Says what a true size takes, where it is not known. @param {Input} input */
+function checkUnit({ unit }) {
+  if (unit !== undefined && unit !== null) return;
+  throw new Problem(
+    status.usage,
+    'a .pdf has its true size, and nothing says in what unit the lengths are: --unit mm or --unit m does (and --pixel-size ' +
+      'how large a pixel of heights is, in that unit)',
+  );
+}
+
+/**
+ * A flat image in a file of the kind that its name says.
+ * @param {{ extension: import('./arguments.js').Extension, quality?: number }} task
+ * @param {import('../types.js').SizedPhoto} flat
+ */
+export function printed({ extension, quality }, flat) {
+  const formats = /** @type {const} */ ({ '.png': 'png', '.pdf': 'pdf', '.jpg': 'jpeg', '.jpeg': 'jpeg' });
+  return developable.writePhoto(flat, { format: formats[/** @type {keyof typeof formats} */ (extension)], quality });
 }
 
 /** @param {string} path */
@@ -110,9 +132,11 @@ async function textureOf(input, surface) {
  * What is to be laid flat, and how it is resampled if it is no lattice yet.
  * @param {SheetTask & { photo?: import('./inputs.js').Size }} task
  * @param {AbortSignal} signal
+ * @param {(input: Input) => void} [check] whether it will do, before the work
  */
-export async function flattened(task, signal) {
+export async function flattened(task, signal, check = () => {}) {
   const input = await readInput(task);
+  check(input);
   if (task.asIs) return { surface: input, options: spacing(task) };
   return { surface: await solve(task, input, { signal }), options: {} };
 }
@@ -153,13 +177,22 @@ function flatObj({ places, triangles }) {
 }
 
 /**
- * @typedef {Pick<import('../types.js').Dewarped, 'width' | 'height' | 'resolution' | 'corner' | 'map'>} WarpMap
- *
- * @param {string} path
- * @param {WarpMap} flat
+ * @typedef {Pick<import('../types.js').Dewarped, 'width' | 'height' | 'resolution' | 'corner' | 'map' | 'grid'> &
+ *   { unit?: string }} WarpMap
  */
-export function mapFile(path, flat) {
-  return path.toLowerCase().endsWith('.npy') ? mapNpy(flat) : mapJson(flat);
+
+/** What of the warp map a file of it takes. @param {string} [path] */
+export function mapOptions(path) {
+  const full = path?.toLowerCase().endsWith('.npy') === true;
+  return { map: full, grid: path !== undefined && !full };
+}
+
+/**
+ * @param {WarpMap} flat
+ * @param {{ width: number, height: number }} photo
+ */
+export function mapFile(flat, photo) {
+  return flat.grid === undefined ? mapNpy(flat) : mapJson(flat, flat.grid, photo);
 }
 
 /** The warp map as a NumPy array of shape (height, width, 2). @param {WarpMap} flat */
@@ -174,9 +207,28 @@ function mapNpy({ width, height, map }) {
   return Buffer.concat([head, data]);
 }
 
-/** The same as JSON, null where there is no sheet. @param {WarpMap} flat */
-function mapJson({ width, height, resolution, corner, map }) {
-  const places = Array.from({ length: width * height }, (_, i) =>
-    (Number.isNaN(map[2 * i]) ? null : [map[2 * i], map[2 * i + 1]]));
-  return new TextEncoder().encode(`${JSON.stringify({ width, height, resolution, corner, places })}\n`);
+/**
+ * The map on a grid as JSON, null where there is no sheet.
+ * @param {WarpMap} flat
+ * @param {import('../types.js').WarpGrid} grid
+ * @param {{ width: number, height: number }} photo
+ */
+function mapJson({ width, height, resolution, unit, corner }, { columns, rows, step, places, rms, maximum }, photo) {
+  const rounded = (/** @type {number} */ value) => Math.round(1000 * value) / 1000;
+  const file = {
+    width,
+    height,
+    photo: { width: photo.width, height: photo.height },
+    resolution,
+    unit: unit ?? null,
+    corner,
+    error: { rms, maximum },
+    columns,
+    rows,
+    origin: [0, 0],
+    step,
+    places: Array.from({ length: columns * rows }, (_, i) =>
+      (Number.isNaN(places[2 * i]) ? null : [rounded(places[2 * i]), rounded(places[2 * i + 1])])),
+  };
+  return new TextEncoder().encode(`${JSON.stringify(file)}\n`);
 }

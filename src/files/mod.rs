@@ -8,5 +8,7 @@ pub mod drawings;
 pub mod images;
 #[cfg(feature = "meshes")]
 pub mod meshes;
+#[cfg(any(feature = "formats", feature = "patterns"))]
+mod points;
 #[cfg(feature = "formats")]
 pub mod wavefront;

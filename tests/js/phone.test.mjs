@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { expanded, readNpyMap } from './support/maps.mjs';
 import { depthCamera, depths, displacement, meets, photo, photoCamera } from './support/phone.mjs';
 
 after(() => developable.dispose());
@@ -24,9 +25,8 @@ const error = (code, message) => (/** @type {any} */ thrown) => {
 
 /** The warp map that the command has written. @param {string} folder */
 async function mapIn(folder) {
-  const { places, ...flat } = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
-  const map = Float32Array.from(places.flatMap((/** @type {number[] | null} */ place) => place ?? [NaN, NaN]));
-  return { ...flat, map };
+  const file = JSON.parse(await readFile(join(folder, 'map.json'), 'utf8'));
+  return { ...file, map: expanded(file) };
 }
 
 test('the photo lies where the camera has seen the surface', async () => {
@@ -97,6 +97,22 @@ test('the command takes what capture apps write', async () => {
     const error = displacement(camera, flat);
     assert.ok(error < 0.003, `${file}: ${error}`);
   }
+  // In full and on a grid.
+  const full = await run(folder, [
+    'dewarp', 'depth.exr', '--intrinsics', 'transforms.json', ...common, '-o', 'page.png', '--map', 'map.npy',
+  ]);
+  assert.equal(full.status, 0, full.stderr);
+  const [flat, bytes] = [await mapIn(folder), await readFile(join(folder, 'map.npy'))];
+  const { map, ...size } = readNpyMap(bytes);
+  const { width: wide, height: tall, places, error: stated } = flat;
+  assert.deepEqual({ width: wide, height: tall }, size);
+  assert.deepEqual([flat.unit, flat.photo, places.length], ['m', { width: 1280, height: 960 }, flat.columns * flat.rows]);
+  assert.ok(places.length < 5000, String(places.length));
+  let largest = 0;
+  for (let i = 0; i < map.length; i += 2) {
+    if (!Number.isNaN(map[i])) largest = Math.max(largest, Math.hypot(map[i] - flat.map[i], map[i + 1] - flat.map[i + 1]));
+  }
+  assert.ok(largest <= 0.251 && Math.abs(largest - stated.maximum) < 0.002 && stated.rms < stated.maximum, `${largest} ${stated.maximum}`);
   // The wrong file, and depths that are taken for heights.
   await writeFile(join(folder, 'other.json'), JSON.stringify({ name: 'a phone' }));
   const other = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', 'other.json', ...common, '-o', 'page.png']);

@@ -165,7 +165,8 @@ test('the commands', async () => {
   assert.equal((map.length - 8 * flat.width * flat.height) % 64, 0);
   assert.deepEqual(await command('dewarp scan.npy --texture photo.png -o f.png --as-is --dots 1 --map map.json'), silent);
   const places = await json('map.json');
-  assert.equal(places.places.length, places.width * places.height);
+  assert.equal(places.places.length, places.columns * places.rows);
+  assert.ok(places.error.maximum <= 0.25 && places.unit === null, JSON.stringify(places.error));
   assert.equal(places.resolution, 1);
 
   for (const [args, message] of [

@@ -2,7 +2,8 @@
 
 use developable::dewarp::Photo;
 use developable::files::images::{
-    Decoded, Format, decode, decode_photo, write_npy, write_photo, write_png,
+    Decoded, Format, PhotoOptions, decode, decode_photo, write_npy, write_photo, write_photo_jpeg,
+    write_photo_pdf, write_png,
 };
 use developable::files::wavefront::write_obj;
 use developable::{Error, HeightImage, Heightfield, Lattice, MAX_CELLS, Result};
@@ -389,10 +390,105 @@ fn writers_refuse_what_they_cannot_write() {
     assert_eq!(code(write_obj(&column)), "UNSUPPORTED");
 }
 
+/// A smooth photo with an edge, half of it half transparent.
+fn picture([width, height]: [usize; 2]) -> Vec<u8> {
+    (0..width * height)
+        .flat_map(|i| {
+            let (x, y) = (i % width, i / width);
+            let dark = if x > width / 3 { 60 } else { 0 };
+            let alpha = if y < height / 2 { 255 } else { 128 };
+            [
+                (200 * x / width) as u8,
+                (200 * y / height) as u8,
+                60 + dark,
+                alpha,
+            ]
+        })
+        .collect()
+}
+
+#[test]
+fn jpegs_are_the_photo_on_white_paper() {
+    let size = [61, 43];
+    let rgba = picture(size);
+    let photo = Photo::new(size[0], size[1], &rgba).unwrap();
+    let options = PhotoOptions::default();
+    let error = |quality: u8, dots: Option<f64>| {
+        let mut options = options.quality(quality);
+        options.dots_per_millimetre = dots;
+        let file = write_photo_jpeg(&photo, &options).unwrap();
+        // Another library's decoder.
+        let found = decode_photo(&file).unwrap();
+        assert_eq!([found.width, found.height], size);
+        let on_white = |k: usize| {
+            let alpha = f64::from(rgba[k / 4 * 4 + 3]) / 255.0;
+            255.0 + alpha * (f64::from(rgba[k]) - 255.0)
+        };
+        let squares = (0..rgba.len())
+            .filter(|k| k % 4 < 3)
+            .map(|k| (f64::from(found.rgba[k]) - on_white(k)).powi(2));
+        assert!(found.rgba.chunks(4).all(|pixel| pixel[3] == 255));
+        (
+            (squares.sum::<f64>() / (3.0 * 61.0 * 43.0)).sqrt(),
+            // The JFIF segment: unit and density.
+            (
+                file[13],
+                [14, 16].map(|i| u16::from_be_bytes([file[i], file[i + 1]])),
+            ),
+        )
+    };
+    let (fine, unknown) = error(95, None);
+    let (coarse, inches) = error(20, Some(200.0 / 25.4));
+    let (_, centimetres) = error(95, Some(8.0));
+    assert!(fine < 3.0 && coarse > fine, "{fine} {coarse}");
+    assert_eq!(unknown, (0, [1, 1]));
+    assert_eq!(inches, (1, [200, 200]));
+    assert_eq!(centimetres, (2, [80, 80]));
+}
+
+#[test]
+fn photos_that_cannot_be_written_are_refused() {
+    let rgba = vec![9; 4 * 70_000];
+    let wide = Photo::new(70_000, 1, &rgba).unwrap();
+    let options = PhotoOptions::default();
+    let refusal = |written: Result<Vec<u8>>| {
+        let error = written.unwrap_err();
+        (error.code(), error.to_string())
+    };
+    let (code, message) = refusal(write_photo_jpeg(&wide, &options));
+    assert!(
+        code == "UNSUPPORTED" && message.contains("65535"),
+        "{message}"
+    );
+    assert!(write_photo(&wide, &options).is_ok());
+    let photo = Photo::new(70, 1000, &rgba).unwrap();
+    for quality in [0, 101] {
+        let options = options.quality(quality);
+        assert_eq!(refusal(write_photo_jpeg(&photo, &options)).0, "OPTION");
+    }
+    let (code, message) = refusal(write_photo_pdf(&photo, &options));
+    assert!(
+        code == "OPTION" && message.contains("true size"),
+        "{message}"
+    );
+    for dots in [0.1, 50.0] {
+        let (code, message) = refusal(write_photo_pdf(&photo, &options.dots_per_millimetre(dots)));
+        assert!(
+            code == "UNSUPPORTED" && message.contains("unit"),
+            "{message}"
+        );
+    }
+    for dots in [0.0, f64::NAN] {
+        let options = options.dots_per_millimetre(dots);
+        assert_eq!(refusal(write_photo(&photo, &options)).0, "OPTION");
+    }
+}
+
 #[test]
 fn photos_come_back_as_they_were_and_other_kinds_become_colours() {
     let rgba: Vec<u8> = (0..4 * 35).map(|i| (i * 37 % 256) as u8).collect();
-    let written = write_photo(&Photo::new(7, 5, &rgba).unwrap()).unwrap();
+    let photo = Photo::new(7, 5, &rgba).unwrap();
+    let written = write_photo(&photo, &PhotoOptions::default()).unwrap();
     let photo = decode_photo(&written).unwrap();
     assert_eq!((photo.width, photo.height), (7, 5));
     assert_eq!(photo.rgba, rgba);

@@ -311,3 +311,39 @@ fn flying_pixels_are_taken_away() {
     let all = page.values().iter().filter(|d| **d > 0.0).count();
     assert!(kept as f64 > 0.85 * all as f64, "{kept} of {all}");
 }
+
+/// Between the nodes of a coarse grid the map is what it was, at the border of the sheet as well.
+#[test]
+fn a_grid_of_some_thousand_points_says_the_same() {
+    let (map, _) = map_of(&Scene::new(0.12, 25.0), View::BestFit);
+    let grid = map.grid(0.25, 20_000).unwrap();
+    assert!(grid.places.len() < 5000, "{}", grid.places.len());
+    let (mut squares, mut largest, mut count) = (0.0f64, 0.0f64, 0.0);
+    for (i, place) in map.places().iter().enumerate() {
+        if place[0].is_nan() {
+            continue;
+        }
+        let pixel = [(i % map.width()) as f64, (i / map.width()) as f64];
+        let [x, y] = grid.at(pixel).unwrap();
+        let error = (x - f64::from(place[0])).hypot(y - f64::from(place[1]));
+        squares += error * error;
+        largest = largest.max(error);
+        count += 1.0;
+    }
+    assert!(largest <= 0.25, "{largest}");
+    // And what it says of itself is so.
+    assert!((grid.maximum - largest).abs() < 1e-6);
+    assert!((grid.rms - (squares / count).sqrt()).abs() < 1e-6);
+    // Beside the page there is nothing, and farther than a step from a part of it.
+    assert!(grid.at([-1.0, 5.0]).is_none());
+    let [width, height] = PHOTO.map(|n| n as f64);
+    let half = [[0.0, 0.0], [width, 0.0], [0.0, height]];
+    let corner = map.clone().crop(&half).unwrap();
+    let grid = corner.grid(0.25, 20_000).unwrap();
+    let last = [corner.width() as f64 - 1.0, corner.height() as f64 - 1.0];
+    assert!(grid.maximum < 0.25 && grid.at(last).is_none() && grid.at([9.0, 9.0]).is_some());
+    assert!(map.grid(0.0, 100).is_err() && map.grid(0.25, 3).is_err());
+    // Too few are as good as they can be, and say so.
+    let few = map.grid(1e-3, 200).unwrap();
+    assert!(few.places.len() <= 200 && few.maximum > 1e-3);
+}

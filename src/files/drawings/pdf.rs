@@ -5,13 +5,8 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::{DROP, GREY, WIDTH, layers};
 use crate::error::{Error, Result};
+use crate::files::points::{LARGEST, POINTS, points};
 use crate::flat::drawing::{Drawing, Label, Pages, Paper};
-
-/// Points in a millimetre.
-const POINTS: f64 = 72.0 / 25.4;
-
-/// Largest side of a page, in points.
-const LARGEST: f64 = 14_400.0;
 
 /// Length of each arm of a registration mark, in millimetres.
 const ARM: f64 = 4.0;
@@ -184,8 +179,4 @@ fn width(character: u8) -> f64 {
 
 fn rect([width, height]: [f64; 2]) -> Rect {
     Rect::new(0.0, 0.0, points(width), points(height))
-}
-
-fn points(millimetres: f64) -> f32 {
-    (millimetres * POINTS) as f32
 }

@@ -1,7 +1,7 @@
 //! Height images and photos from and to files held in memory.
 //!
 //! Reads PNG and NPY ([`decode`]) and photos ([`decode_photo`]); writes NPY,
-//! 16-bit PNG and photos. With the cargo feature `images` also reads TIFF,
+//! 16-bit PNG, and photos as PNG, JPEG and PDF. With the cargo feature `images` also reads TIFF,
 //! EXR, PFM, NPZ, JPEG and WebP (these two as photos, too), and writes TIFF and EXR. Nothing here touches a
 //! file system, so that all of it works in a browser too.
 //!
@@ -14,6 +14,7 @@ pub mod extended;
 mod npy;
 mod photo;
 mod png;
+mod print;
 
 use std::str::FromStr;
 
@@ -24,8 +25,9 @@ use crate::heights::heightfield::HeightImage;
 #[cfg(feature = "images")]
 pub use extended::{NpzArray, decode_npz, npz_arrays, write_exr, write_tiff};
 pub use npy::write_npy;
-pub use photo::{PhotoFile, decode_photo_basic, write_photo};
+pub use photo::{PhotoFile, decode_photo_basic};
 pub use png::write_png;
+pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg, write_photo_pdf};
 
 /// A file format that can be read. All but the first two need the cargo feature
 /// `images`.

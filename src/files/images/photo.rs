@@ -1,11 +1,10 @@
-//! Colour images: photos, and what is made of them.
+//! Photos from files.
 
-use ::png::{BitDepth, ColorType, Encoder, EncodingError, Transformations};
+use ::png::{ColorType, Transformations};
 
+use super::Format;
 use super::png::Pixels;
-use super::{Buffer, Format};
 use crate::error::{Error, Result, try_filled};
-use crate::flat::dewarp::Photo;
 
 /// A decoded photo.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,23 +73,4 @@ fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
         rgba,
         film35: None,
     })
-}
-
-/// An 8-bit RGBA PNG file.
-///
-/// # Errors
-/// [`Error::OutOfMemory`].
-pub fn write_photo(photo: &Photo<'_>) -> Result<Vec<u8>> {
-    let mut file = Buffer::default();
-    let written = write(&mut file, photo);
-    file.finish("PNG file", written.map_err(Into::into))
-}
-
-fn write(file: &mut Buffer, photo: &Photo<'_>) -> std::result::Result<(), EncodingError> {
-    let mut encoder = Encoder::new(file, photo.width() as u32, photo.height() as u32);
-    encoder.set_color(ColorType::Rgba);
-    encoder.set_depth(BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(photo.rgba())?;
-    writer.finish()
 }

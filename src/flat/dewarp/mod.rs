@@ -29,6 +29,8 @@
 //! ```
 
 mod crop;
+mod grid;
+mod local;
 mod map;
 mod photo;
 mod registration;
@@ -39,6 +41,7 @@ use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
 use crate::math::lanes;
+pub use grid::WarpGrid;
 pub use map::WarpMap;
 pub use photo::Photo;
 pub use registration::Registration;

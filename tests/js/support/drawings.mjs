@@ -61,6 +61,24 @@ export async function readPdf(file) {
 }
 
 /**
+ * The only picture of a PDF file of one page: the page in millimetres, and the picture's pixels as they were decoded.
+ * @param {Uint8Array} file
+ */
+export async function readPdfPicture(file) {
+  const task = getDocument({ data: new Uint8Array(file), verbosity: 0 });
+  const pdf = await task.promise;
+  const page = await pdf.getPage(1);
+  const { fnArray, argsArray } = await page.getOperatorList();
+  const at = fnArray.indexOf(OPS.paintImageXObject);
+  const matrix = argsArray[fnArray.indexOf(OPS.transform)].map((/** @type {number} */ value) => value * MM);
+  /** @type {{ width: number, height: number, data: Uint8ClampedArray }} */
+  const { width, height, data } = await new Promise((resolve) => page.objs.get(argsArray[at][0], resolve));
+  const found = { pages: pdf.numPages, size: page.view.slice(2).map((side) => side * MM), matrix, width, height, data };
+  await task.destroy();
+  return found;
+}
+
+/**
  * Follows the operators of a page.
  * @param {number[]} operators
  * @param {any[][]} operands

@@ -9,6 +9,7 @@ pub mod camera;
 pub mod fields;
 pub mod file;
 pub mod frame;
+pub mod grid;
 pub mod options;
 pub mod photo;
 pub mod scene;

@@ -4,10 +4,12 @@ use js_sys::{Float32Array, Int32Array, Uint8Array};
 use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
-use developable::checks::check_count;
-use developable::dewarp::{self, Extent, Photo};
+use developable::Error;
+use developable::checks::{check_count, check_shape};
+use developable::dewarp::{self, Extent};
 use developable::files::images::{
-    announced, decode_basic, decode_photo_basic, write_npy, write_photo, write_png,
+    PhotoOptions, PhotoRows, announced, decode_basic, decode_photo_basic, write_npy, write_photo,
+    write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::{write_mtl, write_obj_textured};
 use developable_wasm::Result;
@@ -115,9 +117,60 @@ pub fn paint(
     Ok(painted.as_flattened().into())
 }
 
-/// 8-bit RGBA PNG file.
+/// A photo where it is in JavaScript's memory: copied row by row, for there may not be room for two.
+struct Rows<'a> {
+    size: [usize; 2],
+    rgba: &'a Uint8Array,
+}
+
+impl PhotoRows for Rows<'_> {
+    fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    fn read(&self, row: usize, line: &mut [u8]) {
+        let length = line.len() as u32;
+        let start = row as u32 * length;
+        self.rgba.subarray(start, start + length).copy_to(line);
+    }
+}
+
+/// A photo as a PNG, JPEG or PDF file.
 #[wasm_bindgen(js_name = writePhoto)]
-pub fn write_photo_file(width: usize, height: usize, rgba: &Uint8Array) -> Result<Uint8Array> {
-    let file = write_photo(&Photo::new(width, height, &copied(rgba)?)?)?;
+pub fn write_photo_file(
+    width: usize,
+    height: usize,
+    rgba: &Uint8Array,
+    options: JsValue,
+) -> Result<Uint8Array> {
+    let (mut format, mut wanted) = (String::from("png"), PhotoOptions::default());
+    let formats = "must be `png`, `jpeg` or `pdf`";
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "format" => format = option("format", value, formats)?,
+            "quality" => {
+                let requirement = "must be a whole number from 1 to 100";
+                wanted = wanted.quality(option("quality", value, requirement)?);
+            }
+            "dotsPerMillimetre" => {
+                let dots = option("dots_per_millimetre", value, "must be a number")?;
+                wanted = wanted.dots_per_millimetre(dots);
+            }
+            _ => return Err(unknown(&name, "format, quality and dotsPerMillimetre")),
+        }
+    }
+    // As many bytes as it should have, and some.
+    check_shape("photo", height, width, rgba.length() as usize / 4)?;
+    if width == 0 || height == 0 {
+        return Err(Error::Empty { what: "photo" }.into());
+    }
+    let size = [width, height];
+    let photo = Rows { size, rgba };
+    let file = match format.as_str() {
+        "png" => write_photo(&photo, &wanted)?,
+        "jpeg" => write_photo_jpeg(&photo, &wanted)?,
+        "pdf" => write_photo_pdf(&photo, &wanted)?,
+        _ => return Err(Error::option("format", format, formats).into()),
+    };
     Ok(file.as_slice().into())
 }

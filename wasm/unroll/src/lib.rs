@@ -19,6 +19,7 @@ use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
 use developable_wasm::frame::FrameFields;
+use developable_wasm::grid::{GridOutput, MapOptions};
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
@@ -146,6 +147,8 @@ struct DewarpedOutput {
     data: Uint8ClampedArray,
     #[serde(with = "preserve")]
     map: Float32Array,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grid: Option<GridOutput>,
     verdict: Verdict,
     report: UnrollReport,
 }
@@ -158,6 +161,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     let (mut extent, mut camera, mut uvs) = (None, None, JsValue::UNDEFINED);
     let mut frame = Frame::default();
     let (mut crop, mut trim) = (None, false);
+    let mut maps = MapOptions::default();
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "camera" => camera = Some(photo_camera(&value)?),
@@ -173,10 +177,9 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
             "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
             "trim" => trim = option("trim", value, "must be true or false")?,
             "extent" => extent = Some(extent_from(value)?),
-            _ if settings.take(&name, &value)? => {}
+            _ if settings.take(&name, &value)? || maps.take(&name, &value)? => {}
             _ => {
-                let known =
-                    "dots, trim, crop, camera, extent, tolerance, maxIterations and spacing";
+                let known = "dots, trim, crop, camera, extent, map, grid, tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
@@ -210,7 +213,8 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         resolution: map.resolution(),
         corner: map.corner(),
         data: flat.as_slice().into(),
-        map: map.places().as_flattened().into(),
+        map: maps.places(&map),
+        grid: maps.grid(&map)?,
         verdict: map.verdict(sheet.report()),
         report: *sheet.report(),
     })?)

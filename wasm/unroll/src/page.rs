@@ -9,6 +9,7 @@ use developable::dewarp::DewarpOptions;
 use developable::page::{
     CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
 };
+use developable_wasm::grid::{GridOutput, MapOptions};
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
@@ -74,6 +75,8 @@ struct PageOutput {
     data: Uint8ClampedArray,
     #[serde(with = "preserve")]
     map: Float32Array,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grid: Option<GridOutput>,
     size: [f64; 2],
     unit: &'static str,
     mesh: MeshOutput,
@@ -95,6 +98,7 @@ struct MeshOutput {
 #[wasm_bindgen(js_name = dewarpPage)]
 pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
+    let mut maps = MapOptions::default();
     let mut focal = Vec::new();
     for (name, value) in entries(&options)? {
         let number = "must be a number";
@@ -120,9 +124,9 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             }
             "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
             "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
+            _ if maps.take(&name, &value)? => {}
             _ => {
-                let names =
-                    "dots, focalLength, fieldOfView, film35, page, ruler, centre and accuracy";
+                let names = "dots, map, grid, focalLength, fieldOfView, film35, page, ruler, centre and accuracy";
                 return Err(unknown(&name, names));
             }
         }
@@ -150,7 +154,8 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
         resolution: map.resolution(),
         corner: map.corner(),
         data: flat.as_slice().into(),
-        map: map.places().as_flattened().into(),
+        map: maps.places(&map),
+        grid: maps.grid(&map)?,
         size: page.flat_size(),
         unit: if page.is_millimetres() { "mm" } else { "page" },
         mesh: MeshOutput {

@@ -1,0 +1,298 @@
+//! Photos to files that know how large they are on paper: PNG, JPEG and PDF.
+
+use std::io::Write as _;
+
+use ::png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
+use jpeg_encoder::{
+    Encoder as JpegEncoder, EncodingError as JpegError, ImageBuffer, JpegColorType, PixelDensity,
+    PixelDensityUnit, rgb_to_ycbcr,
+};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
+
+use super::Buffer;
+use crate::error::{Error, Result, positive, try_filled};
+use crate::files::points::{LARGEST, POINTS, points};
+use crate::flat::dewarp::Photo;
+
+/// How a photo is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct PhotoOptions {
+    /// Pixels for each millimetre of what it shows. `None` (the default): not known, so that PNG and
+    /// JPEG files do not state it, and no PDF can be made.
+    pub dots_per_millimetre: Option<f64>,
+    /// Quality of JPEG, and of the picture in a PDF: from 1 to 100, by default 90. Colours are as fine
+    /// as brightness from 90 on, and half as fine below.
+    pub quality: u8,
+}
+
+impl Default for PhotoOptions {
+    fn default() -> Self {
+        PhotoOptions {
+            dots_per_millimetre: None,
+            quality: 90,
+        }
+    }
+}
+
+impl PhotoOptions {
+    /// These options with so many pixels for each millimetre of what the photo shows.
+    pub fn dots_per_millimetre(self, dots: f64) -> Self {
+        PhotoOptions {
+            dots_per_millimetre: Some(dots),
+            ..self
+        }
+    }
+
+    /// These options with another quality of JPEG.
+    pub fn quality(self, quality: u8) -> Self {
+        PhotoOptions { quality, ..self }
+    }
+
+    /// The dots as they were given, if that is a number that can be.
+    fn dots(&self) -> Result<Option<f64>> {
+        let checked = |dots| positive("dots_per_millimetre", dots);
+        self.dots_per_millimetre.map(checked).transpose()
+    }
+}
+
+/// A photo that is read row by row, so that who writes it needs no copy of it.
+pub trait PhotoRows {
+    /// Width and height in pixels.
+    fn size(&self) -> [usize; 2];
+
+    /// Copies the RGBA bytes of a row, from the top, into `rgba`, which has room for just these.
+    fn read(&self, row: usize, rgba: &mut [u8]);
+}
+
+impl PhotoRows for Photo<'_> {
+    fn size(&self) -> [usize; 2] {
+        [self.width(), self.height()]
+    }
+
+    fn read(&self, row: usize, rgba: &mut [u8]) {
+        rgba.copy_from_slice(&self.rgba()[4 * row * self.width()..][..4 * self.width()]);
+    }
+}
+
+/// An 8-bit PNG file, with alpha if something is transparent. It states the resolution, if that is
+/// known, to whole pixels per metre.
+///
+/// # Errors
+/// [`Error::Option`] for a resolution that is not positive and finite, [`Error::OutOfMemory`].
+pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
+    let [width, height] = photo.size();
+    let dots = options.dots()?;
+    let mut line = try_filled("PNG file", 4 * width, 0)?;
+    let opaque = (0..height).all(|row| {
+        photo.read(row, &mut line);
+        line.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
+    });
+    let mut file = Buffer::default();
+    let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
+    encoder.set_color(if opaque {
+        ColorType::Rgb
+    } else {
+        ColorType::Rgba
+    });
+    encoder.set_depth(BitDepth::Eight);
+    let per_metre = dots.map_or(0.0, |dots| (1000.0 * dots).round());
+    if (1.0..=f64::from(i32::MAX)).contains(&per_metre) {
+        encoder.set_pixel_dims(Some(PixelDimensions {
+            xppu: per_metre as u32,
+            yppu: per_metre as u32,
+            unit: Unit::Meter,
+        }));
+    }
+    let written = || -> std::io::Result<()> {
+        let mut writer = encoder.write_header()?;
+        let mut stream = writer.stream_writer()?;
+        for row in 0..height {
+            photo.read(row, &mut line);
+            if opaque {
+                for col in 0..width {
+                    line.copy_within(4 * col..4 * col + 3, 3 * col);
+                }
+                stream.write_all(&line[..3 * width])?;
+            } else {
+                stream.write_all(&line)?;
+            }
+        }
+        stream.finish()?;
+        Ok(writer.finish()?)
+    }();
+    file.finish("PNG file", written)
+}
+
+/// A JPEG file, white where the photo is transparent. It states the resolution, if that is known, in
+/// whole pixels per inch or per centimetre, whichever is nearer.
+///
+/// # Errors
+/// [`Error::Option`] for a resolution that is not positive and finite or a quality that is not from 1
+/// to 100, [`Error::Unsupported`] for a side of more than 65535 pixels, [`Error::OutOfMemory`].
+pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
+    let quality = options.quality;
+    if !(1..=100).contains(&quality) {
+        let requirement = "must be a whole number from 1 to 100";
+        return Err(Error::option("quality", quality, requirement));
+    }
+    let size = photo.size();
+    let [Ok(width), Ok(height)] = size.map(u16::try_from) else {
+        return Err(Error::Unsupported {
+            format: "JPEG",
+            reason: format!(
+                "{} × {} pixels are more than the 65535 along a side that it can have; choose a \
+                 lower resolution, or PNG",
+                size[0], size[1]
+            ),
+        });
+    };
+    let density = options.dots()?.and_then(density);
+    let mut file = Buffer::default();
+    let mut encoder = JpegEncoder::new(&mut file, quality);
+    if let Some(density) = density {
+        encoder.set_density(density);
+    }
+    let white = White {
+        photo,
+        width,
+        height,
+    };
+    let written = encoder.encode_image(white).map_err(|error| match error {
+        JpegError::IoError(error) => error,
+        other => std::io::Error::other(other.to_string()),
+    });
+    file.finish("JPEG file", written)
+}
+
+/// A resolution as JFIF states it, if it can.
+fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
+    let units = [
+        (25.4, PixelDensityUnit::Inches),
+        (10.0, PixelDensityUnit::Centimeters),
+    ];
+    let stated = units.map(|(millimetres, unit)| {
+        let dots = dots_per_millimetre * millimetres;
+        let whole = dots.round().clamp(1.0, f64::from(u16::MAX));
+        (((whole / dots).ln()).abs(), whole as u16, unit)
+    });
+    let (error, dots, unit) = if stated[0].0 <= stated[1].0 {
+        stated[0]
+    } else {
+        stated[1]
+    };
+    (error < 0.3).then_some(PixelDensity {
+        density: (dots, dots),
+        unit,
+    })
+}
+
+/// A photo on white paper.
+struct White<'a, P> {
+    photo: &'a P,
+    width: u16,
+    height: u16,
+}
+
+impl<P: PhotoRows> ImageBuffer for White<'_, P> {
+    fn get_jpeg_color_type(&self) -> JpegColorType {
+        JpegColorType::Ycbcr
+    }
+
+    fn width(&self) -> u16 {
+        self.width
+    }
+
+    fn height(&self) -> u16 {
+        self.height
+    }
+
+    fn fill_buffers(&self, row: u16, [y, cb, cr, _]: &mut [Vec<u8>; 4]) {
+        let mut line = vec![0; 4 * usize::from(self.width)];
+        self.photo.read(row.into(), &mut line);
+        for pixel in line.chunks_exact(4) {
+            let alpha = u32::from(pixel[3]);
+            let on_white =
+                |value: u8| ((u32::from(value) * alpha + 255 * (255 - alpha) + 127) / 255) as u8;
+            let colour = rgb_to_ycbcr(on_white(pixel[0]), on_white(pixel[1]), on_white(pixel[2]));
+            y.push(colour.0);
+            cb.push(colour.1);
+            cr.push(colour.2);
+        }
+    }
+}
+
+/// Shortest side of a page, in millimetres: below it programs that show PDF may fail.
+const SHORTEST: f64 = 2.0;
+
+/// A PDF file of one page that is as large as what the photo shows, which fills it, as a JPEG. To be printed
+/// at 100 %.
+///
+/// # Errors
+/// Those of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a
+/// side is below 2 mm or above 5.08 m, the format's limit.
+pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec<u8>> {
+    let Some(dots) = options.dots()? else {
+        let requirement = "must be known for a PDF, whose pages are in true size";
+        return Err(Error::option(
+            "dots_per_millimetre",
+            "not given",
+            requirement,
+        ));
+    };
+    let sides = photo.size().map(|pixels| pixels as f64 / dots);
+    if !sides
+        .iter()
+        .all(|side| (SHORTEST..=LARGEST / POINTS).contains(side))
+    {
+        return Err(Error::Unsupported {
+            format: "PDF",
+            reason: format!(
+                "a page of {:.3} × {:.3} mm cannot be; pages have sides from 2 mm to 5.08 m. Is the \
+                 unit of the lengths right?",
+                sides[0], sides[1]
+            ),
+        });
+    }
+    let picture = write_photo_jpeg(photo, options)?;
+    let [catalog, tree, page, content, image] = [1, 2, 3, 4, 5].map(Ref::new);
+    let name = Name(b"I");
+    let [width, height] = sides.map(points);
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(tree);
+    pdf.pages(tree).kids([page]).count(1);
+    let mut entry = pdf.page(page);
+    entry
+        .parent(tree)
+        .media_box(Rect::new(0.0, 0.0, width, height))
+        .contents(content);
+    entry.resources().x_objects().pair(name, image);
+    entry.finish();
+    let mut drawn = Content::new();
+    drawn.save_state();
+    drawn.transform([width, 0.0, 0.0, height, 0.0, 0.0]);
+    drawn.x_object(name).restore_state();
+    pdf.stream(content, &drawn.finish());
+    let [wide, tall] = photo.size().map(|pixels| pixels as i32);
+    let mut object = pdf.image_xobject(image, &picture);
+    object.filter(Filter::DctDecode);
+    object.width(wide).height(tall).bits_per_component(8);
+    object.color_space().device_rgb();
+    object.finish();
+    Ok(pdf.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_resolution_is_stated_in_the_nearer_unit() {
+        let stated = |dots: f64| density(dots).map(|found| (found.density.0, found.unit));
+        assert_eq!(stated(300.0 / 25.4), Some((300, PixelDensityUnit::Inches)));
+        assert_eq!(stated(8.0), Some((80, PixelDensityUnit::Centimeters)));
+        // One pixel for a metre, and a million for a millimetre.
+        assert_eq!(stated(1e-3), None);
+        assert_eq!(stated(1e6), None);
+    }
+}

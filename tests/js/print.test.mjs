@@ -1,0 +1,179 @@
+/** Flat images in files of their true size: directly, in a worker and by the command. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+import { readPdfPicture } from './support/drawings.mjs';
+import { depthCamera, depths, photo as taken, photoCamera } from './support/phone.mjs';
+
+after(() => developable.dispose());
+await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'unroll')]);
+
+const [width, height] = [90, 70];
+/** Red from left to right, green from top to bottom; its lower third is transparent. */
+const picture = {
+  width,
+  height,
+  data: Uint8ClampedArray.from({ length: 4 * width * height }, (_, i) => {
+    const [x, y] = [Math.floor(i / 4) % width, Math.floor(i / 4 / width)];
+    return [2 * x, 3 * y, 40, y < 48 ? 255 : 0][i % 4];
+  }),
+};
+
+/** @param {string} code @param {RegExp} message */
+const error = (code, message) => (/** @type {any} */ thrown) => {
+  assert.equal(thrown.code, code, String(thrown));
+  assert.match(thrown.message, message);
+  return true;
+};
+
+/** What a PNG's pHYs chunk states, in pixels per millimetre. @param {Uint8Array} file */
+function pngDensity(file) {
+  const bytes = Buffer.from(file);
+  for (let at = 8; at < bytes.length; at += 12 + bytes.readUInt32BE(at)) {
+    if (bytes.toString('latin1', at + 4, at + 8) !== 'pHYs') continue;
+    assert.deepEqual([bytes.readUInt32BE(at + 8), bytes[at + 16]], [bytes.readUInt32BE(at + 12), 1]);
+    return bytes.readUInt32BE(at + 8) / 1000;
+  }
+  return undefined;
+}
+
+/** What a JPEG's JFIF segment states, likewise. @param {Uint8Array} file */
+function jpegDensity(file) {
+  const bytes = Buffer.from(file);
+  assert.equal(bytes.toString('latin1', 6, 10), 'JFIF');
+  const [unit, across, down] = [bytes[13], bytes.readUInt16BE(14), bytes.readUInt16BE(16)];
+  assert.equal(across, down);
+  return { 1: across / 25.4, 2: across / 10 }[unit];
+}
+
+/** How far colours are from those of the picture on white. @param {{ data: ArrayLike<number> }} found @param {number} channels */
+function off({ data }, channels) {
+  let sum = 0;
+  for (let i = 0; i < width * height; i += 1) {
+    for (let k = 0; k < 3; k += 1) {
+      const wanted = picture.data[4 * i + 3] === 255 ? picture.data[4 * i + k] : 255;
+      sum += (data[channels * i + k] - wanted) ** 2;
+    }
+  }
+  return Math.sqrt(sum / (3 * width * height));
+}
+
+test('a PDF page is as large as what it shows', async () => {
+  const file = direct.writePhoto(picture, { format: 'pdf', dotsPerMillimetre: 2 });
+  const found = await readPdfPicture(file);
+  assert.equal(found.pages, 1);
+  assert.ok(Math.abs(found.size[0] - 45) < 1e-3 && Math.abs(found.size[1] - 35) < 1e-3, String(found.size));
+  // The picture covers it all.
+  assert.deepEqual(found.matrix.map((/** @type {number} */ value) => Math.round(value)), [45, 0, 0, 35, 0, 0]);
+  assert.deepEqual([found.width, found.height], [width, height]);
+  assert.ok(off(found, found.data.length / width / height) < 4);
+  assert.deepEqual(await developable.writePhoto(picture, { format: 'pdf', dotsPerMillimetre: 2 }), file);
+});
+
+test('JPEG and PNG state the resolution that is known', async () => {
+  const jpeg = direct.writePhoto({ ...picture, resolution: 8000, unit: 'm' }, { format: 'jpeg' });
+  assert.ok(Math.abs(Number(jpegDensity(jpeg)) - 8) < 1e-9);
+  assert.ok(off(direct.readPhoto(jpeg), 4) < 4);
+  const small = await developable.writePhoto(picture, { format: 'jpeg', quality: 30 });
+  assert.ok(small.length < 0.7 * jpeg.length, `${small.length} ${jpeg.length}`);
+  assert.equal(jpegDensity(small), undefined);
+  const png = await developable.writePhoto({ ...picture, resolution: 11.811, unit: 'mm' });
+  assert.equal(pngDensity(png), 11.811);
+  assert.deepEqual(direct.readPhoto(png).data, picture.data);
+  // What is said counts more than what the picture says; nothing is known of the width of some page.
+  assert.equal(pngDensity(direct.writePhoto({ ...picture, resolution: 5, unit: 'mm' }, { dotsPerMillimetre: 3 })), 3);
+  assert.equal(pngDensity(direct.writePhoto({ ...picture, resolution: 5, unit: 'page' })), undefined);
+  assert.equal(pngDensity(direct.writePhoto(picture)), undefined);
+});
+
+test('what cannot be written is refused', async () => {
+  const write = (/** @type {object} */ options, given = picture) => () => direct.writePhoto(given, options);
+  assert.throws(write({ format: 'pdf' }), error('INPUT', /true size.*dotsPerMillimetre/));
+  assert.throws(write({ format: 'pdf' }, { ...picture, ...{ resolution: 2, unit: 'page' } }), error('INPUT', /true size/));
+  assert.throws(write({ format: 'pdf', dotsPerMillimetre: 0.001 }), error('UNSUPPORTED', /5\.08 m/));
+  assert.throws(write({ format: 'tiff' }), error('OPTION', /format/));
+  assert.throws(write({ quality: 101, format: 'jpeg' }), error('OPTION', /quality.*1 to 100/));
+  assert.throws(write({ quality: 3000, format: 'jpeg' }), error('OPTION', /quality.*1 to 100/));
+  assert.throws(write({ dotsPerMillimetre: 0 }), error('OPTION', /dotsPerMillimetre/));
+  await assert.rejects(developable.writePhoto(picture, { format: 'pdf' }), error('INPUT', /true size/));
+  assert.throws(() => direct.fit({ width: 3, height: 3, data: new Float32Array(9), unit: /** @type {any} */ ('ft') }), error('INPUT', /unit/));
+});
+
+test('the unit goes from depths to the flat page', async () => {
+  const { width: cols, height: rows, ...numbers } = depthCamera;
+  const mesh = direct.backProject(depths(), { ...numbers, unit: 'm' });
+  const seen = direct.sampleMesh(mesh, { view: 'best-fit' });
+  const surface = await developable.fit(seen, { lambda: 'big' });
+  assert.deepEqual([mesh.unit, seen.unit, surface.unit, mesh.camera?.width, 'unit' in Object(mesh.camera)], ['m', 'm', 'm', cols, false]);
+  assert.equal(rows, mesh.camera?.height);
+  const flat = await developable.dewarp(surface, taken({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 }));
+  assert.equal(flat.unit, 'm');
+  const { size } = await readPdfPicture(await developable.writePhoto(flat, { format: 'pdf' }));
+  // The sheet ends up to two pixels of the depths within the page: 210 by 297 mm, at 0.43 m and f = 205.
+  for (const [k, side] of [210, 297].entries()) assert.ok(size[k] < side + 1 && size[k] > side - 12, String(size));
+  const image = direct.fit({ width: 20, height: 20, data: new Float32Array(400), unit: 'mm', pixelSize: 2 });
+  assert.equal(image.unit, 'mm');
+  const plane = direct.dewarp(image, picture);
+  assert.equal(plane.unit, 'mm');
+  assert.equal(direct.dewarp({ width: 20, height: 20, data: new Float32Array(400) }, picture).unit, undefined);
+});
+
+test('the command writes pages in true size', async () => {
+  const folder = await temporaryFolder();
+  const { width: cols, height: rows } = depthCamera;
+  const { data } = depths();
+  const coarse = taken({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(coarse));
+  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width: cols, height: rows, data }));
+  await writeFile(join(folder, 'camera.json'), JSON.stringify({ fx: 205, fy: 205, cx: 126, cy: 97, width: 256, height: 192 }));
+  const common = ['--texture', 'photo.png', '--lambda', 'big', '--view', 'best-fit'];
+  const fromDepth = ['dewarp', 'depth.exr', '--intrinsics', 'camera.json', ...common];
+  /** @param {string[]} args */
+  const command = async (...args) => {
+    const done = await run(folder, args);
+    assert.equal(done.status, 0, done.stderr);
+  };
+  await command(...fromDepth, '-o', 'page.pdf', '--quality', '80');
+  const { size, width: wide, height: tall } = await readPdfPicture(await readFile(join(folder, 'page.pdf')));
+  for (const [k, side] of [210, 297].entries()) assert.ok(size[k] < side + 1 && size[k] > side - 12, String(size));
+  await command(...fromDepth, '-o', 'page.JPG');
+  const jpeg = await readFile(join(folder, 'page.JPG'));
+  const flat = direct.readPhoto(jpeg);
+  assert.deepEqual([flat.width, flat.height], [wide, tall]);
+  // To whole pixels per inch or centimetre.
+  assert.ok(Math.abs(Number(jpegDensity(jpeg)) / (wide / size[0]) - 1) < 0.01);
+  await command(...fromDepth, '-o', 'page.png', '--unit', 'mm', '--dots', '2000');
+  assert.equal(pngDensity(await readFile(join(folder, 'page.png'))), 2000);
+
+  // Heights in whatever unit, and with one.
+  await writeFile(join(folder, 'heights.npy'), direct.writeNpy({ width: 64, height: 48, data: new Float32Array(64 * 48) }));
+  const fromHeights = ['dewarp', 'heights.npy', '--texture', 'photo.png', '-o', 'page.pdf'];
+  const unknown = await run(folder, fromHeights);
+  assert.equal(unknown.status, 2);
+  assert.match(unknown.stderr, /--unit mm/);
+  await command(...fromHeights, '--pixel-size', '2.5', '--unit', 'mm');
+  const page = await readPdfPicture(await readFile(join(folder, 'page.pdf')));
+  // But for the last cells of the lattice, which is a hexagonal one.
+  assert.ok(page.size[0] > 155 && page.size[0] <= 160 && page.size[1] > 112 && page.size[1] <= 120, String(page.size));
+  const metres = await run(folder, [...fromHeights, '--pixel-size', '2.5', '--unit', 'm']);
+  assert.equal(metres.status, 3);
+  assert.match(metres.stderr, /unit of the lengths/);
+  assert.match((await run(folder, [...fromHeights, '--unit', 'inch'])).stderr, /--unit must be mm or m/);
+
+  // By its edges.
+  const line = (/** @type {number} */ y) => [[200, y], [500, y], [800, y]];
+  await writeFile(join(folder, 'edges.json'), JSON.stringify({ top: line(100), bottom: line(948.5) }));
+  const edges = ['dewarp', 'photo.png', '--edges', 'edges.json', '--focal', '1000', '-o'];
+  await command(...edges, 'edges.pdf', '--page', 'a4');
+  const a4 = await readPdfPicture(await readFile(join(folder, 'edges.pdf')));
+  assert.ok(Math.abs(a4.size[0] - 210) < 1 && Math.abs(a4.size[1] - 297) < 1, String(a4.size));
+  const bare = await run(folder, [...edges, 'edges.pdf']);
+  assert.equal(bare.status, 2);
+  assert.match(bare.stderr, /--page a4/);
+  await command(...edges, 'edges.jpeg');
+  assert.equal(jpegDensity(await readFile(join(folder, 'edges.jpeg'))), undefined);
+});

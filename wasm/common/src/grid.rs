@@ -1,0 +1,88 @@
+//! Warp maps out, in full and on a grid.
+
+use js_sys::Float32Array;
+use serde::Serialize;
+use serde_wasm_bindgen::preserve;
+use wasm_bindgen::prelude::*;
+
+use super::Result;
+use super::options::option;
+use developable::dewarp::{WarpGrid, WarpMap};
+
+/// What of the warp map is wanted besides the image.
+pub struct MapOptions {
+    map: bool,
+    grid: bool,
+    tolerance: f64,
+}
+
+impl Default for MapOptions {
+    fn default() -> Self {
+        MapOptions {
+            map: true,
+            grid: false,
+            tolerance: 0.25,
+        }
+    }
+}
+
+/// Most nodes of a grid.
+const NODES: usize = 40_000;
+
+impl MapOptions {
+    /// Takes the option, if it is one of these.
+    pub fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
+        let flag = "must be true or false";
+        match name {
+            "map" => self.map = option("map", value.clone(), flag)?,
+            "grid" => match value.as_f64() {
+                Some(tolerance) => (self.grid, self.tolerance) = (true, tolerance),
+                None => {
+                    let requirement = "must be true, false or the largest error in pixels";
+                    self.grid = option("grid", value.clone(), requirement)?;
+                }
+            },
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// The places of all pixels, if they are wanted.
+    pub fn places(&self, map: &WarpMap) -> Float32Array {
+        let places = if self.map { map.places() } else { &[] };
+        places.as_flattened().into()
+    }
+
+    pub fn grid(&self, map: &WarpMap) -> Result<Option<GridOutput>> {
+        let found = self
+            .grid
+            .then(|| map.grid(self.tolerance, NODES))
+            .transpose()?;
+        Ok(found.as_ref().map(GridOutput::new))
+    }
+}
+
+/// `WarpGrid` of `types.d.ts`.
+#[derive(Serialize)]
+pub struct GridOutput {
+    columns: usize,
+    rows: usize,
+    step: [f64; 2],
+    #[serde(with = "preserve")]
+    places: Float32Array,
+    rms: f64,
+    maximum: f64,
+}
+
+impl GridOutput {
+    fn new(grid: &WarpGrid) -> Self {
+        GridOutput {
+            columns: grid.columns,
+            rows: grid.rows,
+            step: grid.step,
+            places: grid.places.as_flattened().into(),
+            rms: grid.rms,
+            maximum: grid.maximum,
+        }
+    }
+}

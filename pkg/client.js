@@ -2,6 +2,7 @@
 import { contextOf, put } from './canvas.js';
 import { Connection } from './connection.js';
 import { controlOf } from './control.js';
+import { asDepthOptions } from './depth-input.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asPicture } from './mesh-input.js';
@@ -188,11 +189,13 @@ export class DevelopableWorker {
   /**
    * @param {HeightImage} input
    * @param {import('./types.js').Intrinsics} intrinsics
+   * @param {import('./types.js').DepthOptions} [given]
    */
-  async backProject(input, intrinsics) {
+  async backProject(input, intrinsics, given) {
+    const known = asDepthOptions(given);
     const camera = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
     const { field, buffers } = detached(asImage(input));
-    return this.#request((remote) => remote.backProject(transfer(field, buffers), camera));
+    return this.#request((remote) => remote.backProject(transfer(field, buffers), camera, known));
   }
 
   /**
@@ -307,24 +310,24 @@ export class DevelopableWorker {
   /**
    * @param {HeightImage | Heightfield} input
    * @param {import('./types.js').Photo} photo
-   * @param {import('./types.js').DewarpOptions} [given]
+   * @param {import('./types.js').DewarpOptions & import('./index.js').HandOver} [given]
    */
   async dewarp(input, photo, given) {
-    const options = placedOptions('dewarp', input, given);
+    const { transfer: handOver, ...options } = placedOptions('dewarp', input, given);
     const { field, buffers } = detached(asField(input));
-    const sent = copied(photo);
+    const sent = sending(photo, handOver);
     return this.#request((remote) => remote.dewarp(transfer(field, buffers), sent, options));
   }
 
   /**
    * @param {import('./types.js').Photo & { film35?: number }} photo
    * @param {import('./types.js').PageEdges | readonly import('./types.js').PageEdges[]} edges
-   * @param {import('./types.js').DewarpPageOptions} [given]
+   * @param {import('./types.js').DewarpPageOptions & import('./index.js').HandOver} [given]
    */
   async dewarpPage(photo, edges, given) {
-    const options = pageOptions(photo, given);
+    const { transfer: handOver, ...options } = pageOptions(photo, given);
     const pages = plainEdges(asEdges(edges));
-    const sent = copied(photo);
+    const sent = sending(photo, handOver);
     return this.#request((remote) => remote.dewarpPage(sent, pages, options));
   }
 
@@ -336,11 +339,11 @@ export class DevelopableWorker {
 
   /**
    * @param {import('./types.js').SizedPhoto} photo
-   * @param {import('./types.js').WritePhotoOptions} [given]
+   * @param {import('./types.js').WritePhotoOptions & import('./index.js').HandOver} [given]
    */
   async writePhoto(photo, given) {
-    const options = printOptions(photo, given);
-    const sent = copied(photo);
+    const { transfer: handOver, ...options } = printOptions(photo, given);
+    const sent = sending(photo, handOver);
     return this.#request((remote) => remote.writePhoto(sent, options));
   }
 
@@ -392,13 +395,15 @@ export class DevelopableWorker {
 makeDisposable(DevelopableWorker);
 
 /**
- * A copy of a photo, to be handed over.
+ * A photo on its way to the worker: itself, if it is to be handed over and that is possible, or a copy.
  * @param {import('./types.js').Photo} photo
+ * @param {boolean} [handOver]
  */
-function copied(photo) {
+function sending(photo, handOver = false) {
   const { width, height, data } = asPhoto(photo);
-  const own = new Uint8Array(data);
-  return transfer({ width, height, data: own }, [own.buffer]);
+  const whole = data.buffer instanceof ArrayBuffer && data.byteLength === data.buffer.byteLength;
+  const own = handOver && whole ? data : new Uint8Array(data);
+  return transfer({ width, height, data: own }, [/** @type {ArrayBuffer} */ (own.buffer)]);
 }
 
 /**

@@ -1,6 +1,6 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
-  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
+  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
@@ -120,7 +120,7 @@ export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh
  * A jump is where one point lies behind the other by more than ten times their distance across the
  * line of sight.
  */
-export function backProject(image: HeightImage, camera: Intrinsics): Mesh;
+export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Mesh;
 /**
  * Gives a surface the colours of a picture of it, and texture coordinates where it has none: the
  * picture shows what the heights show, with as many pixels as it likes. Of a file, `texture` is set,

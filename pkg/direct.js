@@ -1,4 +1,5 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
+import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
@@ -267,10 +268,11 @@ export function paint(input, picture, options) {
 }
 
 /** @type {typeof import('./direct.js').backProject} */
-export function backProject(input, intrinsics) {
+export function backProject(input, intrinsics, known) {
   const image = asImage(input);
   const { unit, ...camera } = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
-  const mesh = meshes.call((wasm) => wasm.backProject(image, camera));
+  const options = asDepthOptions(known);
+  const mesh = meshes.call((wasm) => wasm.backProject(image, camera, options));
   // A photo of another size has other numbers.
   const { width, height } = image;
   return { ...mesh, camera: { width, height, ...camera }, ...(unit && { unit }) };
@@ -345,9 +347,15 @@ export function writeDxf(drawing) {
   return unshared(patterns.call((wasm) => wasm.writeDxf(own)));
 }
 
+/**
+ * Here there is nobody to hand anything over to.
+ * @template T
+ * @typedef {NonNullable<T> & { transfer?: boolean }} Handed
+ */
+
 /** @type {typeof import('./direct.js').dewarp} */
 export function dewarp(input, photo, given) {
-  const options = placedOptions('dewarp', input, given);
+  const { transfer, ...options } = /** @type {Handed<typeof given>} */ (placedOptions('dewarp', input, given));
   const [field, pixels] = [asField(input), asPhoto(photo)];
   const placed = { ...options, ...placeOf(field, options) };
   const { unit } = carriedOf(field);
@@ -356,7 +364,7 @@ export function dewarp(input, photo, given) {
 
 /** @type {typeof import('./direct.js').dewarpPage} */
 export function dewarpPage(photo, edges, given) {
-  const options = pageOptions(photo, given);
+  const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions(photo, given));
   const [pixels, pages] = [asPhoto(photo), asEdges(edges)];
   return sheets.call((wasm) => wasm.dewarpPage(pixels, pages, options));
 }
@@ -364,7 +372,7 @@ export function dewarpPage(photo, edges, given) {
 /** @type {typeof import('./direct.js').writePhoto} */
 export function writePhoto(photo, given) {
   const { width, height, data } = asPhoto(photo);
-  const options = printOptions(photo, given);
+  const { transfer, ...options } = printOptions(photo, given);
   return bytesOf((wasm) => wasm.writePhoto(width, height, data, options));
 }
 

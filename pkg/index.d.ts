@@ -1,6 +1,6 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
-  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
+  Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
@@ -54,7 +54,7 @@ export interface OpenFitOptions extends SolverOptions {
 
 export interface HandOver {
   /**
-   * Hand the input's buffers over to the worker instead of copying them (the caller loses them).
+   * Hand the buffers of the input, or of the photo, over to the worker instead of copying them (the caller loses them).
    * Arrays that are only a part of their buffer are copied all the same.
    */
   transfer?: boolean;
@@ -116,7 +116,7 @@ export function writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
 export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
-export function backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
+export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
 /** Gives a surface the colours of a picture of it. */
 export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */
@@ -137,16 +137,16 @@ export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 /** Makes a photo of a surface flat. */
-export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
+export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver): Promise<Dewarped>;
 /**
  * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
  * edges that are bent: without depth.
  */
 export function dewarpPage(
-  photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+  photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions & HandOver,
 ): Promise<DewarpedPage>;
 export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
-export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Promise<Uint8Array<ArrayBuffer>>;
+export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
 /** Stops the shared worker, calls under way reject with code `DISPOSED`; a later call starts a new one. */
 export function dispose(): void;
@@ -180,7 +180,7 @@ export class DevelopableWorker {
   writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
-  backProject(image: HeightImage, camera: Intrinsics): Promise<Mesh>;
+  backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
   paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
   analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
   patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
@@ -192,12 +192,12 @@ export class DevelopableWorker {
   writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
   writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
-  dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Promise<Dewarped>;
+  dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver): Promise<Dewarped>;
   dewarpPage(
-    photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+    photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions & HandOver,
   ): Promise<DewarpedPage>;
   readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
-  writePhoto(photo: SizedPhoto, options?: WritePhotoOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
   example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
   /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
   readonly connected: boolean;

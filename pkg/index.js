@@ -54,7 +54,7 @@ export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 /** @type {typeof import('./index.js').sampleMesh} */
 export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
 /** @type {typeof import('./index.js').backProject} */
-export const backProject = (input, camera) => worker().backProject(input, camera);
+export const backProject = (input, camera, options) => worker().backProject(input, camera, options);
 /** @type {typeof import('./index.js').paint} */
 export const paint = (input, picture, options) => worker().paint(input, picture, options);
 /** @type {typeof import('./index.js').analyze} */

@@ -4,14 +4,14 @@ import { asBytes, asCamera, numbers, optionalFloats, typed, unitOf } from './inp
 import { asPhoto } from './sheet-input.js';
 import { reading, record, refuseUnknown, typeOf } from './values.js';
 
-const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit']);
+const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit', 'confidence']);
 
 /**
  * @param {import('./types.js').Mesh} mesh
  * @returns {import('./types.js').Mesh & { textures?: (Uint8Array | import('./sheet-input.js').Pixels)[] }}
  */
 export function asMesh(mesh) {
-  const { positions, triangles, colors, uvs, textureOf, textures, camera, unit } = record('INPUT', 'the mesh', mesh, MESH);
+  const { positions, triangles, colors, uvs, textureOf, textures, camera, unit, confidence } = record('INPUT', 'the mesh', mesh, MESH);
   refuseUnknown('INPUT', 'property of the mesh', mesh, MESH);
   if (positions === undefined) {
     throw new DevelopableError(
@@ -27,6 +27,7 @@ export function asMesh(mesh) {
     textureOf: textureOf === undefined ? undefined : Int32Array.from(numbers('textureOf', textureOf)),
     camera: camera === undefined ? undefined : asCamera(camera),
     unit: unitOf(unit),
+    confidence: optionalFloats('confidence', confidence),
     textures: textures === undefined
       ? undefined
       : reading('INPUT', 'textures', () => [.../** @type {Iterable<unknown>} */ (textures)].map(asPicture)),

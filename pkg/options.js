@@ -140,6 +140,7 @@ export const OPTIONS = {
     view: either(choice(...directions), numbers(3, 'a vector of three numbers')),
     resolution: whole,
   },
+  depths: { confidence: anything, mask: anything, crop: corners, photo: anything, camera: photoCamera },
   camera: { ...seeing, unit: choice('mm', 'm') },
   photoCamera: {
     ...seeing,
@@ -162,7 +163,7 @@ export const OPTIONS = {
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
   pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
-  dewarp: { ...resampled, ...unrolling, ...mapping, trim: flag, crop: corners, extent, camera: photoCamera },
+  dewarp: { ...resampled, ...unrolling, ...mapping, ...handOver, trim: flag, deskew: flag, crop: corners, extent, camera: photoCamera },
   dewarpPage: {
     focalLength: number,
     fieldOfView: number,
@@ -172,8 +173,9 @@ export const OPTIONS = {
     centre: numbers(2, 'two numbers: x and y in the photo'),
     accuracy: number,
     ...mapping,
+    ...handOver,
   },
-  writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: whole, dotsPerMillimetre: number },
+  writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: whole, dotsPerMillimetre: number, ...handOver },
   writeObj: { materials: text },
   writePdf: { paper: choice('a4', 'letter') },
   writeGlb: { texture: anything },

@@ -102,8 +102,8 @@ export function plainEdges(pages) {
 /**
  * The options, with the focal length that the photo's file has told if none is given.
  * @param {unknown} photo
- * @param {Options} [given]
- * @returns {Partial<Options>}
+ * @param {Options & import('./index.js').HandOver} [given]
+ * @returns {Partial<Options & import('./index.js').HandOver>}
  */
 export function pageOptions(photo, given) {
   const { ruler, ...options } = optionsOf('dewarpPage', given);

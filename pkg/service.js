@@ -243,17 +243,18 @@ export const service = {
   async sampleMesh(mesh, options) {
     await Promise.all([loaded('meshes'), mesh.textures && withPictures(mesh.textures)]);
     const sampled = direct.sampleMesh(mesh, options);
-    return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs));
+    return transfer(sampled, buffersOf(sampled.heights, sampled.colors, sampled.uvs, sampled.confidence));
   },
 
   /**
    * @param {Parameters<typeof direct.backProject>[0]} input
    * @param {Parameters<typeof direct.backProject>[1]} camera
+   * @param {Parameters<typeof direct.backProject>[2]} [known]
    */
-  async backProject(input, camera) {
+  async backProject(input, camera, known) {
     await loaded('meshes');
-    const mesh = direct.backProject(input, camera);
-    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.uvs));
+    const mesh = direct.backProject(input, camera, known);
+    return transfer(mesh, buffersOf(mesh.positions, mesh.triangles, mesh.uvs, mesh.confidence));
   },
 
   /** @type {typeof direct.example} */

@@ -51,7 +51,7 @@ export function placedOptions(call, input, given) {
 /**
  * The options of writing a photo, with the resolution that it states itself, as a flat image does.
  * @param {import('./types.js').SizedPhoto} photo
- * @param {import('./types.js').WritePhotoOptions | undefined} given
+ * @param {(import('./types.js').WritePhotoOptions & import('./index.js').HandOver) | undefined} given
  */
 export function printOptions(photo, given) {
   const options = optionsOf('writePhoto', given);

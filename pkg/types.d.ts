@@ -124,6 +124,8 @@ export interface Mesh {
   camera?: PhotoCamera;
   /** The unit of all lengths, where it is known: metres of glTF. */
   unit?: Unit | null;
+  /** How far each vertex is to be trusted, from 0 to 1. */
+  confidence?: Float32Array;
 }
 
 /** A pinhole camera, in pixels: the centre of the top left one is (0, 0), rows count down. */
@@ -165,6 +167,31 @@ export interface PhotoCamera extends Omit<Intrinsics, 'unit'> {
   rotation?: readonly (readonly [number, number, number])[];
   /** The t of that, in the unit of the lengths. Default [0, 0, 0]. */
   translation?: readonly [number, number, number];
+}
+
+/** Values at the pixels of an image. */
+export interface Pixels {
+  width: number;
+  height: number;
+  data: Numbers;
+}
+
+/** What is known of depths besides. Images may be finer or coarser than the depths, but must show the same. */
+export interface DepthOptions {
+  /**
+   * How far each depth is to be trusted. Whole numbers up to 2 are the levels that ARKit tells: 0 takes the depth out, 1
+   * gives it a fourth of the weight, 2 all of it. Others are shares of the largest of their type (255 of bytes, as
+   * ARCore tells), floats are factors from 0 to 1 themselves; 0 takes the depth out. It goes along to `fit`.
+   */
+  confidence?: Pixels;
+  /** 0 takes out; of the depths, or of the photo. */
+  mask?: Pixels;
+  /** Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it, but for three pixels, are taken out. */
+  crop?: readonly (readonly [number, number])[];
+  /** The size of the photo that `crop` is about. */
+  photo?: { width: number; height: number };
+  /** The camera of the photo, which `mask` (unless it is as large as the depths) and `crop` are seen through. Default: the depths' own. */
+  camera?: PhotoCamera;
 }
 
 export interface ReadMeshOptions {
@@ -216,6 +243,8 @@ export interface SampledMesh extends Heightfield {
   colors?: Float32Array;
   /** Its texture coordinates likewise, two for each vertex. */
   uvs?: Float32Array;
+  /** How far each height is to be trusted, if that is known of the mesh. */
+  confidence?: Float32Array;
   /** Its texture, where all that is seen has the same one and that is a PNG or JPEG file. */
   texture?: Uint8Array;
 }

@@ -330,7 +330,7 @@ export function isMesh(input) {
 const strangers = {
   image: ['view', 'resolution', 'ray'],
   mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'ray'],
-  depths: ['lattice', 'pixel-size', 'height-scale', 'confidence', 'constraints', 'free', 'occlusion-mask'],
+  depths: ['lattice', 'pixel-size', 'height-scale', 'constraints', 'free', 'occlusion-mask'],
 };
 
 const plurals = { image: 'meshes and depths', mesh: 'images', depths: 'heights, and the input is depths' };

@@ -92,7 +92,10 @@ export const sections = {
           'other whole numbers white is a quarter of the longer side above black)',
       },
       array: { value: 'NAME', help: 'the array of an NPZ file, where it holds several' },
-      mask: { value: 'FILE', help: 'image of the same shape; 0 takes a value out' },
+      mask: {
+        value: 'FILE',
+        help: 'image of the same shape; 0 takes a value out. Of depths it may have any size, as one that was drawn on the photo',
+      },
       'no-data': { value: 'V', help: 'value that means no data, besides NaN' },
     },
   },
@@ -125,7 +128,8 @@ export const sections = {
       confidence: {
         value: 'FILE',
         help: 'how far each height is to be trusted: whole numbers as shares of their largest, so that white is 1 and ' +
-          'black 0; others as they are',
+          'black 0; others as they are. Of depths it may have any size, and whole numbers up to 2 are the levels of a ' +
+          'phone: 0 takes a depth out, 1 gives it a fourth of the weight, 2 all',
       },
       constraints: {
         value: 'FILE',

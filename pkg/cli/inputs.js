@@ -10,7 +10,9 @@ import { Problem, status } from './problem.js';
  * @typedef {import('./arguments.js').InputTask} InputTask
  * @typedef {import('./arguments.js').KnownTask} KnownTask
  * @typedef {import('../types.js').ReadResult} ReadResult
- * @typedef {{ width: number, height: number, wanted?: [number, number][] }} Size of a photo, and which part of it is wanted
+ * @typedef {{
+ *   width: number, height: number, wanted?: [number, number][], camera?: import('../types.js').PhotoCamera,
+ * }} Size of a photo, which part of it is wanted, and the camera that took it
  * @typedef {import('../types.js').HeightImage | import('../types.js').Heightfield} Input
  */
 
@@ -112,9 +114,9 @@ async function readSampled(task) {
 
 /**
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
- * @param {InputTask & { photo?: Size }} task
+ * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
  */
-async function readMesh({ input, array, camera, mask, noData, written, photo }) {
+async function readMesh({ input, array, camera, mask, confidence, noData, written, photo }) {
   if (!camera) {
     const mesh = await readMeshFile(input, await readBytes(input), written);
     for (const name of mesh.missing ?? []) {
@@ -124,54 +126,24 @@ async function readMesh({ input, array, camera, mask, noData, written, photo }) 
   }
   const file = await readImage(input, array);
   const { width, height, data } = file;
-  return developable.backProject({
-    width,
-    height,
-    data,
-    mask: within(file, photo, mask === undefined ? undefined : flags(await readBeside('mask', mask, file))),
-    noData: asStored(noData, file),
-  }, await depthCamera(camera, file, photo));
+  return developable.backProject(
+    { width, height, data, noData: asStored(noData, file) },
+    await depthCamera(camera, file, photo),
+    {
+      mask: mask === undefined ? undefined : await readImage(mask),
+      confidence: confidence === undefined ? undefined : asTyped(await readImage(confidence)),
+      crop: photo?.wanted,
+      photo,
+      camera: photo?.camera,
+    },
+  );
 }
 
-/** Pixels of the depths that are taken beyond the part of the photo that is wanted. */
-const BEYOND = 3;
-
-/**
- * The depths in the part of the photo that is wanted, and some beside it, for the surface to go on there.
- * @param {Size} depths
- * @param {Size} [photo]
- * @param {Uint8Array} [mask]
- */
-function within({ width, height }, photo, mask) {
-  const { wanted } = photo ?? {};
-  if (photo === undefined || wanted === undefined) return mask;
-  const inside = Uint8Array.from({ length: width * height }, (_, i) => {
-    const [x, y] = [((i % width) + 0.5) / width, (Math.floor(i / width) + 0.5) / height];
-    return Number(contains(wanted, x * photo.width - 0.5, y * photo.height - 0.5));
-  });
-  const near = (/** @type {number} */ i) => {
-    const [col, row] = [i % width, Math.floor(i / width)];
-    for (let y = Math.max(0, row - BEYOND); y <= Math.min(height - 1, row + BEYOND); y += 1) {
-      for (let x = Math.max(0, col - BEYOND); x <= Math.min(width - 1, col + BEYOND); x += 1) {
-        if (inside[y * width + x]) return 1;
-      }
-    }
-    return 0;
-  };
-  return inside.map((_, i) => (mask && !mask[i] ? 0 : near(i)));
-}
-
-/**
- * By the even-odd rule.
- * @param {[number, number][]} polygon
- * @param {number} x
- * @param {number} y
- */
-function contains(polygon, x, y) {
-  return polygon.reduce((inside, [px, py], i) => {
-    const [qx, qy] = polygon.at(i - 1) ?? [px, py];
-    return (py > y) !== (qy > y) && x < ((qx - px) * (y - py)) / (qy - py) + px ? !inside : inside;
-  }, false);
+/** Whole numbers in an array of their type, which says what they are. @param {ReadResult} file */
+function asTyped({ width, height, data, dataType }) {
+  if (dataType === 'u8') return { width, height, data: Uint8Array.from(data, (value) => value || 0) };
+  if (dataType === 'u16') return { width, height, data: Uint16Array.from(data, (value) => value || 0) };
+  return { width, height, data };
 }
 
 /**

@@ -17,7 +17,7 @@ export async function page(task, signal) {
   const bytes = await readBytes(task.input);
   const photo = await about(task.input, () => developable.readPhoto(bytes));
   const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
-  const flat = await developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map) });
+  const flat = await developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
   const files = [{ path: task.output, bytes: await printed(task, flat) }];
   const { size, unit, report } = flat;
   if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...report, size, unit }) });

@@ -66,15 +66,16 @@ async function drawn(drawing, extension, paper) {
 export async function dewarp(task, signal) {
   await checkPlaces(...task.written);
   const given = task.texture === undefined ? undefined : await readPhoto(task.texture);
-  // Of a camera elsewhere it is not known yet which depths lie beside the part that is wanted.
-  const wanted = task.photoCamera === undefined ? task.crop : undefined;
-  const { surface, options } = await flattened({ ...task, photo: given && { ...given, wanted } }, signal, (input) => {
+  const { photoCamera } = task;
+  const elsewhere = photoCamera !== undefined && given !== undefined ? await readCamera(photoCamera, [given]) : undefined;
+  const seen = given && { width: given.width, height: given.height, wanted: task.crop, camera: elsewhere };
+  const { surface, options } = await flattened({ ...task, photo: seen }, signal, (input) => {
     if (task.extension === '.pdf') checkUnit(input);
   });
   const photo = given ?? await textureOf(task.input, surface);
-  const camera = task.photoCamera === undefined ? undefined : await readCamera(task.photoCamera, [photo]);
+  const camera = elsewhere ?? (photoCamera === undefined ? undefined : await readCamera(photoCamera, [photo]));
   const { dots, trim, crop } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, crop, camera });
+  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, crop, camera, transfer: true });
   const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, flat)];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: mapFile(flat, photo) });
@@ -105,7 +106,7 @@ function checkUnit({ unit }) {
  */
 export function printed({ extension, quality }, flat) {
   const formats = /** @type {const} */ ({ '.png': 'png', '.pdf': 'pdf', '.jpg': 'jpeg', '.jpeg': 'jpeg' });
-  return developable.writePhoto(flat, { format: formats[/** @type {keyof typeof formats} */ (extension)], quality });
+  return developable.writePhoto(flat, { format: formats[/** @type {keyof typeof formats} */ (extension)], quality, transfer: true });
 }
 
 /** @param {string} path */

@@ -1,6 +1,7 @@
 //! Small numerics that know nothing of lattices: symmetric 2×2 matrices in closed form, two
-//! precisions, sums in lanes.
+//! precisions, sums in lanes, polygons.
 
 pub(crate) mod lanes;
+pub(crate) mod polygon;
 pub(crate) mod real;
 pub(crate) mod sym2;

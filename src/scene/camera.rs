@@ -304,7 +304,12 @@ impl Camera {
 
     /// Where a point in space is seen, as [`Intrinsics::project`] says; the point is in the axes of the
     /// camera of the depths.
-    pub fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
+    pub fn project(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+        self.intrinsics.project(self.seen_from(point))
+    }
+
+    /// The point in the axes of this camera.
+    pub(crate) fn seen_from(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let Pose {
             rotation,
             translation,
@@ -312,6 +317,6 @@ impl Camera {
         let moved: [f64; 3] = std::array::from_fn(|k| {
             rotation[k][0] * x - rotation[k][1] * y - rotation[k][2] * z + translation[k]
         });
-        self.intrinsics.project([moved[0], -moved[1], -moved[2]])
+        [moved[0], -moved[1], -moved[2]]
     }
 }

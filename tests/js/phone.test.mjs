@@ -163,6 +163,86 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   );
 });
 
+/** ARKit's levels for depths, row by row: from the right 0, a strip that is 1, the rest 2. @param {number} i */
+const level = (i) => {
+  const col = i % width;
+  return col < 130 ? 2 : col < 140 ? 1 : 0;
+};
+
+test('confidences and masks of depths, of any size', async () => {
+  const levels = { width, height, data: Uint8Array.from({ length: width * height }, (_, i) => level(i)) };
+  const plain = direct.backProject(depths(), numbers);
+  const trusted = direct.backProject(depths(), numbers, { confidence: levels });
+  assert.deepEqual([...new Set(trusted.confidence)].sort(), [0, 0.25, 1]);
+  const columns = (/** @type {import('../../pkg/index.js').Mesh} */ mesh) =>
+    Math.max(...Array.from(mesh.triangles, (vertex) => vertex % width));
+  assert.equal(columns(trusted), 139);
+  assert.ok(columns(plain) > 150);
+  assert.deepEqual(await developable.backProject(depths(), numbers, { confidence: levels }), trusted);
+  // Twice as fine they say the same; shares of 255, and factors, likewise.
+  const fine = { width: 2 * width, height: 2 * height, data: Uint8Array.from({ length: 4 * width * height }, (_, i) =>
+    level(Math.floor(i / 4 / width) * width + ((i % (2 * width)) >> 1))) };
+  assert.deepEqual(direct.backProject(depths(), numbers, { confidence: fine }), trusted);
+  const shares = direct.backProject(depths(), numbers, { confidence: { ...levels, data: levels.data.map((v) => 127 * v) } });
+  assert.ok(Math.abs((shares.confidence?.[0] ?? 0) - 254 / 255) < 1e-6);
+  const factors = { ...levels, data: Float32Array.from(levels.data, (v) => [0, 0.25, 1][v]) };
+  assert.deepEqual(direct.backProject(depths(), numbers, { confidence: factors }), trusted);
+  // They go along to the fit: heights of little weight move it less.
+  const view = direct.sampleMesh(trusted, { view: '-z' });
+  const weights = new Set(Array.from(view.confidence ?? []).filter((value) => !Number.isNaN(value)));
+  assert.ok(weights.has(1) && weights.has(0.25) && ![...weights].some((weight) => weight < 0.2499), String([...weights].slice(0, 5)));
+  const doubtful = (/** @type {number} */ i) => Number(view.confidence?.[i]) < 0.3;
+  const heights = view.heights.map((height, i) => height + (doubtful(i) ? 0.002 * Math.sin(7919 * i) : 0));
+  const { confidence, ...bare } = view;
+  const off = (/** @type {Float64Array} */ found) => found.reduce((sum, height, i) =>
+    sum + (Number.isNaN(height) || !doubtful(i) ? 0 : (height - view.heights[i]) ** 2), 0);
+  const weighed = off(direct.fit({ ...view, heights }, { lambda: 'big' }).heights);
+  const equal = off(direct.fit({ ...bare, heights }, { lambda: 'big' }).heights);
+  assert.ok(weighed < 0.8 * equal, `${weighed} ${equal}`);
+
+  // A mask as it is drawn on the photo: its left half.
+  const half = { width: 640, height: 480, data: Uint8Array.from({ length: 640 * 480 }, (_, i) => Number(i % 640 < 320)) };
+  assert.equal(columns(direct.backProject(depths(), numbers, { mask: half })), 127);
+  // Seen by a camera 5 cm to the right, at 0.43 m and f = 205 all is some 24 pixels of the depths farther to the left.
+  const aside = { ...photoCamera, translation: /** @type {const} */ ([-0.05, 0, 0]) };
+  const last = columns(direct.backProject(depths(), numbers, { mask: half, camera: aside }));
+  assert.ok(last > 127 + 18 && last < 127 + 32, String(last));
+  // Of a part of the photo, three pixels beyond.
+  const crop = /** @type {const} */ ([[0, 0], [1279.5, 0], [1279.5, 1920], [0, 1920]]);
+  assert.equal(columns(direct.backProject(depths(), numbers, { crop, photo: picture })), 130);
+
+  const given = (/** @type {object} */ options, pattern = /./, code = 'INPUT') =>
+    assert.throws(() => direct.backProject(depths(), numbers, options), error(code, pattern));
+  given({ crop }, /photo/, 'OPTION');
+  given({ mask: { ...half, width: 480, height: 640 } }, /proportions/, 'UNSUPPORTED');
+  given({ confidence: { ...levels, width: 3 } }, /3 × 192 pixels/, 'SHAPE');
+  given({ confidence: { ...factors, data: factors.data.map((v) => 5 * v) } }, /from 0 to 1/);
+  given({ mask: 3 }, /width of the mask/);
+  given({ trust: half }, /trust/, 'OPTION');
+});
+
+test('the command takes confidences and masks with depths', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data: depths().data }));
+  const grey = (/** @type {number} */ cols, /** @type {number} */ rows, /** @type {(i: number) => number} */ value) =>
+    direct.writePhoto({
+      width: cols, height: rows, data: Uint8ClampedArray.from({ length: 4 * cols * rows }, (_, i) => (i % 4 === 3 ? 255 : value(i >> 2))),
+    });
+  await writeFile(join(folder, 'confidence.png'), grey(width, height, level));
+  await writeFile(join(folder, 'mask.png'), grey(640, 480, (i) => (i % 640 < 320 ? 255 : 0)));
+  const common = ['fit', 'depth.exr', '--intrinsics', '205,205,126,97', '--lambda', 'big', '-o', 'page.ply'];
+  /** Extents to the right, in metres. @type {(args: string[]) => Promise<number>} */
+  const right = async (args) => {
+    const done = await run(folder, [...common, ...args]);
+    assert.equal(done.status, 0, done.stderr);
+    const { positions } = direct.readMesh(await readFile(join(folder, 'page.ply')));
+    return Math.max(...positions.filter((_, i) => i % 3 === 0));
+  };
+  const [all, trusted, masked] = [await right([]), await right(['--confidence', 'confidence.png']), await right(['--mask', 'mask.png'])];
+  // Columns 139 and 127 of the depths, at some 0.45 m.
+  assert.ok(masked < 0.01 && trusted > 0.022 && trusted < 0.045 && all > 0.08, `${all} ${trusted} ${masked}`);
+});
+
 test('a textured scan brings its photo along', async () => {
   const folder = await temporaryFolder();
   const texture = direct.writePhoto(picture);

@@ -60,8 +60,7 @@ impl WarpMap {
             cells /= FINER;
         }
         let mut grid = self.sampled(shape(cells))?;
-        // An odd stride looks at all columns in turn.
-        let stride = (pixels / LOOKS) | 1;
+        let stride = pixels / LOOKS + 1;
         loop {
             grid.measure(self, stride);
             cells *= FINER;
@@ -151,21 +150,23 @@ impl WarpGrid {
 
     fn measure(&mut self, map: &WarpMap, stride: usize) {
         let (mut squares, mut maximum, mut count) = (0.0, 0.0f64, 0.0);
-        for i in (0..map.places().len()).step_by(stride) {
-            let place = map.places()[i];
-            if place[0].is_nan() {
-                continue;
-            }
-            let pixel = [(i % map.width()) as f64, (i / map.width()) as f64];
-            let square = match self.at(pixel) {
-                Some([x, y]) => {
-                    (x - f64::from(place[0])).powi(2) + (y - f64::from(place[1])).powi(2)
+        for (row, places) in map.places().chunks_exact(map.width()).enumerate() {
+            // Other columns in each row.
+            for col in (row % stride..map.width()).step_by(stride) {
+                let place = places[col];
+                if place[0].is_nan() {
+                    continue;
                 }
-                None => f64::INFINITY,
-            };
-            squares += square;
-            maximum = maximum.max(square);
-            count += 1.0;
+                let square = match self.at([col as f64, row as f64]) {
+                    Some([x, y]) => {
+                        (x - f64::from(place[0])).powi(2) + (y - f64::from(place[1])).powi(2)
+                    }
+                    None => f64::INFINITY,
+                };
+                squares += square;
+                maximum = maximum.max(square);
+                count += 1.0;
+            }
         }
         self.rms = (squares / f64::max(count, 1.0)).sqrt();
         self.maximum = maximum.sqrt();

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::photo::Photo;
+use super::raster::{Canvas, draw};
 use super::registration::Places;
 use super::trim::largest_rectangle;
 use super::{DewarpOptions, Registration, Verdict};
@@ -21,9 +22,6 @@ pub struct WarpMap {
 
 /// Marks a pixel without a place.
 const NOWHERE: [f32; 2] = [f32::NAN; 2];
-
-/// Marks a pixel that is of no part.
-const NO_PART: u32 = u32::MAX;
 
 impl WarpMap {
     /// The map for a photo of `photo` (width and height) pixels, in which the surface's points are
@@ -58,36 +56,20 @@ impl WarpMap {
         let pixels = |k: usize| ((max[k] - min[k]) * resolution - 1e-6).ceil().max(1.0) as usize;
         let (width, height) = (pixels(0), pixels(1));
         checked_cells("flat image", height, width)?;
-        let mut map = WarpMap {
-            width,
-            height,
+        let canvas = Canvas {
+            size: [width, height],
             resolution,
             corner: [min[0], max[1]],
-            places: try_filled("flat image", width * height, NOWHERE)?,
         };
-        let mut parts = try_filled("flat image", width * height, NO_PART)?;
-        let mesh = sheet.mesh();
-        for triangle in mesh.triangles() {
-            let part = sheet.parts()[triangle[0] as usize];
-            let corners = triangle.map(|v| {
-                let [x, y] = sheet.places()[v as usize];
-                Corner {
-                    // Whole numbers at pixels' centres, downwards.
-                    at: [
-                        (x - min[0]) * resolution - 0.5,
-                        (max[1] - y) * resolution - 0.5,
-                    ],
-                    from: places.of_vertex(v as usize, mesh.positions()[v as usize]),
-                }
-            });
-            map.fill(corners, part, &places, &mut parts);
-        }
-        if parts.iter().all(|part| *part == NO_PART) {
+        let mut found = try_filled("flat image", width * height, NOWHERE)?;
+        draw(sheet, &places, &canvas, &mut found)?;
+        if found.iter().all(|place| place[0].is_nan()) {
             return Err(Error::Unsupported {
                 format: "flat image",
                 reason: "no pixel lies on the sheet; choose a higher resolution".into(),
             });
         }
+        let map = WarpMap::of_places(canvas.size, resolution, canvas.corner, found);
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
@@ -138,36 +120,38 @@ impl WarpMap {
     /// shift, as the root of the mean square in shares of the root of the sheet's area: what the
     /// photo itself is wrong by as a picture of the page.
     pub fn displacement(&self) -> f64 {
-        // Over complex numbers: the least squares of |p - (a q + b)|².
-        let pairs = || {
-            (self.places.iter().enumerate())
-                .filter(|(_, place)| !place[0].is_nan())
-                .map(|(i, place)| {
-                    let q = [(i % self.width) as f64, (i / self.width) as f64];
-                    (q, place.map(f64::from))
-                })
+        // Over complex numbers: the least squares of |p - (a q + b)|², with both from about the middle.
+        let middle = [self.width, self.height].map(|n| 0.5 * n as f64);
+        let Some(about) = self.places.iter().find(|place| !place[0].is_nan()) else {
+            return 0.0;
         };
-        let count = pairs().count() as f64;
-        let (mut from, mut to) = ([0.0; 2], [0.0; 2]);
-        for (q, p) in pairs() {
-            for k in 0..2 {
-                from[k] += q[k] / count;
-                to[k] += p[k] / count;
+        let about = about.map(f64::from);
+        let (mut count, mut from, mut to) = (0.0, [0.0; 2], [0.0; 2]);
+        let (mut qq, mut pp, mut pq) = (0.0, 0.0, [0.0; 2]);
+        for (row, places) in self.places.chunks_exact(self.width).enumerate() {
+            for (col, place) in places.iter().enumerate() {
+                if place[0].is_nan() {
+                    continue;
+                }
+                let q = [col as f64 - middle[0], row as f64 - middle[1]];
+                let p = [0, 1].map(|k| f64::from(place[k]) - about[k]);
+                count += 1.0;
+                for k in 0..2 {
+                    from[k] += q[k];
+                    to[k] += p[k];
+                }
+                qq += q[0] * q[0] + q[1] * q[1];
+                pp += p[0] * p[0] + p[1] * p[1];
+                pq[0] += p[0] * q[0] + p[1] * q[1];
+                pq[1] += p[1] * q[0] - p[0] * q[1];
             }
         }
-        let (mut qq, mut pp, mut pq) = (0.0, 0.0, [0.0; 2]);
-        for (q, p) in pairs() {
-            let [q, p] = [
-                [q[0] - from[0], q[1] - from[1]],
-                [p[0] - to[0], p[1] - to[1]],
-            ];
-            qq += q[0] * q[0] + q[1] * q[1];
-            pp += p[0] * p[0] + p[1] * p[1];
-            pq[0] += p[0] * q[0] + p[1] * q[1];
-            pq[1] += p[1] * q[0] - p[0] * q[1];
-        }
+        qq -= (from[0] * from[0] + from[1] * from[1]) / count;
+        pp -= (to[0] * to[0] + to[1] * to[1]) / count;
+        pq[0] -= (to[0] * from[0] + to[1] * from[1]) / count;
+        pq[1] -= (to[1] * from[0] - to[0] * from[1]) / count;
         let fitted = pq[0] * pq[0] + pq[1] * pq[1];
-        if qq == 0.0 || fitted == 0.0 {
+        if qq <= 0.0 || fitted == 0.0 {
             return 0.0;
         }
         // In pixels of the flat image.
@@ -196,81 +180,52 @@ impl WarpMap {
     /// [`Error::OutOfMemory`].
     pub fn image(&self, photo: &Photo<'_>) -> Result<Vec<u8>> {
         let mut out = try_filled("flat image", 4 * self.places.len(), 0)?;
-        for (i, pixel) in out.chunks_exact_mut(4).enumerate() {
-            let place = self.places[i];
-            if !place[0].is_nan() {
-                let steps = [
-                    self.step(i, 1, i % self.width),
-                    self.step(i, self.width, i / self.width),
-                ];
-                pixel.copy_from_slice(&photo.sample(place, steps));
-            }
-        }
+        self.image_rows(photo, 0..self.height, &mut out);
         Ok(out)
     }
 
-    /// How far the place moves from this pixel to the next one, `offset` further, from the next or
-    /// the one before.
-    fn step(&self, i: usize, offset: usize, before: usize) -> [f32; 2] {
-        let here = self.places[i];
-        let next = self.places.get(i + offset).copied().unwrap_or(NOWHERE);
-        let step = [next[0] - here[0], next[1] - here[1]];
-        // At the end of a row the next pixel is one of another row.
-        let last = offset == 1 && before + 1 == self.width;
-        if !step[0].is_nan() && !last {
-            return step;
-        }
-        let previous = if before > 0 {
-            self.places[i - offset]
-        } else {
-            NOWHERE
-        };
-        let step = [here[0] - previous[0], here[1] - previous[1]];
-        if step[0].is_nan() { [0.0; 2] } else { step }
-    }
-
-    /// Writes the places of the pixels in a triangle.
-    fn fill(&mut self, corners: [Corner; 3], part: u32, places: &Places, parts: &mut [u32]) {
-        let [a, b, c] = corners.map(|corner| corner.at);
-        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-        };
-        let area = cross(a, b, c);
-        if area == 0.0 || !area.is_finite() {
-            return;
-        }
-        /// How far outside a pixel may lie, in pixels, so that none falls between two triangles.
-        const SLACK: f64 = 1e-6;
-        let range = |k: usize, end: usize| {
-            let low = a[k].min(b[k]).min(c[k]) - SLACK;
-            let high = a[k].max(b[k]).max(c[k]) + SLACK;
-            // Casts saturate; an empty range is one that ends before it starts.
-            low.ceil().max(0.0) as usize..(high.floor() + 1.0).clamp(0.0, end as f64) as usize
-        };
-        let slack = SLACK * area.abs().sqrt() + 1e-12;
-        let sign = area.signum();
-        for row in range(1, self.height) {
-            for col in range(0, self.width) {
-                let p = [col as f64, row as f64];
-                let weights = [cross(b, c, p), cross(c, a, p), cross(a, b, p)];
-                if weights.iter().any(|weight| sign * weight < -slack) {
+    /// Some rows of the [image](WarpMap::image), in the bytes for just these, of what is transparent so far.
+    ///
+    /// # Panics
+    /// If there are not four bytes for each pixel of these rows, or not as many rows.
+    pub fn image_rows(&self, photo: &Photo<'_>, rows: Range<usize>, rgba: &mut [u8]) {
+        let (width, height) = (self.width, self.height);
+        assert_eq!(rgba.len(), 4 * width * rows.len());
+        let pixels = rgba.as_chunks_mut().0;
+        for (row, line) in rows.zip(pixels.chunks_exact_mut(width)) {
+            for (col, pixel) in line.iter_mut().enumerate() {
+                let i = row * width + col;
+                let place = self.places[i];
+                if place[0].is_nan() {
                     continue;
                 }
-                let i = row * self.width + col;
-                if part < parts[i] {
-                    let from = [0, 1, 2].map(|k| {
-                        let sum: f64 = (corners.iter().zip(weights))
-                            .map(|(corner, weight)| weight * corner.from[k])
-                            .sum();
-                        sum / area
-                    });
-                    if let Some(place) = places.of(from) {
-                        parts[i] = part;
-                        self.places[i] = place;
-                    }
-                }
+                let steps = [
+                    self.step(
+                        i,
+                        (col + 1 < width).then_some(i + 1),
+                        col.checked_sub(1).map(|_| i - 1),
+                    ),
+                    self.step(
+                        i,
+                        (row + 1 < height).then_some(i + width),
+                        i.checked_sub(width),
+                    ),
+                ];
+                *pixel = photo.sample(place, steps);
             }
         }
+    }
+
+    /// How far the place moves from this pixel to the next one, or from the one before.
+    fn step(&self, i: usize, next: Option<usize>, previous: Option<usize>) -> [f32; 2] {
+        let way = |from: usize, to: usize| {
+            let (from, to) = (self.places[from], self.places[to]);
+            let step = [to[0] - from[0], to[1] - from[1]];
+            (!step[0].is_nan()).then_some(step)
+        };
+        let forth = next.and_then(|next| way(i, next));
+        let back = || previous.and_then(|previous| way(previous, i));
+        forth.or_else(back).unwrap_or([0.0; 2])
     }
 
     /// The largest upright rectangle that is all sheet.
@@ -302,14 +257,6 @@ impl WarpMap {
         self.places = places;
         Ok(())
     }
-}
-
-/// A corner of a triangle: where it is in the flat image, in pixels, and what its place in the photo
-/// comes from.
-#[derive(Clone, Copy)]
-struct Corner {
-    at: [f64; 2],
-    from: [f64; 3],
 }
 
 /// As many pixels per unit of length as the photo has on the mean over the sheet.

@@ -29,12 +29,15 @@
 //! ```
 
 mod crop;
+mod extend;
 mod grid;
 mod local;
 mod map;
 mod photo;
+mod raster;
 mod registration;
 mod trim;
+mod turn;
 
 use super::unroll::UnrollReport;
 use crate::error::{Error, Result, try_filled};

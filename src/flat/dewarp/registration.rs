@@ -3,7 +3,7 @@
 use super::Extent;
 use crate::error::{Error, Result};
 use crate::math::lanes;
-use crate::scene::camera::Camera;
+use crate::scene::camera::{Camera, Distortion, Intrinsics};
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
@@ -36,6 +36,8 @@ pub(super) enum Places {
     /// Pixels for each unit across and up, and the upper left corner.
     Plane([f64; 2], [f64; 2]),
     Camera(Camera, Frame),
+    /// The same without distortion by the lens: focal lengths and centre.
+    Pinhole([f64; 4], Camera, Frame),
     /// At the vertices of the mesh.
     Uvs(Vec<[f32; 2]>, [f64; 2]),
 }
@@ -57,7 +59,14 @@ impl Places {
                 Ok(Places::Plane([0, 1].map(|k| size[k] / sides[k]), corner))
             }
             Registration::Camera(camera, frame) => {
-                Ok(Places::Camera(camera.for_size(photo)?, frame))
+                let camera = camera.for_size(photo)?;
+                let Intrinsics { fx, fy, cx, cy, .. } = camera.intrinsics;
+                Ok(
+                    match camera.intrinsics.distortion == Distortion::default() {
+                        true => Places::Pinhole([fx, fy, cx, cy], camera, frame),
+                        false => Places::Camera(camera, frame),
+                    },
+                )
             }
             Registration::Uvs(uvs) => {
                 let uvs = mesh.picked("texture coordinates of the surface", uvs)?;
@@ -71,7 +80,9 @@ impl Places {
     pub(super) fn of_vertex(&self, vertex: usize, point: [f64; 3]) -> [f64; 3] {
         match self {
             Places::Plane(..) => point,
-            Places::Camera(_, frame) => frame.unview(point),
+            Places::Camera(camera, frame) | Places::Pinhole(_, camera, frame) => {
+                camera.seen_from(frame.unview(point))
+            }
             Places::Uvs(uvs, _) => [uvs[vertex][0].into(), uvs[vertex][1].into(), 0.0],
         }
     }
@@ -83,7 +94,14 @@ impl Places {
             Places::Plane([across, up], [left, top]) => {
                 [(x - left) * across - 0.5, (top - y) * up - 0.5]
             }
-            Places::Camera(camera, _) => camera.project([x, y, z])?,
+            Places::Camera(camera, _) => camera.intrinsics.project([x, y, z])?,
+            Places::Pinhole([fx, fy, cx, cy], ..) => {
+                if z >= 0.0 || z.is_nan() {
+                    return None;
+                }
+                let near = -1.0 / z;
+                [cx + fx * x * near, cy - fy * y * near]
+            }
             Places::Uvs(_, [width, height]) => [x * width - 0.5, (1.0 - y) * height - 0.5],
         };
         let place = place.map(lanes::single);

@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 use developable::Error;
 use developable::Mesh;
 use developable::View;
-use developable::checks::try_filled;
+use developable::checks::{check_count, try_filled};
 use developable::files::meshes::{MeshFormat, read_mesh_beside};
 use developable::{Resolution, sample};
 use developable_wasm::Result;
@@ -34,6 +34,8 @@ struct MeshInput {
     uvs: JsValue,
     #[serde(default, with = "preserve")]
     texture_of: JsValue,
+    #[serde(default, with = "preserve")]
+    confidence: JsValue,
 }
 
 /// `Mesh` of `types.d.ts`, on its way out.
@@ -52,6 +54,8 @@ struct MeshOutput {
     texture_of: JsValue,
     #[serde(with = "preserve")]
     textures: JsValue,
+    #[serde(with = "preserve")]
+    confidence: JsValue,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     missing: Vec<String>,
 }
@@ -73,6 +77,8 @@ struct SampledOutput {
     uvs: JsValue,
     #[serde(with = "preserve")]
     texture_of: Int32Array,
+    #[serde(with = "preserve")]
+    confidence: JsValue,
 }
 
 /// Decodes a mesh file; `files` are pairs of a name and the bytes of what lies beside it.
@@ -112,10 +118,6 @@ pub fn read_mesh_file(bytes: &Uint8Array, files: &Array, options: JsValue) -> Re
     })?)
 }
 
-pub fn mesh_output(mesh: &Mesh) -> Result<JsValue> {
-    Ok(to_value(&MeshOutput::new(mesh))?)
-}
-
 impl MeshOutput {
     fn new(mesh: &Mesh) -> Self {
         MeshOutput {
@@ -127,6 +129,7 @@ impl MeshOutput {
                 Int32Array::from(numbers).into()
             }),
             textures: JsValue::UNDEFINED,
+            confidence: JsValue::UNDEFINED,
             missing: Vec::new(),
         }
     }
@@ -135,7 +138,17 @@ impl MeshOutput {
 /// What is seen of a mesh.
 #[wasm_bindgen(js_name = sampleMesh)]
 pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let mesh = from_value::<MeshInput>(mesh)?;
+    let confidence: Option<Vec<[f32; 1]>> = groups(&mesh.confidence)?;
+    let mesh = mesh.into_mesh()?;
+    if let Some(confidence) = &confidence {
+        check_count(
+            "confidence of the mesh",
+            mesh.positions().len(),
+            1,
+            confidence.len(),
+        )?;
+    }
     let (mut view, mut across, mut spacing) = (None, None, None);
     for (name, value) in entries(&options)? {
         match name.as_str() {
@@ -176,6 +189,9 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         .uvs()
         .map(|uvs| samples.carry(&mesh, uvs))
         .transpose()?;
+    let confidence = confidence
+        .map(|confidence| samples.carry(&mesh, &confidence))
+        .transpose()?;
     let lattice = samples.heightfield().lattice();
     Ok(to_value(&SampledOutput {
         rows: lattice.rows(),
@@ -186,6 +202,7 @@ pub fn sample_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         frame: (*samples.frame()).into(),
         colors: floats(colors.as_deref()),
         uvs: floats(uvs.as_deref()),
+        confidence: floats(confidence.as_deref()),
         texture_of: samples.textures(&mesh)?.as_slice().into(),
     })?)
 }

@@ -18,8 +18,8 @@ use developable::unroll::{UnrollReport, Unrolling, unroll};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
+use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::frame::FrameFields;
-use developable_wasm::grid::{GridOutput, MapOptions};
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
@@ -160,7 +160,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
     let mut wanted = DewarpOptions::default();
     let (mut extent, mut camera, mut uvs) = (None, None, JsValue::UNDEFINED);
     let mut frame = Frame::default();
-    let (mut crop, mut trim) = (None, false);
+    let (mut crop, mut deskew, mut trim) = (None, false, false);
     let mut maps = MapOptions::default();
     for (name, value) in entries(&options)? {
         match name.as_str() {
@@ -175,11 +175,12 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
                 )?)
             }
             "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
+            "deskew" => deskew = option("deskew", value, "must be true or false")?,
             "trim" => trim = option("trim", value, "must be true or false")?,
             "extent" => extent = Some(extent_from(value)?),
             _ if settings.take(&name, &value)? || maps.take(&name, &value)? => {}
             _ => {
-                let known = "dots, trim, crop, camera, extent, map, grid, tolerance, maxIterations and spacing";
+                let known = "dots, trim, deskew, crop, camera, extent, map, grid, tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
@@ -201,18 +202,13 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         [photo.width(), photo.height()],
         &wanted,
     )?;
-    let map = match crop {
-        Some(polygon) => map.crop(&polygon)?,
-        None => map,
-    };
-    let map = if trim { map.trimmed()? } else { map };
-    let flat = map.image(&photo)?;
+    let map = map.cut(crop.as_deref(), deskew, trim)?;
     Ok(to_value(&DewarpedOutput {
         width: map.width(),
         height: map.height(),
         resolution: map.resolution(),
         corner: map.corner(),
-        data: flat.as_slice().into(),
+        data: flat_image(&map, &photo)?,
         map: maps.places(&map),
         grid: maps.grid(&map)?,
         verdict: map.verdict(sheet.report()),

@@ -9,7 +9,7 @@ use developable::dewarp::DewarpOptions;
 use developable::page::{
     CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
 };
-use developable_wasm::grid::{GridOutput, MapOptions};
+use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
@@ -146,14 +146,13 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     let photo = pixels.photo()?;
     let page = CurledPage::new(&edges, [photo.width(), photo.height()], &known)?;
     let map = page.warp_map(&wanted)?;
-    let flat = map.image(&photo)?;
     let mesh = page.mesh()?;
     Ok(to_value(&PageOutput {
         width: map.width(),
         height: map.height(),
         resolution: map.resolution(),
         corner: map.corner(),
-        data: flat.as_slice().into(),
+        data: flat_image(&map, &photo)?,
         map: maps.places(&map),
         grid: maps.grid(&map)?,
         size: page.flat_size(),

@@ -5,6 +5,7 @@ use zune_core::bytestream::ZCursor;
 use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
+use zune_jpeg::errors::DecodeErrors;
 
 use super::tiff_tags::oriented;
 use super::{Decoded, Format, PhotoFile, check_length, damaged, picture, rgba_of, unsupported};
@@ -19,15 +20,12 @@ const END: [u8; 2] = [0xff, 0xd9];
 const SCAN: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
-    let Pixels {
-        samples,
-        stride,
-        size,
-        orientation,
-        ..
-    } = Pixels::decode(bytes)?;
-    let stored = picture(Format::Jpeg, size, &samples, stride)?;
-    let (values, (width, height)) = oriented(stored.values, size, orientation)?;
+    let mut file = Opened::new(bytes)?;
+    let (colours, stride) = file.stored;
+    let mut samples = try_filled("JPEG image", stride * file.len, 0u8)?;
+    file.decode(colours, &mut samples)?;
+    let stored = picture(Format::Jpeg, file.size, &samples, stride)?;
+    let (values, (width, height)) = oriented(stored.values, file.size, file.orientation())?;
     Ok(Decoded {
         width,
         height,
@@ -37,27 +35,46 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
 }
 
 pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    let pixels = Pixels::decode(bytes)?;
-    let rgba = rgba_of(Format::Jpeg, &pixels.samples, pixels.stride)?;
-    let (rgba, size) = oriented(rgba, pixels.size, pixels.orientation)?;
+    let mut file = Opened::new(bytes)?;
+    let rgba = match file.stored {
+        (ColorSpace::RGB, _) => {
+            // In its own place, for photos are large. (The decoder's own RGBA is wrong in places
+            // where it has no SIMD, as in wasm.)
+            let mut rgba = try_filled("JPEG image", file.len, [0; 4])?;
+            let samples = rgba.as_flattened_mut();
+            file.decode(ColorSpace::RGB, &mut samples[..3 * file.len])?;
+            for i in (0..file.len).rev() {
+                samples.copy_within(3 * i..3 * i + 3, 4 * i);
+                samples[4 * i + 3] = u8::MAX;
+            }
+            rgba
+        }
+        (colours, stride) => {
+            let mut samples = try_filled("JPEG image", stride * file.len, 0u8)?;
+            file.decode(colours, &mut samples)?;
+            rgba_of(Format::Jpeg, &samples, stride)?
+        }
+    };
+    let (rgba, size) = oriented(rgba, file.size, file.orientation())?;
     Ok(PhotoFile {
-        film35: pixels.film35,
+        film35: file.exif().and_then(|exif| film35(&exif, file.size)),
         ..PhotoFile::new(size, rgba)
     })
 }
 
-/// The samples as they are stored, `stride` for each pixel.
-struct Pixels {
-    samples: Vec<u8>,
-    stride: usize,
+/// A file whose headers have been read.
+struct Opened<'a> {
+    decoder: JpegDecoder<ZCursor<&'a [u8]>>,
+    options: DecoderOptions,
     size: (usize, usize),
-    orientation: u16,
-    film35: Option<f64>,
+    /// Number of pixels.
+    len: usize,
+    /// What is stored for each of them, and how many samples that is.
+    stored: (ColorSpace, usize),
 }
 
-impl Pixels {
-    fn decode(bytes: &[u8]) -> Result<Self> {
-        let failed = |error| damaged(Format::Jpeg, format!("{error:?}"));
+impl<'a> Opened<'a> {
+    fn new(bytes: &'a [u8]) -> Result<Self> {
         // The decoder makes up what is missing at the end.
         if !ends(bytes) {
             return Err(damaged(Format::Jpeg, "it is cut short"));
@@ -76,9 +93,9 @@ impl Pixels {
         if len == 0 {
             return Err(Error::Empty { what: "JPEG image" });
         }
-        let (stride, colours) = match info.components {
-            1 => (1, ColorSpace::Luma),
-            3 => (3, ColorSpace::RGB),
+        let stored = match info.components {
+            1 => (ColorSpace::Luma, 1),
+            3 => (ColorSpace::RGB, 3),
             other => {
                 return Err(unsupported(
                     Format::Jpeg,
@@ -86,20 +103,34 @@ impl Pixels {
                 ));
             }
         };
-        check_length(Format::Jpeg, bytes, stride * len, RATIO)?;
-        decoder.set_options(options.jpeg_set_out_colorspace(colours));
-        let mut samples = try_filled("JPEG image", stride * len, 0u8)?;
-        decoder.decode_into(&mut samples).map_err(failed)?;
-        let exif =
-            (decoder.exif()).and_then(|exif| exif::Reader::new().read_raw(exif.to_vec()).ok());
-        Ok(Pixels {
-            samples,
-            stride,
+        check_length(Format::Jpeg, bytes, stored.1 * len, RATIO)?;
+        Ok(Opened {
+            decoder,
+            options,
             size,
-            orientation: exif.as_ref().map_or(1, orientation),
-            film35: exif.as_ref().and_then(|exif| film35(exif, size)),
+            len,
+            stored,
         })
     }
+
+    fn decode(&mut self, colours: ColorSpace, samples: &mut [u8]) -> Result<()> {
+        let options = self.options.jpeg_set_out_colorspace(colours);
+        self.decoder.set_options(options);
+        self.decoder.decode_into(samples).map_err(failed)
+    }
+
+    fn exif(&self) -> Option<Exif> {
+        let exif = self.decoder.exif()?;
+        exif::Reader::new().read_raw(exif.to_vec()).ok()
+    }
+
+    fn orientation(&self) -> u16 {
+        self.exif().as_ref().map_or(1, orientation)
+    }
+}
+
+fn failed(error: DecodeErrors) -> Error {
+    damaged(Format::Jpeg, format!("{error:?}"))
 }
 
 /// Which way up the camera was, as TIFF numbers it. What is no sound number is as good as none: it

@@ -1,13 +1,33 @@
-//! Warp maps out, in full and on a grid.
+//! Flat images out, and their warp maps, in full and on a grid.
 
-use js_sys::Float32Array;
+use js_sys::{Float32Array, Uint8ClampedArray};
 use serde::Serialize;
 use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
 use super::options::option;
-use developable::dewarp::{WarpGrid, WarpMap};
+use developable::checks::try_filled;
+use developable::dewarp::{Photo, WarpGrid, WarpMap};
+
+/// Rows of the flat image that are made at a time.
+const BAND: usize = 64;
+
+/// The flat image in JavaScript's memory, without a copy of it here.
+pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray> {
+    let line = 4 * map.width();
+    let image = Uint8ClampedArray::new_with_length((line * map.height()) as u32);
+    let mut band = try_filled("flat image", line * BAND.min(map.height()), 0)?;
+    for start in (0..map.height()).step_by(BAND) {
+        let end = map.height().min(start + BAND);
+        let rgba = &mut band[..line * (end - start)];
+        rgba.fill(0);
+        map.image_rows(photo, start..end, rgba);
+        let (from, to) = ((line * start) as u32, (line * end) as u32);
+        image.subarray(from, to).copy_from(rgba);
+    }
+    Ok(image)
+}
 
 /// What of the warp map is wanted besides the image.
 pub struct MapOptions {

@@ -1,0 +1,71 @@
+/** What is known of depths besides: checked as far as JS has to, in arrays of the types that Rust reads. */
+import { DevelopableError } from './errors.js';
+import { cells, count, numbers } from './input.js';
+import { optionsOf } from './options.js';
+import { record } from './values.js';
+
+/** The levels that a phone's sensor tells (ARKit): not to be trusted, a little, and fully. */
+const LEVELS = [0, 0.25, 1];
+
+/**
+ * @param {import('./types.js').DepthOptions | undefined} given
+ * @returns {import('./types.js').DepthOptions}
+ */
+export function asDepthOptions(given) {
+  const { confidence, mask, crop, photo, ...rest } = optionsOf('depths', given);
+  if (crop !== undefined && photo === undefined) {
+    throw new DevelopableError('OPTION', 'option `crop` is about a photo: pass its size as `photo`, or the photo itself');
+  }
+  return {
+    ...rest,
+    ...(crop && { crop }),
+    ...(photo !== undefined && { photo: sizeOf('the photo', photo) }),
+    ...(mask !== undefined && { mask: asFlags(mask) }),
+    ...(confidence !== undefined && { confidence: asConfidence(confidence) }),
+  };
+}
+
+/** @param {string} what @param {unknown} image */
+function sizeOf(what, image) {
+  const { width, height } = record('INPUT', what, image, ['width', 'height']);
+  return { width: count(`width of ${what}`, width), height: count(`height of ${what}`, height) };
+}
+
+/** An image of any numbers. @param {string} what @param {unknown} image */
+function imageOf(what, image) {
+  const size = sizeOf(what, image);
+  const { data } = record('INPUT', what, image, ['data']);
+  const values = numbers(`data of ${what}`, data);
+  const expected = cells(what, size.width, size.height);
+  if (values.length === expected) return { ...size, data: values };
+  throw new DevelopableError(
+    'SHAPE',
+    `${what} has ${values.length} values where ${size.width} × ${size.height} pixels need ${expected}`,
+  );
+}
+
+/** @param {unknown} image */
+function asFlags(image) {
+  const { data, ...size } = imageOf('the mask', image);
+  return { ...size, data: Uint8Array.from(data, (value) => (value === 0 || Number.isNaN(value) ? 0 : 1)) };
+}
+
+/**
+ * Levels 0, 1 and 2, or shares of the largest value of their type, as factors of the fidelity; floats are these already.
+ * @param {unknown} image
+ */
+function asConfidence(image) {
+  const { data, ...size } = imageOf('the confidence', image);
+  const bits = /^(?:Ui|I)nt(\d+)/.exec(data.constructor.name)?.[1];
+  let largest = 0;
+  for (const value of data) largest = Math.max(largest, value);
+  const white = bits === undefined ? 1 : 2 ** (Number(bits) - (data.constructor.name.startsWith('I') ? 1 : 0)) - 1;
+  const levels = bits !== undefined && largest < LEVELS.length;
+  const weights = Float32Array.from(data, (value) => (levels ? LEVELS[value] ?? 0 : value / white) || 0);
+  const odd = weights.findIndex((weight) => weight < 0 || weight > 1);
+  if (odd < 0) return { ...size, data: weights };
+  throw new DevelopableError(
+    'INPUT',
+    `the confidence is ${data[odd]} at row ${Math.floor(odd / size.width)}, column ${odd % size.width}, but floats must be from 0 to 1`,
+  );
+}

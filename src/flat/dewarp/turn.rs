@@ -1,0 +1,143 @@
+//! A flat image turned upright.
+
+use super::WarpMap;
+use crate::error::{Result, checked_cells, try_filled};
+use crate::math::lanes;
+
+impl WarpMap {
+    /// The map turned counter-clockwise by an angle, as large as it then has to be. Between pixels it is
+    /// bilinear, so that up to a pixel of the border is lost.
+    pub(super) fn turned(&self, angle: f64) -> Result<Self> {
+        let (sin, cos) = angle.sin_cos();
+        let resolution = self.resolution();
+        let size = [self.width(), self.height()].map(|n| n as f64);
+        // In pixels, y up, about the sheet's origin.
+        let corner = self.corner().map(|v| v * resolution);
+        let corners = [[0.0, 0.0], [size[0], 0.0], [0.0, size[1]], size].map(|[x, y]| {
+            let [x, y] = [corner[0] + x, corner[1] - y];
+            [cos * x - sin * y, sin * x + cos * y]
+        });
+        let least = |k: usize| corners.iter().map(|c| c[k]).fold(f64::INFINITY, f64::min);
+        let most = |k: usize| {
+            corners
+                .iter()
+                .map(|c| c[k])
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        let (left, top) = (least(0), most(1));
+        let [width, height] =
+            [most(0) - left, top - least(1)].map(|side| side.ceil().max(1.0) as usize);
+        checked_cells("flat image", height, width)?;
+        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
+        for (row, line) in places.chunks_exact_mut(width).enumerate() {
+            for (col, place) in line.iter_mut().enumerate() {
+                let [x, y] = [left + col as f64 + 0.5, top - row as f64 - 0.5];
+                let from = [cos * x + sin * y, cos * y - sin * x];
+                let pixel = [from[0] - corner[0] - 0.5, corner[1] - from[1] - 0.5];
+                if let Some(found) = self.between(pixel) {
+                    *place = found.map(lanes::single);
+                }
+            }
+        }
+        let corner = [left / resolution, top / resolution];
+        Ok(WarpMap::of_places(
+            [width, height],
+            resolution,
+            corner,
+            places,
+        ))
+    }
+
+    /// By how much the sheet has to be turned to be upright: the smallest rectangle around it is then.
+    pub(super) fn skew(&self) -> f64 {
+        let mut points = Vec::new();
+        for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
+            let there = |place: &[f32; 2]| !place[0].is_nan();
+            if let (Some(first), Some(last)) =
+                (line.iter().position(there), line.iter().rposition(there))
+            {
+                // Downwards is down: y is up.
+                points.extend([first, last].map(|col| [col as f64, -(row as f64)]));
+            }
+        }
+        let hull = hull(points);
+        let mut best = (f64::INFINITY, 0.0);
+        for (from, to) in hull.iter().zip(hull.iter().cycle().skip(1)) {
+            let angle = folded((to[1] - from[1]).atan2(to[0] - from[0]));
+            let (sin, cos) = angle.sin_cos();
+            let span = |axis: [f64; 2]| {
+                let along = hull.iter().map(|p| p[0] * axis[0] + p[1] * axis[1]);
+                let [low, high] = along
+                    .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+                        [low.min(v), high.max(v)]
+                    });
+                high - low
+            };
+            let area = span([cos, sin]) * span([-sin, cos]);
+            if area < best.0 {
+                best = (area, angle);
+            }
+        }
+        -best.1
+    }
+}
+
+/// By how much a polygon, with y up, has to be turned for its sides to be as upright and level as they can
+/// be: the mean over its sides' directions, four of which are as good as each other.
+pub(super) fn skew_of(polygon: &[[f64; 2]]) -> f64 {
+    let mut sum = [0.0; 2];
+    for (from, to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let side = [to[0] - from[0], to[1] - from[1]];
+        let (length, angle) = (side[0].hypot(side[1]), 4.0 * side[1].atan2(side[0]));
+        sum = [sum[0] + length * angle.cos(), sum[1] + length * angle.sin()];
+    }
+    -sum[1].atan2(sum[0]) / 4.0
+}
+
+/// The same direction or one perpendicular to it, within 45° of the right.
+fn folded(angle: f64) -> f64 {
+    use std::f64::consts::FRAC_PI_2;
+    angle - (angle / FRAC_PI_2).round() * FRAC_PI_2
+}
+
+/// The convex hull (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*, 1979).
+fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut chain: Vec<[f64; 2]> = Vec::new();
+        for point in points {
+            while let [.., a, b] = chain[..]
+                && (b[0] - a[0]) * (point[1] - a[1]) <= (b[1] - a[1]) * (point[0] - a[0])
+            {
+                chain.pop();
+            }
+            chain.push(point);
+        }
+        chain.pop();
+        chain
+    };
+    let mut lower = chain(&mut points.iter().copied());
+    let upper = chain(&mut points.iter().rev().copied());
+    lower.extend(upper);
+    lower
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_rectangle_is_found_upright() {
+        for angle in [-0.6f64, -0.1, 0.0, 0.3, 0.7] {
+            let (sin, cos) = angle.sin_cos();
+            let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]]
+                .map(|[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y]);
+            assert!((skew_of(&corners) + angle).abs() < 1e-12, "{angle}");
+            let inside = corners
+                .iter()
+                .chain(&[[1.4 * cos - 0.5 * sin, 1.4 * sin + 0.5 * cos]]);
+            assert_eq!(hull(inside.copied().collect()).len(), 4);
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! What else is known at the pixels of depths, from images of other sizes and from parts of photos.
+
+use super::camera::{Camera, Intrinsics};
+use crate::error::{Error, Result, check_count, try_filled};
+use crate::heights::heightfield::HeightImage;
+use crate::math::polygon::{check_corners, contains};
+
+/// A part of a photo that shows what the depths show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Region<'a> {
+    /// The pixels, of an image of a width and height, that are not 0.
+    Mask([usize; 2], &'a [u8]),
+    /// What lies within some corners, in pixels of a photo of a width and height: `[0, 0]` is the centre of
+    /// the upper left one.
+    Polygon([usize; 2], &'a [[f64; 2]]),
+}
+
+impl Region<'_> {
+    fn size(&self) -> [usize; 2] {
+        match self {
+            Region::Mask(size, _) | Region::Polygon(size, _) => *size,
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        let [width, height] = self.size();
+        if width == 0 || height == 0 {
+            return Err(Error::Empty { what: "photo" });
+        }
+        match self {
+            Region::Mask(_, flags) => check_count("mask", height, width, flags.len()),
+            Region::Polygon(_, corners) => check_corners(corners),
+        }
+    }
+
+    fn holds(&self, place: [f64; 2]) -> bool {
+        match self {
+            Region::Mask([width, height], flags) => {
+                let [col, row] = place.map(f64::round);
+                let inside =
+                    (0.0..*width as f64).contains(&col) && (0.0..*height as f64).contains(&row);
+                inside && flags[row as usize * width + col as usize] != 0
+            }
+            Region::Polygon(_, corners) => contains(corners, place),
+        }
+    }
+}
+
+impl Intrinsics {
+    /// For each of the depths 1 if it shows the region or lies no more than `beyond` pixels from one
+    /// that does, along rows and columns, else 0: a mask for
+    /// [`HeightImage::masked`]. The photo was taken by another camera, or from the same place with the
+    /// same outline. Costs `O(pixels · corners)`.
+    ///
+    /// # Errors
+    /// Those of [`Intrinsics::for_size`] and [`Camera::for_size`]; [`Error::Shape`] for a mask of another
+    /// length than its size, [`Error::Option`] for less than three corners or one that is not finite,
+    /// [`Error::Unsupported`] for a region without a camera that has other proportions than the depths,
+    /// to 2 %; [`Error::OutOfMemory`].
+    pub fn within(
+        &self,
+        depths: &HeightImage,
+        region: &Region<'_>,
+        photo: Option<&Camera>,
+        beyond: usize,
+    ) -> Result<Vec<u8>> {
+        region.check()?;
+        let size = [depths.width(), depths.height()];
+        let camera = self.for_size(size)?;
+        let photo = photo
+            .map(|photo| photo.for_size(region.size()))
+            .transpose()?;
+        let stretch = match photo {
+            Some(_) => [0.0; 2],
+            None => stretch("part of a photo", region.size(), size)?,
+        };
+        let mut inside = try_filled("mask", depths.values().len(), 0)?;
+        for (i, (inside, value)) in inside.iter_mut().zip(depths.values()).enumerate() {
+            let pixel = [(i % size[0]) as f64, (i / size[0]) as f64];
+            let place = match photo {
+                Some(photo) if *value > 0.0 => {
+                    let point = camera.point(pixel[0], pixel[1], *value);
+                    point.and_then(|point| photo.project(point))
+                }
+                Some(_) => None,
+                None => Some([0, 1].map(|k| (pixel[k] + 0.5) * stretch[k] - 0.5)),
+            };
+            *inside = u8::from(place.is_some_and(|place| region.holds(place)));
+        }
+        if beyond > 0 {
+            widen(&mut inside, size, beyond)?;
+        }
+        Ok(inside)
+    }
+}
+
+/// Values at the pixels of an image for those of another that shows the same, finer or coarser: the
+/// nearest ones.
+///
+/// # Errors
+/// [`Error::Shape`] if there are not as many as the size says, [`Error::Empty`],
+/// [`Error::Unsupported`] where the two sizes have not the same proportions, to 2 %,
+/// [`Error::OutOfMemory`].
+pub fn resampled<T: Copy>(
+    what: &'static str,
+    values: &[T],
+    [width, height]: [usize; 2],
+    size: [usize; 2],
+) -> Result<Vec<T>> {
+    check_count(what, height, width, values.len())?;
+    let stretch = stretch(what, [width, height], size)?;
+    let mut out = try_filled(what, size[0] * size[1], values[0])?;
+    for (i, value) in out.iter_mut().enumerate() {
+        let at = |k: usize, pixel: usize| ((pixel as f64 + 0.5) * stretch[k]) as usize;
+        *value = values[at(1, i / size[0]) * width + at(0, i % size[0])];
+    }
+    Ok(out)
+}
+
+/// Pixels of one image for each of another that shows the same.
+fn stretch(what: &'static str, from: [usize; 2], to: [usize; 2]) -> Result<[f64; 2]> {
+    if from.contains(&0) || to.contains(&0) {
+        return Err(Error::Empty { what });
+    }
+    let stretch = [0, 1].map(|k| from[k] as f64 / to[k] as f64);
+    if (stretch[0] / stretch[1] - 1.0).abs() > 0.02 {
+        return Err(Error::Unsupported {
+            format: what,
+            reason: format!(
+                "it has {} × {} pixels and the depths {} × {}: other proportions, so that it does not show \
+                 the same; neither may be cropped, nor lie on its side",
+                from[0], from[1], to[0], to[1]
+            ),
+        });
+    }
+    Ok(stretch)
+}
+
+/// Sets what lies within so many pixels along rows and columns.
+fn widen(flags: &mut [u8], [width, height]: [usize; 2], by: usize) -> Result<()> {
+    for (step, length) in [(1, width), (width, height)] {
+        let before = {
+            let mut copy = try_filled("mask", flags.len(), 0)?;
+            copy.copy_from_slice(flags);
+            copy
+        };
+        for (i, flag) in flags.iter_mut().enumerate() {
+            let at = i / step % length;
+            let first = i - at.min(by) * step;
+            let count = at.min(by) + 1 + by.min(length - 1 - at);
+            *flag = u8::from((0..count).any(|k| before[first + k * step] != 0));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane() -> (Intrinsics, HeightImage) {
+        let camera = Intrinsics::new(10.0, 10.0, 3.5, 2.5);
+        let depths = HeightImage::new(8, 6, vec![2.0; 48]).unwrap();
+        (camera, depths)
+    }
+
+    #[test]
+    fn a_mask_of_another_size_is_one_of_these_depths() {
+        let (camera, depths) = plane();
+        // Three times as fine: columns 2 to 4 of the depths.
+        let fine: Vec<u8> = (0..24 * 18)
+            .map(|i| u8::from((6..15).contains(&(i % 24))))
+            .collect();
+        let region = Region::Mask([24, 18], &fine);
+        let found = camera.within(&depths, &region, None, 0).unwrap();
+        let wanted = |from: usize, to: usize| -> Vec<u8> {
+            (0..48)
+                .map(|i| u8::from((from..to).contains(&(i % 8))))
+                .collect()
+        };
+        assert_eq!(found, wanted(2, 5));
+        assert_eq!(
+            camera.within(&depths, &region, None, 1).unwrap(),
+            wanted(1, 6)
+        );
+        assert_eq!(
+            camera.within(&depths, &region, None, 9).unwrap(),
+            wanted(0, 8)
+        );
+        assert_eq!(
+            resampled("mask", &fine, [24, 18], [8, 6]).unwrap(),
+            wanted(2, 5)
+        );
+        let coarse = [1, 0, 0, 2, 0, 0];
+        let finer = resampled("mask", &coarse, [3, 2], [9, 6]).unwrap();
+        assert_eq!(finer.iter().map(|v| usize::from(*v)).sum::<usize>(), 9 * 3);
+        assert_eq!((finer[0], finer[2], finer[3], finer[5 * 9]), (1, 1, 0, 2));
+    }
+
+    #[test]
+    fn another_camera_sees_the_region_elsewhere() {
+        let (camera, depths) = plane();
+        let corners = [[1.5, 0.5], [5.5, 0.5], [5.5, 4.5], [1.5, 4.5]];
+        let region = Region::Polygon([8, 6], &corners);
+        let beside = |found: &[u8]| (0..48).filter(|i| found[*i] != 0).collect::<Vec<_>>();
+        let same = camera.within(&depths, &region, None, 0).unwrap();
+        assert_eq!(beside(&same)[..4], [10, 11, 12, 13]);
+        // 0.4 to its left: at a depth of 2 all is two pixels farther to the right there.
+        let mut photo = Camera::new(camera);
+        photo.pose.translation[0] = 0.4;
+        let other = camera.within(&depths, &region, Some(&photo), 0).unwrap();
+        assert_eq!(beside(&other)[..4], [8, 9, 10, 11]);
+    }
+
+    #[test]
+    fn what_does_not_show_the_same_is_refused() {
+        let (camera, depths) = plane();
+        let code = |region: Region| {
+            let found = camera.within(&depths, &region, None, 0);
+            found.unwrap_err().code()
+        };
+        assert_eq!(code(Region::Mask([6, 8], &[1; 48])), "UNSUPPORTED");
+        assert_eq!(code(Region::Mask([8, 6], &[1; 47])), "SHAPE");
+        assert_eq!(code(Region::Mask([0, 6], &[])), "EMPTY");
+        assert_eq!(code(Region::Polygon([8, 6], &[[0.0; 2]; 2])), "OPTION");
+        assert_eq!(
+            resampled("mask", &[1u8; 3], [2, 2], [8, 8])
+                .unwrap_err()
+                .code(),
+            "SHAPE"
+        );
+    }
+}

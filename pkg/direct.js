@@ -272,10 +272,11 @@ export function backProject(input, intrinsics, known) {
   const image = asImage(input);
   const { unit, ...camera } = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
   const options = asDepthOptions(known);
-  const mesh = meshes.call((wasm) => wasm.backProject(image, camera, options));
-  // A photo of another size has other numbers.
+  const { mesh, camera: seen } = meshes.call((wasm) => wasm.backProject(image, camera, options));
+  // A photo of another size has other numbers, and so has one that is turned.
   const { width, height } = image;
-  return { ...mesh, camera: { width, height, ...camera }, ...(unit && { unit }) };
+  const own = options.turn ? { ...camera, ...seen } : { width, height, ...camera };
+  return { ...mesh, camera: own, ...(unit && { unit }) };
 }
 
 /** @type {typeof import('./direct.js').analyze} */

@@ -140,7 +140,7 @@ export const OPTIONS = {
     view: either(choice(...directions), numbers(3, 'a vector of three numbers')),
     resolution: whole,
   },
-  depths: { confidence: anything, mask: anything, crop: corners, photo: anything, camera: photoCamera },
+  depths: { confidence: anything, mask: anything, crop: corners, photo: anything, camera: photoCamera, turn: whole },
   camera: { ...seeing, unit: choice('mm', 'm') },
   photoCamera: {
     ...seeing,

@@ -186,10 +186,15 @@ export interface DepthOptions {
   confidence?: Pixels;
   /** 0 takes out; of the depths, or of the photo. */
   mask?: Pixels;
-  /** Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it, but for three pixels, are taken out. */
+  /** Corners [x, y] of the part of the photo that is wanted, in its pixels: depths farther beside it than 6 % of its size are taken out. */
   crop?: readonly (readonly [number, number])[];
   /** The size of the photo that `crop` is about. */
   photo?: { width: number; height: number };
+  /**
+   * Degrees by which the depths are turned clockwise first, with all that is about them (the camera's numbers, the
+   * confidence, a mask of their size), to lie as the photo does: phones store depths as the sensor lies. Default 0.
+   */
+  turn?: 0 | 90 | 180 | 270;
   /** The camera of the photo, which `mask` (unless it is as large as the depths) and `crop` are seen through. Default: the depths' own. */
   camera?: PhotoCamera;
 }
@@ -719,6 +724,11 @@ export type Painted<F> = F & { uvs: Float32Array; colors: Float32Array; texture?
 export interface DecodedPhoto extends Photo {
   data: Uint8ClampedArray<ArrayBuffer>;
   /**
+   * Of a file whose Exif data say that it is stored as the sensor lay: by what, from 2 to 8, it was turned (6: by 90
+   * degrees clockwise, 3: by 180, 8: by 270).
+   */
+  orientation?: number;
+  /**
    * The camera's focal length, in millimetres as for a film of 36 by 24 mm, where the file's Exif data
    * tell it and the photo was not cropped.
    */
@@ -953,11 +963,16 @@ export interface DewarpOptions extends UnrollOptions {
    * them, in pixels of the photo. Default false; 0.25 for true.
    */
   grid?: boolean | number;
-  /** Cut off the margins: keep the largest upright rectangle that is all sheet. Default false. */
+  /**
+   * Cut off the margins: keep the largest upright rectangle that is all sheet, or, of a `crop` with four corners, the
+   * rectangle that these are on the flat sheet. Default false.
+   */
   trim?: boolean;
+  /** Turn the flat image upright: the sides of `crop`, or the smallest rectangle around the sheet. Default false. */
+  deskew?: boolean;
   /**
    * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
-   * The flat image ends there. Default: all of it.
+   * The sheet is continued up to there, by 4 % at most, and the flat image ends there. Default: all of it.
    */
   crop?: readonly (readonly [number, number])[];
   /**
@@ -1000,7 +1015,7 @@ export interface Dewarped extends DecodedPhoto {
   resolution: number;
   /** That unit, where the surface's is known. */
   unit?: Unit;
-  /** Where the upper left corner lies on the sheet. */
+  /** Where the upper left corner lies on the sheet; with `deskew` in axes that are turned with it about the origin. */
   corner: [number, number];
   /**
    * The warp map: for each pixel its place x, y in the photo, in its pixels, (0, 0) being the

@@ -106,6 +106,7 @@ pub use lattice::stencil::Quadratic;
 pub use math::sym2::Sym2;
 pub use scene::camera::{Camera, Depth, Distortion, Intrinsics, Pose};
 pub use scene::mesh::Mesh;
+pub use scene::quarter::Turn;
 pub use scene::region::{Region, resampled};
 pub use scene::sampling::{Hit, Resolution, Samples, sample};
 pub use scene::triangulation::Triangulation;

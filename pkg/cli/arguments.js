@@ -12,7 +12,9 @@ import { split, usage } from './flags.js';
  * @typedef {import('../types.js').SolverOptions} SolverOptions
  * @typedef {typeof surfaces[number] | typeof drawings[number] | '.json' | '.mtl' | '.jpg' | '.jpeg'} Extension
  *
- * @typedef {{ numbers?: import('../types.js').Intrinsics, file?: string, ray: boolean }} CameraTask numbers, or a file of them
+ * @typedef {{
+ *   numbers?: import('../types.js').Intrinsics, file?: string, ray: boolean, turn?: 0 | 90 | 180 | 270,
+ * }} CameraTask numbers, or a file of them
  *
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
@@ -52,7 +54,7 @@ import { split, usage } from './flags.js';
  *   command: 'pattern', patching: import('../types.js').PatchOptions, scale?: number, tabs?: number, paper?: 'a4' | 'letter',
  * }} PatternTask
  * @typedef {SheetTask & {
- *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, map?: string,
+ *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, deskew: boolean, map?: string,
  *   quality?: number,
  * }} DewarpTask
  * @typedef {{
@@ -220,6 +222,7 @@ export function parse(args) {
         crop: corners(values.crop),
         dots: number('dots', values),
         trim: values.trim === true,
+        deskew: values.deskew === true,
         map,
         quality: number('quality', values),
       };
@@ -328,8 +331,8 @@ export function isMesh(input) {
 
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */
 const strangers = {
-  image: ['view', 'resolution', 'ray'],
-  mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'ray'],
+  image: ['view', 'resolution', 'rotate-depth', 'ray'],
+  mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'rotate-depth', 'ray'],
   depths: ['lattice', 'pixel-size', 'height-scale', 'constraints', 'free', 'occlusion-mask'],
 };
 
@@ -364,14 +367,16 @@ function checkKind(kind, command, values) {
  * @param {Values} values
  * @returns {CameraTask}
  */
-function intrinsics({ intrinsics: text = '', ray = false }) {
-  if (/\.(json|csv|txt)$/i.test(text)) return { file: text, ray };
+function intrinsics({ intrinsics: text = '', ray = false, 'rotate-depth': rotate }) {
+  const turn = [0, 90, 180, 270].find((degrees) => rotate !== undefined && String(degrees) === rotate);
+  if (rotate !== undefined && turn === undefined) throw usage(`--rotate-depth must be 90, 180 or 270, but is "${rotate}"`);
+  if (/\.(json|csv|txt)$/i.test(text)) return { file: text, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
   const numbers = list(text);
   if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) {
     throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .csv or .txt, but is "${text}"`);
   }
   const [fx, fy, cx, cy, depthScale] = numbers;
-  return { numbers: { fx, fy, cx, cy, depthScale }, ray };
+  return { numbers: { fx, fy, cx, cy, depthScale }, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
 }
 
 /**

@@ -21,7 +21,7 @@ const heights = ['lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'm
 /** Of photos that are written. @satisfies {readonly Flag[]} */
 const printed = ['unit', 'quality'];
 /** @satisfies {readonly Flag[]} */
-const mesh = ['view', 'resolution', 'intrinsics', 'ray'];
+const mesh = ['view', 'resolution', 'intrinsics', 'rotate-depth', 'ray'];
 /** @satisfies {readonly Flag[]} */
 const energy = [
   'lambda', 'energy', 'reweight', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'tie-break', 'no-normalize', 'gap',
@@ -150,7 +150,7 @@ export const commands = {
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
         'others state their resolution, where the unit of lengths is known: --unit, or with --edges --page',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'map', ...printed, ...page],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'deskew', 'map', ...printed, ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',

@@ -119,6 +119,11 @@ export const sections = {
           'calibration has written: .json with fx, fy, cx, cy or a camera matrix (and width, height, distortion), .csv ' +
           'with the matrix; whole numbers are millimetres then, others metres',
       },
+      'rotate-depth': {
+        value: 'DEGREES',
+        help: '90, 180 or 270: turn the depths clockwise first, to lie as the photo does (default: as the Exif data of the ' +
+          'photo say that it was turned, if its proportions show that the depths were not)',
+      },
       ray: { help: 'depths are from the camera, not along its axis' },
     },
   },
@@ -166,8 +171,8 @@ export const sections = {
       },
       crop: {
         value: 'x,y,x,y,x,y...',
-        help: 'corners of the part of the photo that is wanted, in its pixels from the upper left; the flat image ends ' +
-          'there, and depths beside it are left out',
+        help: 'corners of the part of the photo that is wanted, in its pixels from the upper left; the sheet is continued ' +
+          'up to there and ends there, and depths beside it are left out',
       },
       mtl: { value: 'FILE', help: '.mtl file to be written, too, through which an .obj has that picture as its texture' },
     },
@@ -201,7 +206,8 @@ export const sections = {
       },
       dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
       quality: { value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
-      trim: { help: 'cut off the margins where there is no sheet' },
+      trim: { help: 'a clean rectangle: without the margins where there is no sheet, or that of the four corners of --crop' },
+      deskew: { help: 'turn the flat image upright, by the sides of --crop, or by the smallest rectangle around the sheet' },
       map: {
         value: 'FILE',
         help: '.npy (height, width, 2): for each pixel of the flat image its place x, y in the photo; or .json: the same for the ' +
@@ -247,7 +253,7 @@ export const sections = {
 
 /**
  * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections]} Flag
- * @typedef {'no-normalize' | 'ray' | 'as-is' | 'trim' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {'no-normalize' | 'ray' | 'as-is' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
 

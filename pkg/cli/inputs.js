@@ -11,7 +11,7 @@ import { Problem, status } from './problem.js';
  * @typedef {import('./arguments.js').KnownTask} KnownTask
  * @typedef {import('../types.js').ReadResult} ReadResult
  * @typedef {{
- *   width: number, height: number, wanted?: [number, number][], camera?: import('../types.js').PhotoCamera,
+ *   width: number, height: number, orientation?: number, wanted?: [number, number][], camera?: import('../types.js').PhotoCamera,
  * }} Size of a photo, which part of it is wanted, and the camera that took it
  * @typedef {import('../types.js').HeightImage | import('../types.js').Heightfield} Input
  */
@@ -126,10 +126,13 @@ async function readMesh({ input, array, camera, mask, confidence, noData, writte
   }
   const file = await readImage(input, array);
   const { width, height, data } = file;
+  const turn = camera.turn ?? turnOf(file, photo);
+  const stored = photo && turn % 180 === 90 ? { width: photo.height, height: photo.width } : photo;
   return developable.backProject(
     { width, height, data, noData: asStored(noData, file) },
-    await depthCamera(camera, file, photo),
+    await depthCamera(camera, file, stored),
     {
+      turn,
       mask: mask === undefined ? undefined : await readImage(mask),
       confidence: confidence === undefined ? undefined : asTyped(await readImage(confidence)),
       crop: photo?.wanted,
@@ -137,6 +140,36 @@ async function readMesh({ input, array, camera, mask, confidence, noData, writte
       camera: photo?.camera,
     },
   );
+}
+
+/** What Exif's orientations turn by, in degrees clockwise. @type {Record<number, 90 | 180 | 270>} */
+const TURNS = { 3: 180, 6: 90, 8: 270 };
+
+/**
+ * By what the depths have to be turned to lie as the photo does: as that was, if its sides are exchanged.
+ * @param {Size} depths
+ * @param {Size} [photo]
+ */
+function turnOf(depths, photo) {
+  if (photo === undefined) return 0;
+  const ratio = (depths.width * photo.width) / (depths.height * photo.height);
+  const across = Math.abs(depths.width / depths.height / (photo.width / photo.height) - 1) > 0.02;
+  const turn = TURNS[photo.orientation ?? 1];
+  const sizes = `the photo is ${photo.width} × ${photo.height} and the depths are ${depths.width} × ${depths.height}`;
+  if (across && Math.abs(ratio - 1) < 0.02) {
+    if (turn === 90 || turn === 270) return turn;
+    throw new Problem(
+      status.usage,
+      `${sizes}: one of them lies on its side. --rotate-depth 90 or 270 turns the depths clockwise to lie as the photo does`,
+    );
+  }
+  if (turn === 180) {
+    process.stderr.write(
+      'developable: warning: the photo was turned upside down, as its Exif data say, and its size does not tell whether the ' +
+        'depths were, too: they are taken as they are; --rotate-depth 180 turns them, and 0 says that this is right\n',
+    );
+  }
+  return 0;
 }
 
 /** Whole numbers in an array of their type, which says what they are. @param {ReadResult} file */

@@ -68,14 +68,15 @@ export async function dewarp(task, signal) {
   const given = task.texture === undefined ? undefined : await readPhoto(task.texture);
   const { photoCamera } = task;
   const elsewhere = photoCamera !== undefined && given !== undefined ? await readCamera(photoCamera, [given]) : undefined;
-  const seen = given && { width: given.width, height: given.height, wanted: task.crop, camera: elsewhere };
+  const { width = 0, height = 0, orientation } = given ?? {};
+  const seen = given && { width, height, orientation, wanted: task.crop, camera: elsewhere };
   const { surface, options } = await flattened({ ...task, photo: seen }, signal, (input) => {
     if (task.extension === '.pdf') checkUnit(input);
   });
   const photo = given ?? await textureOf(task.input, surface);
   const camera = elsewhere ?? (photoCamera === undefined ? undefined : await readCamera(photoCamera, [photo]));
-  const { dots, trim, crop } = task;
-  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, crop, camera, transfer: true });
+  const { dots, trim, deskew, crop } = task;
+  const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, deskew, crop, camera, transfer: true });
   const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, flat)];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: mapFile(flat, photo) });

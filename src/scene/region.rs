@@ -192,7 +192,7 @@ mod tests {
             resampled("mask", &fine, [24, 18], [8, 6]).unwrap(),
             wanted(2, 5)
         );
-        let coarse = [1, 0, 0, 2, 0, 0];
+        let coarse = [1u8, 0, 0, 2, 0, 0];
         let finer = resampled("mask", &coarse, [3, 2], [9, 6]).unwrap();
         assert_eq!(finer.iter().map(|v| usize::from(*v)).sum::<usize>(), 9 * 3);
         assert_eq!((finer[0], finer[2], finer[3], finer[5 * 9]), (1, 1, 0, 2));

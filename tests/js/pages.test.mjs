@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { withExif } from './support/exif.mjs';
 
 after(() => developable.dispose());
 
@@ -147,30 +148,11 @@ test('what is no page, and what is not known', async () => {
 /** An edge list as JSON. */
 const file = JSON.stringify(edges);
 
-/** A JPEG's Exif data with a focal length, put into a file that has none. @param {Uint8Array} jpeg @param {number} film35 */
-function withExif(jpeg, film35) {
-  const entry = (/** @type {number} */ tag, /** @type {number} */ kind, /** @type {number} */ value) => {
-    const bytes = Buffer.alloc(12);
-    bytes.writeUInt16LE(tag, 0);
-    bytes.writeUInt16LE(kind, 2);
-    bytes.writeUInt32LE(1, 4);
-    bytes.writeUInt32LE(value, 8);
-    return bytes;
-  };
-  const directory = (/** @type {Buffer} */ one) => Buffer.concat([Buffer.from([1, 0]), one, Buffer.alloc(4)]);
-  const tiff = Buffer.concat([
-    Buffer.from('II*\0\x08\0\0\0', 'latin1'), directory(entry(0x8769, 4, 26)), directory(entry(0xa405, 3, film35)),
-  ]);
-  const head = Buffer.from('\xff\xe1\0\0Exif\0\0', 'latin1');
-  head.writeUInt16BE(8 + tiff.length, 2);
-  return Buffer.concat([jpeg.subarray(0, 2), head, tiff, jpeg.subarray(2)]);
-}
-
 test('the focal length of a photo file', async () => {
   const jpeg = await readFile(new URL('../data/colour.jpg', import.meta.url));
   assert.equal(direct.readPhoto(jpeg).film35, undefined);
-  assert.equal(direct.readPhoto(withExif(jpeg, 26)).film35, 26);
-  assert.equal((await developable.readPhoto(withExif(jpeg, 28))).film35, 28);
+  assert.equal(direct.readPhoto(withExif(jpeg, { film35: 26 })).film35, 26);
+  assert.equal((await developable.readPhoto(withExif(jpeg, { film35: 28 }))).film35, 28);
 });
 
 test('the command', async () => {

@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { withExif } from './support/exif.mjs';
 import { expanded, readNpyMap } from './support/maps.mjs';
 import { depthCamera, depths, displacement, meets, photo, photoCamera } from './support/phone.mjs';
 
@@ -143,17 +144,29 @@ test('a part of the photo, with straight edges, and no table beside it', async (
     return best.slice(1);
   };
   const corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]].map(([s, t]) => seenAt(s, t));
-  const done = await run(folder, [
-    'dewarp', 'depth.exr', '--intrinsics', '205,205,126,97', '--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big',
-    '--crop', corners.join(), '-o', 'page.png', '--map', 'map.json', '--report', 'report.json',
-  ]);
-  assert.equal(done.status, 0, done.stderr);
+  const command = async (/** @type {string[]} */ ...args) => {
+    const done = await run(folder, [
+      'dewarp', 'depth.exr', '--intrinsics', '205,205,126,97', '--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big',
+      '--crop', corners.join(), '-o', 'page.png', '--map', 'map.json', ...args,
+    ]);
+    assert.equal(done.status, 0, done.stderr);
+  };
+  await command('--report', 'report.json');
   const flat = await mapIn(folder);
   const found = displacement(coarse, flat);
   assert.ok(found < 0.004, String(found));
   // Eight tenths of the page, in metres; straight chords in the photo cut off some of the bent edges.
   const [wide, tall] = [flat.width / flat.resolution, flat.height / flat.resolution];
   assert.ok(Math.abs(wide / (0.8 * 0.21) - 1) < 0.05 && Math.abs(tall / (0.8 * 0.297) - 1) < 0.1, `${wide} ${tall}`);
+  // As a rectangle it has all of these eight tenths, however bent its edges are in the photo.
+  await command('--trim', '--deskew');
+  const page = await mapIn(folder);
+  assert.ok(!page.map.includes(NaN));
+  const size = [page.width / page.resolution / 0.21, page.height / page.resolution / 0.297];
+  assert.ok(size.every((share) => Math.abs(share / 0.8 - 1) < 0.012), String(size));
+  assert.ok(displacement(coarse, page) < 0.004);
+  const image = direct.readPhoto(await readFile(join(folder, 'page.png')));
+  assert.ok(image.data.every((value, i) => i % 4 < 3 || value === 255));
   const { parts } = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
   assert.equal(parts, 1);
   assert.throws(() => direct.dewarp(seen, picture, { crop: [[0, 0], [1, 1]] }), error('OPTION', /three or more corners/));
@@ -207,9 +220,9 @@ test('confidences and masks of depths, of any size', async () => {
   const aside = { ...photoCamera, translation: /** @type {const} */ ([-0.05, 0, 0]) };
   const last = columns(direct.backProject(depths(), numbers, { mask: half, camera: aside }));
   assert.ok(last > 127 + 18 && last < 127 + 32, String(last));
-  // Of a part of the photo, three pixels beyond.
+  // Of a part of the photo, and 6 % of its height beyond.
   const crop = /** @type {const} */ ([[0, 0], [1279.5, 0], [1279.5, 1920], [0, 1920]]);
-  assert.equal(columns(direct.backProject(depths(), numbers, { crop, photo: picture })), 130);
+  assert.equal(columns(direct.backProject(depths(), numbers, { crop, photo: picture })), 139);
 
   const given = (/** @type {object} */ options, pattern = /./, code = 'INPUT') =>
     assert.throws(() => direct.backProject(depths(), numbers, options), error(code, pattern));
@@ -241,6 +254,73 @@ test('the command takes confidences and masks with depths', async () => {
   const [all, trusted, masked] = [await right([]), await right(['--confidence', 'confidence.png']), await right(['--mask', 'mask.png'])];
   // Columns 139 and 127 of the depths, at some 0.45 m.
   assert.ok(masked < 0.01 && trusted > 0.022 && trusted < 0.045 && all > 0.08, `${all} ${trusted} ${masked}`);
+});
+
+/** Pixels turned by 90 degrees clockwise. @param {{ width: number, height: number, data: Uint8ClampedArray }} image */
+function onItsSide({ width: wide, height: tall, data }) {
+  const turned = new Uint8ClampedArray(data.length);
+  for (let i = 0; i < wide * tall; i += 1) {
+    const [col, row] = [i % wide, Math.floor(i / wide)];
+    turned.set(data.subarray(4 * i, 4 * i + 4), 4 * (col * tall + tall - 1 - row));
+  }
+  return { width: tall, height: wide, data: turned };
+}
+
+test('depths that lie as the sensor does, and a photo that was turned', async () => {
+  const folder = await temporaryFolder();
+  const coarse = photo({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
+  const jpeg = direct.writePhoto(coarse, { format: 'jpeg', quality: 95 });
+  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data: depths().data }));
+  await writeFile(join(folder, 'upright.jpg'), withExif(jpeg, { orientation: 6 }));
+  await writeFile(join(folder, 'bare.jpg'), direct.writePhoto(onItsSide(coarse), { format: 'jpeg', quality: 95 }));
+  await writeFile(join(folder, 'over.jpg'), withExif(jpeg, { orientation: 3 }));
+  await writeFile(join(folder, 'camera.json'), JSON.stringify({ fx: 1025, fy: 1025, cx: 632, cy: 487, width: 1280, height: 960 }));
+  assert.deepEqual(direct.readPhoto(withExif(jpeg, { orientation: 6 })).orientation, 6);
+  assert.equal(direct.readPhoto(jpeg).orientation, undefined);
+  /** @param {string[]} args */
+  const command = (...args) => run(folder, [
+    'dewarp', 'depth.exr', '--view', 'best-fit', '--lambda', 'big', '--dots', '1500', '-o', 'page.png', '--map', 'map.json', ...args,
+  ]);
+  // What a pixel of the turned photo shows, by where it was before.
+  const truth = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
+  for (const args of [
+    ['--texture', 'upright.jpg', '--intrinsics', 'camera.json'],
+    ['--texture', 'upright.jpg', '--intrinsics', '205,205,126,97'],
+    ['--texture', 'bare.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '90'],
+  ]) {
+    const done = await command(...args);
+    assert.equal(done.status, 0, done.stderr);
+    assert.equal(done.stderr, '');
+    const flat = await mapIn(folder);
+    assert.ok(flat.width > flat.height, 'as the photo lies');
+    // Back from the photo as it was turned to the one as it was stored.
+    const map = flat.map.map((/** @type {number} */ _, /** @type {number} */ i) =>
+      (i % 2 === 0 ? flat.map[i + 1] : 959 - flat.map[i - 1]));
+    const found = displacement(truth, { ...flat, map });
+    assert.ok(found < 0.004, `${args}: ${found}`);
+  }
+  const refused = await command('--texture', 'bare.jpg', '--intrinsics', 'camera.json');
+  assert.equal(refused.status, 2);
+  assert.match(refused.stderr, /on its side.*--rotate-depth 90 or 270/);
+  const told = await command('--texture', 'over.jpg', '--intrinsics', 'camera.json');
+  assert.equal(told.status, 0);
+  assert.match(told.stderr, /upside down.*--rotate-depth 180/);
+  assert.equal((await command('--texture', 'over.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '180')).stderr, '');
+  assert.match((await command('--texture', 'bare.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '45')).stderr, /90, 180 or 270/);
+  assert.match((await command('--texture', 'upright.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '180')).stderr, /on its side/);
+
+  // All that is about the depths turns with them.
+  const levels = { width, height, data: Uint8Array.from({ length: width * height }, (_, i) => level(i)) };
+  const turned = direct.backProject(depths(), numbers, { turn: 90, confidence: levels, mask: levels });
+  const plain = direct.backProject(depths(), numbers, { confidence: levels, mask: levels });
+  assert.deepEqual([turned.camera?.width, turned.camera?.height, turned.camera?.cx, turned.camera?.cy], [height, width, height - 1 - 97, 126]);
+  const pixel = 90 * width + 120;
+  const same = 120 * height + height - 1 - 90;
+  const [x, y, z] = plain.positions.subarray(3 * pixel, 3 * pixel + 3);
+  assert.ok(z < 0);
+  for (const [k, value] of [y, -x, z].entries()) assert.ok(Math.abs(turned.positions[3 * same + k] - value) < 1e-12);
+  assert.equal(turned.triangles.length, plain.triangles.length);
+  assert.throws(() => direct.backProject(depths(), numbers, { turn: /** @type {any} */ (45) }), error('OPTION', /turn/));
 });
 
 test('a textured scan brings its photo along', async () => {

@@ -15,6 +15,8 @@ struct Scene {
     tilt: f64,
     away: f64,
     lens: Distortion,
+    /// By how much the page is turned before the camera, in radians.
+    roll: f64,
     /// Where the camera of the photo is beside that of the depths: to its right, in metres.
     baseline: f64,
 }
@@ -40,6 +42,7 @@ impl Scene {
             tilt: tilt.to_radians(),
             away: 0.43,
             lens: Distortion::default(),
+            roll: 0.0,
             baseline: 0.0,
         }
     }
@@ -49,7 +52,11 @@ impl Scene {
     fn meets(&self, origin: Point, ray: Point) -> Option<(f64, [f64; 2])> {
         // Into the page's own axes: turned about the horizontal.
         let (sin, cos) = self.tilt.sin_cos();
-        let turn = |[x, y, z]: Point| [x, cos * y + sin * z, cos * z - sin * y];
+        let (roll_sin, roll_cos) = self.roll.sin_cos();
+        let turn = |[x, y, z]: Point| {
+            let (x, y) = (roll_cos * x + roll_sin * y, roll_cos * y - roll_sin * x);
+            [x, cos * y + sin * z, cos * z - sin * y]
+        };
         let o = turn([origin[0], origin[1], origin[2] - self.away]);
         let d = turn(ray);
         // The cylinder's axis is behind the page: x² + (z − r)² = r².
@@ -83,6 +90,41 @@ impl Scene {
         }
         let stretch = if seen > 0.0 { low / seen } else { 1.0 };
         [x * stretch, y * stretch, 1.0]
+    }
+
+    /// The place in the photo of a place on the page, by bisection from what all pixels see.
+    fn seen_at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+        let scale = PHOTO[0] as f64 / DEPTHS[0] as f64;
+        let wanted = [PAGE[0] * (s - 0.5), PAGE[1] * (t - 0.5)];
+        let off = |pixel: [f64; 2]| {
+            let found = self.meets([0.0; 3], self.ray(pixel, scale));
+            found.map_or(f64::INFINITY, |(_, [x, y])| {
+                (x - wanted[0]).hypot(y - wanted[1])
+            })
+        };
+        let (mut best, mut step) = ([0.0; 2], 40.0);
+        for i in 0..40 * 30 {
+            let pixel = [i % 40, i / 40].map(|k| k as f64 * step);
+            best = if off(pixel) < off(best) { pixel } else { best };
+        }
+        while step > 0.01 {
+            for i in 0..9 {
+                let pixel = [
+                    best[0] + (i % 3 - 1) as f64 * step,
+                    best[1] + (i / 3 - 1) as f64 * step,
+                ];
+                best = if off(pixel) < off(best) { pixel } else { best };
+            }
+            step *= 0.7;
+        }
+        best
+    }
+
+    /// The photo's place of each corner of the page, or of a part of it this far from its edges.
+    fn corners(&self, within: f64) -> Vec<[f64; 2]> {
+        let [low, high] = [within, 1.0 - within];
+        let shares = [[low, low], [high, low], [high, high], [low, high]];
+        shares.map(|share| self.seen_at(share)).to_vec()
     }
 
     fn depths(&self) -> HeightImage {
@@ -346,4 +388,97 @@ fn a_grid_of_some_thousand_points_says_the_same() {
     // Too few are as good as they can be, and say so.
     let few = map.grid(1e-3, 200).unwrap();
     assert!(few.places.len() <= 200 && few.maximum > 1e-3);
+}
+
+/// The sheet ends with the last whole triangles; what is wanted ends at the page's corners.
+#[test]
+fn a_page_is_cut_out_as_a_rectangle_to_its_very_corners() {
+    let scene = Scene::new(0.12, 25.0);
+    // Two pixels less of the page, as beside its outline depths are not to be trusted.
+    let depths = scene.depths();
+    let there = |i: usize| depths.values().get(i).is_some_and(|depth| *depth > 0.0);
+    let inner = |i: usize| {
+        let way = 2 * DEPTHS[0];
+        [i + 2, i - 2, i + way, i - way].into_iter().all(there)
+    };
+    let keep: Vec<u8> = (0..depths.values().len())
+        .map(|i| u8::from(there(i) && inner(i)))
+        .collect();
+    let camera = intrinsics(scene.lens);
+    let mesh = camera.back_project(&depths.masked(&keep).unwrap()).unwrap();
+    let seen = sample(&mesh, View::BestFit, Resolution::Auto).unwrap();
+    let sheet = unroll(seen.heightfield(), &UnrollOptions::default()).unwrap();
+    let registration = Registration::Camera(scene.camera(), *seen.frame());
+    let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+    let corners = scene.corners(0.002);
+    let page = map.clone().cut(Some(&corners), false, true).unwrap();
+    assert!(page.places().iter().all(|place| !place[0].is_nan()));
+    let size = [page.width(), page.height()].map(|n| n as f64 / page.resolution());
+    for k in 0..2 {
+        let wrong = size[k] / (0.996 * PAGE[k]) - 1.0;
+        assert!(wrong.abs() < 0.006, "{size:?}");
+        // The sheet itself is shorter by more.
+        let bare = [map.width(), map.height()][k] as f64 / map.resolution();
+        assert!(bare < 0.975 * PAGE[k], "{bare}");
+    }
+    assert!(scene.error(&page) < 0.003, "{}", scene.error(&page));
+    // Where the sheet was continued it is right to a millimetre, too.
+    let scale = PHOTO[0] as f64 / DEPTHS[0] as f64;
+    for (col, row) in [(3, 3), (page.width() - 4, page.height() - 4)] {
+        let place = page.places()[row * page.width() + col].map(f64::from);
+        let (_, found) = scene.meets([0.0; 3], scene.ray(place, scale)).unwrap();
+        let at = [col, row].map(|n| (n as f64 + 0.5) / page.resolution());
+        for k in 0..2 {
+            let wanted = at[k] + 0.002 * PAGE[k] - 0.5 * PAGE[k];
+            assert!((found[k] - wanted).abs() < 0.0012, "{found:?} {at:?}");
+        }
+    }
+    // Without the rectangle it ends at the straight lines between the corners in the photo.
+    let cut = map.clone().crop(&corners).unwrap();
+    let there = cut
+        .places()
+        .iter()
+        .filter(|place| !place[0].is_nan())
+        .count();
+    assert!(there < page.places().len() && there > page.places().len() * 9 / 10);
+    assert!(scene.error(&cut) < 0.003);
+}
+
+#[test]
+fn a_page_that_lies_askew_comes_out_upright() {
+    let mut scene = Scene::new(0.12, 20.0);
+    scene.roll = 0.12;
+    let (map, _) = map_of(&scene, View::BestFit);
+    // The direction of the page's edges in the flat image, by the places on the page of two pixels.
+    let askew = |map: &WarpMap| {
+        let scale = PHOTO[0] as f64 / DEPTHS[0] as f64;
+        let (width, height) = (map.width(), map.height());
+        let at = |col: usize| {
+            let place = map.places()[height / 2 * width + col].map(f64::from);
+            scene.meets([0.0; 3], scene.ray(place, scale)).unwrap().1
+        };
+        let [from, to] = [at(width / 4), at(3 * width / 4)];
+        (to[1] - from[1]).atan2(to[0] - from[0])
+    };
+    assert!((askew(&map).abs() - 0.12).abs() < 0.01, "{}", askew(&map));
+    let upright = map.clone().cut(None, true, false).unwrap();
+    assert!(askew(&upright).abs() < 0.008, "{}", askew(&upright));
+    assert!(scene.error(&upright) < 0.003);
+    let corners = scene.corners(0.002);
+    let page = map.clone().cut(Some(&corners), true, true).unwrap();
+    assert!(askew(&page).abs() < 0.004, "{}", askew(&page));
+    assert!(page.places().iter().all(|place| !place[0].is_nan()));
+    let size = [page.width(), page.height()].map(|n| n as f64 / page.resolution());
+    assert!(
+        (0..2).all(|k| (size[k] / (0.996 * PAGE[k]) - 1.0).abs() < 0.006),
+        "{size:?}"
+    );
+    assert!(scene.error(&page) < 0.003, "{}", scene.error(&page));
+    // A part of it, beyond which the sheet goes on.
+    let part = map.cut(Some(&scene.corners(0.2)), true, true).unwrap();
+    let size = [part.width(), part.height()].map(|n| n as f64 / part.resolution());
+    assert!(
+        (0..2).all(|k| (size[k] / (0.6 * PAGE[k]) - 1.0).abs() < 0.008),
+        "{size:?}"
+    );
 }

@@ -19,6 +19,8 @@ pub struct PhotoFile {
     /// The camera's focal length, in millimetres as for a film of 36 by 24 mm, where the file's Exif
     /// data have it and have the photo's proportions, too: of one that was cropped it is none.
     pub film35: Option<f64>,
+    /// How the file's Exif data state that it is to be turned, from 1 (not at all) to 8, as it was.
+    pub orientation: u16,
 }
 
 impl PhotoFile {
@@ -29,6 +31,7 @@ impl PhotoFile {
             height,
             rgba: rgba.into_flattened(),
             film35: None,
+            orientation: 1,
         }
     }
 }
@@ -72,5 +75,6 @@ fn decode_png(bytes: &[u8]) -> Result<PhotoFile> {
         height,
         rgba,
         film35: None,
+        orientation: 1,
     })
 }

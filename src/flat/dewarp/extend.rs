@@ -30,7 +30,8 @@ impl WarpMap {
             let pixel = |i: usize| [(i % width) as f64, (i / width) as f64];
             let (here, edge) = (pixel(i), pixel(*from as usize));
             let way = [here[0] - edge[0], here[1] - edge[1]];
-            if way[0].hypot(way[1]) > margin as f64 {
+            // Along rows and columns, so that a page's corners are as near as its sides.
+            if way[0].abs().max(way[1].abs()) > margin as f64 {
                 continue;
             }
             let [col, row] = edge.map(|v| v as usize / cell);

@@ -134,10 +134,9 @@ mod tests {
             let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]]
                 .map(|[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y]);
             assert!((skew_of(&corners) + angle).abs() < 1e-12, "{angle}");
-            let inside = corners
-                .iter()
-                .chain(&[[1.4 * cos - 0.5 * sin, 1.4 * sin + 0.5 * cos]]);
-            assert_eq!(hull(inside.copied().collect()).len(), 4);
+            let inside = [1.4 * cos - 0.5 * sin, 1.4 * sin + 0.5 * cos];
+            let points = corners.into_iter().chain([inside]).collect();
+            assert_eq!(hull(points).len(), 4);
         }
     }
 }

@@ -81,6 +81,8 @@ struct PhotoOutput {
     data: Uint8ClampedArray,
     #[serde(skip_serializing_if = "Option::is_none")]
     film35: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    orientation: Option<u16>,
 }
 
 pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
@@ -89,5 +91,6 @@ pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
         height: photo.height,
         data: photo.rgba.as_slice().into(),
         film35: photo.film35,
+        orientation: (photo.orientation != 1).then_some(photo.orientation),
     })?)
 }

@@ -1,12 +1,13 @@
 //! Depth cameras.
 
 use js_sys::{Float32Array, Uint8Array};
-use serde::Deserialize;
-use serde_wasm_bindgen::{from_value, preserve};
+use serde::{Deserialize, Serialize};
+use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::MeshOutput;
-use developable::{Camera, HeightImage, Intrinsics, Region, resampled};
+use developable::checks::check_count;
+use developable::{Camera, Error, HeightImage, Intrinsics, Region, Turn, resampled};
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
 use developable_wasm::camera::{intrinsics, photo_camera};
@@ -21,15 +22,20 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
     let what = "depth image";
     // The camera's own scale counts, not the image's.
     let depths = values(what, image.height, image.width, &image.data, image.no_data)?;
-    let mut depths = image.image(what, depths)?;
+    let depths = image.image(what, depths)?;
     let known = Known::read(&options)?;
+    let stored = [depths.width(), depths.height()];
+    let camera = known.turn.camera(&camera, stored);
+    let mut depths = known.turn.image(&depths)?;
     let size = [depths.width(), depths.height()];
-    for flags in known.masks(&camera, &depths)? {
+    for flags in known.masks(&camera, &depths, stored)? {
         depths = depths.masked(&flags)?;
     }
     let confidence = match &known.confidence {
         Some(Sized { size: own, data }) => {
-            let weights = resampled("confidence", data, *own, size)?;
+            check_count("confidence", own[1], own[0], data.len())?;
+            let (data, own) = known.turn.values(data, *own)?;
+            let weights = resampled("confidence", &data, own, size)?;
             let keep: Vec<u8> = weights
                 .iter()
                 .map(|weight| u8::from(*weight > 0.0))
@@ -40,15 +46,69 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
         None => JsValue::UNDEFINED,
     };
     let mesh = camera.back_project(&depths)?;
-    Ok(serde_wasm_bindgen::to_value(&MeshOutput {
-        confidence,
-        ..MeshOutput::new(&mesh)
+    Ok(to_value(&BackProjected {
+        mesh: MeshOutput {
+            confidence,
+            ..MeshOutput::new(&mesh)
+        },
+        camera: Seen::new(&camera, size),
     })?)
 }
 
+/// The mesh, and the camera as it is turned.
+#[derive(Serialize)]
+struct BackProjected {
+    mesh: MeshOutput,
+    camera: Seen,
+}
+
+/// The numbers of a camera that a turn changes.
+#[derive(Serialize)]
+struct Seen {
+    fx: f64,
+    fy: f64,
+    cx: f64,
+    cy: f64,
+    width: usize,
+    height: usize,
+    p1: f64,
+    p2: f64,
+}
+
+impl Seen {
+    fn new(camera: &Intrinsics, size: [usize; 2]) -> Self {
+        let [width, height] = camera.size.unwrap_or(size);
+        Seen {
+            fx: camera.fx,
+            fy: camera.fy,
+            cx: camera.cx,
+            cy: camera.cy,
+            width,
+            height,
+            p1: camera.distortion.p1,
+            p2: camera.distortion.p2,
+        }
+    }
+}
+
 /// Pixels of the depths that are taken beyond the part of the photo that is wanted, for the surface to go
-/// on there.
-const BEYOND: usize = 3;
+/// on there: a page's bent edges lie outside of the lines between its corners. 6 % of its longer side, and 3
+/// at least.
+fn beyond(corners: &[[f64; 2]], photo: [usize; 2], depths: &HeightImage) -> usize {
+    let size = [depths.width(), depths.height()].map(|n| n as f64);
+    let side = |k: usize| {
+        let at = corners
+            .iter()
+            .map(|corner| corner[k] * size[k] / photo[k] as f64);
+        let [low, high] = at.fold([size[k], 0.0], |[low, high], v| {
+            [low.min(v.max(0.0)), high.max(v.min(size[k]))]
+        });
+        high - low
+    };
+    (0.06 * side(0).max(side(1))).ceil().max(3.0) as usize
+}
+
+const TURNS: &str = "must be 0, 90, 180 or 270 degrees";
 
 /// Values at the pixels of an image.
 struct Sized<T> {
@@ -72,6 +132,7 @@ struct Known {
     crop: Option<Vec<[f64; 2]>>,
     photo: Option<[usize; 2]>,
     camera: Option<Camera>,
+    turn: Turn,
 }
 
 impl Known {
@@ -114,8 +175,17 @@ impl Known {
                     known.photo = Some([width, height]);
                 }
                 "camera" => known.camera = Some(photo_camera(&value)?),
+                "turn" => {
+                    known.turn = match option::<u32>("turn", value.clone(), TURNS)? {
+                        0 => Turn::None,
+                        90 => Turn::Quarter,
+                        180 => Turn::Half,
+                        270 => Turn::ThreeQuarters,
+                        other => return Err(Error::option("turn", other, TURNS).into()),
+                    }
+                }
                 _ => {
-                    let names = "confidence, mask, crop, photo and camera";
+                    let names = "confidence, mask, crop, photo, camera and turn";
                     return Err(unknown(&name, names));
                 }
             }
@@ -124,18 +194,27 @@ impl Known {
     }
 
     /// What the depths are to be within.
-    fn masks(&self, camera: &Intrinsics, depths: &HeightImage) -> Result<Vec<Vec<u8>>> {
+    fn masks(
+        &self,
+        camera: &Intrinsics,
+        depths: &HeightImage,
+        stored: [usize; 2],
+    ) -> Result<Vec<Vec<u8>>> {
         let mut found = Vec::new();
         let photo = self.camera.as_ref();
         if let Some(Sized { size, data }) = &self.mask {
-            // One at the depths' own size is about them, whatever the photo's camera has seen.
-            let own = *size == [depths.width(), depths.height()];
+            // One at the depths' own size is about them, whatever the photo's camera has seen, and is turned
+            // as they are.
+            let own = *size == stored;
             let photo = photo.filter(|_| !own);
-            found.push(camera.within(depths, &Region::Mask(*size, data), photo, 0)?);
+            let turn = if own { self.turn } else { Turn::None };
+            check_count("mask", size[1], size[0], data.len())?;
+            let (data, size) = turn.values(data, *size)?;
+            found.push(camera.within(depths, &Region::Mask(size, &data), photo, 0)?);
         }
         if let (Some(corners), Some(size)) = (&self.crop, self.photo) {
             let region = Region::Polygon(size, corners);
-            found.push(camera.within(depths, &region, photo, BEYOND)?);
+            found.push(camera.within(depths, &region, photo, beyond(corners, size, depths))?);
         }
         Ok(found)
     }

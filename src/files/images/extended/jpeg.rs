@@ -57,6 +57,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     };
     let (rgba, size) = oriented(rgba, file.size, file.orientation())?;
     Ok(PhotoFile {
+        orientation: file.orientation(),
         film35: file.exif().and_then(|exif| film35(&exif, file.size)),
         ..PhotoFile::new(size, rgba)
     })

@@ -972,7 +972,7 @@ export interface DewarpOptions extends UnrollOptions {
   deskew?: boolean;
   /**
    * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
-   * The sheet is continued up to there, by 4 % at most, and the flat image ends there. Default: all of it.
+   * The sheet is continued up to there, by 6 % at most, and the flat image ends there. Default: all of it.
    */
   crop?: readonly (readonly [number, number])[];
   /**

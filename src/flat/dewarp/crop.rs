@@ -8,11 +8,11 @@ use crate::error::{Error, Result};
 use crate::math::polygon::{check_corners, contains};
 
 /// How far beyond its border the sheet goes on, as a share of the longer side of what is wanted.
-const BEYOND: f64 = 0.04;
+const BEYOND: f64 = 0.06;
 
 impl WarpMap {
     /// The map of what lies within a polygon in the photo, given by its corners in pixels, `[0, 0]`
-    /// the centre of the upper left one. The sheet is continued to the polygon's sides, by up to 4 % of
+    /// the centre of the upper left one. The sheet is continued to the polygon's sides, by up to 6 % of
     /// what is wanted, and the flat image ends there, with straight edges; it is no
     /// larger than it has to be. Costs `O(pixels · corners)`.
     ///

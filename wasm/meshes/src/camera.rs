@@ -124,6 +124,25 @@ struct SizedInput {
     data: JsValue,
 }
 
+impl<T> Sized<T> {
+    fn read(
+        name: &'static str,
+        value: JsValue,
+        list: impl FnOnce(JsValue) -> Result<Vec<T>>,
+    ) -> Result<Self> {
+        let requirement = "must be an image: { width, height, data }";
+        let SizedInput {
+            width,
+            height,
+            data,
+        } = option(name, value, requirement)?;
+        Ok(Sized {
+            size: [width, height],
+            data: list(data)?,
+        })
+    }
+}
+
 /// `DepthOptions` of `types.d.ts`, as `asDepthOptions` makes them.
 #[derive(Default)]
 struct Known {
@@ -138,41 +157,22 @@ struct Known {
 impl Known {
     fn read(options: &JsValue) -> Result<Self> {
         let mut known = Known::default();
-        let image = "must be an image: { width, height, data }";
         for (name, value) in entries(options)? {
             match name.as_str() {
                 "confidence" => {
-                    let SizedInput {
-                        width,
-                        height,
-                        data,
-                    } = option("confidence", value, image)?;
-                    let data: Float32Array = data.unchecked_into();
-                    let size = [width, height];
-                    known.confidence = Some(Sized {
-                        size,
-                        data: data.to_vec(),
-                    });
+                    let floats = |data: JsValue| Ok(data.unchecked_into::<Float32Array>().to_vec());
+                    known.confidence = Some(Sized::read("confidence", value, floats)?);
                 }
                 "mask" => {
-                    let SizedInput {
-                        width,
-                        height,
-                        data,
-                    } = option("mask", value, image)?;
-                    let data: Uint8Array = data.unchecked_into();
-                    let size = [width, height];
-                    known.mask = Some(Sized {
-                        size,
-                        data: copied(&data)?,
-                    });
+                    let flags = |data: JsValue| copied(data.unchecked_ref::<Uint8Array>());
+                    known.mask = Some(Sized::read("mask", value, flags)?);
                 }
                 "crop" => {
                     known.crop = Some(option("crop", value, "must be a list of corners [x, y]")?);
                 }
                 "photo" => {
-                    let SizedInput { width, height, .. } = option("photo", value, image)?;
-                    known.photo = Some([width, height]);
+                    let whole: Sized<()> = Sized::read("photo", value, |_| Ok(Vec::new()))?;
+                    known.photo = Some(whole.size);
                 }
                 "camera" => known.camera = Some(photo_camera(&value)?),
                 "turn" => {

@@ -92,7 +92,7 @@ impl Seen {
 }
 
 /// Pixels of the depths that are taken beyond the part of the photo that is wanted, for the surface to go
-/// on there: a page's bent edges lie outside of the lines between its corners. 6 % of its longer side, and 3
+/// on there: a page's bent edges lie outside of the lines between its corners. 4 % of its longer side, and 3
 /// at least.
 fn beyond(corners: &[[f64; 2]], photo: [usize; 2], depths: &HeightImage) -> usize {
     let size = [depths.width(), depths.height()].map(|n| n as f64);
@@ -105,7 +105,7 @@ fn beyond(corners: &[[f64; 2]], photo: [usize; 2], depths: &HeightImage) -> usiz
         });
         high - low
     };
-    (0.06 * side(0).max(side(1))).ceil().max(3.0) as usize
+    (0.04 * side(0).max(side(1))).ceil().max(3.0) as usize
 }
 
 const TURNS: &str = "must be 0, 90, 180 or 270 degrees";

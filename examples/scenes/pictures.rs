@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use developable::dewarp::Photo;
-use developable::files::images::write_photo;
+use developable::files::images::{PhotoOptions, write_photo};
 use developable::picture::{Picture, PictureOptions};
 use developable::{Energy, HeightImage, Heightfield, Lambda, Lattice, Options, fit};
 
@@ -51,7 +51,7 @@ pub fn write(folder: &Path) -> Result<(), Error> {
         let photo = Photo::new(sheet.width, sheet.rgba.len() / 4 / sheet.width, &sheet.rgba)?;
         fs::write(
             folder.join(format!("scenes/{name}.png")),
-            write_photo(&photo)?,
+            write_photo(&photo, &PhotoOptions::default())?,
         )?;
         page += &format!("\n## {name}, {noise}\n\n![{name}](scenes/{name}.png)\n\n{caption}\n");
         eprintln!("{name}");

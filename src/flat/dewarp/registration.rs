@@ -31,7 +31,6 @@ impl From<Extent> for Registration<'_> {
 }
 
 /// The same for a photo of so many pixels.
-#[expect(clippy::large_enum_variant, reason = "there is one for each photo")]
 pub(super) enum Places {
     /// Pixels for each unit across and up, and the upper left corner.
     Plane([f64; 2], [f64; 2]),

@@ -107,8 +107,9 @@ function* hostileArguments(name) {
   for (const [what, hostile] of hostileValues()) yield [`options = ${what}`, [...list, hostile]];
   for (const key of Object.keys(OPTIONS[options])) {
     for (const [what, hostile] of hostileValues()) {
-      // Work without end is no error.
-      yield [`options.${key} = ${what}`, [...list, { ...short, [key]: hostile }]];
+      // Work without end is no error; and what is handed over is gone.
+      const own = key === 'transfer' ? structuredClone(list) : list;
+      yield [`options.${key} = ${what}`, [...own, { ...short, [key]: hostile }]];
     }
     yield [`options.${key} throws`, [...list, withGetter({}, key, boom)]];
   }

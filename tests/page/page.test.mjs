@@ -1,5 +1,6 @@
 /** A photo of a curled page alone: found, dragged, held, made flat and saved. */
 import assert from 'node:assert/strict';
+import { readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
 import { downloaded, drop, look, pageTest, painted } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, seen } from './support/photos.mjs';
@@ -203,8 +204,12 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   const found = parsed(await told(page, 'Focal length'));
   assert.ok(Math.abs(found / camera.fx - 1) < 0.05, `${found}`);
 
+  const pdf = page.getByRole('button', { name: 'Page PDF' });
+  assert.ok(await pdf.isDisabled(), 'its size is not known');
   await page.getByLabel('Format of each page').selectOption('a4');
   await flattened(page);
+  const { size } = await readPdfPicture((await downloaded(page, () => pdf.click())).bytes);
+  assert.ok(Math.abs(size[0] - 210) < 1.5 && Math.abs(size[1] - 297) < 2, `a PDF of ${size} mm`);
   const [wide, high] = (await told(page, 'Size')).split('×').map(parsed);
   assert.ok(Math.abs(wide - 210) < 1.5 && Math.abs(high - 297) < 2, `${wide} × ${high}`);
   await page.locator('#focal').selectOption('pixels');

@@ -11,10 +11,11 @@ import { showFailure } from './notice.js';
 /** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
 
-/** How each kind of file is made of a flat image. @type {Record<string, { type: string, write: (api: Api, flat: DewarpedPage) => Promise<Uint8Array<ArrayBuffer> | Blob> }>} */
+/** Kinds of files by their endings. @type {Record<string, { type: string, format: 'png' | 'jpeg' | 'pdf' }>} */
 const FILES = {
-  png: { type: 'image/png', write: (api, flat) => api.writePhoto(flat) },
-  jpg: { type: 'image/jpeg', write: (_, flat) => jpeg(flat) },
+  png: { type: 'image/png', format: 'png' },
+  jpg: { type: 'image/jpeg', format: 'jpeg' },
+  pdf: { type: 'application/pdf', format: 'pdf' },
 };
 
 /**
@@ -31,6 +32,7 @@ export function pageResultPanel(api, session, goOn) {
   const about = element('flat-about', HTMLElement);
   const caption = element('flat-caption', HTMLElement);
   const buttons = elements('button[data-flat]', HTMLButtonElement);
+  const pdf = element('flat-pdf', HTMLButtonElement);
   const surface = element('flat-surface', HTMLButtonElement);
   /** @type {DewarpedPage | null} */
   let shown = null;
@@ -59,6 +61,8 @@ export function pageResultPanel(api, session, goOn) {
     detail.textContent = pageErrors(report);
     about.replaceChildren(figures(factsOf(flat, session.photo?.grey.scale ?? 1)));
     enable(true);
+    pdf.disabled = flat.unit !== 'mm';
+    pdf.title = flat.unit === 'mm' ? 'In true size' : 'Of what size it is, a page format or a ruler would say';
   });
   session.on('problem', (error) => {
     shown = null;
@@ -73,13 +77,13 @@ export function pageResultPanel(api, session, goOn) {
   });
 
   for (const button of buttons) {
-    const { type, write } = FILES[button.dataset.flat ?? 'png'];
+    const { type, format } = FILES[button.dataset.flat ?? 'png'];
     button.addEventListener('click', async () => {
       const wish = session.wish();
       if (!wish || !shown || button.getAttribute('aria-busy') === 'true') return;
       button.setAttribute('aria-busy', 'true');
       try {
-        const file = await write(api, await session.whole(wish));
+        const file = await api.writePhoto(await session.whole(wish), { format });
         download(file, type, `${wish.photo.name}-flat.${button.dataset.flat}`);
       } catch (error) {
         showFailure('The flat page could not be written', error);
@@ -122,22 +126,4 @@ function factsOf(flat, scale) {
 function sentence(error) {
   const words = error instanceof Error ? error.message : String(error);
   return `${words[0].toUpperCase()}${words.slice(1).replace(/\.$/, '')}.`;
-}
-
-/**
- * On white, for JPEG knows nothing that is transparent.
- * @param {DewarpedPage} flat
- * @returns {Promise<Blob>}
- */
-async function jpeg({ width, height, data }) {
-  const image = canvasOf(new ImageData(data, width, height));
-  const canvas = document.createElement('canvas');
-  Object.assign(canvas, { width, height });
-  const context = canvas.getContext('2d');
-  if (!context) throw new Error('the browser gives no canvas of that size');
-  context.fillStyle = '#fff';
-  context.fillRect(0, 0, width, height);
-  context.drawImage(image, 0, 0);
-  return new Promise((resolve, reject) =>
-    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser writes no JPEG of that size'))), 'image/jpeg', 0.92));
 }

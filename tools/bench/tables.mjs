@@ -7,6 +7,8 @@ import { meshes } from './comparisons/meshes.mjs';
 import { memory } from './comparisons/memory.mjs';
 import { nativeAndWasm } from './comparisons/native-and-wasm.mjs';
 import { phone } from './comparisons/phone.mjs';
+import { phoneCommand } from './comparisons/phone-command.mjs';
+import { photoAlone } from './comparisons/photo-alone.mjs';
 import { restarts } from './comparisons/restarts.mjs';
 import { schedules } from './comparisons/schedules.mjs';
 import { sizes } from './comparisons/sizes.mjs';
@@ -24,4 +26,6 @@ export const tables = {
   restarts,
   dewarping,
   phone,
+  'photo-alone': photoAlone,
+  'phone-command': phoneCommand,
 };

@@ -2,8 +2,10 @@
 
 /**
  * @typedef {import('./pages.mjs').Page} Page
+ * @typedef {import('./pages.mjs').Point} Point
  * @typedef {{ width: number, height: number, fx: number, fy: number, cx: number, cy: number }} Camera
- * @typedef {{ name: string, distance: number, tilt: number, yaw: number, roll: number }} Pose metres and degrees
+ * @typedef {{ name: string, distance: number, tilt: number, yaw: number, roll: number, behind: 'wall' | 'table' }} Pose
+ *   metres and degrees, and what is behind the page: a wall far off, or the table that it lies on
  *
  * @typedef {object} View
  * @property {number} width
@@ -17,8 +19,8 @@ export const depthCamera = { width: 256, height: 192, fx: 205, fy: 205, cx: 126,
 
 /** @type {Pose[]} */
 export const poses = [
-  { name: '43 cm, 25°', distance: 0.43, tilt: 25, yaw: 0, roll: 0 },
-  { name: '52 cm, turned', distance: 0.52, tilt: 12, yaw: 18, roll: 7 },
+  { name: '43 cm, 25°, in the air', distance: 0.43, tilt: 25, yaw: 0, roll: 0, behind: 'wall' },
+  { name: '52 cm, turned, on a table', distance: 0.52, tilt: 12, yaw: 18, roll: 7, behind: 'table' },
 ];
 
 /**
@@ -33,19 +35,19 @@ export function finer({ width, height, fx, fy, cx, cy }, times) {
 }
 
 /**
- * From a place on the page to the camera's axes: to the right, down, ahead.
+ * From a point in the page's axes to the camera's: to the right, down, ahead.
  * @param {Page} page
  * @param {Pose} pose
- * @returns {(u: number, v: number) => [number, number, number]}
+ * @returns {(point: Point) => Point}
  */
-export function seenFrom(page, { distance, tilt, yaw, roll }) {
-  const middle = centre(page);
+function moved(page, { distance, tilt, yaw, roll }) {
+  const [least, most] = box(page);
+  const middle = least.map((value, k) => (value + most[k]) / 2);
   const [ct, st, cy, sy, cr, sr] = [tilt, yaw, roll].flatMap((angle) => {
     const radians = (angle * Math.PI) / 180;
     return [Math.cos(radians), Math.sin(radians)];
   });
-  return (u, v) => {
-    const [right, up, towards] = page.point(u, v);
+  return ([right, up, towards]) => {
     const [x0, y0, z0] = [right - middle[0], middle[1] - up, middle[2] - towards];
     const [x1, z1] = [cy * x0 + sy * z0, cy * z0 - sy * x0];
     const [y2, z2] = [ct * y0 - st * z1, ct * z1 + st * y0];
@@ -53,8 +55,40 @@ export function seenFrom(page, { distance, tilt, yaw, roll }) {
   };
 }
 
-/** Of the box around the page in space. @param {Page} page */
-function centre({ width, height, point }) {
+/**
+ * From a place on the page likewise.
+ * @param {Page} page
+ * @param {Pose} pose
+ * @returns {(u: number, v: number) => Point}
+ */
+export function seenFrom(page, pose) {
+  const move = moved(page, pose);
+  return (u, v) => move(page.point(u, v));
+}
+
+/** How far behind the page's middle the wall is, in metres. */
+const WALL = 0.25;
+
+/**
+ * How far what is behind the page is, by pixel.
+ * @param {Page} page
+ * @param {Pose} pose
+ * @param {Camera} camera
+ * @returns {(x: number, y: number) => number}
+ */
+export function background(page, pose, { fx, fy, cx, cy }) {
+  if (pose.behind === 'wall') return () => pose.distance + WALL;
+  const [[, , lowest]] = box(page);
+  const move = moved(page, pose);
+  const [origin, ...ends] = /** @type {Point[]} */ ([[0, 0, lowest], [1, 0, lowest], [0, 1, lowest]]).map(move);
+  const [a, b] = ends.map((end) => end.map((value, k) => value - origin[k]));
+  const normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const dot = (/** @type {number[]} */ p) => normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2];
+  return (x, y) => dot(origin) / dot([(x - cx) / fx, (y - cy) / fy, 1]);
+}
+
+/** Least and most of the page in each direction of its axes. @param {Page} page */
+function box({ width, height, point }) {
   const [least, most] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   for (let i = 0; i <= 40; i += 1) {
     for (let j = 0; j <= 40; j += 1) {
@@ -64,12 +98,12 @@ function centre({ width, height, point }) {
       });
     }
   }
-  return least.map((value, k) => (value + most[k]) / 2);
+  return [least, most];
 }
 
 /**
  * @param {Camera} camera
- * @param {[number, number, number]} point
+ * @param {Point} point
  * @returns {[x: number, y: number]}
  */
 export const project = ({ fx, fy, cx, cy }, [x, y, z]) => [cx + (fx * x) / z, cy + (fy * y) / z];

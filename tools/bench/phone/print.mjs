@@ -58,10 +58,8 @@ function html({ width, height, margin, points, columns }) {
  * The text that the pages carry which are one sheet, and that of a spread.
  * @returns {Promise<{ sheet: Print, spread: Print }>}
  */
-export async function prints() {
-  if (skip) throw new Problem(`The pages' text is set by a browser, and there is ${skip}: DEVELOPABLE_CHROME says where one is.`);
-  const browser = await launch();
-  try {
+export function prints() {
+  return withBrowser(async (browser) => {
     /** @param {Omit<Parameters<typeof html>[0], 'margin'>} layout @returns {Promise<Print>} */
     const print = async (layout) => {
       const [width, height] = [layout.width, layout.height].map((side) => Math.round((side / 0.0254) * FINE));
@@ -75,6 +73,35 @@ export async function prints() {
       sheet: await print({ width: 0.21, height: 0.297, points: 11, columns: [paragraphs(1, 11)] }),
       spread: await print({ width: 0.297, height: 0.21, points: 10, columns: [paragraphs(2, 5), paragraphs(3, 5)] }),
     };
+  });
+}
+
+/**
+ * A picture as a JPEG file, which cameras write.
+ * @param {Uint8Array} png
+ * @param {{ width: number, height: number }} size
+ * @returns {Promise<Uint8Array>}
+ */
+export function jpeg(png, { width, height }) {
+  return withBrowser(async (browser) => {
+    const page = await browser.newPage({ viewport: { width, height } });
+    await page.route('**/photo.png', (route) => route.fulfill({ contentType: 'image/png', body: Buffer.from(png) }));
+    await page.route('**/page', (route) =>
+      route.fulfill({ contentType: 'text/html', body: '<body style="margin: 0"><img src="photo.png" style="display: block">' }));
+    await page.goto('http://localhost/page');
+    return page.screenshot({ type: 'jpeg', quality: 92 });
+  });
+}
+
+/**
+ * @template T
+ * @param {(browser: Awaited<ReturnType<typeof launch>>) => Promise<T>} work
+ */
+async function withBrowser(work) {
+  if (skip) throw new Problem(`The pages' text is set by a browser, and there is ${skip}: DEVELOPABLE_CHROME says where one is.`);
+  const browser = await launch();
+  try {
+    return await work(browser);
   } finally {
     await browser.close();
   }

@@ -1,5 +1,5 @@
 /** Depths as a phone gives them, and photos. */
-import { finer, view } from './camera.mjs';
+import { background, finer, view } from './camera.mjs';
 
 /**
  * @typedef {import('./camera.mjs').Camera} Camera
@@ -9,8 +9,6 @@ import { finer, view } from './camera.mjs';
  * @typedef {{ width: number, height: number, data: Uint8Array }} Grey
  */
 
-/** How far behind the page's middle the wall is, in metres. */
-const WALL = 0.25;
 /** Standard deviation of the kernel that the noise is smooth by, in pixels of the depths. */
 const SMOOTH = 2;
 /** Samples across a pixel of the depths; it collects light from half a pixel around it, too. */
@@ -69,7 +67,7 @@ export function smoothNoise(width, height, deviation, next) {
 }
 
 /**
- * In whole millimetres, 0 where there is none: with the wall behind, mixtures of both at outlines, smooth noise
+ * In whole millimetres, 0 where there is none: with what is behind, mixtures of both at outlines, smooth noise
  * and dropouts.
  * @param {Page} page
  * @param {Pose} pose
@@ -78,10 +76,10 @@ export function smoothNoise(width, height, deviation, next) {
  */
 export function sensed(page, pose, camera, noise) {
   const { width, height } = camera;
-  const fine = view(page, pose, finer(camera, FINE));
+  const close = finer(camera, FINE);
+  const [fine, behind] = [view(page, pose, close), background(page, pose, close)];
   const next = normal(1 + Math.round(10 * noise));
   const error = smoothNoise(width, height, SMOOTH, next);
-  const wall = 1000 * (pose.distance + WALL);
   const around = FINE / 2;
   const data = new Float64Array(width * height);
   for (let i = 0; i < data.length; i += 1) {
@@ -90,7 +88,7 @@ export function sensed(page, pose, camera, noise) {
     for (let y = Math.max(0, row - around); y < Math.min(fine.height, row + FINE + around); y += 1) {
       for (let x = Math.max(0, col - around); x < Math.min(fine.width, col + FINE + around); x += 1) {
         const depth = fine.depths[y * fine.width + x];
-        sum += depth < Infinity ? 1000 * depth : wall;
+        sum += 1000 * (depth < Infinity ? depth : behind(x, y));
         count += 1;
       }
     }

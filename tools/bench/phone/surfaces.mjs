@@ -7,6 +7,8 @@ import { measure, placesOf } from './truth.mjs';
  * @typedef {ReturnType<typeof sampleMesh>} Field
  * @typedef {import('../../../pkg/types.js').Photo} Photo
  * @typedef {{ page: import('./pages.mjs').Page, seen: import('./camera.mjs').View, photo: Photo, crop: [number, number][] }} Scene
+ * @typedef {Photo & { map: Float32Array }} Flat
+ * @typedef {{ flat: Flat, truth: import('./truth.mjs').Truth }} Result
  */
 
 /** Pixels of the depths that the command takes beyond the part of the photo that is wanted. */
@@ -70,13 +72,14 @@ const COARSE = 50;
  * @param {Parameters<typeof dewarp>[0]} surface
  * @param {Scene} scene
  * @param {number} [dpi]
+ * @returns {Result}
  */
 export function flattened(surface, { page, seen, photo, crop }, dpi = DPI) {
   const flat = dewarp(surface, photo, { dots: dpi / 0.0254, crop });
   return { flat, truth: measure(flat, placesOf(flat, seen), page) };
 }
 
-/** @param {Scene} scene */
+/** @param {Scene} scene @returns {Result} */
 export function asItIs({ page, seen, photo, crop }) {
   const [left, top] = [0, 1].map((k) => Math.floor(Math.min(...crop.map((point) => point[k]))));
   const [right, bottom] = [0, 1].map((k) => Math.ceil(Math.max(...crop.map((point) => point[k]))));
@@ -95,7 +98,7 @@ export function asItIs({ page, seen, photo, crop }) {
 
 /**
  * Every way, by name.
- * @type {Record<string, (field: Field, scene: Scene) => ReturnType<typeof asItIs>>}
+ * @type {Record<string, (field: Field, scene: Scene) => Result>}
  */
 export const ways = {
   'photo as it is': (_, scene) => asItIs(scene),

@@ -109,21 +109,30 @@ export function rgba({ width, height, data }) {
 }
 
 /**
- * Multi-scale structural similarity with the page's own image, to whose pixels the flat image is turned and shifted.
+ * What a flat image shows of the page on the pixels of the page's own image, turned and shifted to it.
  * @param {Grey} flat
  * @param {Grey} original
  * @param {{ width: number }} page
  * @param {import('./fitting.mjs').Similarity} place
+ * @returns {Grey}
  */
-export function alike(flat, original, page, { a, b, s, t }) {
-  const { width, height } = original;
+export function turned(flat, { width, height }, page, { a, b, s, t }) {
   const pixel = page.width / width;
-  const turned = Uint8Array.from({ length: width * height }, (_, i) => {
+  const data = Uint8Array.from({ length: width * height }, (_, i) => {
     const [u, v] = [((i % width) + 0.5) * pixel, (Math.floor(i / width) + 0.5) * pixel];
     const [x, y] = [a * u - b * v + s, b * u + a * v + t];
     const inside = x >= 0 && y >= 0 && x <= flat.width - 1 && y <= flat.height - 1;
     return inside ? Math.round(greyAt(flat, x, y)) : 255;
   });
-  const [one, other] = [rgba({ width, height, data: turned }), rgba(original)];
-  return msssim(one.data, other.data, undefined, width, height);
+  return { width, height, data };
+}
+
+/**
+ * Multi-scale structural similarity, not a number where it is a root of a negative one.
+ * @param {Grey} found
+ * @param {Grey} original
+ */
+export function alike(found, original) {
+  const { width, height } = original;
+  return msssim(rgba(found).data, rgba(original).data, undefined, width, height);
 }

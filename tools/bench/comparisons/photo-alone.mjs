@@ -48,19 +48,20 @@ export async function photoAlone({ quick }) {
       const made = results.filter(({ word }) => word !== 'refused');
       /** Root of the mean square. @param {number[]} values */
       const mean = (values) => Math.sqrt(values.reduce((sum, value) => sum + value * value, 0) / values.length);
-      const worst = Math.max(...made.map(({ rms }) => rms));
-      const within = made.filter(({ rms, errorBound }) => 100 * rms <= errorBound).length;
+      const rms = mean(made.map((one) => one.rms));
+      const worst = Math.max(...made.map((one) => one.rms));
+      const within = made.filter((one) => 100 * one.rms <= one.errorBound).length;
       /** @type {Map<string, number>} */
       const words = new Map();
       for (const { word } of results) words.set(word, (words.get(word) ?? 0) + 1);
       const figures = made.length === 0 ? ['-', '-', '-', '-'] : [
-        percent(mean(made.map(({ rms }) => rms))), percent(worst), `${digits(mean(made.map(({ error }) => error)))} %`,
+        percent(rms), percent(worst), `${digits(mean(made.map(({ error }) => error)))} %`,
         `${within} of ${made.length}`,
       ];
       rows.push([
         page.name, pose.name.replace(/, (in|on).*/, ''), ...figures,
         [...words].map(([verdict, times]) => (words.size === 1 ? verdict : `${verdict} (${times})`)).join(', '),
-        ofThisKind ? (worst > target ? 'RMS' : 'none') : (words.has('flat') || words.has('unrolled') ? 'verdict' : 'none'),
+        ofThisKind ? (rms > target ? 'RMS' : worst > target ? 'worst' : 'none') : (words.has('flat') || words.has('unrolled') ? 'verdict' : 'none'),
       ]);
       console.log(`  ${rows[rows.length - 1].join(', ')}`);
     }

@@ -36,6 +36,7 @@ export async function phoneCommand({ quick }) {
     ];
     const rows = [];
     for (const [name, args] of tasks) {
+      /** @type {Awaited<ReturnType<typeof measured>>[]} */
       const tries = [];
       for (let k = 0; k < (quick ? 1 : 3); k += 1) tries.push(await measured(folder, args));
       const least = (/** @type {'seconds' | 'processor' | 'bytes'} */ key) => Math.min(...tries.map((one) => one[key]));

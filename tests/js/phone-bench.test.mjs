@@ -17,6 +17,7 @@ test('characters that are wrong', () => {
   assert.equal(distance('', 'page'), 4);
   assert.equal(distance('page', ''), 4);
   assert.equal(distance('flaw', 'lawn'), 2);
+  assert.equal(distance('paage', 'page'), 1);
   assert.equal(errorRate('  Two\nlines ', 'Two lines'), 0);
   assert.equal(errorRate('Two 1ines', 'Two lines'), 1 / 9);
   assert.equal(errorRate('it\u2019s', "it's"), 0);
@@ -61,6 +62,11 @@ test('a view says which place a pixel shows', () => {
     for (const pose of poses) {
       const seen = view(page, pose, depthCamera);
       const [space, behind] = [seenFrom(page, pose), background(page, pose, depthCamera)];
+      // A camera moves, and nothing is stretched.
+      const corners = [[0, 0], [page.width, 0], [0, page.height]];
+      const sides = (/** @type {(u: number, v: number) => number[]} */ at) => corners.map(([u, v], k) =>
+        Math.hypot(...at(u, v).map((value, axis) => value - at(corners[(k + 1) % 3][0], corners[(k + 1) % 3][1])[axis])));
+      sides(space).forEach((side, k) => near(side, sides(page.point)[k], 1e-12));
       for (let i = 0; i < seen.depths.length; i += 37) {
         if (seen.depths[i] === Infinity) continue;
         const [x, y] = [i % seen.width, Math.floor(i / seen.width)];

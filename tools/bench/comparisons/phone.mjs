@@ -40,7 +40,7 @@ export async function phone({ quick }) {
     const { sheet, spread } = await prints();
     const least = new Map();
     for (const print of [sheet, spread]) least.set(print, await errors(print.original, print));
-    for (const page of pages) {
+    for (const page of quick ? pages.slice(0, 1) : pages) {
       const print = page.name === 'spread' ? spread : sheet;
       for (const [number, noise] of quick ? conditions.slice(0, 1) : conditions) {
         const pose = poses[number];

@@ -18,6 +18,9 @@ import { digits, percent } from '../text.mjs';
 const target = { coverage: 0.95, errors: 1.5, few: 0.001 };
 const most = (/** @type {string} */ page) => (page === 'crumpled' ? 0.008 : 0.005);
 
+/** Share of the characters. @param {number} value */
+const rate = (value) => (value === 0 ? '0 %' : percent(value));
+
 /** Pixels of the photo for each of the depths, in each direction. */
 const TIMES = 12;
 const photoCamera = finer(depthCamera, TIMES);
@@ -59,13 +62,13 @@ export async function phone({ quick }) {
           rows.push([
             page.name, pose.name, `${noise} mm`, name, percent(truth.rms), percent(truth.anisotropy),
             percent(truth.strain), percent(truth.coverage), Number.isNaN(similar) ? 'none' : digits(similar),
-            missing ? '-' : percent(found), ours ? missed(truth, page.name, oracle, found, least.get(print)) : '',
+            missing ? '-' : rate(found), ours ? missed(truth, page.name, oracle, found, least.get(print)) : '',
           ]);
           console.log(`  ${rows[rows.length - 1].join(', ')}`);
         }
       }
     }
-    const originals = [sheet, spread].map((print) => percent(least.get(print)));
+    const originals = [sheet, spread].map((print) => rate(least.get(print)));
     return table(rows, originals, missing);
   } finally {
     await rm(folder, { recursive: true, force: true });
@@ -95,7 +98,7 @@ function missed({ rms, coverage }, page, oracle, found, original) {
  * @param {string | undefined} missing
  */
 function table(rows, originals, missing) {
-  const flat = missing ? 'no OCR program was there' : `of the flat originals ${originals[0]} are, of the spread ${originals[1]}`;
+  const flat = missing ? 'no OCR program was there' : `${originals[0]} of the flat original, ${originals[1]} of the spread's`;
   return {
     title: "Pages from a phone's depth",
     text: `Printed A4 pages, curled, folded and mildly crumpled, and a spread of two A5 pages with its gutter, seen by a simulated phone: `
@@ -103,7 +106,7 @@ function table(rows, originals, missing) {
       + 'millimetres with smooth noise (a Gaussian kernel with a standard deviation of 2 pixels) of 1 or 3 mm, 120 dropouts, and mixtures of the page and a wall '
       + '25 cm behind it, or the table under it, at outlines. The first pose is tilted by 25°, the second by 12°, and turned by 18° and 7°. '
       + 'The page is cropped by 32 points of its outline in the photo. The photo as it is; the depths unrolled as they are; smoothed by averages of '
-      + 'neighbours, as many steps as leave the least displacement, which takes knowing the truth; fitted by default; and with the energy '
+      + 'neighbours, as many steps (one at least) as leave the least displacement, which takes knowing the truth; fitted by default; and with the energy '
       + '`huber` and λ `auto`. Against the page itself: displacement after the best similarity (root mean square, in widths of the page), how much longer lengths are in '
       + 'one direction than in the other, the mean strain over 2 mm, the share of the page that is shown, the multi-scale structural similarity, and the share of '
       + `characters that the OCR program tesseract gets wrong at ${DPI} dots per inch (${flat}), both after the flat image is turned upright. `

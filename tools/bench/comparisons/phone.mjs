@@ -50,7 +50,7 @@ export async function phone({ quick }) {
         const seen = view(page, pose, photoCamera);
         const photo = photograph(seen, print.fine, page);
         const scene = { page, seen, photo, crop: outline(page, pose, photoCamera) };
-        const field = sampled(sensed(page, pose, depthCamera, noise), depthCamera, view(page, pose, depthCamera));
+        const field = sampled(sensed(page, pose, depthCamera, noise), depthCamera, scene);
         let oracle = Infinity;
         for (const [name, way] of Object.entries(ways)) {
           const { flat, truth } = way(field, scene);

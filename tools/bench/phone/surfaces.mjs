@@ -11,28 +11,15 @@ import { measure, placesOf } from './truth.mjs';
  * @typedef {{ flat: Flat, truth: import('./truth.mjs').Truth }} Result
  */
 
-/** Pixels of the depths that the command takes beyond the part of the photo that is wanted. */
-const BEYOND = 3;
-
 /**
  * What the command makes of depths, in millimetres, for `--crop`.
  * @param {{ width: number, height: number, data: Float64Array }} depths
  * @param {import('./camera.mjs').Camera} camera
- * @param {import('./camera.mjs').View} seen the page, with as many pixels as the depths
+ * @param {Pick<Scene, 'photo' | 'crop'>} scene
  * @returns {Field}
  */
-export function sampled(depths, { fx, fy, cx, cy }, { depths: page }) {
-  const { width, height } = depths;
-  const mask = Uint8Array.from({ length: width * height }, (_, i) => {
-    const [col, row] = [i % width, Math.floor(i / width)];
-    for (let y = Math.max(0, row - BEYOND); y <= Math.min(height - 1, row + BEYOND); y += 1) {
-      for (let x = Math.max(0, col - BEYOND); x <= Math.min(width - 1, col + BEYOND); x += 1) {
-        if (page[y * width + x] < Infinity) return 1;
-      }
-    }
-    return 0;
-  });
-  const mesh = backProject({ ...depths, mask, noData: 0 }, { fx, fy, cx, cy, depthScale: 0.001 });
+export function sampled(depths, { fx, fy, cx, cy }, { photo: { width, height }, crop }) {
+  const mesh = backProject({ ...depths, noData: 0 }, { fx, fy, cx, cy, depthScale: 0.001 }, { crop, photo: { width, height } });
   return sampleMesh(mesh, { view: 'best-fit' });
 }
 

@@ -2,7 +2,7 @@
 import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { init, load, writePhoto } from '../../../pkg/direct.js';
+import { DevelopableError, init, load, writePhoto } from '../../../pkg/direct.js';
 import { depthCamera, finer, outline, poses, view } from '../phone/camera.mjs';
 import { errorRate, missingReader, read } from '../phone/characters.mjs';
 import { pages } from '../phone/pages.mjs';
@@ -53,7 +53,12 @@ export async function phone({ quick }) {
         const field = sampled(sensed(page, pose, depthCamera, noise), depthCamera, scene);
         let oracle = Infinity;
         for (const [name, way] of Object.entries(ways)) {
-          const { flat, truth } = way(field, scene);
+          const result = attempt(() => way(field, scene));
+          if (typeof result === 'string') {
+            rows.push([page.name, pose.name, `${noise} mm`, name, ...Array(6).fill('-'), result]);
+            continue;
+          }
+          const { flat, truth } = result;
           const image = turned(greyOf(flat), print.original, page, truth.place);
           const found = await errors(image, print);
           const similar = alike(image, print.original);
@@ -72,6 +77,20 @@ export async function phone({ quick }) {
     return table(rows, originals, missing);
   } finally {
     await rm(folder, { recursive: true, force: true });
+  }
+}
+
+/**
+ * What there is, or the code of the error by which the library refuses it.
+ * @template T
+ * @param {() => T} make
+ */
+function attempt(make) {
+  try {
+    return make();
+  } catch (problem) {
+    if (problem instanceof DevelopableError) return problem.code;
+    throw problem;
   }
 }
 

@@ -6,6 +6,9 @@ import { gaps } from './comparisons/gaps.mjs';
 import { meshes } from './comparisons/meshes.mjs';
 import { memory } from './comparisons/memory.mjs';
 import { nativeAndWasm } from './comparisons/native-and-wasm.mjs';
+import { phone } from './comparisons/phone.mjs';
+import { phoneCommand } from './comparisons/phone-command.mjs';
+import { photoAlone } from './comparisons/photo-alone.mjs';
 import { restarts } from './comparisons/restarts.mjs';
 import { schedules } from './comparisons/schedules.mjs';
 import { sizes } from './comparisons/sizes.mjs';
@@ -22,4 +25,7 @@ export const tables = {
   accuracy,
   restarts,
   dewarping,
+  phone,
+  'photo-alone': photoAlone,
+  'phone-command': phoneCommand,
 };

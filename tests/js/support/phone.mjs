@@ -1,12 +1,14 @@
 /** What a phone sees of a curled A4 page at a slant: its depths, its photo, and where on the page a pixel lies. */
+import { similarity } from '../../../tools/bench/phone/fitting.mjs';
+import { depthCamera } from '../../../tools/bench/phone/camera.mjs';
+
+export { depthCamera };
 
 /** @typedef {{ width: number, height: number, fx: number, fy: number, cx: number, cy: number }} Camera */
 
 const [radius, tilt, away] = [0.12, (25 * Math.PI) / 180, 0.43];
 const page = [0.21, 0.297];
-/** A LiDAR's images, and those of the camera beside it, which show the same. */
-export const depthCamera = { width: 256, height: 192, fx: 205, fy: 205, cx: 126, cy: 97 };
-/** Ten times as fine: `cx' + 1/2 = (cx + 1/2)·10`. */
+/** Of the camera beside the LiDAR, which shows the same, ten times as fine: `cx' + 1/2 = (cx + 1/2)·10`. */
 export const photoCamera = { width: 2560, height: 1920, fx: 2050, fy: 2050, cx: 1264.5, cy: 974.5 };
 
 /**
@@ -62,16 +64,7 @@ export function displacement(camera, { width, height, map }) {
   const pairs = [];
   for (let i = 0; i < width * height; i += 3) {
     const found = Number.isNaN(map[2 * i]) ? undefined : meets(camera, map[2 * i], map[2 * i + 1]);
-    if (found) pairs.push([found[1], found[2], i % width, Math.floor(i / width)]);
+    if (found) pairs.push([i % width, Math.floor(i / width), found[1], found[2]]);
   }
-  const mean = [0, 1, 2, 3].map((k) => pairs.reduce((sum, pair) => sum + pair[k], 0) / pairs.length);
-  let [pp, qq, re, im] = [0, 0, 0, 0];
-  for (const pair of pairs) {
-    const [p, q, x, y] = pair.map((value, k) => value - mean[k]);
-    pp += p * p + q * q;
-    qq += x * x + y * y;
-    re += p * x + q * y;
-    im += q * x - p * y;
-  }
-  return Math.sqrt((pp - (re * re + im * im) / qq) / pairs.length) / page[0];
+  return similarity(pairs).rms / page[0];
 }

@@ -1,0 +1,100 @@
+/** Bent pages of which every point is known: isometries of the flat page to space, in metres. */
+
+/**
+ * @typedef {[number, number, number]} Point in space: to the right, up, and towards who looks at the page
+ *
+ * @typedef {object} Page
+ * @property {string} name
+ * @property {number} width
+ * @property {number} height
+ * @property {(u: number, v: number) => Point} point where a place on the page is, from its upper left corner
+ */
+
+const A4 = /** @type {const} */ ([0.21, 0.297]);
+/** Both pages of a book of format A5. */
+const SPREAD = /** @type {const} */ ([0.297, 0.21]);
+
+const STEP = 1e-4;
+
+/**
+ * Bent in one direction only.
+ * @param {string} name
+ * @param {readonly [number, number]} size
+ * @param {number} direction of the bend, against the page's width
+ * @param {(p: number) => number} slope the angle to the plane, by the length in that direction from the middle
+ * @returns {Page}
+ */
+function profile(name, [width, height], direction, slope) {
+  const half = Math.hypot(width, height) / 2;
+  const count = Math.ceil((2 * half) / STEP) + 2;
+  const [across, up] = [new Float64Array(count), new Float64Array(count)];
+  for (let i = 1; i < count; i += 1) {
+    const angle = slope((i - 0.5) * STEP - half);
+    across[i] = across[i - 1] + STEP * Math.cos(angle);
+    up[i] = up[i - 1] + STEP * Math.sin(angle);
+  }
+  const [cos, sin] = [Math.cos(direction), Math.sin(direction)];
+  return {
+    name, width, height,
+    point(u, v) {
+      const [x, y] = [u - width / 2, height / 2 - v];
+      const [p, q] = [cos * x + sin * y, cos * y - sin * x];
+      const at = (p + half) / STEP;
+      const i = Math.min(Math.floor(at), count - 2);
+      const t = at - i;
+      const seen = across[i] + t * (across[i + 1] - across[i]) - half;
+      return [cos * seen - sin * q, sin * seen + cos * q, up[i] + t * (up[i + 1] - up[i])];
+    },
+  };
+}
+
+/** Distance to the nearest even number. @param {number} t */
+const zigzag = (t) => Math.abs(t - 2 * Math.round(t / 2));
+
+/**
+ * Crumpled into facets: Miura's fold, partly folded, as in `benches/src/bin/dewarping/page.rs`.
+ * @param {number} fold the facets' angle to the plane
+ * @returns {Page}
+ */
+function crumpled(fold) {
+  const [width, height] = A4;
+  const [a, b, corner] = [0.31 * width, 0.37 * width, 1.25];
+  const spread = Math.sqrt(1 + (Math.cos(fold) * Math.tan(corner)) ** 2);
+  const folded = [
+    (b * Math.cos(fold) * Math.tan(corner)) / spread,
+    a * Math.sqrt(1 - (Math.sin(fold) * Math.sin(corner)) ** 2),
+    b / spread,
+  ];
+  const ridge = a * Math.sin(fold) * Math.sin(corner);
+  return {
+    name: 'crumpled', width, height,
+    point(u, v) {
+      const across = u / (b * Math.sin(corner));
+      const along = (height - v - b * Math.cos(corner) * zigzag(across)) / a;
+      return [across * folded[0], along * folded[1] + folded[2] * zigzag(across), ridge * zigzag(along)];
+    },
+  };
+}
+
+const degree = Math.PI / 180;
+const [wide, high] = A4;
+
+/** Along a curve, as in `benches/src/bin/dewarping/page.rs`. @param {number} p */
+const curl = (p) => 0.75 * Math.sin((3.2 * p) / wide + 2);
+
+/** In thirds. @param {number} p */
+const folds = (p) => (p < -high / 6 ? 0.42 : p < high / 6 ? -0.36 : 0.3);
+
+/** Steep at the gutter, and flat at the outer edges, where a book's cover carries the page. @param {number} p */
+const book = (p) => (p < 0 ? 0.1 - 0.8 * Math.exp(p / 0.03) : 0.95 * Math.exp(-p / 0.035) - 0.12);
+
+/** Of every kind, for depths. */
+export const pages = [
+  profile('curled', A4, 8 * degree, curl),
+  profile('folded', A4, 86 * degree, folds),
+  crumpled(0.3),
+  profile('spread', SPREAD, 0, book),
+];
+
+/** Whose straight edges are rulings, for photos alone. */
+export const upright = profile('curled upright', A4, 0, curl);

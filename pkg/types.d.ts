@@ -186,7 +186,7 @@ export interface DepthOptions {
   confidence?: Pixels;
   /** 0 takes out; of the depths, or of the photo. */
   mask?: Pixels;
-  /** Corners [x, y] of the part of the photo that is wanted, in its pixels: depths farther beside it than 4 % of its size are taken out. */
+  /** Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it are taken out, and what of the rest is small and apart, as what is seen behind a bent edge. */
   crop?: readonly (readonly [number, number])[];
   /** The size of the photo that `crop` is about. */
   photo?: { width: number; height: number };

@@ -165,6 +165,18 @@ impl Mesh {
     }
 
     /// The corners of one triangle.
+    /// With those triangles that are wanted, in the same order.
+    pub(super) fn keep(mut self, mut wanted: impl FnMut([u32; 3]) -> bool) -> Self {
+        let keep: Vec<bool> = self.triangles.iter().map(|t| wanted(*t)).collect();
+        let mut flags = keep.iter();
+        self.triangles.retain(|_| flags.next() == Some(&true));
+        if let Some(textures) = &mut self.textures {
+            let mut flags = keep.iter();
+            textures.retain(|_| flags.next() == Some(&true));
+        }
+        self
+    }
+
     pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|i| self.positions[i as usize])
     }

@@ -3,6 +3,7 @@
 pub(crate) mod camera;
 mod depth;
 pub(crate) mod mesh;
+mod parts;
 pub(crate) mod quarter;
 pub(crate) mod region;
 pub(crate) mod sampling;

@@ -48,9 +48,7 @@ impl Region<'_> {
 }
 
 impl Intrinsics {
-    /// For each of the depths 1 if it shows the region or lies no more than `beyond` pixels from one
-    /// that does, along rows and columns, else 0: a mask for
-    /// [`HeightImage::masked`]. The photo was taken by another camera, or from the same place with the
+    /// For each of the depths 1 if it shows the region, else 0: a mask for [`HeightImage::masked`]. The photo was taken by another camera, or from the same place with the
     /// same outline. Costs `O(pixels · corners)`.
     ///
     /// # Errors
@@ -63,7 +61,6 @@ impl Intrinsics {
         depths: &HeightImage,
         region: &Region<'_>,
         photo: Option<&Camera>,
-        beyond: usize,
     ) -> Result<Vec<u8>> {
         region.check()?;
         let size = [depths.width(), depths.height()];
@@ -87,9 +84,6 @@ impl Intrinsics {
                 None => Some([0, 1].map(|k| (pixel[k] + 0.5) * stretch[k] - 0.5)),
             };
             *inside = u8::from(place.is_some_and(|place| region.holds(place)));
-        }
-        if beyond > 0 {
-            widen(&mut inside, size, beyond)?;
         }
         Ok(inside)
     }
@@ -137,24 +131,6 @@ fn stretch(what: &'static str, from: [usize; 2], to: [usize; 2]) -> Result<[f64;
     Ok(stretch)
 }
 
-/// Sets what lies within so many pixels along rows and columns.
-fn widen(flags: &mut [u8], [width, height]: [usize; 2], by: usize) -> Result<()> {
-    for (step, length) in [(1, width), (width, height)] {
-        let before = {
-            let mut copy = try_filled("mask", flags.len(), 0)?;
-            copy.copy_from_slice(flags);
-            copy
-        };
-        for (i, flag) in flags.iter_mut().enumerate() {
-            let at = i / step % length;
-            let first = i - at.min(by) * step;
-            let count = at.min(by) + 1 + by.min(length - 1 - at);
-            *flag = u8::from((0..count).any(|k| before[first + k * step] != 0));
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,21 +149,13 @@ mod tests {
             .map(|i| u8::from((6..15).contains(&(i % 24))))
             .collect();
         let region = Region::Mask([24, 18], &fine);
-        let found = camera.within(&depths, &region, None, 0).unwrap();
+        let found = camera.within(&depths, &region, None).unwrap();
         let wanted = |from: usize, to: usize| -> Vec<u8> {
             (0..48)
                 .map(|i| u8::from((from..to).contains(&(i % 8))))
                 .collect()
         };
         assert_eq!(found, wanted(2, 5));
-        assert_eq!(
-            camera.within(&depths, &region, None, 1).unwrap(),
-            wanted(1, 6)
-        );
-        assert_eq!(
-            camera.within(&depths, &region, None, 9).unwrap(),
-            wanted(0, 8)
-        );
         assert_eq!(
             resampled("mask", &fine, [24, 18], [8, 6]).unwrap(),
             wanted(2, 5)
@@ -204,12 +172,12 @@ mod tests {
         let corners = [[1.5, 0.5], [5.5, 0.5], [5.5, 4.5], [1.5, 4.5]];
         let region = Region::Polygon([8, 6], &corners);
         let beside = |found: &[u8]| (0..48).filter(|i| found[*i] != 0).collect::<Vec<_>>();
-        let same = camera.within(&depths, &region, None, 0).unwrap();
+        let same = camera.within(&depths, &region, None).unwrap();
         assert_eq!(beside(&same)[..4], [10, 11, 12, 13]);
         // 0.4 to its left: at a depth of 2 all is two pixels farther to the right there.
         let mut photo = Camera::new(camera);
         photo.pose.translation[0] = 0.4;
-        let other = camera.within(&depths, &region, Some(&photo), 0).unwrap();
+        let other = camera.within(&depths, &region, Some(&photo)).unwrap();
         assert_eq!(beside(&other)[..4], [8, 9, 10, 11]);
     }
 
@@ -217,7 +185,7 @@ mod tests {
     fn what_does_not_show_the_same_is_refused() {
         let (camera, depths) = plane();
         let code = |region: Region| {
-            let found = camera.within(&depths, &region, None, 0);
+            let found = camera.within(&depths, &region, None);
             found.unwrap_err().code()
         };
         assert_eq!(code(Region::Mask([6, 8], &[1; 48])), "UNSUPPORTED");

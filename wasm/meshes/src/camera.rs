@@ -45,7 +45,10 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
         }
         None => JsValue::UNDEFINED,
     };
-    let mesh = camera.back_project(&depths)?;
+    let mut mesh = camera.back_project(&depths)?;
+    if known.crop.is_some() {
+        mesh = mesh.without_scraps()?;
+    }
     Ok(to_value(&BackProjected {
         mesh: MeshOutput {
             confidence,
@@ -89,23 +92,6 @@ impl Seen {
             p2: camera.distortion.p2,
         }
     }
-}
-
-/// Pixels of the depths that are taken beyond the part of the photo that is wanted, for the surface to go
-/// on there: a page's bent edges lie outside of the lines between its corners. 4 % of its longer side, and 3
-/// at least.
-fn beyond(corners: &[[f64; 2]], photo: [usize; 2], depths: &HeightImage) -> usize {
-    let size = [depths.width(), depths.height()].map(|n| n as f64);
-    let side = |k: usize| {
-        let at = corners
-            .iter()
-            .map(|corner| corner[k] * size[k] / photo[k] as f64);
-        let [low, high] = at.fold([size[k], 0.0], |[low, high], v| {
-            [low.min(v.max(0.0)), high.max(v.min(size[k]))]
-        });
-        high - low
-    };
-    (0.04 * side(0).max(side(1))).ceil().max(3.0) as usize
 }
 
 const TURNS: &str = "must be 0, 90, 180 or 270 degrees";
@@ -210,11 +196,11 @@ impl Known {
             let turn = if own { self.turn } else { Turn::None };
             check_count("mask", size[1], size[0], data.len())?;
             let (data, size) = turn.values(data, *size)?;
-            found.push(camera.within(depths, &Region::Mask(size, &data), photo, 0)?);
+            found.push(camera.within(depths, &Region::Mask(size, &data), photo)?);
         }
         if let (Some(corners), Some(size)) = (&self.crop, self.photo) {
             let region = Region::Polygon(size, corners);
-            found.push(camera.within(depths, &region, photo, beyond(corners, size, depths))?);
+            found.push(camera.within(depths, &region, photo)?);
         }
         Ok(found)
     }

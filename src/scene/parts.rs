@@ -1,0 +1,79 @@
+//! The connected parts of a mesh.
+
+use super::mesh::Mesh;
+use crate::error::{Result, try_filled};
+
+/// A part with less than this share of the largest one's triangles is a scrap.
+const SCRAP: f64 = 0.25;
+
+impl Mesh {
+    /// The mesh without scraps: connected parts with less than a quarter of the largest one's triangles. Of
+    /// depths within some corners they are mostly what is seen behind, beside a bent edge. Vertices stay as
+    /// they are. Linear cost.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn without_scraps(self) -> Result<Mesh> {
+        let mut parents = try_filled("parts of a mesh", self.positions().len(), 0u32)?;
+        for (i, parent) in parents.iter_mut().enumerate() {
+            *parent = i as u32;
+        }
+        for [a, b, c] in self.triangles() {
+            let roots = [*a, *b, *c].map(|vertex| root(&mut parents, vertex));
+            let least = roots[0].min(roots[1]).min(roots[2]);
+            for root in roots {
+                parents[root as usize] = least;
+            }
+        }
+        let mut counts = try_filled("parts of a mesh", parents.len(), 0usize)?;
+        for triangle in self.triangles() {
+            counts[root(&mut parents, triangle[0]) as usize] += 1;
+        }
+        let most = counts.iter().copied().max().unwrap_or(0);
+        Ok(self.keep(|[first, ..]| {
+            counts[root(&mut parents, first) as usize] as f64 >= SCRAP * most as f64
+        }))
+    }
+}
+
+fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
+    while parents[vertex as usize] != vertex {
+        let above = parents[parents[vertex as usize] as usize];
+        parents[vertex as usize] = above;
+        vertex = above;
+    }
+    vertex
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_small_beside_the_largest_part_goes() {
+        // Strips of 8, 1, 2 and 3 triangles.
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        for (strip, count) in [8u32, 1, 2, 3].into_iter().enumerate() {
+            let first = positions.len() as u32;
+            let place = |k: u32| [f64::from(k / 2), f64::from(k % 2), strip as f64];
+            positions.extend((0..count + 2).map(place));
+            triangles.extend((0..count).map(|k| [first + k, first + k + 1, first + k + 2]));
+        }
+        let mesh = Mesh::new(positions, triangles).unwrap();
+        let uvs = vec![[0.5; 2]; mesh.positions().len()];
+        let kept = mesh
+            .clone()
+            .with_uvs(uvs)
+            .unwrap()
+            .without_scraps()
+            .unwrap();
+        let heights = kept
+            .triangles()
+            .iter()
+            .map(|t| kept.positions()[t[0] as usize][2]);
+        let count = |strip: f64| heights.clone().filter(|z| *z == strip).count();
+        assert_eq!([0.0, 1.0, 2.0, 3.0].map(count), [8, 0, 2, 3]);
+        assert_eq!(kept.positions(), mesh.positions());
+        assert!(kept.uvs().is_some());
+    }
+}

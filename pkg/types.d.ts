@@ -1073,8 +1073,8 @@ export interface DewarpPageOptions {
 }
 
 /**
- * Whether a page that was made flat by its edges is to be trusted: it was flat (`'flat'`) or curled
- * one way (`'unrolled'`), and both edges agree; nothing checks it, for too few points were traced or
+ * Whether a page that was made flat by its edges is to be trusted: both edges are straight, so that it was flat
+ * or is folded along them, which they do not show (`'flat'`); it was curled one way (`'unrolled'`), and both edges agree; nothing checks it, for too few points were traced or
  * one edge looks straight however the page is bent (`'unchecked'`); it is likely to be wrong by more
  * than 1 % of its width, or hides a part of itself (`'doubtful'`); or it is folded, crumpled, bent
  * both ways or wrongly traced (`'notThisKind'`).

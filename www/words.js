@@ -53,7 +53,7 @@ export const FLATTENED = {
  */
 export function pageVerdict({ verdict }) {
   switch (verdict) {
-    case 'flat': return 'The page was flat: only the perspective was taken out.';
+    case 'flat': return 'Both edges are straight: only the perspective was taken out. Folds that run along them do not show in them.';
     case 'unrolled': return 'Made flat: both edges agree on how the page is bent.';
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
     case 'doubtful': return 'Doubtful: look at it closely.';
@@ -68,7 +68,7 @@ export function pageVerdict({ verdict }) {
 export function pageErrors({ verdict, error, errorBound }) {
   const likely = `wrong by about ${percent(error / 100)} of its width, and in 95 of 100 cases by less than ${percent(errorBound / 100)}`;
   switch (verdict) {
-    case 'flat':
+    case 'flat': return `If it has no such folds and the edges are traced well, places on it are ${likely}.`;
     case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;
     case 'unchecked': return `There are few points along the edges, or one of them looks straight however the page is bent. If it is curled one way, places on it are ${likely}.`;
     case 'doubtful': return `Its edges disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;

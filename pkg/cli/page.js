@@ -32,7 +32,7 @@ function words({ verdict, error, errorBound, disagreement }) {
   const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases)`;
   switch (verdict) {
     case 'flat':
-      return 'the page was flat: only the perspective was taken out';
+      return 'both edges are straight: only the perspective was taken out; folds that run along them do not show in them';
     case 'unchecked':
       return `warning: nothing checks the page's bend, for too few points were traced, or one edge looks straight ` +
         `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;

@@ -11,7 +11,8 @@ use super::estimate::Estimate;
 )]
 #[non_exhaustive]
 pub enum PageVerdict {
-    /// The page was flat: its edges are straight, and only the perspective is taken out.
+    /// Both edges are straight, and only the perspective is taken out: the page was flat, or it is folded
+    /// along them, which they do not show.
     Flat,
     /// The page was curled one way and is flat now, with lengths as on the page.
     Unrolled,

@@ -1,10 +1,12 @@
 /** Photos of a curled page of dots, whose places are known in closed form, and what became of the dots. */
-import { deflateSync, inflateSync } from 'node:zlib';
+import { init, load, readPhoto, writePhoto } from '../../../pkg/direct.js';
 import { meets } from '../../js/support/phone.mjs';
-import { chunk } from './files.mjs';
+
+await init();
+await load('files');
 
 /** @typedef {[x: number, y: number]} Place */
-/** @typedef {{ width: number, height: number, data: Uint8Array }} Pixels RGBA */
+/** @typedef {{ width: number, height: number, data: Uint8Array | Uint8ClampedArray }} Pixels RGBA */
 
 /** A phone's camera, 43 cm from an A4 page that is tilted by 25°. */
 export const camera = { width: 800, height: 600, fx: 640, fy: 640, cx: 394, cy: 303 };
@@ -50,48 +52,10 @@ export function dottedPhoto({ page, ground } = { page: 240, ground: 60 }) {
 }
 
 /** A PNG of RGBA bytes. @param {Pixels} pixels */
-export function png({ width, height, data }) {
-  const head = Buffer.alloc(13);
-  head.writeUInt32BE(width, 0);
-  head.writeUInt32BE(height, 4);
-  head.set([8, 6], 8);
-  const rows = Buffer.alloc(height * (1 + 4 * width));
-  for (let row = 0; row < height; row++) rows.set(data.subarray(4 * row * width, 4 * (row + 1) * width), row * (1 + 4 * width) + 1);
-  return Buffer.concat([
-    Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'),
-    chunk('IHDR', head), chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0)),
-  ]);
-}
+export const png = (pixels) => Buffer.from(writePhoto(pixels));
 
-/** The pixels of a PNG of RGBA bytes. @param {Buffer} bytes @returns {Pixels} */
-export function parsePng(bytes) {
-  const [width, height, depth, kind] = [bytes.readUInt32BE(16), bytes.readUInt32BE(20), bytes[24], bytes[25]];
-  if (depth !== 8 || kind !== 6) throw new Error(`not RGBA bytes but ${depth} bits of kind ${kind}`);
-  const parts = [];
-  for (let at = 8; at < bytes.length; at += 12 + bytes.readUInt32BE(at)) {
-    if (bytes.toString('latin1', at + 4, at + 8) === 'IDAT') parts.push(bytes.subarray(at + 8, at + 8 + bytes.readUInt32BE(at)));
-  }
-  const rows = inflateSync(Buffer.concat(parts));
-  const stride = 4 * width;
-  const data = new Uint8Array(stride * height);
-  for (let row = 0; row < height; row++) {
-    const filter = rows[row * (stride + 1)];
-    for (let i = 0; i < stride; i++) {
-      const at = row * stride + i;
-      const left = i >= 4 ? data[at - 4] : 0;
-      const above = row > 0 ? data[at - stride] : 0;
-      const corner = i >= 4 && row > 0 ? data[at - stride - 4] : 0;
-      data[at] = rows[row * (stride + 1) + 1 + i] + [0, left, above, (left + above) >> 1, paeth(left, above, corner)][filter];
-    }
-  }
-  return { width, height, data };
-}
-
-/** @param {number} a @param {number} b @param {number} c */
-function paeth(a, b, c) {
-  const [pa, pb, pc] = [Math.abs(b - c), Math.abs(a - c), Math.abs(a + b - 2 * c)];
-  return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
-}
+/** The pixels of a PNG. @param {Buffer} bytes @returns {Pixels} */
+export const parsePng = (bytes) => readPhoto(bytes);
 
 /**
  * How far the dots of a flat image are from where they are on the page: root of the mean square after the best

@@ -18,9 +18,7 @@ await main(async () => {
     source: ['wasm-pack', '--version', version, '--locked'],
   });
   const path = withPath(env, folder, ...(browser.driver ? [dirname(browser.driver)] : []));
-  // That the tests can be compiled and run is what is shown here: not optimised, they are compiled in a fraction of
-  // the time.
-  const tests = { ...path, CARGO_PROFILE_TEST_OPT_LEVEL: '0', WASM_BINDGEN_TEST_TIMEOUT: '300' };
+  const tests = { ...path, WASM_BINDGEN_TEST_TIMEOUT: '300' };
 
   await check('wasm-pack', ['build', 'wasm/solver', '--out-dir', '../../target/wasm-pack'], path);
   await check('wasm-pack', ['test', '--node'], tests);

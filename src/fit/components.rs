@@ -1,14 +1,13 @@
 //! The connected parts of a domain. The energy of one knows nothing of the
 //! others, so each is solved for itself: none slows the others down.
 
-use std::ops::Range;
-
 use super::input::Input;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
+use crate::math::forest::Forest;
 
 /// Vertices that are connected by stencils.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +31,7 @@ const NONE: u32 = u32::MAX;
 impl Components {
     /// Costs little more than a look at each cell.
     pub(crate) fn new(domain: &Domain) -> Result<Self> {
-        let mut forest = Forest::new(domain)?;
+        let mut forest = Forest::new("components", domain.cells())?;
         let stride = domain.stride();
         for row in 1..=domain.rows() {
             let [west, east, above, above_east, below, below_east] = domain.neighbour_offsets(row);
@@ -211,48 +210,6 @@ impl Hold {
             _ if self.points.contains(&point) => (),
             _ => self.points.push(point),
         }
-    }
-}
-
-/// Disjoint sets of cells.
-struct Forest {
-    parents: Vec<u32>,
-}
-
-impl Forest {
-    fn new(domain: &Domain) -> Result<Self> {
-        let mut parents = try_filled("components", domain.cells(), 0)?;
-        for (i, parent) in parents.iter_mut().enumerate() {
-            *parent = i as u32;
-        }
-        Ok(Forest { parents })
-    }
-
-    fn root(&mut self, mut cell: u32) -> u32 {
-        while self.parents[cell as usize] != cell {
-            let parent = self.parents[cell as usize];
-            self.parents[cell as usize] = self.parents[parent as usize];
-            cell = self.parents[cell as usize];
-        }
-        cell
-    }
-
-    /// Joins a cell with each of others, which mostly are with it already.
-    fn join_all(&mut self, cell: usize, others: Range<usize>) {
-        let mut root = self.root(cell as u32);
-        for other in others {
-            if self.parents[other] != root {
-                self.join(root, other as u32);
-                root = self.root(root);
-            }
-        }
-    }
-
-    /// The smaller root stays one, so that the result does not depend on the order.
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (low, high) = (a.min(b), a.max(b));
-        self.parents[high as usize] = low;
     }
 }
 

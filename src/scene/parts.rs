@@ -2,6 +2,7 @@
 
 use super::mesh::Mesh;
 use crate::error::{Result, try_filled};
+use crate::math::forest::Forest;
 
 /// A part with less than this share of the largest one's triangles is a scrap.
 const SCRAP: f64 = 0.25;
@@ -14,35 +15,19 @@ impl Mesh {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn without_scraps(self) -> Result<Mesh> {
-        let mut parents = try_filled("parts of a mesh", self.positions().len(), 0u32)?;
-        for (i, parent) in parents.iter_mut().enumerate() {
-            *parent = i as u32;
-        }
+        let mut forest = Forest::new("parts of a mesh", self.positions().len())?;
         for [a, b, c] in self.triangles() {
-            let roots = [*a, *b, *c].map(|vertex| root(&mut parents, vertex));
-            let least = roots[0].min(roots[1]).min(roots[2]);
-            for root in roots {
-                parents[root as usize] = least;
-            }
+            forest.join(*a, *b);
+            forest.join(*b, *c);
         }
-        let mut counts = try_filled("parts of a mesh", parents.len(), 0usize)?;
+        let mut counts = try_filled("parts of a mesh", self.positions().len(), 0usize)?;
         for triangle in self.triangles() {
-            counts[root(&mut parents, triangle[0]) as usize] += 1;
+            counts[forest.root(triangle[0]) as usize] += 1;
         }
         let most = counts.iter().copied().max().unwrap_or(0);
-        Ok(self.keep(|[first, ..]| {
-            counts[root(&mut parents, first) as usize] as f64 >= SCRAP * most as f64
-        }))
+        Ok(self
+            .keep(|[first, ..]| counts[forest.root(first) as usize] as f64 >= SCRAP * most as f64))
     }
-}
-
-fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
-    while parents[vertex as usize] != vertex {
-        let above = parents[parents[vertex as usize] as usize];
-        parents[vertex as usize] = above;
-        vertex = above;
-    }
-    vertex
 }
 
 #[cfg(test)]

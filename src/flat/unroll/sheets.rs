@@ -2,6 +2,7 @@
 
 use super::pieces::Point;
 use crate::error::{Result, try_filled};
+use crate::math::forest::Forest;
 use crate::scene::triangulation::Triangulation;
 
 /// The part of each vertex of a triangulation, and how many there are: vertices are in one part if
@@ -9,29 +10,16 @@ use crate::scene::triangulation::Triangulation;
 /// in the order of their first vertices.
 pub(super) fn parts(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
     let vertices = mesh.vertices().len();
-    let mut parents: Vec<u32> = try_filled("parts of the surface", vertices, 0)?;
-    for (i, parent) in parents.iter_mut().enumerate() {
-        *parent = i as u32;
-    }
-    fn root(parents: &mut [u32], mut i: u32) -> u32 {
-        while parents[i as usize] != i {
-            let above = parents[parents[i as usize] as usize];
-            parents[i as usize] = above;
-            i = above;
-        }
-        i
-    }
+    let mut forest = Forest::new("parts of the surface", vertices)?;
     for [a, b, c] in mesh.triangles() {
-        for other in [b, c] {
-            let (a, b) = (root(&mut parents, *a), root(&mut parents, *other));
-            parents[a.max(b) as usize] = a.min(b);
-        }
+        forest.join(*a, *b);
+        forest.join(*a, *c);
     }
     // Roots are the first vertices of their parts.
     let mut numbers = try_filled("parts of the surface", vertices, 0)?;
     let mut sizes: Vec<usize> = Vec::new();
     for i in 0..vertices as u32 {
-        let first = root(&mut parents, i);
+        let first = forest.root(i);
         if first == i {
             numbers[i as usize] = sizes.len() as u32;
             sizes.push(0);

@@ -1,5 +1,6 @@
 /** Photos of a curled page of dots, whose places are known in closed form, and what became of the dots. */
 import { init, load, readPhoto, writePhoto } from '../../../pkg/direct.js';
+import { similarity } from '../../../tools/bench/phone/fitting.mjs';
 import { meets } from '../../js/support/phone.mjs';
 
 await init();
@@ -67,19 +68,10 @@ export function misplaced(flat) {
   const { across, down } = dots;
   if (found.length !== across * down) throw new Error(`${found.length} dots`);
   const rows = found.sort((a, b) => a[1] - b[1]);
-  /** @type {[Place, Place][]} */
   const pairs = Array.from({ length: down }, (_, j) => rows.slice(j * across, (j + 1) * across).sort((a, b) => a[0] - b[0]))
-    .flatMap((row, j) => row.map((place, i) => /** @type {[Place, Place]} */ ([[((i + 0.5) / across) * wide, ((j + 0.5) / down) * high], place])));
-  const mean = [0, 1].map((k) => [0, 1].map((axis) => pairs.reduce((sum, pair) => sum + pair[k][axis], 0) / pairs.length));
-  let [pp, qq, re, im] = [0, 0, 0, 0];
-  for (const pair of pairs) {
-    const [[p, q], [x, y]] = pair.map((place, k) => place.map((value, axis) => value - mean[k][axis]));
-    pp += p * p + q * q;
-    qq += x * x + y * y;
-    re += p * x + q * y;
-    im += q * x - p * y;
-  }
-  return Math.sqrt(Math.max(0, pp - (re * re + im * im) / qq) / pairs.length) / wide;
+    .flatMap((row, j) => row.map(([x, y], i) =>
+      /** @type {import('../../../tools/bench/phone/fitting.mjs').Pair} */ ([x, y, ((i + 0.5) / across) * wide, ((j + 0.5) / down) * high])));
+  return similarity(pairs).rms / wide;
 }
 
 /** The middles of the dark spots within a bright page. @param {Pixels} image @returns {Place[]} */

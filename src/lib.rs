@@ -89,10 +89,11 @@ pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
 pub use fit::input::Input;
 pub use fit::options::{Energy, Lambda, Options, Schedule};
+pub use fit::partwise::Status;
 pub use fit::report::{
     HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,
 };
-pub use fit::solver::{Solver, Status, fit, fit_with};
+pub use fit::solver::{Solver, fit, fit_with};
 pub use fit::surface::Surface;
 pub use flat::{dewarp, drawing, page, pattern, unroll};
 pub use heights::bridging::{BridgedImage, Bridging};

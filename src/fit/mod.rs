@@ -12,6 +12,7 @@ pub(crate) mod input;
 mod linear;
 mod operator;
 pub(crate) mod options;
+pub(crate) mod partwise;
 mod plate;
 mod preparation;
 mod prolong;

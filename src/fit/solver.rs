@@ -1,50 +1,18 @@
-//! ADMM for the nuclear norm of the Hessian (paper, Sec. 4.1), with a certified
-//! duality gap.
+//! The solver, as it is called: λ is looked for where that is asked, then the surface.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::admm::schedule::Plan;
-use super::cascade::{Answer, Cascade, SET_UP};
-use super::components::{Components, check_held};
-use super::coordinates::Coordinates;
-use super::heightfields::Problem;
 use super::input::Input;
-use super::options::{Bending, Energy, Lambda, Options};
-use super::preparation::{Preparation, Prepared};
-use super::report::{
-    HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,
-};
-use super::restore::restore_omitted;
+use super::options::{Lambda, Options};
+use super::partwise::{Beginning, Partwise, Solvable, Status};
+use super::report::{LambdaChoice, LambdaReason, Progress};
 use super::surface::Surface;
-use super::totals::{Totals, add_levels};
-use super::tuning::noise::Noise;
-use super::tuning::search::{self as tuning, Search};
+use super::tuning::search::{self as tuning, Known, Search};
 use super::warm_start::WarmStart;
-use crate::error::{Error, Result, try_filled};
-use crate::heights::heightfield::Heightfield;
-use crate::lattice::domain::Domain;
-use crate::lattice::hexagonal::Lattice;
-
-/// Whether a [`Solver`] has more to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Status {
-    /// [`Solver::advance`] should be called again.
-    Running,
-    /// Done; further calls change nothing.
-    Stopped(StopReason),
-}
-
-/// What is known about an input before a solve: the factor from the user's units to the energy's, and
-/// its noise.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Known {
-    pub scale: f64,
-    pub noise: Option<Noise>,
-}
+use crate::error::Result;
 
 /// A solve that runs in steps, so that its caller can look at it, draw, or stop
 /// it in between.
@@ -64,28 +32,10 @@ pub(super) struct Known {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
-    input: Input,
-    /// As they are used.
-    options: Options,
     /// What λ is chosen by, while it is, and what has come of it.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
-    /// Factor from the user's units to the energy's.
-    scale: f64,
-    domain: Arc<Domain>,
-    components: Components,
-    /// Of the first parts.
-    answers: Vec<Answer>,
-    /// The part after those: before its first iteration, and then.
-    preparing: Option<Preparation>,
-    running: Option<Cascade>,
-    /// `P(z̃)` of each part, if there are several.
-    energies: Vec<f64>,
-    /// The last answer: what the parts to come, and the next restart, may start from.
-    memory: Option<Arc<WarmStart>>,
-    status: Status,
-    started: Instant,
-    setup: f64,
+    solve: Partwise,
 }
 
 impl Solver {
@@ -99,35 +49,21 @@ impl Solver {
     /// the heights are too large or too small for their energy to be computed,
     /// [`Error::OutOfMemory`].
     pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
-        Solver::set_up(input.into(), options, None, None)
+        Solver::set_up(input.into(), options, None)
     }
 
-    pub(super) fn with_known(input: Input, options: &Options, known: Known) -> Result<Self> {
-        Solver::set_up(input, options, None, Some(known))
-    }
-
-    fn set_up(
-        input: Input,
-        options: &Options,
-        memory: Option<Arc<WarmStart>>,
-        known: Option<Known>,
-    ) -> Result<Self> {
+    fn set_up(input: Input, options: &Options, memory: Option<Arc<WarmStart>>) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
-        let input = input.bridge()?;
-        let domain = Arc::new(input.domain()?);
-        check_held(&input, &domain)?;
-        let known = match known {
-            Some(known) => known,
-            None => Known::of(&input, options)?,
-        };
+        let solvable = Solvable::new(input)?;
+        let known = Known::of(&solvable.input, options)?;
         let Known { scale, noise } = known;
         let asked = *options;
         let (mut options, mut choice, mut search) = (asked, None, None);
         if asked.lambda == Lambda::Auto {
             let (first, found) = tuning::first(&asked, noise, scale);
             if found.reason == LambdaReason::Noise {
-                search = Search::new(&input, &asked, &first, known)?;
+                search = Search::new(&solvable.input, &asked, &first, known)?;
             }
             options = match search {
                 None if found.reason == LambdaReason::Noise => tuning::without(&first),
@@ -136,42 +72,15 @@ impl Solver {
             choice = Some(found);
         }
         let options = tuning::guarded(&options, noise, scale);
-        let components = Components::new(&domain)?;
-        let energies = match components.list.len() {
-            1 if search.is_none() => Vec::new(),
-            n => {
-                let coordinates = Coordinates::new(&input, &domain, scale);
-                let problem = Problem::new(&input, domain.clone(), &coordinates, &options)?;
-                problem.smoothness_by(n, |cell| components.of(cell))
-            }
+        let beginning = match search {
+            Some(_) => Beginning::Later,
+            None => Beginning::AtOnce,
         };
-        if energies.iter().any(|energy| !energy.is_finite()) {
-            return Err(Error::Overflow {
-                spacing: input.field.lattice().spacing(),
-            });
-        }
-        let mut solver = Solver {
-            input,
-            options,
+        Ok(Solver {
             search,
             choice,
-            scale,
-            domain,
-            components,
-            answers: Vec::new(),
-            preparing: None,
-            running: None,
-            energies,
-            memory,
-            status: Status::Running,
-            started,
-            setup: 0.0,
-        };
-        if solver.search.is_none() {
-            solver.next_part()?;
-        }
-        solver.setup = started.elapsed().as_secs_f64();
-        Ok(solver)
+            solve: Partwise::new(solvable, &options, scale, memory, beginning, started)?,
+        })
     }
 
     /// Solves the same input again with other options, from the last answer if
@@ -181,7 +90,7 @@ impl Solver {
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart(&mut self, options: &Options) -> Result<()> {
-        self.restart_with(self.input.clone(), options)
+        self.restart_with(self.solve.input().clone(), options)
     }
 
     /// Solves another input, on a lattice of the same shape, from the last
@@ -192,103 +101,10 @@ impl Solver {
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
-        self.restart_about(input.into(), options, None)
-    }
-
-    fn restart_about(
-        &mut self,
-        input: Input,
-        options: &Options,
-        known: Option<Known>,
-    ) -> Result<()> {
-        let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
-        let same = shape(input.field.lattice()) == shape(self.input.field.lattice());
-        let memory = if !same {
-            None
-        } else if self.next_number().is_none() {
-            Some(Arc::new(WarmStart {
-                domain: self.domain.clone(),
-                components: self.components.clone(),
-                answers: self.answers.clone(),
-                lambda: self.options.lambda.value(),
-            }))
-        } else {
-            // What was overtaken is no answer yet.
-            self.memory.clone()
-        };
-        *self = Solver::set_up(input, options, memory, known)?;
+        let input = input.into();
+        let memory = self.solve.memory(input.field.lattice());
+        *self = Solver::set_up(input, options, memory)?;
         Ok(())
-    }
-
-    /// [`Solver::restart`], with what is known already.
-    pub(super) fn restart_known(&mut self, options: &Options, known: Known) -> Result<()> {
-        self.restart_about(self.input.clone(), options, Some(known))
-    }
-
-    /// Begins with the next part, if there is one left.
-    fn next_part(&mut self) -> Result<()> {
-        let Some(number) = self.next_number() else {
-            self.memory = None;
-            self.status = Status::Stopped(self.reason());
-            return Ok(());
-        };
-        let (input, domain) = match self.components.list.len() {
-            1 => (self.input.clone(), self.domain.clone()),
-            _ => {
-                let input = self.components.crop(&self.input, &self.domain, number)?;
-                let domain = Arc::new(input.domain()?);
-                (input, domain)
-            }
-        };
-        let corner = self.components.corner(number);
-        let warm = |problem: &Problem, plan: &Plan| match &self.memory {
-            Some(memory) => memory.state(problem, plan, corner),
-            None => Ok(None),
-        };
-        let part = Preparation::new(input, domain, self.scale, &self.options, warm)?;
-        self.preparing = Some(part);
-        Ok(())
-    }
-
-    /// Goes on to what is prepared.
-    fn begin(&mut self, part: Cascade) -> Result<()> {
-        match part.reason() {
-            Some(reason) => {
-                self.answers.push(part.into_answer(reason));
-                self.next_part()
-            }
-            None => {
-                self.running = Some(part);
-                Ok(())
-            }
-        }
-    }
-
-    fn next_number(&self) -> Option<usize> {
-        let next = self.answers.len();
-        (next < self.components.list.len()).then_some(next)
-    }
-
-    /// The worst of the reasons why parts stopped. Rounding errors of some may be too large for the
-    /// gap of all.
-    fn reason(&self) -> StopReason {
-        let mut total = Totals::default();
-        for answer in &self.answers {
-            total.add(&answer.best, 1.0);
-        }
-        let certified = total.gap().is_some_and(|gap| gap <= self.options.gap);
-        let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
-        [
-            StopReason::Cancelled,
-            StopReason::Diverged,
-            StopReason::MaxIterations,
-            StopReason::Residuals,
-            StopReason::Gap,
-        ]
-        .into_iter()
-        .find(|reason| any(*reason))
-        .filter(|reason| *reason != StopReason::Gap || certified)
-        .unwrap_or(StopReason::Rounding)
     }
 
     /// Runs about `work` conjugate-gradient iterations, at least one. Results
@@ -299,49 +115,22 @@ impl Solver {
     pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while let Some(search) = &mut self.search
-            && self.status == Status::Running
+            && self.solve.status() == Status::Running
         {
             if !search.advance(&mut left)? {
-                return Ok(self.status);
+                return Ok(Status::Running);
             }
             self.take_choice()?;
         }
-        while left > 0 && self.status == Status::Running {
-            if let Some(preparing) = self.preparing.take() {
-                let start = Instant::now();
-                left = left.saturating_sub(SET_UP);
-                let prepared = preparing.step()?;
-                self.setup += start.elapsed().as_secs_f64();
-                match prepared {
-                    Prepared::Partly(part) => self.preparing = Some(part),
-                    Prepared::Fully(part) => self.begin(*part)?,
-                }
-                continue;
-            }
-            let Some(running) = &mut self.running else {
-                // Where memory was short the last time.
-                self.next_part()?;
-                continue;
-            };
-            if let Some(reason) = running.advance(&mut left)? {
-                let done = self.running.take();
-                self.answers.extend(done.map(|c| c.into_answer(reason)));
-                self.next_part()?;
-            }
-        }
-        Ok(self.status)
+        self.solve.advance(&mut left)
     }
 
     /// Ends the search and begins with the solve.
     fn take_choice(&mut self) -> Result<()> {
-        let (Some(search), Some(choice)) = (self.search.take(), &mut self.choice) else {
-            return Ok(());
-        };
-        self.options = search.found(choice);
-        if self.components.list.len() == 1 {
-            self.energies.clear();
+        match (self.search.take(), &mut self.choice) {
+            (Some(search), Some(choice)) => self.solve.begin_with(&search.found(choice)),
+            _ => Ok(()),
         }
-        self.next_part()
     }
 
     /// Figures of the last check. Before the first one, and while λ is [looked for](Lambda::Auto), they
@@ -350,65 +139,21 @@ impl Solver {
     /// the finest level's, which alone certifies. Components of the surface that are
     /// still to come count as they are in the input, with 0 as their bound.
     pub fn progress(&self) -> Progress {
-        let mut total = Totals::default();
-        for answer in &self.answers {
-            total.add(&answer.best, 1.0);
-            total.add_work(&answer.levels);
+        let mut progress = self.solve.progress();
+        match &self.search {
+            Some(search) => {
+                progress.level = 1;
+                progress.iteration += search.iterations();
+            }
+            None => progress.iteration += self.choice.map_or(0, |choice| choice.iterations),
         }
-        let mut pending = self.answers.len();
-        if let Some(preparing) = &self.preparing {
-            let problem = preparing.problem();
-            total.nuclear_norm += problem.smoothness(&problem.target);
-            pending += 1;
-        }
-        if let Some(running) = &self.running {
-            let level = running.level();
-            let share = running.problem().operator.domain.interior_len() as f64
-                / level.problem.operator.domain.interior_len() as f64;
-            total.add(&level.best, share);
-            total.add_work(&running.levels());
-            pending += 1;
-        }
-        let pending = self.energies.iter().skip(pending);
-        total.nuclear_norm += pending.sum::<f64>();
-        let searched = match (&self.search, &self.choice) {
-            (Some(search), _) => search.iterations(),
-            (None, choice) => choice.map_or(0, |choice| choice.iterations),
-        };
-        let level = match (&self.search, &self.preparing) {
-            (None, None) => self.running.as_ref().map_or(0, Cascade::levels_left),
-            _ => 1,
-        };
-        Progress {
-            level,
-            iteration: searched + total.iterations,
-            cg_iterations: total.cg_iterations,
-            objective: total.objective(),
-            dual_bound: total.dual_bound,
-            gap: self.known_gap(&total),
-            rho: self.rho(),
-            elapsed: self.started.elapsed().as_secs_f64(),
-        }
-    }
-
-    fn known_gap(&self, total: &Totals) -> Option<f64> {
-        let rounding = self.status == Status::Stopped(StopReason::Rounding);
-        total.gap().filter(|_| !rounding)
-    }
-
-    /// Of the largest part.
-    fn rho(&self) -> f64 {
-        let running = || self.running.as_ref().map(|c| c.level().state.rho);
-        let first = self.answers.first().map(|answer| answer.state.rho);
-        first.or_else(running).unwrap_or(0.0)
+        progress
     }
 
     /// Stops a running solve: its surface is then the best one so far, marked
     /// [`StopReason::Cancelled`].
     pub fn cancel(&mut self) {
-        if self.status == Status::Running {
-            self.status = Status::Stopped(StopReason::Cancelled);
-        }
+        self.solve.cancel();
     }
 
     /// The best surface so far, in the input's units, omitted vertices
@@ -420,105 +165,9 @@ impl Solver {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn surface(&self) -> Result<Surface> {
-        let unfinished = match (&self.preparing, &self.running) {
-            (Some(preparing), _) => Some(preparing.answer()?),
-            (None, running) => running.as_ref().map(Cascade::answer).transpose()?,
-        };
-        let answers = || self.answers.iter().chain(&unfinished);
-        let lattice = *self.input.field.lattice();
-        let mut heights = try_filled("surface", lattice.len(), f64::NAN)?;
-        let mut total = Totals::default();
-        let mut levels: Vec<LevelReport> = Vec::new();
-        let mut seconds = Seconds::default();
-        for (number, answer) in answers().enumerate() {
-            let (top, left) = self.components.corner(number);
-            answer
-                .problem
-                .write_heights(&answer.best.z, |(row, col), z| {
-                    heights[lattice.index(top + row, left + col)] = z;
-                });
-            total.add(&answer.best, 1.0);
-            total.add_work(&answer.levels);
-            add_levels(&mut levels, &answer.levels);
-            seconds = seconds + answer.seconds;
-        }
-        let pending = answers().count();
-        for cell in self.domain.active().cells() {
-            let vertex = self.domain.lattice_index(cell);
-            let given = self.input.weight(vertex) > 0.0;
-            if self.components.of(cell) >= pending && given {
-                heights[vertex] = self.input.field.heights()[vertex];
-            }
-        }
-        restore_omitted(&self.domain, &self.input, &mut heights);
-        let constrained = (0..lattice.len()).filter(|v| self.input.is_constrained(*v));
-        for vertex in constrained.clone() {
-            // To the last bit.
-            heights[vertex] = self.input.field.heights()[vertex];
-        }
-        total.nuclear_norm += self.energies.iter().skip(pending).sum::<f64>();
-        let stop_reason = match self.status {
-            Status::Running => StopReason::Cancelled,
-            Status::Stopped(reason) => reason,
-        };
-        let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
-        let at_creases = self.options.energy == Energy::Huber;
-        let Bending {
-            bend_radius,
-            flatness,
-            crease_radius,
-        } = Bending::SMOOTH.within(&self.options);
-        let report = Report {
-            interior: self.domain.interior_len(),
-            boundary: self.domain.boundary_len(),
-            omitted: self.domain.omitted_len(),
-            occluded: self.domain.occluded_len(),
-            constrained: constrained.count(),
-            bridged: self.input.bridged,
-            free: answers().map(|answer| answer.problem.free.len()).sum(),
-            components: self.components.list.len(),
-            iterations: total.iterations,
-            cg_iterations: total.cg_iterations,
-            levels,
-            energy: self.options.energy,
-            reweighting: if at_creases { 0 } else { passes },
-            huber: at_creases.then(|| HuberReport {
-                bend_radius,
-                flatness,
-                crease_radius,
-                crease_passes: passes,
-                creases: answers().map(|answer| answer.creases.vertices).sum(),
-            }),
-            objective: total.objective(),
-            fidelity: total.fidelity,
-            nuclear_norm: total.nuclear_norm,
-            dual_bound: total.dual_bound,
-            gap: self.known_gap(&total),
-            lambda: self.options.lambda.value(),
-            lambda_choice: self.choice,
-            rho: answers().next().map_or(0.0, |answer| answer.state.rho),
-            scale: self.scale,
-            stop_reason,
-            seconds: Seconds {
-                setup: self.setup,
-                total: self.started.elapsed().as_secs_f64(),
-                ..seconds
-            },
-        };
-        Ok(Surface {
-            heightfield: Heightfield::new(lattice, heights)?,
-            report,
-        })
-    }
-}
-
-impl Known {
-    fn of(input: &Input, options: &Options) -> Result<Self> {
-        let wanted = options.lambda == Lambda::Auto || options.energy == Energy::Huber;
-        Ok(Known {
-            scale: options.normalization.factor(&input.field),
-            noise: if wanted { Noise::of(input)? } else { None },
-        })
+        let mut surface = self.solve.surface()?;
+        surface.report.lambda_choice = self.choice;
+        Ok(surface)
     }
 }
 

@@ -2,6 +2,9 @@
 //! heights best.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
+
+use web_time::Instant;
 
 use super::held_out::{HeldOut, advantage};
 use super::merge::merge;
@@ -9,8 +12,9 @@ use super::noise::Noise;
 use crate::error::Result;
 use crate::fit::input::Input;
 use crate::fit::options::{Bending, Energy, Lambda, Options};
+use crate::fit::partwise::{Beginning, Partwise, Solvable, Status};
 use crate::fit::report::{LambdaChoice, LambdaReason};
-use crate::fit::solver::{Known, Solver, Status};
+use crate::fit::warm_start::WarmStart;
 
 /// `λ σh` of about the best λ, in normalised coordinates.
 const START: f64 = 8.0;
@@ -57,6 +61,24 @@ const BENDINGS: [Bending; 3] = [
         crease_radius: 0.2,
     },
 ];
+
+/// What is known about an input before a solve: the factor from the user's units to the energy's, and
+/// its noise.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Known {
+    pub scale: f64,
+    pub noise: Option<Noise>,
+}
+
+impl Known {
+    pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
+        let wanted = options.lambda == Lambda::Auto || options.energy == Energy::Huber;
+        Ok(Known {
+            scale: options.normalization.factor(&input.field),
+            noise: if wanted { Noise::of(input)? } else { None },
+        })
+    }
+}
 
 /// Options for an input without noise, for one whose noise cannot be told, and those to begin the
 /// search with; then what has been chosen, and why.
@@ -133,7 +155,7 @@ pub(crate) struct Search {
     best: Candidate,
     misses: Vec<f64>,
     now: Candidate,
-    solver: Box<Solver>,
+    solve: Box<Partwise>,
     iterations: usize,
 }
 
@@ -180,7 +202,7 @@ impl Search {
         }
         let now = (0, 0);
         let options = rough(&of(first, &bendings, now));
-        let solver = Solver::with_known(held_out.input.clone(), &options, known)?;
+        let solve = trial(&held_out, &options, known, None)?;
         Ok(Some(Search {
             held_out,
             highest: i32::from(noise.merged == 0 && noise.step.is_none()),
@@ -191,7 +213,7 @@ impl Search {
             best: now,
             misses: Vec::new(),
             now,
-            solver: Box::new(solver),
+            solve: Box::new(solve),
             iterations: 0,
         }))
     }
@@ -199,14 +221,15 @@ impl Search {
     /// Goes on until `left` conjugate-gradient iterations are used up; tells whether it is over.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<bool> {
         while *left > 0 {
-            let before = self.solver.progress().cg_iterations;
-            let status = self.solver.advance(*left)?;
-            let done = self.solver.progress().cg_iterations - before;
+            let before = self.solve.progress().cg_iterations;
+            let mut work = *left;
+            let status = self.solve.advance(&mut work)?;
+            let done = self.solve.progress().cg_iterations - before;
             *left = left.saturating_sub(done.max(1));
             if status == Status::Running {
                 continue;
             }
-            let surface = self.solver.surface()?;
+            let surface = self.solve.surface()?;
             self.iterations += surface.report().iterations;
             let misses = self.held_out.misses(surface.heightfield());
             if self.tried.is_empty() || advantage(&self.misses, &misses) > self.hurdle() {
@@ -218,7 +241,8 @@ impl Search {
             };
             self.now = next;
             let options = rough(&of(&self.options, &self.bendings, next));
-            self.solver.restart_known(&options, self.known)?;
+            let memory = self.solve.memory(self.held_out.input.field.lattice());
+            *self.solve = trial(&self.held_out, &options, self.known, memory)?;
         }
         Ok(false)
     }
@@ -247,7 +271,7 @@ impl Search {
 
     /// Iterations so far.
     pub(crate) fn iterations(&self) -> usize {
-        self.iterations + self.solver.progress().iteration
+        self.iterations + self.solve.progress().iteration
     }
 
     /// The options that the search has come to.
@@ -264,6 +288,26 @@ fn of(first: &Options, bendings: &[Bending], (bending, step): Candidate) -> Opti
     let factor = FACTOR.powi(step);
     let options = first.lambda(first.lambda.value() * factor);
     at_loudness(&options, bendings[bending], factor)
+}
+
+/// A solve of what is not held out.
+fn trial(
+    held_out: &HeldOut,
+    options: &Options,
+    Known { scale, noise }: Known,
+    memory: Option<Arc<WarmStart>>,
+) -> Result<Partwise> {
+    let started = Instant::now();
+    let solvable = Solvable::new(held_out.input.clone())?;
+    let options = guarded(options, noise, scale);
+    Partwise::new(
+        solvable,
+        &options,
+        scale,
+        memory,
+        Beginning::AtOnce,
+        started,
+    )
 }
 
 /// The options for a solve that is only to be compared with others.

@@ -1,0 +1,417 @@
+//! A solve whose options are known, one connected part of the surface after the other.
+
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::admm::schedule::Plan;
+use super::cascade::{Answer, Cascade, SET_UP};
+use super::components::{Components, check_held};
+use super::coordinates::Coordinates;
+use super::heightfields::Problem;
+use super::input::Input;
+use super::options::{Bending, Energy, Options};
+use super::preparation::{Preparation, Prepared};
+use super::report::{HuberReport, LevelReport, Progress, Report, Seconds, StopReason};
+use super::restore::restore_omitted;
+use super::surface::Surface;
+use super::totals::{Totals, add_levels};
+use super::warm_start::WarmStart;
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::domain::Domain;
+use crate::lattice::hexagonal::Lattice;
+
+/// Whether a [`Solver`](crate::Solver) has more to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Status {
+    /// [`Solver::advance`](crate::Solver::advance) should be called again.
+    Running,
+    /// Done; further calls change nothing.
+    Stopped(StopReason),
+}
+
+/// An input that can be solved: its small holes bridged, its parts held in place.
+#[derive(Debug, Clone)]
+pub(super) struct Solvable {
+    pub input: Input,
+    pub domain: Arc<Domain>,
+}
+
+impl Solvable {
+    /// # Errors
+    /// [`Error::NoInterior`], [`Error::Underdetermined`], [`Error::OutOfMemory`].
+    pub(super) fn new(input: Input) -> Result<Self> {
+        let input = input.bridge()?;
+        let domain = Arc::new(input.domain()?);
+        check_held(&input, &domain)?;
+        Ok(Solvable { input, domain })
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Partwise {
+    input: Input,
+    /// As they are used.
+    options: Options,
+    /// Factor from the user's units to the energy's.
+    scale: f64,
+    domain: Arc<Domain>,
+    components: Components,
+    /// Of the first parts.
+    answers: Vec<Answer>,
+    /// The part after those: before its first iteration, and then.
+    preparing: Option<Preparation>,
+    running: Option<Cascade>,
+    /// `P(z̃)` of each part, if there are several.
+    energies: Vec<f64>,
+    /// The last answer: what the parts to come, and the next restart, may start from.
+    memory: Option<Arc<WarmStart>>,
+    status: Status,
+    started: Instant,
+    setup: f64,
+}
+
+/// When a solve begins with its first part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Beginning {
+    AtOnce,
+    /// When its options are known.
+    Later,
+}
+
+impl Partwise {
+    /// `started`: when the user's wait began.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`], [`Error::Underflow`], [`Error::OutOfMemory`].
+    pub(super) fn new(
+        Solvable { input, domain }: Solvable,
+        options: &Options,
+        scale: f64,
+        memory: Option<Arc<WarmStart>>,
+        beginning: Beginning,
+        started: Instant,
+    ) -> Result<Self> {
+        let components = Components::new(&domain)?;
+        let energies = match components.list.len() {
+            1 if beginning == Beginning::AtOnce => Vec::new(),
+            n => {
+                let coordinates = Coordinates::new(&input, &domain, scale);
+                let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
+                problem.smoothness_by(n, |cell| components.of(cell))
+            }
+        };
+        if energies.iter().any(|energy| !energy.is_finite()) {
+            return Err(Error::Overflow {
+                spacing: input.field.lattice().spacing(),
+            });
+        }
+        let mut solve = Partwise {
+            input,
+            options: *options,
+            scale,
+            domain,
+            components,
+            answers: Vec::new(),
+            preparing: None,
+            running: None,
+            energies,
+            memory,
+            status: Status::Running,
+            started,
+            setup: 0.0,
+        };
+        if beginning == Beginning::AtOnce {
+            solve.next_part()?;
+        }
+        solve.setup = started.elapsed().as_secs_f64();
+        Ok(solve)
+    }
+
+    /// Begins with these options.
+    pub(super) fn begin_with(&mut self, options: &Options) -> Result<()> {
+        self.options = *options;
+        if self.components.list.len() == 1 {
+            self.energies.clear();
+        }
+        self.next_part()
+    }
+
+    /// What a solve of heights on a lattice may start from.
+    pub(super) fn memory(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
+        let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
+        if shape(lattice) != shape(self.input.field.lattice()) {
+            None
+        } else if self.next_number().is_none() {
+            Some(Arc::new(WarmStart {
+                domain: self.domain.clone(),
+                components: self.components.clone(),
+                answers: self.answers.clone(),
+                lambda: self.options.lambda.value(),
+            }))
+        } else {
+            // What was overtaken is no answer yet.
+            self.memory.clone()
+        }
+    }
+
+    pub(super) fn input(&self) -> &Input {
+        &self.input
+    }
+
+    pub(super) fn status(&self) -> Status {
+        self.status
+    }
+
+    /// Begins with the next part, if there is one left.
+    fn next_part(&mut self) -> Result<()> {
+        let Some(number) = self.next_number() else {
+            self.memory = None;
+            self.status = Status::Stopped(self.reason());
+            return Ok(());
+        };
+        let (input, domain) = match self.components.list.len() {
+            1 => (self.input.clone(), self.domain.clone()),
+            _ => {
+                let input = self.components.crop(&self.input, &self.domain, number)?;
+                let domain = Arc::new(input.domain()?);
+                (input, domain)
+            }
+        };
+        let corner = self.components.corner(number);
+        let warm = |problem: &Problem, plan: &Plan| match &self.memory {
+            Some(memory) => memory.state(problem, plan, corner),
+            None => Ok(None),
+        };
+        let part = Preparation::new(input, domain, self.scale, &self.options, warm)?;
+        self.preparing = Some(part);
+        Ok(())
+    }
+
+    /// Goes on to what is prepared.
+    fn begin(&mut self, part: Cascade) -> Result<()> {
+        match part.reason() {
+            Some(reason) => {
+                self.answers.push(part.into_answer(reason));
+                self.next_part()
+            }
+            None => {
+                self.running = Some(part);
+                Ok(())
+            }
+        }
+    }
+
+    fn next_number(&self) -> Option<usize> {
+        let next = self.answers.len();
+        (next < self.components.list.len()).then_some(next)
+    }
+
+    /// The worst of the reasons why parts stopped. Rounding errors of some may be too large for the
+    /// gap of all.
+    fn reason(&self) -> StopReason {
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.best, 1.0);
+        }
+        let certified = total.gap().is_some_and(|gap| gap <= self.options.gap);
+        let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
+        [
+            StopReason::Cancelled,
+            StopReason::Diverged,
+            StopReason::MaxIterations,
+            StopReason::Residuals,
+            StopReason::Gap,
+        ]
+        .into_iter()
+        .find(|reason| any(*reason))
+        .filter(|reason| *reason != StopReason::Gap || certified)
+        .unwrap_or(StopReason::Rounding)
+    }
+
+    /// Goes on until `left` conjugate-gradient iterations are used up.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] on the way to the first level or a finer one.
+    pub(super) fn advance(&mut self, left: &mut usize) -> Result<Status> {
+        while *left > 0 && self.status == Status::Running {
+            if let Some(preparing) = self.preparing.take() {
+                let start = Instant::now();
+                *left = left.saturating_sub(SET_UP);
+                let prepared = preparing.step()?;
+                self.setup += start.elapsed().as_secs_f64();
+                match prepared {
+                    Prepared::Partly(part) => self.preparing = Some(part),
+                    Prepared::Fully(part) => self.begin(*part)?,
+                }
+                continue;
+            }
+            let Some(running) = &mut self.running else {
+                // Where memory was short the last time.
+                self.next_part()?;
+                continue;
+            };
+            if let Some(reason) = running.advance(left)? {
+                let done = self.running.take();
+                self.answers.extend(done.map(|c| c.into_answer(reason)));
+                self.next_part()?;
+            }
+        }
+        Ok(self.status)
+    }
+
+    /// Figures of the last check. Before the first one they are the input's, on a level above 0.
+    pub(super) fn progress(&self) -> Progress {
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.best, 1.0);
+            total.add_work(&answer.levels);
+        }
+        let mut pending = self.answers.len();
+        if let Some(preparing) = &self.preparing {
+            let problem = preparing.problem();
+            total.nuclear_norm += problem.smoothness(&problem.target);
+            pending += 1;
+        }
+        if let Some(running) = &self.running {
+            let level = running.level();
+            let share = running.problem().operator.domain.interior_len() as f64
+                / level.problem.operator.domain.interior_len() as f64;
+            total.add(&level.best, share);
+            total.add_work(&running.levels());
+            pending += 1;
+        }
+        let pending = self.energies.iter().skip(pending);
+        total.nuclear_norm += pending.sum::<f64>();
+        let level = match &self.preparing {
+            None => self.running.as_ref().map_or(0, Cascade::levels_left),
+            Some(_) => 1,
+        };
+        Progress {
+            level,
+            iteration: total.iterations,
+            cg_iterations: total.cg_iterations,
+            objective: total.objective(),
+            dual_bound: total.dual_bound,
+            gap: self.known_gap(&total),
+            rho: self.rho(),
+            elapsed: self.started.elapsed().as_secs_f64(),
+        }
+    }
+
+    fn known_gap(&self, total: &Totals) -> Option<f64> {
+        let rounding = self.status == Status::Stopped(StopReason::Rounding);
+        total.gap().filter(|_| !rounding)
+    }
+
+    /// Of the largest part.
+    fn rho(&self) -> f64 {
+        let running = || self.running.as_ref().map(|c| c.level().state.rho);
+        let first = self.answers.first().map(|answer| answer.state.rho);
+        first.or_else(running).unwrap_or(0.0)
+    }
+
+    pub(super) fn cancel(&mut self) {
+        if self.status == Status::Running {
+            self.status = Status::Stopped(StopReason::Cancelled);
+        }
+    }
+
+    /// The best surface so far; how λ was chosen is left to be said.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(super) fn surface(&self) -> Result<Surface> {
+        let unfinished = match (&self.preparing, &self.running) {
+            (Some(preparing), _) => Some(preparing.answer()?),
+            (None, running) => running.as_ref().map(Cascade::answer).transpose()?,
+        };
+        let answers = || self.answers.iter().chain(&unfinished);
+        let lattice = *self.input.field.lattice();
+        let mut heights = try_filled("surface", lattice.len(), f64::NAN)?;
+        let mut total = Totals::default();
+        let mut levels: Vec<LevelReport> = Vec::new();
+        let mut seconds = Seconds::default();
+        for (number, answer) in answers().enumerate() {
+            let (top, left) = self.components.corner(number);
+            answer
+                .problem
+                .write_heights(&answer.best.z, |(row, col), z| {
+                    heights[lattice.index(top + row, left + col)] = z;
+                });
+            total.add(&answer.best, 1.0);
+            total.add_work(&answer.levels);
+            add_levels(&mut levels, &answer.levels);
+            seconds = seconds + answer.seconds;
+        }
+        let pending = answers().count();
+        for cell in self.domain.active().cells() {
+            let vertex = self.domain.lattice_index(cell);
+            let given = self.input.weight(vertex) > 0.0;
+            if self.components.of(cell) >= pending && given {
+                heights[vertex] = self.input.field.heights()[vertex];
+            }
+        }
+        restore_omitted(&self.domain, &self.input, &mut heights);
+        let constrained = (0..lattice.len()).filter(|v| self.input.is_constrained(*v));
+        for vertex in constrained.clone() {
+            // To the last bit.
+            heights[vertex] = self.input.field.heights()[vertex];
+        }
+        total.nuclear_norm += self.energies.iter().skip(pending).sum::<f64>();
+        let stop_reason = match self.status {
+            Status::Running => StopReason::Cancelled,
+            Status::Stopped(reason) => reason,
+        };
+        let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
+        let at_creases = self.options.energy == Energy::Huber;
+        let Bending {
+            bend_radius,
+            flatness,
+            crease_radius,
+        } = Bending::SMOOTH.within(&self.options);
+        let report = Report {
+            interior: self.domain.interior_len(),
+            boundary: self.domain.boundary_len(),
+            omitted: self.domain.omitted_len(),
+            occluded: self.domain.occluded_len(),
+            constrained: constrained.count(),
+            bridged: self.input.bridged,
+            free: answers().map(|answer| answer.problem.free.len()).sum(),
+            components: self.components.list.len(),
+            iterations: total.iterations,
+            cg_iterations: total.cg_iterations,
+            levels,
+            energy: self.options.energy,
+            reweighting: if at_creases { 0 } else { passes },
+            huber: at_creases.then(|| HuberReport {
+                bend_radius,
+                flatness,
+                crease_radius,
+                crease_passes: passes,
+                creases: answers().map(|answer| answer.creases.vertices).sum(),
+            }),
+            objective: total.objective(),
+            fidelity: total.fidelity,
+            nuclear_norm: total.nuclear_norm,
+            dual_bound: total.dual_bound,
+            gap: self.known_gap(&total),
+            lambda: self.options.lambda.value(),
+            lambda_choice: None,
+            rho: answers().next().map_or(0.0, |answer| answer.state.rho),
+            scale: self.scale,
+            stop_reason,
+            seconds: Seconds {
+                setup: self.setup,
+                total: self.started.elapsed().as_secs_f64(),
+                ..seconds
+            },
+        };
+        Ok(Surface {
+            heightfield: Heightfield::new(lattice, heights)?,
+            report,
+        })
+    }
+}

@@ -26,7 +26,7 @@ const RELATIVE: f64 = 1e-3;
 /// The clock starts when the matrices are there.
 pub fn solve(field: &Heightfield, settings: &Settings) -> Result<Outcome, Box<dyn Error>> {
     let domain = Domain::new(field)?;
-    let energy = Energy::new(&domain, field.heights(), settings.lambda.value());
+    let energy = Energy::new(&domain, field.heights(), settings.lambda);
     let normal = energy.normal_matrix();
     let start = Instant::now();
     let last = iterate(&energy, &normal, settings.max_iterations)?;

@@ -20,7 +20,7 @@ use crate::task::{Outcome, Settings};
 /// The clock starts when the matrices are there.
 pub fn solve(field: &Heightfield, settings: &Settings) -> Result<Outcome, Box<dyn Error>> {
     let domain = Domain::new(field)?;
-    let energy = Energy::new(&domain, field.heights(), settings.lambda.value());
+    let energy = Energy::new(&domain, field.heights(), settings.lambda);
     let program = Program::new(&energy);
     let tolerances = DefaultSettingsBuilder::default()
         .verbose(false)

@@ -2,12 +2,13 @@
 
 use std::error::Error;
 
-use developable::{Heightfield, formats};
+use developable::Heightfield;
+use developable::files::images;
 
 use crate::task::{Input, Lattice};
 
 pub fn read(input: &Input) -> Result<Heightfield, Box<dyn Error>> {
-    let file = formats::decode(&std::fs::read(&input.file)?, None)?;
+    let file = images::decode(&std::fs::read(&input.file)?, None)?;
     let (rows, cols) = (file.height, file.width);
     let keep: Vec<u8> = file
         .values

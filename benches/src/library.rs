@@ -4,12 +4,15 @@ use std::error::Error;
 
 use developable::{Heightfield, Normalization, Options, Report, fit};
 
-use crate::task::{Outcome, Settings};
+use crate::task::{Outcome, Schedule, Settings};
 
 pub fn options(settings: &Settings) -> Options {
     Options::default()
         .lambda(settings.lambda)
-        .schedule(settings.schedule)
+        .schedule(match settings.schedule {
+            Schedule::Default => developable::Schedule::Default,
+            Schedule::Paper => developable::Schedule::Paper,
+        })
         .gap(settings.gap)
         .max_iterations(settings.max_iterations)
         .normalization(if settings.normalize {

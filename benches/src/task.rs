@@ -2,7 +2,6 @@
 
 use std::error::Error;
 
-use developable::Lambda;
 use serde::{Deserialize, Serialize};
 
 use crate::memory;
@@ -50,11 +49,18 @@ pub enum Lattice {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Settings {
-    pub lambda: Lambda,
-    pub schedule: developable::Schedule,
+    pub lambda: f64,
+    pub schedule: Schedule,
     pub gap: f64,
     pub max_iterations: usize,
     pub normalize: bool,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "camelCase")]
+pub enum Schedule {
+    Default,
+    Paper,
 }
 
 /// What a method says of its solve.

@@ -25,7 +25,7 @@ impl Default for MeshOptions {
             bend_radius: 0.1,
             flatness: 0.3,
             crease_radius: 0.1,
-            crease_passes: 1,
+            crease_passes: 2,
         }
     }
 }
@@ -69,7 +69,7 @@ impl MeshOptions {
         self
     }
 
-    /// Passes in which creases cost less, each about another linearisation; default 1, at most 20.
+    /// Passes in which creases cost less, each about another linearisation; default 2, at most 20.
     pub fn crease_passes(mut self, passes: usize) -> Self {
         self.crease_passes = passes;
         self

@@ -142,7 +142,7 @@ fn inverse(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
         for j in 0..=i {
             let sum: f64 = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
             if i == j {
-                if !(sum > 1e-8 * matrix[i][i]) {
+                if sum.is_nan() || sum <= 1e-8 * matrix[i][i] {
                     return None;
                 }
                 l[i][i] = sum.sqrt();

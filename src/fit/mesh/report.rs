@@ -43,9 +43,7 @@ pub struct MeshPass {
     pub stop_reason: StopReason,
     /// Vertices on creases, where bends cost less in this pass.
     pub creases: usize,
-    /// The share of the way to its optimum that the surface went.
-    pub step: f64,
-    /// How far vertices went on that way: root mean square, and at most, in the input's units.
+    /// How far vertices went from its base: root mean square, and at most, in the input's units.
     pub moved: f64,
     /// See [`MeshPass::moved`].
     pub moved_most: f64,

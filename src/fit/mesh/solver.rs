@@ -17,8 +17,8 @@ use crate::fit::energy::law::Bends;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
+use crate::fit::partwise::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
-use crate::fit::solver::Status;
 use crate::scene::mesh::Mesh;
 
 /// Smoothing steps for the first base: of the places across the rays, and of the surface.
@@ -303,9 +303,8 @@ impl MeshSolver {
         };
         let report = level.report();
         let last = self.passes.len() >= self.options.crease_passes;
-        let step = if self.passes.is_empty() { 1.0 } else { 0.5 };
         let z = &level.best.z;
-        let mut next = self.linear.moved(z, step);
+        let mut next = self.linear.moved(z);
         restore(&self.given, &mut next, &self.linear.frames);
         let moved = next
             .iter()
@@ -321,7 +320,6 @@ impl MeshSolver {
             gap: Some(level.best.gap()),
             stop_reason: reason,
             creases: self.creases,
-            step,
             moved: (squares / next.len() as f64).sqrt() / scale,
             moved_most: moved.fold(0.0, f64::max) / scale,
         });

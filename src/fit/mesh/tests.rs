@@ -66,7 +66,7 @@ fn indexed(soup: &[[[f64; 3]; 3]]) -> Mesh {
 
 /// A pipe around the x axis, with uneven triangles.
 fn pipe(cols: usize, radius: f64, length: f64) -> Mesh {
-    let rows = (cols as f64 * length / (6.28 * radius)).ceil() as usize;
+    let rows = (cols as f64 * length / (std::f64::consts::TAU * radius)).ceil() as usize;
     indexed(&grid(cols, rows, |u, v| {
         let angle = std::f64::consts::TAU * (u + 0.3 / cols as f64 * (40.0 * v).sin());
         let x = length * v;
@@ -276,7 +276,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
             "{gap:e} of {bound}"
         );
     }
-    let found = linear.moved(&b.best.z, 1.0);
+    let found = linear.moved(&b.best.z);
     let radius = (2.0 * 1e-5 * bound / 1e4).sqrt();
     let mut square = 0.0f64;
     for cell in domain.active().cells() {
@@ -478,9 +478,9 @@ fn what_can_be_mended_is_mended() {
     assert_eq!(a.report().vertices, truth.positions().len() + 1);
     assert_eq!(a.mesh().positions()[0], [9.0, 9.0, 9.0]);
     for (i, triangle) in truth.triangles().iter().enumerate() {
-        for k in 0..3 {
+        for (k, corner) in triangle.iter().enumerate() {
             let found = Point::from(a.mesh().positions()[1 + 3 * i + k]);
-            let expected = Point::from(b.mesh().positions()[triangle[k] as usize]);
+            let expected = Point::from(b.mesh().positions()[*corner as usize]);
             assert!((found - expected).norm() < 1e-3);
         }
     }

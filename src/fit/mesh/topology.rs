@@ -245,8 +245,7 @@ impl Topology {
                 triangles[i as usize] += 1;
             }
         }
-        for vertex in 0..self.len() {
-            let number = triangles[vertex];
+        for (vertex, number) in triangles.into_iter().enumerate() {
             if number == 0 {
                 continue;
             }

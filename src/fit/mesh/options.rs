@@ -31,7 +31,7 @@ impl Default for MeshOptions {
 }
 
 impl MeshOptions {
-    /// Weight of the fidelity term, stated for a box with the diagonal 1; by default
+    /// Weight of the fidelity term, stated for a mesh in a ball of the diameter 1; by default
     /// [`Lambda::Auto`], which is `8/σh` for noise of the size `σ` on a mesh of the spacing `h`.
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = lambda.into();
@@ -50,8 +50,8 @@ impl MeshOptions {
         self
     }
 
-    /// Radius below which bends cost their size, and above which they cost their square, where the
-    /// diagonal is 1; default 0.1.
+    /// Radius below which bends cost their size, and above which they cost their square, in the
+    /// same coordinates; default 0.1.
     pub fn bend_radius(mut self, radius: f64) -> Self {
         self.bend_radius = radius;
         self
@@ -63,7 +63,8 @@ impl MeshOptions {
         self
     }
 
-    /// What bends more tightly than this radius is a crease, where the diagonal is 1; default 0.1.
+    /// What bends more tightly than this radius is a crease, in the same coordinates;
+    /// default 0.1.
     pub fn crease_radius(mut self, radius: f64) -> Self {
         self.crease_radius = radius;
         self

@@ -72,7 +72,8 @@ pub struct MeshReport {
     pub repairs: Repairs,
     /// From one vertex to the next, on a hexagonal lattice with as many: in the input's units.
     pub spacing: f64,
-    /// Factor from the input's units to normalised coordinates, in which the diagonal of its box is 1.
+    /// Factor from the input's units to normalised coordinates, in which the ball about it has the
+    /// diameter 1.
     pub scale: f64,
     /// Standard deviation of the noise along the normals, in the input's units; none if there are too
     /// few vertices to tell.

@@ -25,9 +25,6 @@ use crate::scene::mesh::Mesh;
 const PLACES: usize = 3;
 const SURFACE: usize = 10;
 
-/// The gap of the passes before the last one: the linearisation is further from the surface than that.
-const ROUGH: f64 = 0.03;
-
 /// Of noise that cannot be told from none, as a share of the spacing.
 const NO_NOISE: f64 = 1e-4;
 
@@ -88,7 +85,7 @@ impl MeshKnown {
 
 /// The way from the user's coordinates: `scale (x − centre)`.
 #[derive(Debug, Clone, Copy)]
-struct Box {
+struct Ball {
     centre: Point,
     scale: f64,
 }
@@ -99,7 +96,7 @@ pub struct MeshSolver {
     mesh: Mesh,
     options: MeshOptions,
     given: Given,
-    bounds: Box,
+    bounds: Ball,
     lambda: f64,
     sigma: Option<f64>,
     /// The linearisation under way.
@@ -153,7 +150,7 @@ impl MeshSolver {
             });
         }
         let topology = Topology::new(&mesh)?;
-        let bounds = Box::around(&mesh)?;
+        let bounds = Ball::around(&mesh)?;
         let noisy: Vec<Point> = topology
             .source
             .iter()
@@ -261,14 +258,7 @@ impl MeshSolver {
 
     /// Starts to solve the linearised problem, where there is one before from its dual.
     fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised)>) -> Result<()> {
-        let last = self.passes.len() == self.options.crease_passes;
-        let options = self.options.common();
-        let gap = if last {
-            self.options.gap
-        } else {
-            self.options.gap.max(ROUGH)
-        };
-        let plan = Plan::new(&options.gap(gap));
+        let plan = Plan::new(&self.options.common());
         let start = self.linear.start();
         let problem = &mut self.linear.problem;
         let mut state = State::new(problem, plan.first_rho(problem))?;
@@ -445,27 +435,29 @@ impl Before {
     }
 }
 
-impl Box {
+impl Ball {
+    /// About the centre of its area. It does not depend on how the mesh is turned.
     fn around(mesh: &Mesh) -> Result<Self> {
-        let named = mesh.triangles().as_flattened().iter();
-        let points = named.map(|i| Point::from(mesh.positions()[*i as usize]));
-        let all = |x: f64| Point::repeat(x);
-        let [least, most] = points
-            .fold([all(f64::INFINITY), all(f64::NEG_INFINITY)], |[a, b], x| {
-                [a.inf(&x), b.sup(&x)]
-            });
-        let diagonal = (most - least).norm();
-        let scale = 1.0 / diagonal;
-        if !(diagonal > 0.0 && scale > 0.0 && diagonal.is_finite() && scale.is_finite()) {
+        let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
+        let (mut sum, mut weight) = (Point::zeros(), 0.0);
+        for triangle in mesh.triangles() {
+            let [a, b, c] = corners(triangle);
+            // Never nothing at all, for triangles without any area have a place, too.
+            let area = (b - a).cross(&(c - a)).norm() + f64::MIN_POSITIVE;
+            sum += area / 3.0 * (a + b + c);
+            weight += area;
+        }
+        let centre = sum / weight;
+        let named = mesh.triangles().iter().flat_map(corners);
+        let radius = named.map(|x| (x - centre).norm()).fold(0.0, f64::max);
+        let scale = 0.5 / radius;
+        if !centre.iter().all(|x| x.is_finite()) || !scale.is_normal() || !radius.is_normal() {
             return Err(Error::Topology {
-                reason: format!("the diagonal of its box is {diagonal:e}"),
+                reason: format!("it is {radius:e} from its centre to its farthest vertex"),
                 advice: "check its coordinates",
             });
         }
-        Ok(Box {
-            centre: least + 0.5 * (most - least),
-            scale,
-        })
+        Ok(Ball { centre, scale })
     }
 
     fn inward(self, x: [f64; 3]) -> Point {

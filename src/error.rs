@@ -123,6 +123,15 @@ pub enum Error {
     )]
     FocalLength,
 
+    /// Triangles that make no surface, or one with nothing inside.
+    #[error("this mesh is no surface that can be fitted: {reason}; {advice}")]
+    Topology {
+        /// What is wrong with it, and where.
+        reason: String,
+        /// What to do about it.
+        advice: &'static str,
+    },
+
     /// The energy of the input is not a finite number.
     #[error(
         "the energy overflows: the heights are too large for a lattice spacing of {spacing:e}; \
@@ -199,6 +208,7 @@ impl Error {
             Error::Option { .. } => "OPTION",
             Error::Edges { .. } => "EDGES",
             Error::FocalLength => "FOCAL_LENGTH",
+            Error::Topology { .. } => "TOPOLOGY",
             Error::Overflow { .. } => "OVERFLOW",
             Error::Underflow { .. } => "UNDERFLOW",
             Error::TooLarge { .. } => "TOO_LARGE",

@@ -88,6 +88,9 @@ mod shape;
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
 pub use fit::input::Input;
+pub use fit::mesh::{
+    MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface, Repairs, fit_mesh,
+};
 pub use fit::options::{Energy, Lambda, Options, Schedule};
 pub use fit::partwise::Status;
 pub use fit::report::{

@@ -10,6 +10,7 @@ mod energy;
 mod heightfields;
 pub(crate) mod input;
 mod linear;
+pub(crate) mod mesh;
 mod operator;
 pub(crate) mod options;
 pub(crate) mod partwise;

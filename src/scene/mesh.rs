@@ -164,7 +164,14 @@ impl Mesh {
         self.textures.as_deref()
     }
 
-    /// The corners of one triangle.
+    /// With its vertices elsewhere, and without normals.
+    pub(crate) fn moved_to(mut self, positions: Vec<[f64; 3]>) -> Result<Self> {
+        check_finite(&positions)?;
+        self.positions = positions;
+        self.normals = None;
+        Ok(self)
+    }
+
     /// With those triangles that are wanted, in the same order.
     pub(super) fn keep(mut self, mut wanted: impl FnMut([u32; 3]) -> bool) -> Self {
         let keep: Vec<bool> = self.triangles.iter().map(|t| wanted(*t)).collect();
@@ -177,6 +184,7 @@ impl Mesh {
         self
     }
 
+    /// The corners of one triangle.
     pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|i| self.positions[i as usize])
     }

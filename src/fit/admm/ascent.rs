@@ -289,7 +289,8 @@ impl<O: Operator> Ascent<O> {
                     let dual = Nuclear.dual(Sym2 { mean, diff, off }, weight[i]);
                     matrices.set(i, dual.coordinates());
                     if costs {
-                        conjugates[i] = law.conjugate(dual, weight[i]);
+                        let area = problem.operator.area(run.start + i);
+                        conjugates[i] = area * law.conjugate(dual, weight[i]);
                     }
                 }
                 if costs {

@@ -85,7 +85,7 @@ impl<O: Operator> State<O> {
                     let y = law.dual(v.get(i), *weight) + change;
                     matrices.set(i, y.coordinates());
                     excess = excess.max(law.size(y, *weight));
-                    conjugate += law.conjugate(y, *weight);
+                    conjugate += problem.operator.area(run.start + i) * law.conjugate(y, *weight);
                 }
             },
             |_, run, sums| {

@@ -277,7 +277,7 @@ impl<O: Operator> State<O> {
                     let dual = law.dual(new, weight[i]);
                     if MEASURE {
                         let moved = new - dual - old + old_dual;
-                        squares[i] = moved.dot(moved);
+                        squares[i] = problem.operator.area(run.start + i) * moved.dot(moved);
                     }
                     matrices.set(i, (new - dual - dual - hessian).coordinates());
                 }
@@ -338,12 +338,13 @@ impl<O: Operator> State<O> {
                     matrices.set(i, y.coordinates());
                     let h = (value - y).scale(inverse_rho);
                     let gap = hessian - h;
-                    t1[i] = law.value(hessian, weight[i]);
-                    t2[i] = gap.dot(gap);
-                    t3[i] = hessian.dot(hessian);
-                    t4[i] = h.dot(h);
-                    t5[i] = y.dot(y);
-                    t6[i] = law.conjugate(y, weight[i]);
+                    let area = problem.operator.area(run.start + i);
+                    t1[i] = area * law.value(hessian, weight[i]);
+                    t2[i] = area * gap.dot(gap);
+                    t3[i] = area * hessian.dot(hessian);
+                    t4[i] = area * h.dot(h);
+                    t5[i] = area * y.dot(y);
+                    t6[i] = area * law.conjugate(y, weight[i]);
                 }
                 add_sums(&mut stencil_sums, [t1, t2, t3, t4, t5, t6]);
             },

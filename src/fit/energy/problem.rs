@@ -224,7 +224,8 @@ impl<O: Operator> Problem<O> {
         // For values, which do not depend on ρ.
         let law = Any::new(self.kind, f64::NAN);
         self.operator.hessians(z, |stencil, hessian| {
-            visit(stencil, law.value(hessian, self.weight.at(stencil)));
+            let value = law.value(hessian, self.weight.at(stencil));
+            visit(stencil, self.operator.area(stencil) * value);
         });
     }
 

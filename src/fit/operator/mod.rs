@@ -5,9 +5,7 @@
 //! have gaps: what counts are the runs.
 
 pub(crate) mod lattice;
-#[cfg(feature = "sprs")]
-#[cfg_attr(not(test), expect(dead_code, reason = "for meshes, which are to come"))]
-mod sparse;
+pub(crate) mod sparse;
 
 use std::fmt::Debug;
 
@@ -45,6 +43,11 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     fn size(&self) -> f64;
     /// At least `h⁴‖CᵀC‖`, `h` being the spacing.
     fn norm(&self) -> f32;
+    /// What a stencil counts in sums over stencils, and in `Cᵀ`: its area, in units of their mean.
+    #[inline(always)]
+    fn area(&self, _stencil: usize) -> f64 {
+        1.0
+    }
     /// The coordinates of a vertex, whose linear functions `C` does not see.
     fn place(&self, vertex: usize) -> [f64; 2];
 

@@ -1,10 +1,11 @@
 //! The z-step of a sparse matrix: conjugate gradients with Jacobi's preconditioner.
 
-use super::SparseOperator;
+use super::{LONGEST, Rows, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::operator::{Operator, Solver};
 use crate::math::lanes;
+use crate::math::real::Real;
 
 /// Iterations of a step: together they do about as much as a V-cycle, for which ADMM's schedule is.
 const STEPS: usize = 6;
@@ -42,48 +43,125 @@ impl System {
     }
 }
 
-/// A run of conjugate gradients.
+/// A run of conjugate gradients, in one precision.
 #[derive(Debug, Clone)]
-struct Gradients {
-    residual: Vec<f64>,
-    solution: Vec<f64>,
-    direction: Vec<f64>,
-    image: Vec<f64>,
-    matrices: Vec<f64>,
+struct Gradients<T> {
+    residual: Vec<T>,
+    solution: Vec<T>,
+    direction: Vec<T>,
+    image: Vec<T>,
+    /// `A`, scaled: the diagonal part, what `CᵀC` counts, and the inverse diagonal.
+    fidelity: Vec<T>,
+    rho: T,
+    inverse: Vec<T>,
     /// `r·M⁻¹r`, and that of the iteration before; 0 before the first.
     energy: f64,
     previous: f64,
 }
 
-impl Gradients {
-    fn new(operator: &SparseOperator) -> Result<Self> {
-        let zeros = || try_filled("conjugate gradients", operator.vertex_cells(), 0.0);
-        Ok(Gradients {
+/// A precision, from and to the double one.
+trait Precision: Real {
+    fn of(value: f64) -> Self;
+    fn double(self) -> f64;
+    fn rows(operator: &SparseOperator) -> (&Rows<Self>, &[Self]);
+    /// By how much the rows of this precision are scaled.
+    fn unit(operator: &SparseOperator) -> f64;
+    fn dot(a: &[Self], b: &[Self]) -> f64;
+    fn weighted_square(a: &[Self], weight: &[Self]) -> f64;
+}
+
+impl Precision for f32 {
+    #[inline(always)]
+    fn of(value: f64) -> f32 {
+        lanes::single(value)
+    }
+    #[inline(always)]
+    fn double(self) -> f64 {
+        lanes::double(self)
+    }
+    fn rows(operator: &SparseOperator) -> (&Rows<f32>, &[f32]) {
+        (&operator.single, &operator.single_weights)
+    }
+    fn unit(operator: &SparseOperator) -> f64 {
+        operator.spacing.powi(2)
+    }
+    fn dot(a: &[f32], b: &[f32]) -> f64 {
+        a.chunks(LONGEST)
+            .zip(b.chunks(LONGEST))
+            .map(|(a, b)| lanes::dot(a, b))
+            .sum()
+    }
+    fn weighted_square(a: &[f32], weight: &[f32]) -> f64 {
+        let chunks = a.chunks(LONGEST).zip(weight.chunks(LONGEST));
+        chunks
+            .map(|(a, weight)| lanes::weighted_square(a, weight))
+            .sum()
+    }
+}
+
+impl Precision for f64 {
+    fn of(value: f64) -> f64 {
+        value
+    }
+    fn double(self) -> f64 {
+        self
+    }
+    fn rows(operator: &SparseOperator) -> (&Rows<f64>, &[f64]) {
+        (&operator.double, &operator.weights)
+    }
+    fn unit(_: &SparseOperator) -> f64 {
+        1.0
+    }
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+    fn weighted_square(a: &[f64], weight: &[f64]) -> f64 {
+        a.iter().zip(weight).map(|(a, weight)| a * a * weight).sum()
+    }
+}
+
+impl<T: Precision> Gradients<T> {
+    fn new(operator: &SparseOperator, system: &System) -> Result<Self> {
+        let zeros = || try_filled("conjugate gradients", operator.vertex_cells(), T::default());
+        let mut gradients = Gradients {
             residual: zeros()?,
             solution: zeros()?,
             direction: zeros()?,
             image: zeros()?,
-            matrices: operator.scratch()?,
+            fidelity: zeros()?,
+            rho: T::default(),
+            inverse: zeros()?,
             energy: 0.0,
             previous: 0.0,
-        })
+        };
+        gradients.take(operator, system);
+        Ok(gradients)
+    }
+
+    /// Another `A`.
+    fn take(&mut self, operator: &SparseOperator, system: &System) {
+        let unit = T::unit(operator);
+        self.rho = T::of(system.rho / (system.diagonal * unit * unit));
+        for vertex in 0..self.inverse.len() {
+            self.fidelity[vertex] = T::of(system.fidelity[vertex] / system.diagonal);
+            self.inverse[vertex] = T::of(system.inverse[vertex]);
+        }
     }
 
     /// Begins with the residual as it is, of the solution 0.
-    fn start(&mut self, system: &System) {
-        self.solution.fill(0.0);
-        self.direction.fill(0.0);
+    fn start(&mut self) {
+        self.solution.fill(T::default());
+        self.direction.fill(T::default());
         self.previous = 0.0;
-        self.measure(system);
+        self.measure();
     }
 
-    fn measure(&mut self, system: &System) {
-        let squares = self.residual.iter().zip(&system.inverse);
-        self.energy = squares.map(|(r, inverse)| r * r * inverse).sum();
+    fn measure(&mut self) {
+        self.energy = T::weighted_square(&self.residual, &self.inverse);
     }
 
     /// One iteration; `false` if there is nothing left to do.
-    fn step(&mut self, system: &System, operator: &SparseOperator) -> bool {
+    fn step(&mut self, operator: &SparseOperator) -> bool {
         if self.energy <= 0.0 {
             return false;
         }
@@ -92,34 +170,34 @@ impl Gradients {
         } else {
             0.0
         };
+        let beta = T::of(beta);
         for (i, direction) in self.direction.iter_mut().enumerate() {
-            *direction = system.inverse[i] * self.residual[i] + beta * *direction;
+            *direction = self.inverse[i] * self.residual[i] + beta * *direction;
         }
-        operator.normal(&self.direction, &mut self.matrices, &mut self.image);
-        let mut curvature = 0.0;
+        let (rows, weights) = T::rows(operator);
+        normal(rows, weights, &self.direction, &mut self.image);
         for (i, image) in self.image.iter_mut().enumerate() {
-            let direction = self.direction[i];
-            *image = (system.fidelity[i] * direction + system.rho * *image) / system.diagonal;
-            curvature += direction * *image;
+            *image = self.fidelity[i] * self.direction[i] + self.rho * *image;
         }
+        let curvature = T::dot(&self.direction, &self.image);
         // As what a NaN is not.
         if !(curvature > 0.0 && self.energy > 0.0) {
             return false;
         }
-        let alpha = self.energy / curvature;
+        let alpha = T::of(self.energy / curvature);
         for (i, residual) in self.residual.iter_mut().enumerate() {
-            self.solution[i] += alpha * self.direction[i];
-            *residual -= alpha * self.image[i];
+            self.solution[i] = self.solution[i] + alpha * self.direction[i];
+            *residual = *residual - alpha * self.image[i];
         }
         self.previous = self.energy;
-        self.measure(system);
+        self.measure();
         true
     }
 
     /// By how much the residual would move a height on its own, at most.
-    fn distance(&self, system: &System) -> f64 {
-        let moved = self.residual.iter().zip(&system.inverse);
-        let moved = moved.map(|(r, inverse)| (r * inverse).abs());
+    fn distance(&self) -> f64 {
+        let moved = self.residual.iter().zip(&self.inverse);
+        let moved = moved.map(|(r, inverse)| (*r * *inverse).double().abs());
         moved.fold(0.0, f64::max)
     }
 }
@@ -127,15 +205,17 @@ impl Gradients {
 #[derive(Debug, Clone)]
 pub(crate) struct JacobiGradients {
     system: System,
-    gradients: Gradients,
+    gradients: Gradients<f32>,
     /// What is written by others.
     residual: Vec<f32>,
+    /// Whether `A` has changed since.
+    stale: bool,
     /// Heights of size 1 in the system's scale.
     unit: f64,
 }
 
 impl JacobiGradients {
-    pub(super) fn new(problem: &Problem<SparseOperator>, rho: f64) -> Result<Self> {
+    pub(crate) fn new(problem: &Problem<SparseOperator>, rho: f64) -> Result<Self> {
         let operator = &problem.operator;
         let cells = operator.vertex_cells();
         let mut fidelity = try_filled("conjugate gradients", cells, 0.0)?;
@@ -153,8 +233,9 @@ impl JacobiGradients {
         system.set_rho(rho);
         let largest = problem.target.iter().fold(0.0f64, |m, z| m.max(z.abs()));
         Ok(JacobiGradients {
+            gradients: Gradients::new(operator, &system)?,
             system,
-            gradients: Gradients::new(operator)?,
+            stale: false,
             residual: try_filled("conjugate gradients", cells, 0.0)?,
             unit: if largest > 0.0 { largest } else { 1.0 },
         })
@@ -164,6 +245,7 @@ impl JacobiGradients {
 impl Solver<SparseOperator> for JacobiGradients {
     fn set_rho(&mut self, rho: f64) {
         self.system.set_rho(rho);
+        self.stale = true;
     }
 
     fn residual(&mut self) -> &mut [f32] {
@@ -174,9 +256,12 @@ impl Solver<SparseOperator> for JacobiGradients {
         1.0 / (self.system.diagonal * self.unit)
     }
 
-    fn restart(&mut self, _: &SparseOperator) {
-        lanes::widen(&self.residual, &mut self.gradients.residual);
-        self.gradients.start(&self.system);
+    fn restart(&mut self, operator: &SparseOperator) {
+        if std::mem::take(&mut self.stale) {
+            self.gradients.take(operator, &self.system);
+        }
+        self.gradients.residual.copy_from_slice(&self.residual);
+        self.gradients.start();
     }
 
     fn energy(&self) -> f64 {
@@ -192,13 +277,13 @@ impl Solver<SparseOperator> for JacobiGradients {
     }
 
     fn step(&mut self, operator: &SparseOperator) -> bool {
-        let done = (0..STEPS).take_while(|_| self.gradients.step(&self.system, operator));
+        let done = (0..STEPS).take_while(|_| self.gradients.step(operator));
         done.count() > 0
     }
 
     fn correct(&mut self, operator: &SparseOperator, z: &mut [f64]) {
         for vertex in operator.vertices().cells() {
-            z[vertex] += self.unit * self.gradients.solution[vertex];
+            z[vertex] += self.unit * self.gradients.solution[vertex].double();
         }
     }
 
@@ -209,15 +294,16 @@ impl Solver<SparseOperator> for JacobiGradients {
         x: &mut [f64],
         (tolerance, steps): (f64, usize),
     ) -> Result<usize> {
-        let mut gradients = Gradients::new(&problem.operator)?;
+        let operator = &problem.operator;
+        let mut gradients = Gradients::<f64>::new(operator, &self.system)?;
         for (to, from) in gradients.residual.iter_mut().zip(&*residual) {
             *to = from / self.system.diagonal;
         }
-        gradients.start(&self.system);
-        let goal = tolerance * gradients.distance(&self.system);
+        gradients.start();
+        let goal = tolerance * gradients.distance();
         let mut done = 0;
-        while done < STEPS * steps && gradients.distance(&self.system) > goal {
-            if !gradients.step(&self.system, &problem.operator) {
+        while done < STEPS * steps && gradients.distance() > goal {
+            if !gradients.step(operator) {
                 break;
             }
             done += 1;

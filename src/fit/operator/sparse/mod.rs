@@ -1,10 +1,8 @@
 //! An operator that is given as a sparse matrix, as for what is no lattice.
 
-mod jacobi;
-#[cfg(all(test, not(target_arch = "wasm32")))] // clarabel is native
+pub(crate) mod jacobi;
+#[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
 mod tests;
-
-use sprs::{CsMat, TriMat};
 
 use self::jacobi::JacobiGradients;
 use super::{Hessians, Matrices, Operator, Sums};
@@ -22,213 +20,237 @@ const LONGEST: usize = 256;
 const POWER: usize = 30;
 const MARGIN: f32 = 1.1;
 
-/// `C` as a matrix, and its transpose, by the coordinates of [`Sym2`]: three rows, or columns, for each
-/// stencil.
+/// `C` by stencils: the vertices of each, with what their heights count in the coordinates of [`Sym2`].
+///
+/// The adjoint is computed from the same rows, by adding to its vertices one stencil after the other:
+/// half the memory, and `CᵀC` takes one pass.
 #[derive(Debug, Clone)]
-struct Pair<T> {
-    rows: CsMat<T>,
-    /// Of the adjoint with respect to the Frobenius inner product, by rows, too.
-    adjoint: CsMat<T>,
+pub(crate) struct Rows<T> {
+    first: Vec<usize>,
+    entries: Vec<(u32, [T; 3])>,
 }
 
-impl<T: Real> Pair<T> {
-    fn hessians<'a>(&'a self, run: Run, heights: &'a [T]) -> RunHessians<'a, T> {
-        RunHessians {
-            rows: &self.rows,
-            first: run.start,
-            heights,
+impl<T: Real> Rows<T> {
+    pub(crate) fn new() -> Self {
+        Rows {
+            first: vec![0],
+            entries: Vec::new(),
         }
     }
 
-    fn sums<'a>(&'a self, run: Run, matrices: &'a [T]) -> RunSums<'a, T> {
-        RunSums {
-            adjoint: &self.adjoint,
-            first: run.start,
-            matrices,
+    /// One stencil more.
+    pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (u32, [T; 3])>) {
+        self.entries.extend(entries);
+        self.first.push(self.entries.len());
+    }
+
+    /// Multiplies what each vertex counts.
+    pub(crate) fn scale_columns(&mut self, factor: impl Fn(u32) -> T) {
+        for (vertex, entry) in &mut self.entries {
+            let factor = factor(*vertex);
+            *entry = entry.map(|x| factor * x);
         }
     }
+
+    pub(crate) fn len(&self) -> usize {
+        self.first.len() - 1
+    }
+
+    #[inline(always)]
+    pub(crate) fn row(&self, stencil: usize) -> &[(u32, [T; 3])] {
+        &self.entries[self.first[stencil]..self.first[stencil + 1]]
+    }
+
+    #[inline(always)]
+    fn apply(&self, stencil: usize, x: &[T]) -> [T; 3] {
+        let [mut mean, mut diff, mut off] = [T::default(); 3];
+        for (vertex, [a, b, c]) in self.row(stencil) {
+            let x = x[*vertex as usize];
+            (mean, diff, off) = (mean + *a * x, diff + *b * x, off + *c * x);
+        }
+        [mean, diff, off]
+    }
+
+    /// Adds `Cᵀ` of one matrix, which has its weight already.
+    #[inline(always)]
+    fn add_adjoint(&self, stencil: usize, [mean, diff, off]: [T; 3], to: &mut [T]) {
+        for (vertex, [a, b, c]) in self.row(stencil) {
+            let to = &mut to[*vertex as usize];
+            *to = *to + (*a * mean + *b * diff + *c * off);
+        }
+    }
+}
+
+/// What a [`SparseOperator`] is made of.
+#[derive(Debug, Clone)]
+pub(crate) struct Parts {
+    pub rows: Rows<f64>,
+    /// What each stencil counts in every sum over stencils; none for 1 each.
+    pub areas: Vec<f64>,
+    /// The stencils beside each, by their numbers.
+    pub beside: Vec<Vec<u32>>,
+    /// A vertex that is held at its height and makes `C` affine; its column does not count for the norm.
+    pub constant: Option<u32>,
+    pub places: Vec<[f64; 2]>,
+    pub spacing: f64,
+    /// From one end to the other.
+    pub size: f64,
 }
 
 #[derive(Debug, Clone)]
 pub(crate) struct SparseOperator {
-    double: Pair<f64>,
+    double: Rows<f64>,
     /// `h²C`.
-    single: Pair<f32>,
+    single: Rows<f32>,
+    /// Twice the areas: the inner product is that of matrices, whose coordinates count twice.
+    weights: Vec<f64>,
+    single_weights: Vec<f32>,
     vertices: RowRuns,
     stencils: RowRuns,
-    /// The vertex in the middle of each stencil, and the stencil about each vertex, or [`NONE`].
-    centres: Vec<usize>,
-    about: Vec<usize>,
+    beside: Vec<Vec<u32>>,
     places: Vec<[f64; 2]>,
     spacing: f64,
     size: f64,
     norm: f32,
 }
 
-const NONE: usize = usize::MAX;
-
 impl SparseOperator {
-    /// Of a matrix with three rows `h_xx, h_xy, h_yy` for each stencil, as
-    /// [`crate::HessianOperator::to_sparse`] makes them, and a column for each vertex; columns of
-    /// zeros are no unknowns. `centres` are the vertices in the middle of the stencils. What a row
-    /// measures is taken for the second fundamental form.
+    /// What a row measures is taken for the second fundamental form; vertices of no row are no
+    /// unknowns.
     ///
-    /// # Panics
-    /// If the matrix does not have three rows for each centre and a column for each place.
-    pub(crate) fn new(
-        matrix: &CsMat<f64>,
-        centres: Vec<usize>,
-        places: Vec<[f64; 2]>,
-        spacing: f64,
-    ) -> Result<Self> {
-        assert_eq!(matrix.shape(), (3 * centres.len(), places.len()));
-        let rows = by_coordinates(matrix);
-        let mut about = try_filled("stencils", places.len(), NONE)?;
-        for (stencil, centre) in centres.iter().enumerate() {
-            about[*centre] = stencil;
-        }
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn new(parts: Parts) -> Result<Self> {
+        let Parts {
+            rows,
+            areas,
+            beside,
+            constant,
+            places,
+            spacing,
+            size,
+        } = parts;
         let mut touched = try_filled("vertices", places.len(), false)?;
-        for vertex in rows.indices() {
-            touched[*vertex] = true;
+        for (vertex, _) in &rows.entries {
+            touched[*vertex as usize] = true;
         }
-        let vertices = RowRuns::new(&touched, LONGEST, |touched| touched);
-        let all = try_filled("stencils", centres.len(), true)?;
-        let extent = |k: usize| {
-            let along = vertices.cells().map(|vertex| places[vertex][k]);
-            let [least, most] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
-                [a.min(x), b.max(x)]
-            });
-            most - least
+        let all = try_filled("stencils", rows.len(), true)?;
+        let weights: Vec<f64> = if areas.is_empty() {
+            try_filled("areas", rows.len(), 2.0)?
+        } else {
+            areas.iter().map(|area| 2.0 * area).collect()
         };
-        let size = extent(0).max(extent(1));
-        let adjoint: CsMat<f64> = rows.transpose_view().to_csr().map(|entry| 2.0 * entry);
         let unit = spacing * spacing;
-        let narrow = |matrix: &CsMat<f64>| matrix.map(|entry| lanes::single(unit * entry));
+        let narrow = |(vertex, entry): &(u32, [f64; 3])| {
+            (*vertex, entry.map(|entry| lanes::single(unit * entry)))
+        };
         let mut operator = SparseOperator {
-            single: Pair {
-                rows: narrow(&rows),
-                adjoint: narrow(&adjoint),
+            single: Rows {
+                first: rows.first.clone(),
+                entries: rows.entries.iter().map(narrow).collect(),
             },
-            double: Pair { rows, adjoint },
+            double: rows,
+            single_weights: weights
+                .iter()
+                .map(|weight| lanes::single(*weight))
+                .collect(),
+            weights,
             stencils: RowRuns::new(&all, LONGEST, |stencil| stencil),
-            vertices,
-            centres,
-            about,
+            vertices: RowRuns::new(&touched, LONGEST, |touched| touched),
+            beside,
             places,
             spacing,
             size,
             norm: 1.0,
         };
-        operator.norm = MARGIN * operator.power()?;
+        operator.norm = MARGIN * operator.power(constant)?;
         Ok(operator)
     }
 
     /// An estimate of `h⁴‖CᵀC‖`, from below.
-    fn power(&self) -> Result<f32> {
-        let Pair { rows, adjoint } = &self.single;
+    fn power(&self, constant: Option<u32>) -> Result<f32> {
         let mut x = try_filled("vertices", self.vertex_cells(), 0.0f32)?;
-        let mut y = try_filled("stencils", 3 * self.centres.len(), 0.0f32)?;
+        let mut image = x.clone();
         let mut random = oorandom::Rand32::new(1);
         for vertex in self.vertices.cells() {
             x[vertex] = random.rand_float() - 0.5;
         }
         let mut norm = 1.0;
         for _ in 0..POWER {
+            if let Some(constant) = constant {
+                x[constant as usize] = 0.0;
+            }
             let size = x.iter().map(|x| x * x).sum::<f32>().sqrt();
             x.iter_mut().for_each(|x| *x /= size);
-            apply(rows, &x, &mut y);
-            apply(adjoint, &y, &mut x);
+            normal(&self.single, &self.single_weights, &x, &mut image);
+            std::mem::swap(&mut x, &mut image);
             norm = x.iter().map(|x| x * x).sum::<f32>().sqrt();
         }
         Ok(norm)
     }
 
-    /// `image = CᵀC x`, by way of three numbers for each stencil.
-    fn normal(&self, x: &[f64], matrices: &mut [f64], image: &mut [f64]) {
-        apply(&self.double.rows, x, matrices);
-        apply(&self.double.adjoint, matrices, image);
-    }
-
     /// The diagonal of `CᵀC`.
     fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
-        let Pair { rows, .. } = &self.double;
-        for (entry, vertex) in rows.data().iter().zip(rows.indices()) {
-            diagonal[*vertex] += 2.0 * entry * entry;
+        for (stencil, weight) in self.weights.iter().enumerate() {
+            for (vertex, [a, b, c]) in self.double.row(stencil) {
+                diagonal[*vertex as usize] += weight * (a * a + b * b + c * c);
+            }
         }
         Ok(diagonal)
     }
 }
 
-/// From rows `h_xx, h_xy, h_yy` to the coordinates of [`Sym2`].
-fn by_coordinates(matrix: &CsMat<f64>) -> CsMat<f64> {
-    let mut triplets = TriMat::with_capacity(matrix.shape(), 5 * matrix.nnz() / 3);
-    for (entry, (row, vertex)) in matrix {
-        let stencil = row - row % 3;
-        let mut add =
-            |k: usize, share: f64| triplets.add_triplet(stencil + k, vertex, share * entry);
-        match row % 3 {
-            1 => add(2, 1.0),
-            entry => {
-                add(0, 0.5);
-                add(1, if entry == 0 { 0.5 } else { -0.5 });
-            }
-        }
-    }
-    triplets.to_csr()
-}
-
-/// One entry of a product.
-fn dot<T: Real>(matrix: &CsMat<T>, row: usize, x: &[T]) -> T {
-    let entries = matrix.outer_view(row);
-    let entries = entries.iter().flat_map(|entries| entries.iter());
-    entries.fold(T::default(), |sum, (column, entry)| {
-        sum + *entry * x[column]
-    })
-}
-
-fn apply<T: Real>(matrix: &CsMat<T>, x: &[T], image: &mut [T]) {
-    for (row, image) in image.iter_mut().enumerate() {
-        *image = dot(matrix, row, x);
+/// `image = CᵀC x`.
+fn normal<T: Real>(rows: &Rows<T>, weights: &[T], x: &[T], image: &mut [T]) {
+    image.fill(T::default());
+    for (stencil, weight) in weights.iter().enumerate() {
+        let [a, b, c] = rows.apply(stencil, x);
+        rows.add_adjoint(stencil, [*weight * a, *weight * b, *weight * c], image);
     }
 }
 
 pub(crate) struct RunHessians<'a, T> {
-    rows: &'a CsMat<T>,
+    rows: &'a Rows<T>,
     first: usize,
     heights: &'a [T],
 }
 
 impl<T: Real> Hessians<T> for RunHessians<'_, T> {
+    #[inline(always)]
     fn at(&self, i: usize) -> [T; 3] {
-        [0, 1, 2].map(|k| dot(self.rows, 3 * (self.first + i) + k, self.heights))
+        self.rows.apply(self.first + i, self.heights)
     }
 }
 
 pub(crate) struct RunMatrices<'a, T> {
-    values: &'a mut [T],
+    weights: &'a [T],
+    rows: &'a Rows<T>,
+    first: usize,
+    sums: &'a mut [T],
 }
 
 impl<T: Real> Matrices<T> for RunMatrices<'_, T> {
+    #[inline(always)]
     fn set(&mut self, i: usize, matrix: [T; 3]) {
-        self.values[3 * i..][..3].copy_from_slice(&matrix);
+        let matrix = matrix.map(|y| self.weights[i] * y);
+        self.rows.add_adjoint(self.first + i, matrix, self.sums);
     }
 }
 
 pub(crate) struct RunSums<'a, T> {
-    adjoint: &'a CsMat<T>,
-    first: usize,
-    matrices: &'a [T],
+    sums: &'a [T],
 }
 
 impl<T: Real> Sums<T> for RunSums<'_, T> {
+    #[inline(always)]
     fn at(&self, i: usize) -> T {
-        dot(self.adjoint, self.first + i, self.matrices)
+        self.sums[i]
     }
 }
 
 impl Operator for SparseOperator {
-    /// The matrices `Y`.
+    /// `CᵀY`.
     type Scratch<T: Real> = Vec<T>;
     type Hessians<'a, T: Real> = RunHessians<'a, T>;
     type Matrices<'a, T: Real> = RunMatrices<'a, T>;
@@ -248,7 +270,7 @@ impl Operator for SparseOperator {
     }
 
     fn stencil_cells(&self) -> usize {
-        self.centres.len()
+        self.double.len()
     }
 
     fn longest_run(&self) -> usize {
@@ -267,64 +289,99 @@ impl Operator for SparseOperator {
         self.norm
     }
 
+    #[inline(always)]
+    fn area(&self, stencil: usize) -> f64 {
+        0.5 * self.weights[stencil]
+    }
+
     fn place(&self, vertex: usize) -> [f64; 2] {
         self.places[vertex]
     }
 
     fn scratch<T: Real>(&self) -> Result<Vec<T>> {
-        try_filled("matrices", 3 * self.centres.len(), T::default())
+        try_filled("matrices", self.vertex_cells(), T::default())
     }
 
     fn hessians(&self, z: &[f64], mut visit: impl FnMut(usize, Sym2)) {
-        let (start, end) = (0, self.centres.len());
-        let hessians = self.double.hessians(Run { start, end }, z);
-        for stencil in start..end {
-            visit(stencil, Sym2::from_coordinates(hessians.at(stencil)));
+        for stencil in 0..self.stencil_cells() {
+            visit(
+                stencil,
+                Sym2::from_coordinates(self.double.apply(stencil, z)),
+            );
         }
     }
 
+    #[inline(always)]
     fn sweep<S: ?Sized>(
         &self,
-        matrices: &mut Vec<f64>,
+        sums: &mut Vec<f64>,
         z: &[f64],
         state: &mut S,
         mut at_stencils: impl FnMut(&mut S, Run, RunHessians<'_, f64>, RunMatrices<'_, f64>),
         mut at_vertices: impl FnMut(&mut S, Run, RunSums<'_, f64>),
     ) {
-        let pair = &self.double;
+        let (rows, heights) = (&self.double, z);
+        sums.fill(0.0);
         for run in self.stencils.all() {
-            let values = &mut matrices[3 * run.start..3 * run.end];
-            at_stencils(state, *run, pair.hessians(*run, z), RunMatrices { values });
+            let Run { start: first, end } = *run;
+            let hessians = RunHessians {
+                rows,
+                first,
+                heights,
+            };
+            let matrices = RunMatrices {
+                weights: &self.weights[first..end],
+                rows,
+                first,
+                sums,
+            };
+            at_stencils(state, *run, hessians, matrices);
         }
         for run in self.vertices.all() {
-            at_vertices(state, *run, pair.sums(*run, matrices));
+            let sums = &sums[run.start..run.end];
+            at_vertices(state, *run, RunSums { sums });
         }
     }
 
+    #[inline(always)]
     fn sweep_back<S: ?Sized>(
         &self,
-        matrices: &mut Vec<f32>,
+        sums: &mut Vec<f32>,
         heights: &mut [f32],
         state: &mut S,
         mut at_stencils: impl FnMut(&mut S, Run, RunMatrices<'_, f32>),
         mut at_vertices: impl FnMut(&mut S, Run, RunSums<'_, f32>, &mut [f32]),
         mut follow: impl FnMut(&mut S, Run, RunHessians<'_, f32>),
     ) {
-        let pair = &self.single;
+        let rows = &self.single;
+        sums.fill(0.0);
         for run in self.stencils.all() {
-            let values = &mut matrices[3 * run.start..3 * run.end];
-            at_stencils(state, *run, RunMatrices { values });
+            let Run { start: first, end } = *run;
+            let matrices = RunMatrices {
+                weights: &self.single_weights[first..end],
+                rows,
+                first,
+                sums,
+            };
+            at_stencils(state, *run, matrices);
         }
         for run in self.vertices.all() {
+            let sums = &sums[run.start..run.end];
             at_vertices(
                 state,
                 *run,
-                pair.sums(*run, matrices),
+                RunSums { sums },
                 &mut heights[run.start..run.end],
             );
         }
         for run in self.stencils.all() {
-            follow(state, *run, pair.hessians(*run, heights));
+            let first = run.start;
+            let hessians = RunHessians {
+                rows,
+                first,
+                heights,
+            };
+            follow(state, *run, hessians);
         }
     }
 
@@ -332,24 +389,13 @@ impl Operator for SparseOperator {
         to.fill(1.0);
     }
 
-    /// A stencil's neighbours are the vertices that it takes heights of.
     fn spread(&self, values: &mut [f64]) {
         let old = values.to_vec();
-        let mut around = Vec::new();
-        for (stencil, centre) in self.centres.iter().enumerate() {
-            around.clear();
-            let rows = (0..3).filter_map(|k| self.double.rows.outer_view(3 * stencil + k));
-            around.extend(rows.flat_map(|row| row.indices().to_vec()));
-            around.sort_unstable();
-            around.dedup();
-            let others = around.iter().filter(|vertex| *vertex != centre);
-            let others = others.map(|vertex| self.about[*vertex]);
+        for (stencil, beside) in self.beside.iter().enumerate() {
             let start = (2.0 * old[stencil], 2.0);
-            let (sum, weight) = others
-                .filter(|other| *other != NONE)
-                .fold(start, |(sum, weight), other| {
-                    (sum + old[other], weight + 1.0)
-                });
+            let (sum, weight) = beside.iter().fold(start, |(sum, weight), other| {
+                (sum + old[*other as usize], weight + 1.0)
+            });
             values[stencil] = sum / weight;
         }
     }

@@ -4,8 +4,8 @@ mod scattered;
 
 use std::sync::Arc;
 
-use super::SparseOperator;
 use super::jacobi::JacobiGradients;
+use super::{Parts, Rows, SparseOperator};
 use crate::error::Result;
 use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
@@ -44,6 +44,56 @@ fn disk(cols: usize) -> Heightfield {
     Heightfield::new(lattice, heights.collect()).unwrap()
 }
 
+/// Of a matrix with three rows `h_xx, h_xy, h_yy` for each stencil, as
+/// [`HessianOperator::to_sparse`] makes them, and a column for each vertex. `centres` are the vertices in
+/// the middle of the stencils, whose neighbours are the others that they take heights of.
+fn operator_of(
+    matrix: &sprs::CsMat<f64>,
+    centres: &[usize],
+    places: Vec<[f64; 2]>,
+    spacing: f64,
+) -> SparseOperator {
+    let mut about = vec![None; places.len()];
+    for (stencil, centre) in centres.iter().enumerate() {
+        about[*centre] = Some(stencil as u32);
+    }
+    let (mut rows, mut beside) = (Rows::new(), Vec::new());
+    for (stencil, centre) in centres.iter().enumerate() {
+        let mut entries = std::collections::BTreeMap::<usize, [f64; 3]>::new();
+        for k in 0..3 {
+            for (vertex, entry) in matrix.outer_view(3 * stencil + k).unwrap().iter() {
+                entries.entry(vertex).or_default()[k] = *entry;
+            }
+        }
+        let others = entries.keys().filter(|vertex| *vertex != centre);
+        beside.push(others.filter_map(|vertex| about[*vertex]).collect());
+        rows.push(entries.into_iter().map(|(vertex, [xx, xy, yy])| {
+            (vertex as u32, crate::Sym2::new(xx, xy, yy).coordinates())
+        }));
+    }
+    let extent = |k: usize| {
+        let along = rows
+            .entries
+            .iter()
+            .map(|(vertex, _)| places[*vertex as usize][k]);
+        let [least, most] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+            [a.min(x), b.max(x)]
+        });
+        most - least
+    };
+    let size = extent(0).max(extent(1));
+    SparseOperator::new(Parts {
+        rows,
+        areas: Vec::new(),
+        beside,
+        constant: None,
+        places,
+        spacing,
+        size,
+    })
+    .unwrap()
+}
+
 /// One instance under both operators.
 struct Both {
     domain: Arc<Domain>,
@@ -60,13 +110,13 @@ impl Both {
         let all = *domain.lattice();
         let vertices = || (0..all.len()).map(|i| (i / all.cols(), i % all.cols()));
         let hessian = HessianOperator::new(&domain);
-        let operator = SparseOperator::new(
+        let centres: Vec<usize> = hessian.vertices().map(|(r, c)| all.index(r, c)).collect();
+        let operator = operator_of(
             &hessian.to_sparse(),
-            hessian.vertices().map(|(r, c)| all.index(r, c)).collect(),
+            &centres,
             vertices().map(|(r, c)| all.position(r, c)).collect(),
             all.spacing(),
-        )
-        .unwrap();
+        );
         let mut target = vec![0.0; all.len()];
         for cell in domain.active().cells() {
             target[domain.lattice_index(cell)] = lattice.target[cell];

@@ -1,0 +1,120 @@
+//! Normals, areas and smoothing of the vertices of a mesh.
+
+use nalgebra::Vector3;
+
+use super::topology::Topology;
+
+pub(super) type Point = Vector3<f64>;
+
+/// How far a vertex goes towards the mean of its neighbours in one step. With 1 there are meshes that
+/// alternate for ever.
+const STEP: f64 = 0.7;
+
+/// Where vertices are, and which way the surface faces there.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    pub normal: Point,
+    pub tangents: [Point; 2],
+}
+
+impl Frame {
+    /// About a normal, turned as little as may be from another frame.
+    pub(super) fn about(normal: Point, hint: Point) -> Self {
+        let mut along = hint - normal * normal.dot(&hint);
+        if along.norm_squared() < 1e-6 {
+            let least = normal.iamin();
+            along = Point::ith(least, 1.0) - normal * normal[least];
+        }
+        let along = along.normalize();
+        Frame {
+            normal,
+            tangents: [along, normal.cross(&along)],
+        }
+    }
+
+    /// Along both tangents, and upwards.
+    pub(super) fn coordinates(&self, v: Point) -> [f64; 3] {
+        let [t1, t2] = &self.tangents;
+        [v.dot(t1), v.dot(t2), v.dot(&self.normal)]
+    }
+}
+
+/// Unit normals of vertices by the areas of their triangles; where these cancel, that of the `old` ones.
+pub(super) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -> Vec<Point> {
+    let mut sums = vec![Point::zeros(); x.len()];
+    for triangle in &topology.triangles {
+        let area = twice_area(x, triangle);
+        for corner in triangle {
+            sums[*corner as usize] += area;
+        }
+    }
+    for (vertex, sum) in sums.iter_mut().enumerate() {
+        let size = sum.norm();
+        *sum = match size > 0.0 && size.is_finite() {
+            true => *sum / size,
+            false => old.map_or(Point::z(), |old| old[vertex]),
+        };
+    }
+    sums
+}
+
+/// Normal of a triangle times twice its area.
+pub(super) fn twice_area(x: &[Point], triangle: &[u32; 3]) -> Point {
+    let [a, b, c] = triangle.map(|i| x[i as usize]);
+    (b - a).cross(&(c - a))
+}
+
+/// A third of the areas around each vertex.
+pub(super) fn areas(topology: &Topology, x: &[Point]) -> Vec<f64> {
+    let mut areas = vec![0.0; x.len()];
+    for triangle in &topology.triangles {
+        let area = twice_area(x, triangle).norm() / 6.0;
+        for corner in triangle {
+            areas[*corner as usize] += area;
+        }
+    }
+    areas
+}
+
+/// What the surface encloses, about the origin.
+pub(super) fn volume(topology: &Topology, x: &[Point]) -> f64 {
+    let tetrahedra = topology.triangles.iter();
+    tetrahedra
+        .map(|t| x[t[0] as usize].dot(&twice_area(x, t)) / 6.0)
+        .sum()
+}
+
+/// Each vertex towards the mean of its neighbours (the umbrella operator), vertices on the border
+/// towards that of their neighbours along it.
+pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
+    let mut old = x.to_vec();
+    for _ in 0..steps {
+        old.copy_from_slice(x);
+        for (vertex, x) in x.iter_mut().enumerate() {
+            let (mut sum, mut count) = (Point::zeros(), 0.0);
+            if topology.inside[vertex] {
+                for other in topology.around(vertex) {
+                    sum += old[*other as usize];
+                    count += 1.0;
+                }
+            } else {
+                for other in topology.along_rim(vertex) {
+                    sum += old[other];
+                    count += 1.0;
+                }
+                // Corners, and places where borders meet, stay.
+                if count != 2.0 {
+                    continue;
+                }
+            }
+            *x += STEP * (sum / count - old[vertex]);
+        }
+    }
+}
+
+/// `x` where it is along the `rays`, and at `places` across them.
+pub(super) fn across(x: &[Point], places: &[Point], rays: &[Point]) -> Vec<Point> {
+    let all = x.iter().zip(places).zip(rays);
+    all.map(|((x, place), ray)| place + ray * ray.dot(&(x - place)))
+        .collect()
+}

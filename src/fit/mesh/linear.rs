@@ -1,0 +1,245 @@
+//! The energy of a mesh whose vertices move along rays, linearised about where they are.
+//!
+//! With the unknowns `√w s`, `w` being each vertex's share of the area, the fidelity has the same weight at
+//! all of them. What the second fundamental form is before anything moves is the column of one more
+//! vertex, which is held at 1.
+
+use super::geometry::{Frame, Point, areas};
+use super::quadratic::{Neighbour, Quadratic, SECOND};
+use super::topology::Topology;
+use crate::error::{Error, Result, try_filled};
+use crate::fit::energy::law::{Bends, Kind};
+use crate::fit::energy::problem;
+use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
+use crate::lattice::per_cell::PerCell;
+use crate::math::sym2::Sym2;
+
+pub(super) type Problem = problem::Problem<SparseOperator>;
+
+/// Least share of the area, relative to the mean, that a vertex counts for.
+const LEAST_AREA: f64 = 0.1;
+
+/// Rings that amplify noise more than this, relative to a hexagonal one, are helped by the second ring.
+/// With it everywhere else but on regular meshes, surfaces come out closer to the truth, by a third of
+/// the angle between normals: a ring does not see all of the noise on it.
+const AMPLIFIED: f64 = 1.05;
+
+/// So many neighbours may do without it.
+const DETERMINED: usize = 6;
+
+/// What stays the same from one linearisation to the next, in normalised coordinates.
+#[derive(Debug, Clone)]
+pub(super) struct Given {
+    pub topology: Topology,
+    /// The vertices as they were given.
+    pub noisy: Vec<Point>,
+    /// What each vertex is trusted, 1 for all if empty; and which stay where they are.
+    pub confidence: Vec<f64>,
+    pub held: Vec<bool>,
+}
+
+/// The least confidence: what is next to none would need a system of its own.
+const LEAST_CONFIDENCE: f64 = 1e-4;
+
+/// About a base.
+#[derive(Debug, Clone)]
+pub(super) struct Linearised {
+    pub problem: Problem,
+    pub base: Vec<Point>,
+    pub frames: Vec<Frame>,
+    /// The vertices in the middle of stencils, and the stencil about each vertex, or [`NONE`].
+    pub centres: Vec<u32>,
+    pub about: Vec<u32>,
+    /// From the unknowns to distances along the rays.
+    pub scales: Vec<f64>,
+    /// Spacing of a hexagonal lattice with so many vertices.
+    pub spacing: f64,
+}
+
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Distance between the vertices of a hexagonal lattice where each has such an area.
+pub(super) fn spacing_of(area: f64) -> f64 {
+    (2.0 * area / 3f64.sqrt()).sqrt()
+}
+
+impl Linearised {
+    /// About vertices at `base`, which move along the normals of their frames.
+    ///
+    /// # Errors
+    /// [`Error::Topology`] if no vertex has triangles all around, or out of memory.
+    pub(super) fn about(
+        given: &Given,
+        base: Vec<Point>,
+        frames: Vec<Frame>,
+        bends: Bends,
+        lambda: impl Fn(f64) -> f64,
+    ) -> Result<Self> {
+        let Given { topology, .. } = given;
+        let count = topology.len();
+        let constant = count as u32;
+        let areas = areas(topology, &base);
+        let mut about = try_filled("stencils", count, NONE)?;
+        let (mut centres, mut rows) = (Vec::new(), Rows::new());
+        let mut row = Vec::new();
+        for vertex in 0..count {
+            if !topology.inside[vertex] {
+                continue;
+            }
+            let ray = &frames[vertex];
+            let Some((fit, vertices, frame)) = fit_at(topology, &base, ray, vertex) else {
+                continue;
+            };
+            row.clear();
+            let mut own = Sym2::default();
+            for (k, other) in vertices.iter().enumerate() {
+                let change = fit.change(&frame, k, frames[*other as usize].normal);
+                row.push((*other, change.coordinates()));
+                own = own - fit.change(&frame, k, ray.normal);
+            }
+            row.push((vertex as u32, own.coordinates()));
+            row.push((constant, fit.hessian().coordinates()));
+            if row
+                .iter()
+                .any(|(_, entry)| entry.iter().any(|x| !x.is_finite()))
+            {
+                continue;
+            }
+            about[vertex] = centres.len() as u32;
+            centres.push(vertex as u32);
+            rows.push(row.iter().copied());
+        }
+        if centres.is_empty() {
+            return Err(Error::Topology {
+                reason:
+                    "no vertex has triangles all around it that say how the surface bends there"
+                        .into(),
+                advice: "take a mesh with vertices inside, not a strip or separate triangles",
+            });
+        }
+        let mean = centres.iter().map(|v| areas[*v as usize]).sum::<f64>() / centres.len() as f64;
+        let spacing = spacing_of(mean);
+        if !(mean > 0.0 && mean.is_finite()) {
+            return Err(Error::Topology {
+                reason: "its triangles have no area".into(),
+                advice: "check its coordinates",
+            });
+        }
+        let share = |vertex: usize| (areas[vertex] / mean).max(LEAST_AREA);
+        let mut scales = try_filled("vertices", count, 0.0)?;
+        for (vertex, scale) in scales.iter_mut().enumerate() {
+            let trust = given
+                .confidence
+                .get(vertex)
+                .map_or(1.0, |c| c.max(LEAST_CONFIDENCE));
+            *scale = (share(vertex) * trust).sqrt().recip();
+        }
+        rows.scale_columns(|vertex| scales.get(vertex as usize).copied().unwrap_or(1.0));
+        let beside = centres.iter().map(|vertex| {
+            let ring = topology.around(*vertex as usize).iter();
+            let ring = ring.map(|other| about[*other as usize]);
+            ring.filter(|stencil| *stencil != NONE).collect()
+        });
+        let operator = SparseOperator::new(Parts {
+            beside: beside.collect(),
+            areas: centres
+                .iter()
+                .map(|vertex| share(*vertex as usize))
+                .collect(),
+            rows,
+            constant: Some(constant),
+            places: try_filled("vertices", count + 1, [0.0; 2])?,
+            spacing,
+            size: 1.0,
+        })?;
+        let mut target = try_filled("vertices", count + 1, 1.0)?;
+        for vertex in 0..count {
+            let off = given.noisy[vertex] - base[vertex];
+            target[vertex] = off.dot(&frames[vertex].normal) / scales[vertex];
+        }
+        let mut problem = Problem::under(operator, lambda(spacing), target, Kind::Huber(bends));
+        problem.constrained.push(constant);
+        let mut inverse = try_filled("fidelity", count + 1, 1.0)?;
+        inverse[count] = 0.0;
+        for (vertex, held) in given.held.iter().enumerate() {
+            if *held {
+                problem.constrained.push(vertex as u32);
+                inverse[vertex] = 0.0;
+            }
+        }
+        problem.inverse_fidelity = PerCell::Each(inverse);
+        let sizes = given.noisy.iter().map(|x| x.norm());
+        let largest = sizes.fold(0.0, f64::max);
+        problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
+        Ok(Linearised {
+            problem,
+            base,
+            frames,
+            centres,
+            about,
+            scales,
+            spacing,
+        })
+    }
+
+    /// The unknowns with nothing moved.
+    pub(super) fn start(&self) -> Vec<f64> {
+        let mut z = vec![0.0; self.base.len() + 1];
+        z[self.base.len()] = 1.0;
+        for vertex in &self.problem.constrained {
+            z[*vertex as usize] = self.problem.target[*vertex as usize];
+        }
+        z
+    }
+
+    /// The vertices moved by what the unknowns say.
+    pub(super) fn moved(&self, z: &[f64]) -> Vec<Point> {
+        let all = self
+            .base
+            .iter()
+            .zip(&self.frames)
+            .zip(z.iter().zip(&self.scales));
+        all.map(|((base, frame), (z, scale))| base + frame.normal * (scale * z))
+            .collect()
+    }
+}
+
+/// A frame is turned into the tangent plane of its own fit where it is off by more than this slope: what
+/// is fitted over a slanting plane is not the second fundamental form.
+const SLANTING: f64 = 0.02;
+
+/// The quadratic about a vertex, over its tangent plane, and the vertices that it goes by.
+pub(super) fn fit_at(
+    topology: &Topology,
+    x: &[Point],
+    frame: &Frame,
+    vertex: usize,
+) -> Option<(Quadratic, Vec<u32>, Frame)> {
+    let offset = |other: &u32, weight| Neighbour {
+        offset: x[*other as usize] - x[vertex],
+        weight,
+    };
+    let mut vertices = topology.around(vertex).to_vec();
+    let mut neighbours: Vec<_> = vertices.iter().map(|other| offset(other, 1.0)).collect();
+    let mut fit = match vertices.len() >= DETERMINED {
+        true => Quadratic::fit(frame, &neighbours).filter(|fit| fit.amplification() <= AMPLIFIED),
+        false => None,
+    };
+    if fit.is_none() {
+        let mut second = Vec::new();
+        topology.second_ring(vertex, &mut second);
+        neighbours.extend(second.iter().map(|other| offset(other, SECOND)));
+        vertices.extend(second);
+        fit = Quadratic::fit(frame, &neighbours);
+    }
+    let fit = fit?;
+    let [a, b] = fit.slope();
+    if a.hypot(b) > SLANTING {
+        let [t1, t2] = &frame.tangents;
+        let turned = Frame::about((frame.normal - a * t1 - b * t2).normalize(), *t1);
+        if let Some(fit) = Quadratic::fit(&turned, &neighbours) {
+            return Some((fit, vertices, turned));
+        }
+    }
+    Some((fit, vertices, frame.clone()))
+}

@@ -1,0 +1,64 @@
+//! How large the noise of a mesh is.
+
+use nalgebra::{Matrix6, Vector6};
+
+use super::geometry::{Frame, Point};
+use super::topology::Topology;
+
+/// From the median of a normal distribution's absolute values to its standard deviation.
+const MEDIAN: f64 = 1.4826;
+
+/// Fewer samples say nothing, and more say no more.
+const FEWEST: usize = 50;
+const MOST: usize = 20_000;
+
+/// Standard deviation of `noisy` along the normals of the base: by how much a vertex is off the quadratic
+/// that fits those around it, as a median, so that creases do not count.
+pub(super) fn noise(
+    topology: &Topology,
+    base: &[Point],
+    frames: &[Frame],
+    noisy: &[Point],
+) -> Option<f64> {
+    let inside = (0..topology.len()).filter(|vertex| topology.inside[*vertex]);
+    let step = inside.clone().count().div_ceil(MOST).max(1);
+    let mut second = Vec::new();
+    let mut samples = Vec::new();
+    for vertex in inside.step_by(step) {
+        let frame = &frames[vertex];
+        let off = |other: usize| frame.normal.dot(&(noisy[other] - base[vertex]));
+        topology.second_ring(vertex, &mut second);
+        let all = topology
+            .around(vertex)
+            .iter()
+            .chain(&second)
+            .map(|other| *other as usize);
+        let ring = topology
+            .around(vertex)
+            .iter()
+            .map(|n| (base[*n as usize] - base[vertex]).norm());
+        let scale = ring.sum::<f64>() / topology.around(vertex).len() as f64;
+        let (mut matrix, mut right) = (Matrix6::zeros(), Vector6::zeros());
+        for other in all {
+            let [x, y, _] = frame.coordinates((base[other] - base[vertex]) / scale);
+            let q = Vector6::new(1.0, x, y, x * x, x * y, y * y);
+            matrix += q * q.transpose();
+            right += q * off(other);
+        }
+        // The variance of the prediction is that entry of the inverse, in units of the noise's.
+        let Some(inverse) = matrix.cholesky().map(|cholesky| cholesky.inverse()) else {
+            continue;
+        };
+        let predicted = (inverse * right)[0];
+        let sample = (off(vertex) - predicted).abs() / (1.0 + inverse[(0, 0)]).sqrt();
+        if sample.is_finite() {
+            samples.push(sample);
+        }
+    }
+    if samples.len() < FEWEST {
+        return None;
+    }
+    let middle = samples.len() / 2;
+    let (_, median, _) = samples.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(MEDIAN * *median)
+}

@@ -1,0 +1,116 @@
+//! What may be chosen about a solve over a mesh.
+
+use crate::error::{Error, Result};
+use crate::fit::options::{Lambda, Options};
+
+/// Options of [`fit_mesh`](super::fit_mesh), as for heightfields where these are the same. The energy is
+/// [`Energy::Huber`](crate::Energy::Huber).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshOptions {
+    pub(super) lambda: Lambda,
+    pub(super) gap: f64,
+    pub(super) max_iterations: usize,
+    pub(super) bend_radius: f64,
+    pub(super) flatness: f64,
+    pub(super) crease_radius: f64,
+    pub(super) crease_passes: usize,
+}
+
+impl Default for MeshOptions {
+    fn default() -> Self {
+        MeshOptions {
+            lambda: Lambda::Auto,
+            gap: 0.01,
+            max_iterations: 1000,
+            bend_radius: 0.1,
+            flatness: 0.3,
+            crease_radius: 0.1,
+            crease_passes: 2,
+        }
+    }
+}
+
+impl MeshOptions {
+    /// Weight of the fidelity term, stated for a mesh in a ball of the diameter 1; by default
+    /// [`Lambda::Auto`], which is `8/σh` for noise of the size `σ` on a mesh of the spacing `h`.
+    pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
+        self.lambda = lambda.into();
+        self
+    }
+
+    /// The certified relative gap at which the last linearised problem is solved; default 0.01.
+    pub fn gap(mut self, gap: f64) -> Self {
+        self.gap = gap;
+        self
+    }
+
+    /// The most ADMM iterations for each linearisation; default 1000.
+    pub fn max_iterations(mut self, iterations: usize) -> Self {
+        self.max_iterations = iterations;
+        self
+    }
+
+    /// Radius below which bends cost their size, and above which they cost their square, in the
+    /// same coordinates; default 0.1.
+    pub fn bend_radius(mut self, radius: f64) -> Self {
+        self.bend_radius = radius;
+        self
+    }
+
+    /// The slope that the cost of bends begins with, from 0 to 1; default 0.3.
+    pub fn flatness(mut self, slope: f64) -> Self {
+        self.flatness = slope;
+        self
+    }
+
+    /// What bends more tightly than this radius is a crease, in the same coordinates;
+    /// default 0.1.
+    pub fn crease_radius(mut self, radius: f64) -> Self {
+        self.crease_radius = radius;
+        self
+    }
+
+    /// Passes in which creases cost less, each about another linearisation; default 2, at most 20.
+    pub fn crease_passes(mut self, passes: usize) -> Self {
+        self.crease_passes = passes;
+        self
+    }
+
+    /// Whether every option is within its range.
+    ///
+    /// # Errors
+    /// [`Error::Option`] with the name of the first that is not.
+    pub fn validate(&self) -> Result<()> {
+        self.common().validate()
+    }
+
+    /// The same as options of a heightfield.
+    pub(super) fn common(&self) -> Options {
+        Options::default()
+            .lambda(self.lambda)
+            .gap(self.gap)
+            .max_iterations(self.max_iterations)
+            .bend_radius(self.bend_radius)
+            .flatness(self.flatness)
+            .crease_radius(self.crease_radius)
+            .crease_passes(self.crease_passes)
+    }
+}
+
+/// Confidences are finite and at least 0.
+pub(super) fn check_confidence(confidence: &[f64], vertices: usize) -> Result<()> {
+    crate::error::check_count("confidence of the mesh", vertices, 1, confidence.len())?;
+    let odd = confidence
+        .iter()
+        .position(|c| !(c.is_finite() && *c >= 0.0));
+    match odd {
+        None => Ok(()),
+        Some(vertex) => Err(Error::NotFinite {
+            what: "confidence of the mesh",
+            value: confidence[vertex],
+            row: vertex,
+            col: 0,
+            advice: "a confidence is a finite number, 0 or more",
+        }),
+    }
+}

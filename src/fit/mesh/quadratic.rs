@@ -1,0 +1,169 @@
+//! The quadratic through a vertex that fits its neighbours' heights above its tangent plane best, and how
+//! its second derivatives change when the vertices move.
+
+use super::geometry::{Frame, Point};
+use crate::math::sym2::Sym2;
+
+/// Coefficients: of `½x²`, `xy`, `½y²`, `x` and `y`.
+const N: usize = 5;
+
+/// What a vertex of the second ring counts beside one of the first.
+pub(super) const SECOND: f64 = 0.03;
+
+/// A neighbour: its offset from the vertex, and what it counts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Neighbour {
+    pub offset: Point,
+    pub weight: f64,
+}
+
+/// The fit at one vertex.
+#[derive(Debug, Clone)]
+pub(super) struct Quadratic {
+    /// From heights to the coefficients: a column for each neighbour.
+    columns: Vec<[f64; N]>,
+    inverse: [[f64; N]; N],
+    coefficients: [f64; N],
+    /// Coordinates of the neighbours, by `scale`.
+    places: Vec<[f64; 2]>,
+    residuals: Vec<f64>,
+    weights: Vec<f64>,
+    scale: f64,
+}
+
+fn terms([x, y]: [f64; 2]) -> [f64; N] {
+    [0.5 * x * x, x * y, 0.5 * y * y, x, y]
+}
+
+fn inner(a: &[f64; N], b: &[f64; N]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Quadratic {
+    /// Nothing where the neighbours do not determine one.
+    pub(super) fn fit(frame: &Frame, neighbours: &[Neighbour]) -> Option<Self> {
+        let full = neighbours.iter().filter(|n| n.weight == 1.0);
+        let count = full.clone().count() as f64;
+        let scale = (full.map(|n| n.offset.norm_squared()).sum::<f64>() / count).sqrt();
+        if !(scale > 0.0 && scale.is_finite()) {
+            return None;
+        }
+        let mut matrix = [[0.0; N]; N];
+        let mut heights = Vec::with_capacity(neighbours.len());
+        let mut places = Vec::with_capacity(neighbours.len());
+        for neighbour in neighbours {
+            let [x, y, height] = frame.coordinates(neighbour.offset / scale);
+            let q = terms([x, y]);
+            for (row, a) in matrix.iter_mut().zip(q) {
+                for (entry, b) in row.iter_mut().zip(q) {
+                    *entry += neighbour.weight * a * b;
+                }
+            }
+            heights.push(height);
+            places.push([x, y]);
+        }
+        let inverse = inverse(&matrix)?;
+        let columns: Vec<[f64; N]> = neighbours
+            .iter()
+            .zip(&places)
+            .map(|(neighbour, place)| {
+                let q = terms(*place);
+                std::array::from_fn(|k| neighbour.weight * inner(&inverse[k], &q))
+            })
+            .collect();
+        let mut coefficients = [0.0; N];
+        for (column, height) in columns.iter().zip(&heights) {
+            for (coefficient, entry) in coefficients.iter_mut().zip(column) {
+                *coefficient += entry * height;
+            }
+        }
+        let residuals = heights
+            .iter()
+            .zip(&places)
+            .map(|(height, place)| height - inner(&coefficients, &terms(*place)))
+            .collect();
+        Some(Quadratic {
+            columns,
+            inverse,
+            coefficients,
+            places,
+            residuals,
+            weights: neighbours.iter().map(|n| n.weight).collect(),
+            scale,
+        })
+    }
+
+    /// How much the second derivatives amplify noise of the heights, relative to the six-ring of a
+    /// hexagonal lattice.
+    pub(super) fn amplification(&self) -> f64 {
+        // 20/3 in units of h⁻⁴.
+        let squares = self
+            .columns
+            .iter()
+            .map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
+        squares.sum::<f64>() / (20.0 / 3.0)
+    }
+
+    /// Second derivatives.
+    pub(super) fn hessian(&self) -> Sym2 {
+        let [xx, xy, yy, ..] = self.coefficients;
+        Sym2::new(xx, xy, yy).scale(1.0 / self.scale)
+    }
+
+    /// First derivatives.
+    pub(super) fn slope(&self) -> [f64; 2] {
+        let [.., x, y] = self.coefficients;
+        [x, y]
+    }
+
+    /// Height above the tangent plane.
+    pub(super) fn height(&self, place: [f64; 2]) -> f64 {
+        self.scale * inner(&self.coefficients, &terms(place.map(|x| x / self.scale)))
+    }
+
+    /// How the second derivatives change when the `k`-th neighbour moves by `v` relative to the vertex.
+    pub(super) fn change(&self, frame: &Frame, k: usize, v: Point) -> Sym2 {
+        let [dx, dy, dz] = frame.coordinates(v);
+        let [x, y] = self.places[k];
+        let along = [x * dx, x * dy + y * dx, y * dy, dx, dy];
+        let rise = dz - inner(&along, &self.coefficients);
+        let pull = self.weights[k] * self.residuals[k];
+        let [xx, xy, yy] = std::array::from_fn(|row| {
+            self.columns[k][row] * rise + pull * inner(&self.inverse[row], &along)
+        });
+        Sym2::new(xx, xy, yy).scale(self.scale.powi(-2))
+    }
+}
+
+/// Of a symmetric matrix that is well positive definite, by Cholesky.
+fn inverse(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let mut l = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..=i {
+            let sum: f64 = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+            if i == j {
+                if sum.is_nan() || sum <= 1e-8 * matrix[i][i] {
+                    return None;
+                }
+                l[i][i] = sum.sqrt();
+            } else {
+                l[i][j] = sum / l[j][j];
+            }
+        }
+    }
+    let mut inverse = [[0.0; N]; N];
+    for column in 0..N {
+        let mut x = [0.0; N];
+        for i in 0..N {
+            let unit = f64::from(u8::from(i == column));
+            x[i] = (unit - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
+        }
+        for i in (0..N).rev() {
+            x[i] = (x[i] - (i + 1..N).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
+        }
+        for (row, x) in inverse.iter_mut().zip(x) {
+            row[column] = x;
+        }
+    }
+    Some(inverse)
+}

@@ -1,0 +1,493 @@
+//! From one linearisation to the next.
+
+use web_time::Instant;
+
+use super::border::restore;
+use super::geometry::{Frame, Point, across, areas, normals, smooth, twice_area, volume};
+use super::linear::{Given, Linearised, NONE, spacing_of};
+use super::noise::noise;
+use super::options::{MeshOptions, check_confidence};
+use super::report::{MeshPass, MeshReport};
+use super::topology::Topology;
+use crate::error::{Error, Result};
+use crate::fit::admm::iteration::Level;
+use crate::fit::admm::schedule::Plan;
+use crate::fit::admm::state::State;
+use crate::fit::energy::law::Bends;
+use crate::fit::operator::sparse::SparseOperator;
+use crate::fit::operator::sparse::jacobi::JacobiGradients;
+use crate::fit::options::Lambda;
+use crate::fit::partwise::Status;
+use crate::fit::report::{Progress, Seconds, StopReason};
+use crate::scene::mesh::Mesh;
+
+/// Smoothing steps for the first base: of the places across the rays, and of the surface.
+const PLACES: usize = 3;
+const SURFACE: usize = 10;
+
+/// Of noise that cannot be told from none, as a share of the spacing.
+const NO_NOISE: f64 = 1e-4;
+
+/// Creases are looked for where λ is at most so many times what the noise asks for: a larger one takes
+/// noise for creases.
+const TOO_LARGE: f64 = 4.0;
+
+/// A triangle mesh with the surface that was found.
+#[derive(Debug, Clone)]
+pub struct MeshSurface {
+    mesh: Mesh,
+    report: MeshReport,
+}
+
+impl MeshSurface {
+    /// The vertices, triangles, colours, texture coordinates and textures of the input, in the same order;
+    /// its vertices moved.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// How it was found.
+    pub fn report(&self) -> &MeshReport {
+        &self.report
+    }
+
+    /// Both.
+    pub fn into_parts(self) -> (Mesh, MeshReport) {
+        (self.mesh, self.report)
+    }
+}
+
+/// What else is known of a mesh's vertices.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MeshKnown {
+    confidence: Vec<f64>,
+    held: Vec<bool>,
+}
+
+impl MeshKnown {
+    /// How far each vertex is to be trusted, 1 being usual: a weight of its fidelity.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] if one is no finite number from 0 on.
+    pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
+        check_confidence(&confidence, confidence.len())?;
+        self.confidence = confidence;
+        Ok(self)
+    }
+
+    /// Which vertices stay where they are.
+    pub fn with_held(mut self, held: Vec<bool>) -> Self {
+        self.held = held;
+        self
+    }
+}
+
+/// The way from the user's coordinates: `scale (x − centre)`.
+#[derive(Debug, Clone, Copy)]
+struct Ball {
+    centre: Point,
+    scale: f64,
+}
+
+/// A solve over a mesh that runs in steps.
+#[derive(Debug, Clone)]
+pub struct MeshSolver {
+    mesh: Mesh,
+    options: MeshOptions,
+    given: Given,
+    bounds: Ball,
+    lambda: f64,
+    sigma: Option<f64>,
+    /// The linearisation under way.
+    level: Option<Level<SparseOperator>>,
+    linear: Linearised,
+    creases: usize,
+    /// The surface so far.
+    surface: Vec<Point>,
+    passes: Vec<MeshPass>,
+    before: Before,
+    reason: Option<StopReason>,
+    seconds: Seconds,
+    start: Instant,
+}
+
+/// Figures of the input.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    volume: f64,
+    area: f64,
+    flipped: usize,
+}
+
+/// Moves the vertices of a mesh so that it is piecewise developable, whatever its shape: closed,
+/// overhanging, with borders or in parts.
+///
+/// The surface minimises `λ Σ w s² + Σ w φ(‖II‖_*)`, `s` being how far a vertex goes from where it was
+/// given, along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the
+/// cost of bends of [`Energy::Huber`](crate::Energy::Huber). It is linearised about a smoothed base and
+/// solved as over a lattice, and then once more about the result.
+///
+/// # Errors
+/// [`Error::Topology`] if the mesh is no surface and cannot safely be made one, and says where;
+/// [`Error::Unsupported`] for a cloud of points, [`Error::Option`], or out of memory.
+pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
+    let mut solver = MeshSolver::new(mesh.clone(), MeshKnown::default(), options)?;
+    while solver.advance(1000)? == Status::Running {}
+    solver.surface()
+}
+
+impl MeshSolver {
+    /// # Errors
+    /// As [`fit_mesh`]; [`Error::Shape`] if what is known is not of as many vertices.
+    pub fn new(mesh: Mesh, known: MeshKnown, options: &MeshOptions) -> Result<Self> {
+        let start = Instant::now();
+        options.validate()?;
+        if mesh.is_cloud() {
+            return Err(Error::Unsupported {
+                format: "point cloud",
+                reason: "its points have no triangles; fit what is seen of it along a view".into(),
+            });
+        }
+        let topology = Topology::new(&mesh)?;
+        let bounds = Ball::around(&mesh)?;
+        let noisy: Vec<Point> = topology
+            .source
+            .iter()
+            .map(|vertex| bounds.inward(mesh.positions()[*vertex as usize]))
+            .collect();
+        let (confidence, held) = known.of(&mesh, &topology)?;
+        let given = Given {
+            topology,
+            noisy,
+            confidence,
+            held,
+        };
+        let topology = &given.topology;
+        let (base, frames) = first_base(&given);
+        let own = areas(topology, &base);
+        let inside = || (0..topology.len()).filter(|vertex| topology.inside[*vertex]);
+        let mean = inside().map(|vertex| own[vertex]).sum::<f64>() / inside().count() as f64;
+        let spacing = spacing_of(mean);
+        let sigma = noise(topology, &base, &frames, &given.noisy);
+        let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
+            8.0 / (sigma.max(NO_NOISE * spacing) * spacing)
+        });
+        let lambda = match options.lambda {
+            Lambda::Auto => auto,
+            given => given.value(),
+        };
+        let mut options = *options;
+        if lambda > TOO_LARGE * auto {
+            options.crease_passes = 0;
+        }
+        let before = Before::of(topology, &given.noisy, &base);
+        let linear = linearised(&given, base, frames, &options, lambda)?;
+        let mut solver = MeshSolver {
+            mesh,
+            options,
+            bounds,
+            lambda,
+            sigma,
+            level: None,
+            surface: given.noisy.clone(),
+            linear,
+            given,
+            creases: 0,
+            passes: Vec::new(),
+            before,
+            reason: None,
+            seconds: Seconds::default(),
+            start,
+        };
+        solver.begin(None)?;
+        solver.seconds.setup = start.elapsed().as_secs_f64();
+        Ok(solver)
+    }
+
+    /// Goes on for about so many conjugate-gradient iterations.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn advance(&mut self, iterations: usize) -> Result<Status> {
+        let mut left = iterations;
+        while self.reason.is_none() && left > 0 {
+            let Some(level) = &mut self.level else {
+                break;
+            };
+            if let Some(reason) = level.advance(&mut left)? {
+                self.finish(reason)?;
+                // Another linearisation is as much work as an advance.
+                left = 0;
+            }
+        }
+        Ok(match self.reason {
+            Some(reason) => Status::Stopped(reason),
+            None => Status::Running,
+        })
+    }
+
+    /// Stops as soon as may be; the surface is the best one so far.
+    pub fn cancel(&mut self) {
+        self.reason.get_or_insert(StopReason::Cancelled);
+    }
+
+    /// Where it stands.
+    pub fn progress(&self) -> Progress {
+        let (objective, dual_bound, gap) = match &self.level {
+            Some(level) => {
+                let best = &level.best;
+                (best.objective(), best.dual_bound, Some(best.gap()))
+            }
+            None => (0.0, 0.0, None),
+        };
+        let done = |of: fn(&MeshPass) -> usize| self.passes.iter().map(of).sum::<usize>();
+        let under_way = self.level.as_ref().map(Level::report);
+        Progress {
+            level: self.options.crease_passes.saturating_sub(self.passes.len()),
+            iteration: done(|pass| pass.iterations) + under_way.map_or(0, |l| l.iterations),
+            cg_iterations: done(|pass| pass.cg_iterations)
+                + under_way.map_or(0, |l| l.cg_iterations),
+            objective,
+            dual_bound,
+            gap,
+            rho: self.level.as_ref().map_or(0.0, |level| level.state.rho),
+            elapsed: self.start.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Starts to solve the linearised problem, where there is one before from its dual.
+    fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised)>) -> Result<()> {
+        let plan = Plan::new(&self.options.common());
+        let start = self.linear.start();
+        let problem = &mut self.linear.problem;
+        let mut state = State::new(problem, plan.first_rho(problem))?;
+        self.creases = 0;
+        if let Some((old, before)) = warm {
+            let creases = problem.reweight_creases(&start, self.options.crease_radius)?;
+            self.creases = creases.vertices;
+            state.rho = old.rho;
+            for (stencil, centre) in self.linear.centres.iter().enumerate() {
+                let from = before.about[*centre as usize];
+                if from != NONE {
+                    let (dual, hessian) = old.matrices(&before.problem, from as usize);
+                    state.set_matrices(stencil, dual, hessian);
+                }
+            }
+        }
+        state.z.copy_from_slice(&start);
+        let problem = self.linear.problem.clone();
+        let solver = JacobiGradients::new(&problem, state.rho)?;
+        let (level, reason) = Level::new(problem, state, solver, plan, 0, false)?;
+        self.level = Some(level);
+        match reason {
+            Some(reason) => self.finish(reason),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the result of a linearised problem, and goes on to the next one.
+    fn finish(&mut self, reason: StopReason) -> Result<()> {
+        let Some(level) = self.level.take() else {
+            return Ok(());
+        };
+        let report = level.report();
+        let last = self.passes.len() >= self.options.crease_passes;
+        let z = &level.best.z;
+        let mut next = self.linear.moved(z);
+        restore(&self.given, &mut next, &self.linear.frames);
+        let moved = next
+            .iter()
+            .zip(&self.linear.base)
+            .map(|(a, b)| (a - b).norm());
+        let squares = moved.clone().map(|d| d * d).sum::<f64>();
+        let scale = self.bounds.scale;
+        self.passes.push(MeshPass {
+            iterations: report.iterations,
+            cg_iterations: report.cg_iterations,
+            objective: level.best.objective(),
+            dual_bound: level.best.dual_bound,
+            gap: Some(level.best.gap()),
+            stop_reason: reason,
+            creases: self.creases,
+            moved: (squares / next.len() as f64).sqrt() / scale,
+            moved_most: moved.fold(0.0, f64::max) / scale,
+        });
+        self.seconds = self.seconds + level.seconds;
+        self.surface = next;
+        if last || !matches!(reason, StopReason::Gap | StopReason::Residuals) {
+            self.reason = Some(reason);
+            return Ok(());
+        }
+        let start = Instant::now();
+        let hints = &self.linear.frames;
+        let old: Vec<Point> = hints.iter().map(|frame| frame.normal).collect();
+        let frames = normals(&self.given.topology, &self.surface, Some(&old))
+            .into_iter()
+            .zip(hints)
+            .map(|(normal, hint)| Frame::about(normal, hint.tangents[0]))
+            .collect();
+        let base = self.surface.clone();
+        let next = linearised(&self.given, base, frames, &self.options, self.lambda)?;
+        let before = std::mem::replace(&mut self.linear, next);
+        self.begin(Some((level.state, before)))?;
+        self.seconds.setup += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// The surface so far.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn surface(&self) -> Result<MeshSurface> {
+        let topology = &self.given.topology;
+        let mut positions = self.mesh.positions().to_vec();
+        // What no triangle has stays exactly where it is.
+        for corner in self.mesh.triangles().as_flattened() {
+            let joined = topology.joined[*corner as usize];
+            if !self
+                .given
+                .held
+                .get(joined as usize)
+                .is_some_and(|held| *held)
+            {
+                positions[*corner as usize] = self.bounds.outward(self.surface[joined as usize]);
+            }
+        }
+        let after = Before::of(topology, &self.surface, &self.surface);
+        let (length, closed) = (1.0 / self.bounds.scale, topology.closed);
+        let interior = self.linear.centres.len();
+        let inside = (0..topology.len())
+            .filter(|vertex| topology.inside[*vertex])
+            .count();
+        let mut seconds = self.seconds;
+        seconds.total = self.start.elapsed().as_secs_f64();
+        Ok(MeshSurface {
+            mesh: self.mesh.clone().moved_to(positions)?,
+            report: MeshReport {
+                vertices: topology.len(),
+                interior,
+                border: topology.len() - inside,
+                pinched: topology.pinched,
+                components: topology.components,
+                repairs: topology.repairs,
+                spacing: self.linear.spacing * length,
+                scale: self.bounds.scale,
+                sigma: self.sigma.map(|sigma| sigma * length),
+                lambda: self.lambda,
+                passes: self.passes.clone(),
+                volume: closed
+                    .then(|| [self.before.volume, after.volume].map(|v| v * length.powi(3))),
+                area: [self.before.area, after.area].map(|a| a * length.powi(2)),
+                flipped: [self.before.flipped, after.flipped],
+                stop_reason: self.reason.unwrap_or(StopReason::Cancelled),
+                seconds,
+            },
+        })
+    }
+}
+
+fn linearised(
+    given: &Given,
+    base: Vec<Point>,
+    frames: Vec<Frame>,
+    options: &MeshOptions,
+    lambda: f64,
+) -> Result<Linearised> {
+    let bends = Bends::of(&options.common());
+    Linearised::about(given, base, frames, bends, |_| lambda)
+}
+
+/// The noisy mesh smoothed, its vertices across the rays where less smoothing has them.
+fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
+    let topology = &given.topology;
+    let mut places = given.noisy.clone();
+    smooth(topology, &mut places, PLACES);
+    let mut smoothed = places.clone();
+    smooth(topology, &mut smoothed, SURFACE - PLACES);
+    let rays = normals(topology, &smoothed, None);
+    let base = across(&smoothed, &places, &rays);
+    let rays = normals(topology, &base, Some(&rays));
+    let frames = rays
+        .into_iter()
+        .map(|normal| Frame::about(normal, Point::x()))
+        .collect();
+    (base, frames)
+}
+
+impl Before {
+    /// Triangles are flipped that face away from the vertex normals of the `smooth` surface.
+    fn of(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
+        let up = normals(topology, smooth, None);
+        let flipped = topology.triangles.iter().filter(|triangle| {
+            let sum: Point = triangle.iter().map(|i| up[*i as usize]).sum();
+            twice_area(x, triangle).dot(&sum) < 0.0
+        });
+        Before {
+            volume: volume(topology, x),
+            area: topology
+                .triangles
+                .iter()
+                .map(|t| twice_area(x, t).norm() / 2.0)
+                .sum(),
+            flipped: flipped.count(),
+        }
+    }
+}
+
+impl Ball {
+    /// About the centre of its area. It does not depend on how the mesh is turned.
+    fn around(mesh: &Mesh) -> Result<Self> {
+        let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
+        let (mut sum, mut weight) = (Point::zeros(), 0.0);
+        for triangle in mesh.triangles() {
+            let [a, b, c] = corners(triangle);
+            // Never nothing at all, for triangles without any area have a place, too.
+            let area = (b - a).cross(&(c - a)).norm() + f64::MIN_POSITIVE;
+            sum += area / 3.0 * (a + b + c);
+            weight += area;
+        }
+        let centre = sum / weight;
+        let named = mesh.triangles().iter().flat_map(corners);
+        let radius = named.map(|x| (x - centre).norm()).fold(0.0, f64::max);
+        let scale = 0.5 / radius;
+        if !centre.iter().all(|x| x.is_finite()) || !scale.is_normal() || !radius.is_normal() {
+            return Err(Error::Topology {
+                reason: format!("it is {radius:e} from its centre to its farthest vertex"),
+                advice: "check its coordinates",
+            });
+        }
+        Ok(Ball { centre, scale })
+    }
+
+    fn inward(self, x: [f64; 3]) -> Point {
+        self.scale * (Point::from(x) - self.centre)
+    }
+
+    fn outward(self, x: Point) -> [f64; 3] {
+        (self.centre + x / self.scale).into()
+    }
+}
+
+impl MeshKnown {
+    /// For each vertex of the topology: the most of those that are joined.
+    fn of(self, mesh: &Mesh, topology: &Topology) -> Result<(Vec<f64>, Vec<bool>)> {
+        let count = mesh.positions().len();
+        let (mut confidence, mut held) = (Vec::new(), Vec::new());
+        if !self.confidence.is_empty() {
+            check_confidence(&self.confidence, count)?;
+            confidence = vec![0.0f64; topology.len()];
+            for (own, joined) in self.confidence.iter().zip(&topology.joined) {
+                confidence[*joined as usize] = confidence[*joined as usize].max(*own);
+            }
+        }
+        if !self.held.is_empty() {
+            crate::error::check_count("held vertices of the mesh", count, 1, self.held.len())?;
+            held = vec![false; topology.len()];
+            for (own, joined) in self.held.iter().zip(&topology.joined) {
+                held[*joined as usize] |= own;
+            }
+        }
+        Ok((confidence, held))
+    }
+}

@@ -1,0 +1,551 @@
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::geometry::{Frame, Point, normals};
+use super::linear::{Given, Linearised};
+use super::quadratic::{Neighbour, Quadratic};
+use super::topology::Topology;
+use super::{MeshOptions, fit_mesh};
+use crate::fit::admm::iteration::Level;
+use crate::fit::admm::schedule::Plan;
+use crate::fit::admm::state::State;
+use crate::fit::coordinates::Coordinates;
+use crate::fit::energy::law::Bends;
+use crate::fit::heightfields;
+use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::operator::Operator;
+use crate::fit::operator::lattice::position;
+use crate::fit::operator::sparse::jacobi::JacobiGradients;
+use crate::scene::view::Frame as Frame3;
+use crate::{Energy, Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
+
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut random = oorandom::Rand64::new(seed.into());
+    move || 2.0 * random.rand_float() - 1.0
+}
+
+/// About normal, of variance 1.
+fn normal(random: &mut impl FnMut() -> f64) -> f64 {
+    (0..12).map(|_| random()).sum::<f64>() / 2.0
+}
+
+/// The triangles of a map from the unit square, with random diagonals; corners at the same place are one
+/// vertex.
+fn grid(cols: usize, rows: usize, map: impl Fn(f64, f64) -> [f64; 3]) -> Vec<[[f64; 3]; 3]> {
+    let mut random = random(3);
+    let at = |i: usize, j: usize| map(i as f64 / cols as f64, j as f64 / rows as f64);
+    let mut triangles = Vec::new();
+    for i in 0..cols {
+        for j in 0..rows {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            triangles.extend(match random() > 0.0 {
+                true => [[a, b, c], [a, c, d]],
+                false => [[a, b, d], [b, c, d]],
+            });
+        }
+    }
+    triangles
+}
+
+fn indexed(soup: &[[[f64; 3]; 3]]) -> Mesh {
+    let (mut places, mut found) = (Vec::new(), HashMap::new());
+    let triangles = soup.iter().map(|triangle| {
+        triangle.map(|x| {
+            let key = x.map(|x| (x * 1e9).round() as i64);
+            *found.entry(key).or_insert_with(|| {
+                places.push(x);
+                places.len() as u32 - 1
+            })
+        })
+    });
+    let triangles = triangles.collect();
+    Mesh::new(places, triangles).unwrap()
+}
+
+/// A pipe around the x axis, with uneven triangles.
+fn pipe(cols: usize, radius: f64, length: f64) -> Mesh {
+    let rows = (cols as f64 * length / (std::f64::consts::TAU * radius)).ceil() as usize;
+    indexed(&grid(cols, rows, |u, v| {
+        let angle = std::f64::consts::TAU * (u + 0.3 / cols as f64 * (40.0 * v).sin());
+        let x = length * v;
+        [x, radius * angle.cos(), radius * angle.sin()]
+    }))
+}
+
+/// The surface of the cube of side 2 about the origin, outwards.
+fn cube(cols: usize) -> Mesh {
+    let mut soup = Vec::new();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            soup.extend(grid(cols, cols, |u, v| {
+                let mut x = [0.0; 3];
+                x[axis] = side;
+                x[(axis + 1) % 3] = side * (2.0 * u - 1.0);
+                x[(axis + 2) % 3] = 2.0 * v - 1.0;
+                x
+            }));
+        }
+    }
+    indexed(&soup)
+}
+
+fn points(mesh: &Mesh) -> Vec<Point> {
+    mesh.positions().iter().map(|x| Point::from(*x)).collect()
+}
+
+fn with_positions(mesh: &Mesh, x: &[Point]) -> Mesh {
+    let positions = x.iter().map(|x| (*x).into()).collect();
+    Mesh::new(positions, mesh.triangles().to_vec()).unwrap()
+}
+
+/// Moved along its normals.
+fn noisy(mesh: &Mesh, sigma: f64) -> Mesh {
+    let topology = Topology::new(mesh).unwrap();
+    let mut x = points(mesh);
+    let up = normals(&topology, &x, None);
+    let mut random = random(9);
+    for (x, up) in x.iter_mut().zip(up) {
+        *x += sigma * normal(&mut random) * up;
+    }
+    with_positions(mesh, &x)
+}
+
+const BENDS: Bends = Bends {
+    flatness: 0.3,
+    delta: 10.0,
+};
+
+fn given(mesh: &Mesh) -> Given {
+    Given {
+        topology: Topology::new(mesh).unwrap(),
+        noisy: points(mesh),
+        confidence: Vec::new(),
+        held: Vec::new(),
+    }
+}
+
+/// About the mesh itself.
+fn linearised(mesh: &Mesh) -> Linearised {
+    let given = given(mesh);
+    let up = normals(&given.topology, &given.noisy, None);
+    let frames = up
+        .into_iter()
+        .map(|n| Frame::about(n, Point::x()))
+        .collect();
+    Linearised::about(&given, given.noisy.clone(), frames, BENDS, |_| 1e4).unwrap()
+}
+
+#[test]
+fn a_plane_of_hexagons_has_the_papers_stencil() {
+    let (cols, h) = (12, 0.25);
+    let lattice = Lattice::new(10, cols, h).unwrap();
+    let flat = Heightfield::from_fn(lattice, |_, _| 0.0).unwrap();
+    let flat = Triangulation::new(&flat, &Frame3::default()).unwrap();
+    let mesh = Mesh::new(flat.positions().to_vec(), flat.triangles().to_vec()).unwrap();
+    let linear = linearised(&mesh);
+    assert!((linear.spacing / h - 1.0).abs() < 1e-12);
+    let mut random = random(1);
+    let heights: Vec<f64> = linear.base.iter().map(|_| random()).collect();
+    let mut z: Vec<f64> = heights
+        .iter()
+        .zip(&linear.scales)
+        .map(|(s, w)| s / w)
+        .collect();
+    z.push(1.0);
+    let index: HashMap<[i64; 2], usize> = linear
+        .base
+        .iter()
+        .enumerate()
+        .map(|(i, x)| {
+            (
+                [
+                    (4.0 * x.x / h).round() as i64,
+                    (4.0 * x.y / h).round() as i64,
+                ],
+                i,
+            )
+        })
+        .collect();
+    let mut count = 0;
+    linear.problem.operator.hessians(&z, |stencil, hessian| {
+        let centre = linear.centres[stencil] as usize;
+        let x = linear.base[centre];
+        let at = |dx: f64, dy: f64| {
+            let place = [x.x + dx * h, x.y + dy * h * 3f64.sqrt()];
+            heights[index[&place.map(|p| (4.0 * p / h).round() as i64)]]
+        };
+        let (w, e, c) = (at(-1.0, 0.0), at(1.0, 0.0), heights[centre]);
+        let [nw, ne] = [at(-0.5, 0.5), at(0.5, 0.5)];
+        let [sw, se] = [at(-0.5, -0.5), at(0.5, -0.5)];
+        let expected = [
+            (w - 2.0 * c + e) / (h * h),
+            (ne - nw + sw - se) / (3f64.sqrt() * h * h),
+            (2.0 * (nw + ne + sw + se) - (w + e) - 6.0 * c) / (3.0 * h * h),
+        ];
+        for (found, expected) in hessian.entries().into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
+        }
+        count += 1;
+    });
+    assert!(count > 50);
+}
+
+#[test]
+fn a_lattice_as_a_mesh_has_the_lattices_answer() {
+    let cols = 20;
+    let lattice = Lattice::new(cols, cols, 1.0 / cols as f64).unwrap();
+    let mut noise = random(5);
+    let field = Heightfield::from_fn(lattice, |x, y| {
+        0.3 * (x + 0.4 * y - 0.1).abs() + 0.1 * (6.0 * y).sin()
+    })
+    .unwrap();
+    let heights: Vec<f64> = field.heights().iter().map(|z| z + 0.02 * noise()).collect();
+    let field = Heightfield::new(lattice, heights).unwrap();
+    let input = Input::new(field.clone());
+    let options = Options::default()
+        .energy(Energy::Huber)
+        .lambda(1e4)
+        .gap(1e-5);
+    let domain = Arc::new(input.domain().unwrap());
+    let coordinates = Coordinates::new(&input, &domain, 1.0);
+    let problem =
+        heightfields::Problem::new(&input, domain.clone(), &coordinates, &options).unwrap();
+    fn solve<O: Operator>(
+        problem: crate::fit::energy::problem::Problem<O>,
+        options: &Options,
+        solver: impl Fn(&crate::fit::energy::problem::Problem<O>, f64) -> O::Solver,
+        start: Option<Vec<f64>>,
+    ) -> Level<O> {
+        let plan = Plan::new(options);
+        let mut state = State::new(&problem, plan.first_rho(&problem)).unwrap();
+        if let Some(start) = start {
+            state.z = start;
+        }
+        let solver = solver(&problem, state.rho);
+        let (mut level, mut reason) = Level::new(problem, state, solver, plan, 0, false).unwrap();
+        while reason.is_none() {
+            reason = level.advance(&mut 1000).unwrap();
+        }
+        level
+    }
+    let multigrid = |problem: &heightfields::Problem, rho| {
+        ConjugateGradients::new(problem, std::slice::from_ref(&domain), rho).unwrap()
+    };
+    let a = solve(problem, &options, multigrid, None);
+
+    // The same as a flat mesh whose vertices move upwards, from and to where the heights have them. Each
+    // vertex counts alike.
+    let flat = Triangulation::new(&field, &Frame3::default()).unwrap();
+    let places: Vec<Point> = flat.positions().iter().map(|x| Point::from(*x)).collect();
+    let base: Vec<Point> = places.iter().map(|x| Point::new(x.x, x.y, 0.0)).collect();
+    let mesh = Mesh::new(
+        base.iter().map(|x| (*x).into()).collect(),
+        flat.triangles().to_vec(),
+    )
+    .unwrap();
+    let topology = Topology::new(&mesh).unwrap();
+    let areas = super::geometry::areas(&topology, &base);
+    let whole = areas.iter().copied().fold(0.0, f64::max);
+    let given = Given {
+        topology,
+        noisy: places.clone(),
+        confidence: areas.iter().map(|area| whole / area).collect(),
+        held: Vec::new(),
+    };
+    let frames = base
+        .iter()
+        .map(|_| Frame::about(Point::z(), Point::x()))
+        .collect();
+    let bends = Bends::of(&options);
+    let linear = Linearised::about(&given, base, frames, bends, |_| 1e4).unwrap();
+    let jacobi =
+        |problem: &super::linear::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
+    let b = solve(
+        linear.problem.clone(),
+        &options,
+        jacobi,
+        Some(linear.start()),
+    );
+
+    let bound = a.best.dual_bound.max(b.best.dual_bound);
+    for gap in [a.best.objective() - bound, b.best.objective() - bound] {
+        assert!(
+            (-1e-12 * bound..2e-5 * bound).contains(&gap),
+            "{gap:e} of {bound}"
+        );
+    }
+    let found = linear.moved(&b.best.z);
+    let radius = (2.0 * 1e-5 * bound / 1e4).sqrt();
+    let mut square = 0.0f64;
+    for cell in domain.active().cells() {
+        let place = position(&domain, cell);
+        let height = coordinates.outward(place, a.best.z[cell]);
+        let vertex = (places.iter()).position(|x| (x.x - place[0]).hypot(x.y - place[1]) < 1e-9);
+        square += (found[vertex.unwrap()].z - height).powi(2);
+    }
+    assert!(square.sqrt() < 2.0 * radius, "{square:e}");
+}
+
+#[test]
+fn curvature_is_that_of_spheres_and_pipes() {
+    let radius = 0.7;
+    let ball = indexed(&grid(60, 14, |u, v| {
+        let (phi, y) = (std::f64::consts::TAU * u, 1.2 * (v - 0.5));
+        let r = (1.0 - y * y).sqrt();
+        [r * phi.cos() * radius, r * phi.sin() * radius, y * radius]
+    }));
+    for (mesh, other) in [(ball, 1.0 / radius), (pipe(60, radius, 2.0), 0.0)] {
+        let linear = linearised(&mesh);
+        let mut count = 0;
+        linear
+            .problem
+            .operator
+            .hessians(&linear.start(), |_, hessian| {
+                let [mut large, mut small] = hessian.eigenvalues();
+                if small.abs() > large.abs() {
+                    (large, small) = (small, large);
+                }
+                // The coordinates have their diagonal as it is here.
+                assert!((large.abs() * radius - 1.0).abs() < 0.03, "{large}");
+                assert!(
+                    (small.abs() - other).abs() * radius < 0.03,
+                    "{small} for {other}"
+                );
+                count += 1;
+            });
+        assert!(count > 500);
+    }
+}
+
+#[test]
+fn the_change_of_a_fit_is_its_derivative() {
+    let mut random = random(2);
+    for valence in [5, 6, 7, 9] {
+        let frame = Frame::about(Point::new(0.1, 0.2, 1.0).normalize(), Point::x());
+        let offsets: Vec<Point> = (0..valence)
+            .map(|k| {
+                let angle = std::f64::consts::TAU * (k as f64 + 0.2 * random()) / valence as f64;
+                let r = 1.0 + 0.2 * random();
+                0.3 * Point::new(r * angle.cos(), r * angle.sin(), 0.4 * random())
+            })
+            .collect();
+        let fit = |offsets: &[Point]| {
+            let neighbours: Vec<_> = (offsets.iter())
+                .map(|offset| Neighbour {
+                    offset: *offset,
+                    weight: 1.0,
+                })
+                .collect();
+            Quadratic::fit(&frame, &neighbours).unwrap()
+        };
+        let own = fit(&offsets);
+        for k in 0..valence {
+            let v = Vector3::new(random(), random(), random());
+            let moved = |t: f64| {
+                let mut offsets = offsets.clone();
+                offsets[k] += t * v;
+                fit(&offsets).hessian()
+            };
+            let t = 1e-5;
+            let expected = (moved(t) - moved(-t)).scale(0.5 / t).entries();
+            let found = own.change(&frame, k, v).entries();
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-4 * (1.0 + expected.abs()));
+            }
+        }
+    }
+}
+
+/// Root mean square and largest distance from a cube's surface.
+fn off_cube(mesh: &Mesh) -> f64 {
+    let squares = points(mesh).into_iter().map(|x| (x.amax() - 1.0).powi(2));
+    (squares.sum::<f64>() / mesh.positions().len() as f64).sqrt()
+}
+
+#[test]
+fn a_noisy_cube_becomes_one() {
+    let truth = cube(24);
+    let sigma = 0.005 * 12f64.sqrt();
+    let surface = fit_mesh(&noisy(&truth, sigma), &MeshOptions::default()).unwrap();
+    let report = surface.report();
+    assert!(
+        (report.sigma.unwrap() / sigma - 1.0).abs() < 0.1,
+        "{:?}",
+        report.sigma
+    );
+    assert!(
+        off_cube(surface.mesh()) < 0.4 * sigma,
+        "{}",
+        off_cube(surface.mesh()) / sigma
+    );
+    assert!(report.gap().unwrap() <= 0.01 && report.flipped[1] == 0);
+    assert_eq!(
+        (report.border, report.components, report.pinched),
+        (0, 1, 0)
+    );
+    assert!(
+        report
+            .passes
+            .iter()
+            .all(|pass| pass.dual_bound <= pass.objective)
+    );
+    let [_, after] = report.volume.unwrap();
+    assert!((after / 8.0 - 1.0).abs() < 0.02, "{after}");
+    assert_eq!(surface.mesh().triangles(), truth.triangles());
+}
+
+#[test]
+fn a_pipe_with_borders_becomes_one() {
+    let truth = pipe(60, 0.5, 2.0);
+    let sigma = 0.01;
+    let surface = fit_mesh(&noisy(&truth, sigma), &MeshOptions::default()).unwrap();
+    let off = |x: &Point| (x.y.hypot(x.z) - 0.5).powi(2);
+    let rms = |squares: Vec<f64>| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    let x = points(surface.mesh());
+    let all = rms(x.iter().map(off).collect());
+    let border = x.iter().zip(points(&truth));
+    let border = rms(border
+        .filter(|(_, t)| t.x < 1e-9 || t.x > 2.0 - 1e-9)
+        .map(|(x, _)| off(x))
+        .collect());
+    assert!(all < 0.35 * sigma, "{}", all / sigma);
+    assert!(border < 0.7 * sigma, "{}", border / sigma);
+    assert!(surface.report().volume.is_none() && surface.report().border == 120);
+}
+
+#[test]
+fn motions_and_scale_change_nothing_else() {
+    let mesh = noisy(&cube(10), 0.02);
+    let turn = Rotation3::from_euler_angles(0.3, 1.1, -0.7);
+    let (factor, shift) = (37.0, Point::new(500.0, -30.0, 12.0));
+    let moved: Vec<Point> = points(&mesh)
+        .iter()
+        .map(|x| factor * (turn * x) + shift)
+        .collect();
+    let options = MeshOptions::default();
+    let a = fit_mesh(&mesh, &options).unwrap();
+    let scaled: Vec<Point> = points(&mesh).iter().map(|x| factor * x + shift).collect();
+    let b = fit_mesh(&with_positions(&mesh, &scaled), &options).unwrap();
+    for (a, b) in points(a.mesh()).iter().zip(points(b.mesh())) {
+        assert!((factor * a + shift - b).norm() < 1e-4 * factor, "{a} {b}");
+    }
+    let c = fit_mesh(&with_positions(&mesh, &moved), &options).unwrap();
+    let squares = points(a.mesh()).into_iter().zip(points(c.mesh()));
+    let squares = squares.map(|(a, c)| (factor * (turn * a) + shift - c).norm_squared());
+    let rms = (squares.sum::<f64>() / mesh.positions().len() as f64).sqrt() / factor;
+    assert!(rms < 1e-3, "{rms}");
+    assert!((a.report().sigma.unwrap() * factor / c.report().sigma.unwrap() - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn what_can_be_mended_is_mended() {
+    let truth = noisy(&cube(8), 0.01);
+    // Each triangle with corners of its own, one of them there twice, one turned over, one of two corners,
+    // and a vertex of no triangle.
+    let mut positions: Vec<[f64; 3]> = vec![[9.0, 9.0, 9.0]];
+    let mut triangles = Vec::new();
+    for (i, triangle) in truth.triangles().iter().enumerate() {
+        let first = positions.len() as u32;
+        positions.extend(triangle.map(|i| truth.positions()[i as usize]));
+        let mut own = [first, first + 1, first + 2];
+        if i == 5 {
+            own.swap(0, 1);
+        }
+        triangles.push(own);
+    }
+    triangles.push(triangles[7]);
+    triangles.push([1, 2, 1]);
+    let soup = Mesh::new(positions, triangles).unwrap();
+    let a = fit_mesh(&soup, &MeshOptions::default()).unwrap();
+    let b = fit_mesh(&truth, &MeshOptions::default()).unwrap();
+    let repairs = a.report().repairs;
+    assert_eq!(
+        [
+            repairs.repeated,
+            repairs.degenerate,
+            repairs.turned,
+            repairs.unused
+        ],
+        [1, 1, 1, 1]
+    );
+    assert_eq!(
+        repairs.joined,
+        soup.positions().len() - 1 - truth.positions().len()
+    );
+    assert_eq!(a.report().vertices, truth.positions().len() + 1);
+    assert_eq!(a.mesh().positions()[0], [9.0, 9.0, 9.0]);
+    for (i, triangle) in truth.triangles().iter().enumerate() {
+        for (k, corner) in triangle.iter().enumerate() {
+            let found = Point::from(a.mesh().positions()[1 + 3 * i + k]);
+            let expected = Point::from(b.mesh().positions()[*corner as usize]);
+            assert!((found - expected).norm() < 1e-3);
+        }
+    }
+}
+
+fn refused(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> String {
+    let mesh = Mesh::new(positions, triangles).unwrap();
+    let error = fit_mesh(&mesh, &MeshOptions::default()).unwrap_err();
+    assert_eq!(error.code(), "TOPOLOGY");
+    error.to_string()
+}
+
+#[test]
+fn what_is_no_surface_is_refused_with_its_place() {
+    // Three leaves along one edge.
+    let mut leaves = vec![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    leaves.extend([[1.0, 0.0, 0.5], [-1.0, 1.0, 0.5], [-1.0, -1.0, 0.5]]);
+    let text = refused(leaves, vec![[0, 1, 2], [1, 0, 3], [0, 1, 4]]);
+    assert!(
+        text.contains("3 triangles") && text.contains("vertex 1 (0, 0, 1)"),
+        "{text}"
+    );
+    // A strip that is turned half round.
+    let mut places = Vec::new();
+    for i in 0..12 {
+        let angle = std::f64::consts::TAU * i as f64 / 12.0;
+        for side in [-0.3, 0.3] {
+            let r = 1.0 + side * (angle / 2.0).cos();
+            places.push([r * angle.cos(), r * angle.sin(), side * (angle / 2.0).sin()]);
+        }
+    }
+    let mut strip = Vec::new();
+    for i in 0..12u32 {
+        let [a, b, c, d] = match i {
+            11 => [22, 23, 1, 0],
+            _ => [2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3],
+        };
+        strip.extend([[a, b, c], [b, d, c]]);
+    }
+    assert!(refused(places, strip).contains("Möbius"));
+    let alone = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    assert!(refused(alone.clone(), vec![[0, 1, 2]]).contains("inside"));
+    refused(vec![[2.0; 3]; 3], vec![[0, 1, 2]]);
+    let cloud = fit_mesh(&Mesh::cloud(alone).unwrap(), &MeshOptions::default());
+    assert!(matches!(cloud, Err(Error::Unsupported { .. })));
+}
+
+#[test]
+fn slivers_and_flat_triangles_leave_everything_finite() {
+    let mut x = points(&cube(8));
+    let mesh = cube(8);
+    let mut random = random(4);
+    for x in &mut x {
+        // Next to each other, and on lines.
+        if random() > 0.5 {
+            *x = x.map(|c| (c * 3.0).round() / 3.0 + 1e-9 * random());
+        }
+    }
+    let surface = fit_mesh(&with_positions(&mesh, &x), &MeshOptions::default()).unwrap();
+    assert!(
+        surface
+            .mesh()
+            .positions()
+            .as_flattened()
+            .iter()
+            .all(|x| x.is_finite())
+    );
+    assert!(surface.report().area.iter().all(|area| area.is_finite()));
+}

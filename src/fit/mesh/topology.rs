@@ -1,0 +1,295 @@
+//! Which vertices of a mesh neighbour whom: a manifold with or without a border, or what it fails at.
+
+use std::collections::HashMap;
+
+use crate::error::{Error, Result, try_filled};
+use crate::scene::mesh::Mesh;
+
+use super::report::Repairs;
+
+/// The triangles of a mesh, joined where its vertices coincide and all facing the same side.
+#[derive(Debug, Clone)]
+pub(super) struct Topology {
+    /// For each vertex of the mesh the one that it is here.
+    pub joined: Vec<u32>,
+    /// One vertex of the mesh for each that is here.
+    pub source: Vec<u32>,
+    pub triangles: Vec<[u32; 3]>,
+    /// The neighbours of vertex `i` are `around[first[i]..first[i + 1]]`; `rim` tells which of these
+    /// edges have one triangle only.
+    first: Vec<u32>,
+    around: Vec<u32>,
+    rim: Vec<bool>,
+    /// Whether triangles go once all around a vertex.
+    pub inside: Vec<bool>,
+    /// Vertices where two fans of triangles meet in a point.
+    pub pinched: usize,
+    pub components: usize,
+    pub closed: bool,
+    pub repairs: Repairs,
+}
+
+impl Topology {
+    /// # Errors
+    /// [`Error::Topology`] where an edge has more than two triangles, or where no choice of sides fits
+    /// together.
+    pub(super) fn new(mesh: &Mesh) -> Result<Self> {
+        let mut repairs = Repairs::default();
+        let (joined, source) = join(mesh)?;
+        let mut triangles = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for triangle in mesh.triangles() {
+            let [a, b, c] = triangle.map(|i| joined[i as usize]);
+            let mut key = [a, b, c];
+            key.sort_unstable();
+            if a == b || b == c || c == a {
+                repairs.degenerate += 1;
+            } else if !seen.insert(key) {
+                repairs.repeated += 1;
+            } else {
+                triangles.push([a, b, c]);
+            }
+        }
+        drop(seen);
+        let mut used = try_filled("vertices", source.len(), false)?;
+        for vertex in triangles.as_flattened() {
+            used[*vertex as usize] = true;
+        }
+        let named = mesh.triangles().as_flattened();
+        let mut named_at_all = try_filled("vertices", mesh.positions().len(), false)?;
+        for vertex in named {
+            named_at_all[*vertex as usize] = true;
+        }
+        let spoken_for = named_at_all.iter().filter(|used| **used).count();
+        repairs.unused = named_at_all.len() - spoken_for;
+        let once = used.iter().filter(|used| **used).count();
+        repairs.joined = spoken_for.saturating_sub(once);
+        let mut topology = Topology {
+            joined,
+            first: Vec::new(),
+            around: Vec::new(),
+            rim: Vec::new(),
+            inside: try_filled("vertices", source.len(), false)?,
+            source,
+            triangles,
+            pinched: 0,
+            components: 0,
+            closed: true,
+            repairs,
+        };
+        topology.connect(mesh)?;
+        Ok(topology)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.source.len()
+    }
+
+    /// The neighbours of a vertex.
+    pub(super) fn around(&self, vertex: usize) -> &[u32] {
+        &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+
+    /// Those along the border.
+    pub(super) fn along_rim(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
+        let edges = self.first[vertex] as usize..self.first[vertex + 1] as usize;
+        edges
+            .filter(|edge| self.rim[*edge])
+            .map(|edge| self.around[edge] as usize)
+    }
+
+    /// The neighbours' neighbours that are none themselves, in order.
+    pub(super) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
+        let ring = self.around(vertex);
+        to.clear();
+        for neighbour in ring {
+            to.extend(self.around(*neighbour as usize));
+        }
+        to.sort_unstable();
+        to.dedup();
+        to.retain(|other| *other != vertex as u32 && !ring.contains(other));
+    }
+
+    fn connect(&mut self, mesh: &Mesh) -> Result<()> {
+        // Each side of a triangle: its ends in order, the triangle and whether it runs forwards.
+        let mut sides = Vec::new();
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            for k in 0..3 {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                sides.push((a.min(b), a.max(b), triangle as u32, a < b));
+            }
+        }
+        sides.sort_unstable();
+        let edges: Vec<&[(u32, u32, u32, bool)]> =
+            sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).collect();
+        self.check_edges(mesh, &edges)?;
+        self.orient(mesh, &edges)?;
+        let count = self.len();
+        self.first = try_filled("vertices", count + 1, 0)?;
+        for edge in &edges {
+            self.first[edge[0].0 as usize + 1] += 1;
+            self.first[edge[0].1 as usize + 1] += 1;
+        }
+        for i in 0..count {
+            self.first[i + 1] += self.first[i];
+        }
+        let mut next: Vec<u32> = self.first[..count].to_vec();
+        self.around = try_filled("edges", 2 * edges.len(), 0)?;
+        self.rim = try_filled("edges", 2 * edges.len(), false)?;
+        for edge in &edges {
+            let (a, b, ..) = edge[0];
+            for (from, to) in [(a, b), (b, a)] {
+                let place = next[from as usize] as usize;
+                (self.around[place], self.rim[place]) = (to, edge.len() == 1);
+                next[from as usize] += 1;
+            }
+            self.closed &= edge.len() == 2;
+        }
+        self.find_inside();
+        Ok(())
+    }
+
+    fn check_edges(&self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
+        let mut bad = edges.iter().filter(|edge| edge.len() > 2);
+        let Some(edge) = bad.next() else {
+            return Ok(());
+        };
+        let at = |vertex: u32| place(mesh, self.source[vertex as usize]);
+        Err(Error::Topology {
+            reason: format!(
+                "the edge from {} to {} has {} triangles, where a surface has one or two ({} such \
+                 edges in all)",
+                at(edge[0].0),
+                at(edge[0].1),
+                edge.len(),
+                1 + bad.count()
+            ),
+            advice: "take the triangles away that are too many there, or cut the mesh along those \
+                     edges (mesh editors do so as \"repair non-manifold edges\")",
+        })
+    }
+
+    /// Turns triangles over until neighbours face the same side.
+    fn orient(&mut self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
+        let count = self.triangles.len();
+        let mut beside: Vec<[(u32, bool); 3]> = vec![[(u32::MAX, false); 3]; count];
+        let mut filled = vec![0usize; count];
+        for edge in edges {
+            if let [(.., a, forward), (.., b, also)] = edge {
+                for (from, to) in [(*a, *b), (*b, *a)] {
+                    let from = from as usize;
+                    beside[from][filled[from]] = (to, forward == also);
+                    filled[from] += 1;
+                }
+            }
+        }
+        let mut turned: Vec<Option<bool>> = vec![None; count];
+        let mut stack = Vec::new();
+        for start in 0..count {
+            if turned[start].is_some() {
+                continue;
+            }
+            self.components += 1;
+            turned[start] = Some(false);
+            let mut members = vec![start as u32];
+            stack.push(start);
+            while let Some(triangle) = stack.pop() {
+                let own = turned[triangle].unwrap_or(false);
+                for (other, same) in &beside[triangle][..filled[triangle]] {
+                    let wanted = own != *same;
+                    match turned[*other as usize] {
+                        None => {
+                            turned[*other as usize] = Some(wanted);
+                            members.push(*other);
+                            stack.push(*other as usize);
+                        }
+                        Some(turn) if turn != wanted => {
+                            let [a, ..] = self.triangles[triangle];
+                            return Err(Error::Topology {
+                                reason: format!(
+                                    "it has one side only, as a Möbius strip has: around {} its \
+                                     triangles cannot all face the same way",
+                                    place(mesh, self.source[a as usize])
+                                ),
+                                advice: "cut it once across",
+                            });
+                        }
+                        Some(_) => (),
+                    }
+                }
+            }
+            // As most of its triangles face.
+            let over = members
+                .iter()
+                .filter(|t| turned[**t as usize] == Some(true))
+                .count();
+            let most = 2 * over > members.len();
+            for triangle in members {
+                if turned[triangle as usize] != Some(most) {
+                    self.triangles[triangle as usize].swap(1, 2);
+                    self.repairs.turned += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Where one fan of triangles closes around a vertex.
+    fn find_inside(&mut self) {
+        let mut next: HashMap<(u32, u32), u32> = HashMap::with_capacity(3 * self.triangles.len());
+        let mut triangles = vec![0u32; self.len()];
+        for corners in &self.triangles {
+            for k in 0..3 {
+                let (i, a, b) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+                next.insert((i, a), b);
+                triangles[i as usize] += 1;
+            }
+        }
+        for (vertex, number) in triangles.into_iter().enumerate() {
+            if number == 0 {
+                continue;
+            }
+            let ring = &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize];
+            let start = ring[0];
+            let (mut at, mut steps) = (start, 0);
+            let closes = loop {
+                match next.get(&(vertex as u32, at)) {
+                    Some(other) => (at, steps) = (*other, steps + 1),
+                    None => break false,
+                }
+                if at == start {
+                    break true;
+                }
+                if steps > number {
+                    break false;
+                }
+            };
+            self.inside[vertex] = closes && steps == number;
+            let rims = self.along_rim(vertex).count();
+            self.pinched += usize::from(rims > 2 || (!self.inside[vertex] && rims == 0));
+        }
+    }
+}
+
+fn place(mesh: &Mesh, vertex: u32) -> String {
+    let [x, y, z] = mesh.positions()[vertex as usize];
+    format!("vertex {vertex} ({x}, {y}, {z})")
+}
+
+/// Vertices at the very same place are one, as those of files without indices and of seams between
+/// textures are.
+fn join(mesh: &Mesh) -> Result<(Vec<u32>, Vec<u32>)> {
+    let positions = mesh.positions();
+    let mut joined = try_filled("vertices", positions.len(), 0)?;
+    let mut source = Vec::new();
+    let mut found = HashMap::with_capacity(positions.len());
+    for (vertex, position) in positions.iter().enumerate() {
+        // Without the sign of 0.
+        let key = position.map(|x| (x + 0.0).to_bits());
+        joined[vertex] = *found.entry(key).or_insert_with(|| {
+            source.push(vertex as u32);
+            source.len() as u32 - 1
+        });
+    }
+    Ok((joined, source))
+}

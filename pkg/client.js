@@ -5,7 +5,7 @@ import { controlOf } from './control.js';
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, detached } from './input.js';
-import { asFiles, asMesh, asPicture } from './mesh-input.js';
+import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { asEdges, pageOptions, plainEdges } from './page-input.js';
 import { optionsOf } from './options.js';
@@ -127,12 +127,12 @@ export class DevelopableWorker {
   }
 
   /**
-   * @param {Heightfield} input
+   * @param {Heightfield | import('./types.js').Mesh} input
    * @param {import('./index.js').WriteObjOptions} [given]
    */
   async writeObj(input, given) {
     const options = optionsOf('writeObj', given);
-    const { field, buffers } = detached(asLattice(input));
+    const { field, buffers } = detached(asMeshOrLattice(input));
     return this.#request((remote) => remote.writeObj(transfer(field, buffers), options));
   }
 
@@ -142,24 +142,24 @@ export class DevelopableWorker {
     return this.#request((remote) => remote.writeMtl(name));
   }
 
-  /** @param {Heightfield} input */
+  /** @param {Heightfield | import('./types.js').Mesh} input */
   async writePly(input) {
-    const { field, buffers } = detached(asLattice(input));
+    const { field, buffers } = detached(asMeshOrLattice(input));
     return this.#request((remote) => remote.writePly(transfer(field, buffers)));
   }
 
-  /** @param {Heightfield} input */
+  /** @param {Heightfield | import('./types.js').Mesh} input */
   async writeStl(input) {
-    const { field, buffers } = detached(asLattice(input));
+    const { field, buffers } = detached(asMeshOrLattice(input));
     return this.#request((remote) => remote.writeStl(transfer(field, buffers)));
   }
 
   /**
-   * @param {Heightfield} input
+   * @param {Heightfield | import('./types.js').Mesh} input
    * @param {import('./index.js').WriteGlbOptions} [given]
    */
   async writeGlb(input, given) {
-    const { field, buffers } = detached(asLattice(input));
+    const { field, buffers } = detached(asMeshOrLattice(input));
     const { texture, ...rest } = optionsOf('writeGlb', given);
     const options = { ...rest, texture: texture === undefined || texture === null ? texture : await ownBytes(texture) };
     return this.#request((remote) => remote.writeGlb(transfer(field, buffers), options));
@@ -184,6 +184,21 @@ export class DevelopableWorker {
     const options = optionsOf('sampleMesh', given);
     const own = asMesh(mesh);
     return this.#request((remote) => remote.sampleMesh(own, options));
+  }
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./index.js').FitMeshOptions} [given]
+   * @returns {Promise<import('./types.js').MeshSurface>}
+   */
+  async fitMesh(mesh, given) {
+    const { control, options } = controlOf('fitMesh', given);
+    if (!control.keep) control.signal?.throwIfAborted();
+    const { shape, own } = wholeOf(mesh);
+    const found = this.#request((remote) =>
+      solve(remote, (id, interval) => remote.startMesh(id, shape, options, interval), control));
+    const surface = await orAborted(found, control);
+    return /** @type {any} */ ({ ...own, ...surface });
   }
 
   /**
@@ -383,8 +398,8 @@ export class DevelopableWorker {
   #connect() {
     if (this.#disposed) throw new DevelopableError('DISPOSED', 'this worker has been disposed');
     if (!this.#connection?.open) {
-      const { wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm } = this.#options;
-      const sources = [wasm, filesWasm, imagesWasm, meshesWasm, unrollWasm, patternsWasm];
+      const { wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm } = this.#options;
+      const sources = [wasm, filesWasm, imagesWasm, meshesWasm, fitmeshWasm, unrollWasm, patternsWasm];
       this.#wasm ??= Promise.all(sources.map(portable));
       this.#wasm.catch(() => (this.#wasm = undefined));
       this.#connection = new Connection(this.#options.workerUrl, this.#wasm);

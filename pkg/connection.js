@@ -23,7 +23,7 @@ export class Connection {
 
   /**
    * @param {string | URL | undefined} workerUrl
-   * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes', the unrolling's and the patterns'
+   * @param {Promise<Source[]>} wasm the solver's, the files', the images', the meshes', of fits to meshes, the unrolling's and the patterns'
    */
   constructor(workerUrl, wasm) {
     this.#ready = this.#settled(this.#start(workerUrl, wasm));

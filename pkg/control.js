@@ -11,8 +11,8 @@ import { optionsOf } from './options.js';
 
 /**
  * Splits the options of a solve into those for its control and those for the solver.
- * @param {'fit' | 'openFit'} call
- * @param {import('./index.js').FitOptions} [options]
+ * @param {'fit' | 'openFit' | 'fitMesh'} call
+ * @param {import('./index.js').FitOptions | import('./index.js').FitMeshOptions} [options]
  * @returns {{ control: Control, options: import('./types.js').SolverOptions & { transfer?: boolean } }}
  */
 export function controlOf(call, options) {

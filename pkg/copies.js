@@ -6,7 +6,7 @@
  * constant of its builds excludes.
  */
 
-/** @typedef {'solver' | 'files' | 'images' | 'meshes' | 'unroll' | 'patterns'} WasmName */
+/** @typedef {'solver' | 'files' | 'images' | 'meshes' | 'fitmesh' | 'unroll' | 'patterns'} WasmName */
 /** @typedef {() => Promise<{ default: string }>} Packed gzipped, in base64 */
 
 // @ts-ignore Vite looks for exactly this, and nobody else has it.
@@ -21,6 +21,7 @@ const wasm = {
   files: () => import(/* webpackIgnore: true */ /* turbopackIgnore: true */ './inline/files.js'),
   images: () => import(/* webpackIgnore: true */ /* turbopackIgnore: true */ './inline/images.js'),
   meshes: () => import(/* webpackIgnore: true */ /* turbopackIgnore: true */ './inline/meshes.js'),
+  fitmesh: () => import(/* webpackIgnore: true */ /* turbopackIgnore: true */ './inline/fitmesh.js'),
   unroll: () => import(/* webpackIgnore: true */ /* turbopackIgnore: true */ './inline/unroll.js'),
   patterns: () => import(/* webpackIgnore: true */ /* turbopackIgnore: true */ './inline/patterns.js'),
 };

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -11,7 +11,7 @@ export { parseCamera } from './camera-file.js';
 export * from './types.js';
 
 /** What is not needed by everybody, each in a wasm file of its own. */
-export type PartName = 'files' | 'images' | 'meshes' | 'unroll' | 'patterns';
+export type PartName = 'files' | 'images' | 'meshes' | 'fitmesh' | 'unroll' | 'patterns';
 
 /** Loads the solver's wasm once; later calls (with anything) return the same promise. May be repeated after a failure. */
 export function init(input?: InitInput): Promise<void>;
@@ -22,6 +22,7 @@ export function init(input?: InitInput): Promise<void>;
  *   mesh with textures;
  * - `images`: all other height images, and photos in JPEG and WebP;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
+ * - `fitmesh`: `fitMesh` and `MeshSolver`;
  * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
  * - `patterns`: `pattern`, `writeSvg`, `writePdf` and `writeDxf`.
  *
@@ -40,6 +41,21 @@ export interface WriteGlbOptions {
 export interface WriteObjOptions {
   /** Name of a file that `writeMtl` has made: its picture takes the place of colours. */
   materials?: string;
+}
+
+/** A fit over a whole mesh that runs in steps. Dispose it (or use `using`) to free its memory. */
+export class MeshSolver {
+  constructor(mesh: Mesh, options?: MeshSolverOptions);
+  /** Runs for about `milliseconds` (at least one step); true while there is more to do. */
+  advance(milliseconds: number): boolean;
+  /** Figures of the linearisation under way. */
+  progress(): Progress;
+  /** Stops; `surface()` then gives the best surface so far, marked `'cancelled'`. */
+  cancel(): void;
+  surface(): MeshSurface;
+  readonly disposed: boolean;
+  dispose(): void;
+  [Symbol.dispose](): void;
 }
 
 /** A solver that runs in steps. Dispose it (or use `using`) to free its memory. */
@@ -94,21 +110,26 @@ export function writeExr(input: HeightImage | Surface): Uint8Array<ArrayBuffer>;
  * OBJ mesh: the lattice's triangles, in the units of the field and the axes of its `frame`, with
  * normals, and with the field's `colors` and `uvs`.
  */
-export function writeObj(input: Heightfield, options?: WriteObjOptions): Uint8Array<ArrayBuffer>;
+export function writeObj(input: Heightfield | Mesh, options?: WriteObjOptions): Uint8Array<ArrayBuffer>;
 /** The MTL file that goes with such an OBJ: one material, with the name of a picture's file. */
 export function writeMtl(picture: string): Uint8Array<ArrayBuffer>;
 /** The same mesh as PLY (binary, little-endian): positions in 64 bits, colours as bytes. */
-export function writePly(input: Heightfield): Uint8Array<ArrayBuffer>;
+export function writePly(input: Heightfield | Mesh): Uint8Array<ArrayBuffer>;
 /** The same mesh as STL (binary): positions in 32 bits, and nothing else but each triangle's normal. */
-export function writeStl(input: Heightfield): Uint8Array<ArrayBuffer>;
+export function writeStl(input: Heightfield | Mesh): Uint8Array<ArrayBuffer>;
 /** The same mesh as GLB (binary glTF): positions in 32 bits, colours as bytes, and a texture if one is given. */
-export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Uint8Array<ArrayBuffer>;
+export function writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Uint8Array<ArrayBuffer>;
 /** Decodes an OBJ, PLY, STL, glTF or GLB file, with the files beside it that it names. */
 export function readMesh(bytes: Uint8Array | ArrayBuffer, options?: ReadMeshOptions): Mesh;
 /**
  * What is seen of a mesh, as heights on a lattice: an input for `fit`. Textures are read as by
  * `readPhoto`, which takes `load('files')` and, but for PNG, `load('images')`.
  */
+/** As in the promise API; `onProgress` may return false to stop with the best surface so far. */
+export function fitMesh(
+  mesh: Mesh,
+  options?: MeshSolverOptions & { onProgress?: (progress: Progress) => boolean | void },
+): MeshSurface;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh;
 /**
  * What a depth camera has seen, as a mesh: vertex i is pixel i (so that a picture of the same size

@@ -3,12 +3,13 @@ import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
-import { files, images, meshes, partOf, patterns, sheets, solver } from './instances.js';
-import { asFiles, asMesh } from './mesh-input.js';
+import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
+import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
+import { Steps } from './steps.js';
 import { asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
 import { asText, isRecord, plainCopy, reading, show } from './values.js';
 
@@ -27,26 +28,16 @@ export async function load(...parts) {
   await Promise.all(wanted.map(({ part, place }) => part.init(place)));
 }
 
-/**
- * @typedef {import('./direct.js').Solver} SolverApi
- * @typedef {import('./wasm/solver.js').Solver} Handle
- */
-
-/**
- * Milliseconds of work to ask the wasm for at once. Little, because iterations suddenly cost
- * several times as much when the solver goes on to a finer lattice.
- */
-const SLICE = 4;
+/** @typedef {import('./direct.js').Solver} SolverApi */
 
 /** Milliseconds between two calls of `fit`'s `onProgress`. */
 const PROGRESS_INTERVAL = 60;
 
-/** @implements {Omit<SolverApi, typeof Symbol.dispose>} */
-export class Solver {
-  /** @type {Handle | undefined} */
-  #handle;
-  /** Conjugate-gradient iterations to ask for in one call, from how long the last ones took. */
-  #work = 1;
+/**
+ * @extends {Steps<import('./wasm/solver.js').Solver>}
+ * @implements {Omit<SolverApi, typeof Symbol.dispose>}
+ */
+export class Solver extends Steps {
   /** What the surface has from the input. */
   #carried;
 
@@ -57,18 +48,18 @@ export class Solver {
   constructor(input, given) {
     const field = asInput(input);
     const options = optionsOf('solver', given);
-    this.#carried = carriedOf(field);
-    this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
+    super(solver, solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
-    );
+    ));
+    this.#carried = carriedOf(field);
   }
 
   /** @param {import('./types.js').SolverOptions} [given] */
   restart(given) {
-    const handle = this.#live();
+    const handle = this.live();
     const options = optionsOf('solver', given);
     solver.call(() => handle.restart(options));
-    this.#work = 1;
+    this.restarted();
   }
 
   /**
@@ -76,69 +67,48 @@ export class Solver {
    * @param {import('./types.js').SolverOptions} [given]
    */
   restartWith(input, given) {
-    const handle = this.#live();
+    const handle = this.live();
     const field = asInput(input);
     const options = optionsOf('solver', given);
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
     this.#carried = carriedOf(field);
-    this.#work = 1;
-  }
-
-  /** @param {number} milliseconds */
-  advance(milliseconds) {
-    const handle = this.#live();
-    if (typeof milliseconds !== 'number' || Number.isNaN(milliseconds)) {
-      throw new DevelopableError('INPUT', `the milliseconds must be a number, but are ${show(milliseconds)}`);
-    }
-    const end = performance.now() + milliseconds;
-    for (;;) {
-      const start = performance.now();
-      if (!solver.call(() => handle.advance(this.#work))) return false;
-      const now = performance.now();
-      // Clocks are coarse, so at most twice as much as before.
-      const each = (now - start) / this.#work;
-      this.#work = Math.max(1, Math.floor(Math.min(2 * this.#work, SLICE / each)));
-      // Rather half a slice too early than half of one too late.
-      if (now + (each * this.#work) / 2 >= end) return true;
-    }
-  }
-
-  progress() {
-    const handle = this.#live();
-    return solver.call(() => handle.progress());
-  }
-
-  cancel() {
-    const handle = this.#live();
-    solver.call(() => handle.cancel());
+    this.restarted();
   }
 
   surface() {
-    const handle = this.#live();
+    const handle = this.live();
     return { ...solver.call(() => handle.surface()), ...this.#carried };
-  }
-
-  get disposed() {
-    return this.#handle === undefined;
-  }
-
-  dispose() {
-    const handle = this.#handle;
-    this.#handle = undefined;
-    // After a trap there is nothing left that could be freed in an orderly way.
-    if (solver.alive) handle?.free();
-  }
-
-  #live() {
-    if (this.#handle === undefined) {
-      throw new DevelopableError('DISPOSED', 'this solver has been disposed');
-    }
-    return this.#handle;
   }
 }
 makeDisposable(Solver);
+
+/**
+ * @extends {Steps<import('./wasm/fitmesh.js').MeshSolver>}
+ * @implements {Omit<import('./direct.js').MeshSolver, typeof Symbol.dispose>}
+ */
+export class MeshSolver extends Steps {
+  /** What the surface has from the input. */
+  #own;
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').MeshSolverOptions} [given]
+   */
+  constructor(mesh, given) {
+    const { shape, own } = wholeOf(mesh);
+    const options = optionsOf('meshSolver', given);
+    super(meshFits, meshFits.call((wasm) => wasm.MeshSolver.onMesh(shape, options)));
+    this.#own = own;
+  }
+
+  surface() {
+    const handle = this.live();
+    return { ...this.#own, ...meshFits.call(() => handle.surface()) };
+  }
+}
+makeDisposable(MeshSolver);
 
 /** @type {typeof import('./direct.js').fit} */
 export const fit = (input, options) => /** @type {any} */ (solved(input, options));
@@ -149,7 +119,21 @@ export const fit = (input, options) => /** @type {any} */ (solved(input, options
  */
 function solved(input, given) {
   const { onProgress, ...options } = optionsOf('directFit', given);
-  const solve = new Solver(input, options);
+  return run(new Solver(input, options), onProgress);
+}
+
+/** @type {typeof import('./direct.js').fitMesh} */
+export function fitMesh(mesh, given) {
+  const { onProgress, ...options } = optionsOf('directFitMesh', given);
+  return run(/** @type {import('./direct.js').MeshSolver} */ (/** @type {unknown} */ (new MeshSolver(mesh, options))), onProgress);
+}
+
+/**
+ * @template S
+ * @param {{ advance(ms: number): boolean, progress(): import('./types.js').Progress, cancel(): void, surface(): S, dispose(): void }} solve
+ * @param {(progress: import('./types.js').Progress) => boolean | void} [onProgress]
+ */
+function run(solve, onProgress) {
   try {
     while (solve.advance(PROGRESS_INTERVAL)) {
       if (onProgress?.(solve.progress()) === false) solve.cancel();
@@ -212,7 +196,7 @@ export function writeExr(input) {
 
 /** @type {typeof import('./direct.js').writeObj} */
 export function writeObj(input, given) {
-  const lattice = asLattice(input);
+  const lattice = asMeshOrLattice(input);
   const options = optionsOf('writeObj', given);
   return bytesOf((wasm) => wasm.writeObj(lattice, options));
 }
@@ -225,20 +209,22 @@ export function writeMtl(picture) {
 
 /** @type {typeof import('./direct.js').writePly} */
 export function writePly(input) {
-  const lattice = asLattice(input);
+  const lattice = asMeshOrLattice(input);
   return unshared(meshes.call((wasm) => wasm.writePly(lattice)));
 }
 
 /** @type {typeof import('./direct.js').writeStl} */
 export function writeStl(input) {
-  const lattice = asLattice(input);
+  const lattice = asMeshOrLattice(input);
   return unshared(meshes.call((wasm) => wasm.writeStl(lattice)));
 }
 
 /** @type {typeof import('./direct.js').writeGlb} */
 export function writeGlb(input, given) {
-  const lattice = asLattice(input);
-  const { texture = lattice.texture, ...rest } = optionsOf('writeGlb', given);
+  const lattice = asMeshOrLattice(input);
+  const [picture] = lattice.textures ?? [];
+  const own = picture instanceof Uint8Array ? picture : undefined;
+  const { texture = lattice.texture ?? own, ...rest } = optionsOf('writeGlb', given);
   const options = { ...rest, texture: texture === null || texture === undefined ? undefined : asBytes(texture) };
   return unshared(meshes.call((wasm) => wasm.writeGlb(lattice, options)));
 }

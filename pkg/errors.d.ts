@@ -2,6 +2,7 @@
  * Error codes. Those of the Rust crate (`Error::code`):
  * - `EMPTY`, `SHAPE`, `NOT_FINITE`, `NO_INTERIOR`, `OVERFLOW`, `UNDERFLOW`, `TOO_LARGE`: something about the
  *   heights;
+ * - `TOPOLOGY`: a mesh that is no surface, as one with three triangles at an edge;
  * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `EDGES`: traced edges that cannot be those of a page;
  * - `FOCAL_LENGTH`: a photo's focal length is not known, and cannot be found from the edges;
@@ -19,7 +20,7 @@
  * - `WORKER`: the worker could not be started or died.
  */
 export type ErrorCode =
-  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'OPTION' | 'OVERFLOW' | 'UNDERFLOW'
+  | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'TOPOLOGY' | 'OPTION' | 'OVERFLOW' | 'UNDERFLOW'
   | 'TOO_LARGE' | 'OUT_OF_MEMORY' | 'EDGES' | 'FOCAL_LENGTH'
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';

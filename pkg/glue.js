@@ -2,8 +2,9 @@
  * The glue of all wasm files at once: for workers, whose bundle would have to be split otherwise (which not every bundler
  * does for a worker), and to load wasm synchronously.
  */
-import { files, images, meshes, patterns, sheets, solver } from './instances.js';
+import { files, images, meshFits, meshes, patterns, sheets, solver } from './instances.js';
 import * as filesGlue from './wasm/files.js';
+import * as fitmeshGlue from './wasm/fitmesh.js';
 import * as imagesGlue from './wasm/images.js';
 import * as meshesGlue from './wasm/meshes.js';
 import * as patternsGlue from './wasm/patterns.js';
@@ -16,6 +17,7 @@ export function useGlue() {
   files.use(filesGlue);
   images.use(imagesGlue);
   meshes.use(meshesGlue);
+  meshFits.use(fitmeshGlue);
   sheets.use(unrollGlue);
   patterns.use(patternsGlue);
 }

@@ -1,7 +1,7 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, NpzArray,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -24,6 +24,8 @@ export interface WorkerOptions {
   imagesWasm?: InitInput;
   /** Where the wasm is that reads, samples and writes meshes (but for OBJ out), likewise. */
   meshesWasm?: InitInput;
+  /** Where the wasm is that fits surfaces to whole meshes, likewise. */
+  fitmeshWasm?: InitInput;
   /** Where the wasm is that analyses, draws, unrolls and dewarps, likewise. */
   unrollWasm?: InitInput;
   /** Where the wasm is that makes patterns and writes them, likewise. */
@@ -58,6 +60,15 @@ export interface HandOver {
    * Arrays that are only a part of their buffer are copied all the same.
    */
   transfer?: boolean;
+}
+
+export interface FitMeshOptions extends MeshSolverOptions {
+  /** Stops the work itself, not only the waiting. */
+  signal?: AbortSignal;
+  /** What an abort does: reject with the signal's reason (default), or resolve with the best surface so far. */
+  onAbort?: 'reject' | 'keep';
+  /** Called in the caller's thread, several times a second. */
+  onProgress?: (progress: Progress) => void;
 }
 
 export interface FitOptions extends OpenFitOptions, HandOver {}
@@ -109,12 +120,18 @@ export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<A
 export function writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
 export function writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
 export function writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-export function writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
+export function writeObj(input: Heightfield | Mesh, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
-export function writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-export function writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-export function writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
+export function writePly(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
+export function writeStl(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
+export function writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
+/**
+ * Moves the vertices of a mesh so that it is piecewise developable: the whole of it, without a view, whether it is
+ * closed, overhanging, open or in parts. The mesh must be a surface (code `TOPOLOGY` otherwise, with the place).
+ * `confidence` of the mesh weighs how closely each vertex is followed.
+ */
+export function fitMesh(mesh: Mesh, options?: FitMeshOptions): Promise<MeshSurface>;
 export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
 /** Gives a surface the colours of a picture of it. */
@@ -173,12 +190,13 @@ export class DevelopableWorker {
   writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
   writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
   writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-  writeObj(input: Heightfield, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writeObj(input: Heightfield | Mesh, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
-  writePly(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-  writeStl(input: Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-  writeGlb(input: Heightfield, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
+  writePly(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
+  writeStl(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
+  writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
   readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
+  fitMesh(mesh: Mesh, options?: FitMeshOptions): Promise<MeshSurface>;
   sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
   backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
   paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;

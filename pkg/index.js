@@ -53,6 +53,8 @@ export const writeGlb = (input, options) => worker().writeGlb(input, options);
 export const readMesh = (bytes, options) => worker().readMesh(bytes, options);
 /** @type {typeof import('./index.js').sampleMesh} */
 export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
+/** @type {typeof import('./index.js').fitMesh} */
+export const fitMesh = (mesh, options) => worker().fitMesh(mesh, options);
 /** @type {typeof import('./index.js').backProject} */
 export const backProject = (input, camera, options) => worker().backProject(input, camera, options);
 /** @type {typeof import('./index.js').paint} */

@@ -29,6 +29,12 @@ export const meshes = new Instance(
   () => new URL('./wasm/meshes_bg.wasm', import.meta.url),
 );
 
+export const meshFits = new Instance(
+  'fitmesh',
+  () => import('./wasm/fitmesh.js'),
+  () => new URL('./wasm/fitmesh_bg.wasm', import.meta.url),
+);
+
 export const sheets = new Instance(
   'unroll',
   () => import('./wasm/unroll.js'),
@@ -42,7 +48,7 @@ export const patterns = new Instance(
 );
 
 /** All of them but the solver, by the names that `load` takes. */
-const parts = { files, images, meshes, unroll: sheets, patterns };
+const parts = { files, images, meshes, fitmesh: meshFits, unroll: sheets, patterns };
 
 /** @typedef {keyof typeof parts} PartName */
 

@@ -6,15 +6,15 @@ import { DevelopableError } from './errors.js';
 const BATCH = 25;
 
 /**
- * @typedef {import('./direct.js').Solver} Solver
+ * @typedef {import('./direct.js').Solver | import('./direct.js').MeshSolver} Solver
  * @typedef {import('./types.js').Progress} Progress
- * @typedef {import('./types.js').Surface} Surface
+ * @typedef {import('./types.js').Surface | import('./types.js').MeshSurface} Surface
  * @typedef {{ progress: Progress, surface?: Surface }} News with the surface once the solve is done
  */
 
 /** Jobs of one thread take turns, a batch each. */
 export class Job {
-  /** @type {(() => Solver) | undefined} */
+  /** @type {(() => Solver | Promise<Solver>) | undefined} */
   #begin;
   #release;
   #interval;
@@ -29,7 +29,7 @@ export class Job {
   #finishing = false;
 
   /**
-   * @param {() => Solver} begin sets the solver up; not called for a job that is dropped at once
+   * @param {() => Solver | Promise<Solver>} begin sets the solver up; not called for a job that is dropped at once
    * @param {number} interval milliseconds between two pieces of news, at least
    * @param {(solver: Solver) => void} [release] what becomes of the solver when the job is done
    */
@@ -73,7 +73,10 @@ export class Job {
       const begin = this.#begin;
       this.#begin = undefined; // and with it what it holds on to
       if (this.#outcome || !begin) return;
-      const solver = (this.#solver = begin());
+      const solver = await begin();
+      // It may have been dropped meanwhile.
+      if (this.#outcome) return this.#release(solver);
+      this.#solver = solver;
       if (this.#finishing) solver.cancel();
       await breathe();
       while (!this.#outcome && solver.advance(BATCH)) {

@@ -1,10 +1,10 @@
 /** Meshes as inputs: checked as far as JS has to, in arrays of the types that Rust reads. */
 import { DevelopableError } from './errors.js';
-import { asBytes, asCamera, numbers, optionalFloats, typed, unitOf } from './input.js';
+import { asBytes, asCamera, asLattice, numbers, optionalFloats, typed, unitOf } from './input.js';
 import { asPhoto } from './sheet-input.js';
-import { reading, record, refuseUnknown, typeOf } from './values.js';
+import { isRecord, reading, record, refuseUnknown, typeOf } from './values.js';
 
-const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit', 'confidence']);
+const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit', 'confidence', 'report']);
 
 /**
  * @param {import('./types.js').Mesh} mesh
@@ -32,6 +32,31 @@ export function asMesh(mesh) {
       ? undefined
       : reading('INPUT', 'textures', () => [.../** @type {Iterable<unknown>} */ (textures)].map(asPicture)),
   };
+}
+
+/**
+ * A mesh for a fit: what the wasm needs of it, and what the result has of it besides its positions.
+ * @param {import('./types.js').Mesh} mesh
+ */
+export function wholeOf(mesh) {
+  const { positions, triangles, confidence, ...rest } = asMesh(mesh);
+  const { colors, uvs, textureOf, textures, camera, unit } = rest;
+  const copies = { triangles, colors, uvs, textureOf, confidence };
+  const own = Object.entries(copies).flatMap(([name, array]) => (array === undefined ? [] : [[name, array.slice()]]));
+  const carried = Object.entries({ textures, camera, unit }).filter(([, value]) => value !== undefined);
+  return { shape: { positions, triangles, confidence }, own: Object.fromEntries([...own, ...carried]) };
+}
+
+/**
+ * What can be written as a mesh: one, or heights on the lattice.
+ * @param {unknown} input
+ * @returns {any}
+ */
+export function asMeshOrLattice(input) {
+  const isMesh = reading('INPUT', 'the input', () => isRecord(input) && 'positions' in /** @type {object} */ (input));
+  if (!isMesh) return asLattice(/** @type {import('./types.js').Heightfield} */ (input));
+  const { positions, triangles, colors, uvs, textures } = asMesh(/** @type {import('./types.js').Mesh} */ (input));
+  return { positions, triangles, colors, uvs, textures };
 }
 
 /**

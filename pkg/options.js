@@ -90,6 +90,16 @@ const corners = {
 };
 
 /** @type {Kind} */
+const flags = {
+  must: 'must be a list of true and false (or 1 and 0), one for each vertex',
+  take: (value) => {
+    const list = Array.isArray(value) || ArrayBuffer.isView(value) ? Array.from(/** @type {ArrayLike<unknown>} */ (value)) : [];
+    const known = list.every((one) => one === true || one === false || one === 1 || one === 0);
+    return known && list.length > 0 ? Uint8Array.from(list, Number) : undefined;
+  },
+};
+
+/** @type {Kind} */
 const photoCamera = {
   must: 'must be a camera: { fx, fy, cx, cy, width, height }',
   take: (value) => (isRecord(value) ? optionsOf('photoCamera', /** @type {object} */ (value)) : undefined),
@@ -123,6 +133,17 @@ const solver = {
   bridge: either(flag, number),
 };
 
+const meshFit = {
+  lambda: either(choice('small', 'medium', 'big', 'auto'), number),
+  gap: number,
+  maxIterations: whole,
+  bendRadius: number,
+  flatness: number,
+  creaseRadius: number,
+  creasePasses: whole,
+  held: flags,
+};
+
 const directions = ['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'];
 
 /** What each call takes. @satisfies {Record<string, Record<string, Kind>>} */
@@ -131,6 +152,9 @@ export const OPTIONS = {
   directFit: { ...solver, onProgress: callback },
   fit: { ...solver, ...control, ...handOver },
   openFit: { ...solver, ...control },
+  meshSolver: meshFit,
+  directFitMesh: { ...meshFit, onProgress: callback },
+  fitMesh: { ...meshFit, ...control },
   handOver,
   occlusions: { ...resampled, threshold: number, normalize: flag },
   read: { format: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'), array: text },
@@ -186,6 +210,7 @@ export const OPTIONS = {
     filesWasm: anything,
     imagesWasm: anything,
     meshesWasm: anything,
+    fitmeshWasm: anything,
     unrollWasm: anything,
     patternsWasm: anything,
   },

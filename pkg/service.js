@@ -27,16 +27,16 @@ let places = {};
 
 export const service = {
   /**
-   * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', the unrolling's and the patterns'
+   * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', of fits to meshes, the unrolling's and the patterns'
    * @param {MessagePort} [copies] where to get copies of them, where nothing lies beside this script
    */
-  init([wasm, files, images, meshes, unroll, patterns], copies) {
+  init([wasm, files, images, meshes, fitmesh, unroll, patterns], copies) {
     if (copies) {
       /** @type {import('./vendor/comlink.mjs').Remote<typeof import('./copies.js').wasmCopy>} */
       const ask = wrap(copies);
       takeCopiesFrom((name) => ask(name));
     }
-    places = { files, images, meshes, unroll, patterns };
+    places = { files, images, meshes, fitmesh, unroll, patterns };
     return direct.init(wasm);
   },
 
@@ -49,6 +49,21 @@ export const service = {
    */
   start(id, input, options, interval) {
     jobs.set(id, new Job(() => new direct.Solver(input, options), interval));
+  },
+
+  /**
+   * Begins a solve over a mesh likewise.
+   * @param {number} id
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').MeshSolverOptions} options
+   * @param {number} interval
+   */
+  startMesh(id, mesh, options, interval) {
+    const begin = async () => {
+      await loaded('fitmesh');
+      return new direct.MeshSolver(mesh, options);
+    };
+    jobs.set(id, new Job(begin, interval));
   },
 
   /**
@@ -102,6 +117,7 @@ export const service = {
     const { surface } = news;
     if (!surface) return news;
     jobs.delete(id);
+    if ('positions' in surface) return transfer(news, buffersOf(surface.positions));
     return transfer(news, buffersOf(surface.heights, surface.image?.data));
   },
 

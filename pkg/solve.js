@@ -3,7 +3,6 @@
 /**
  * @typedef {import('./connection.js').Remote} Remote
  * @typedef {import('./control.js').Control} Control
- * @typedef {import('./types.js').Surface} Surface
  */
 
 /** Milliseconds between two calls of `onProgress`, at least. */
@@ -17,7 +16,7 @@ let solves = 0;
  * @param {Remote} remote
  * @param {(id: number, interval: number) => Promise<void>} start
  * @param {Control} control
- * @returns {Promise<Surface>}
+ * @returns {Promise<any>} the surface: of heights or of a mesh, as was started
  */
 export async function solve(remote, start, { signal, keep, onProgress }) {
   if (!keep) signal?.throwIfAborted();

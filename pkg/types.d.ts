@@ -128,6 +128,97 @@ export interface Mesh {
   confidence?: Float32Array;
 }
 
+/** Options of a fit over a whole mesh. The energy is `huber`; a mesh is scaled so that the ball about it has diameter 1. */
+export interface MeshSolverOptions {
+  /** How closely to follow the input, in those coordinates. Default `'auto'`: by the noise of the mesh. */
+  lambda?: 'small' | 'medium' | 'big' | 'auto' | number;
+  /** Certified relative gap of each linearised problem to stop at; default 0.01. */
+  gap?: number;
+  /** Most ADMM iterations for each linearisation; default 1000. */
+  maxIterations?: number;
+  /** Bends of a larger radius cost their square, others their size; default 0.1. */
+  bendRadius?: number;
+  /** The slope that the cost of bends begins with, from 0 (nothing is quite flat) to 1; default 0.3. */
+  flatness?: number;
+  /** What bends more tightly is a crease; default 0.1. */
+  creaseRadius?: number;
+  /** Passes that give creases their angle back, each about another linearisation; default 2. */
+  creasePasses?: number;
+  /** Which vertices stay where they are. */
+  held?: readonly (boolean | number)[] | Uint8Array;
+}
+
+/** What was mended of a mesh before a fit; the result has its vertices and triangles all the same. */
+export interface MeshRepairs {
+  /** Vertices at the place of another one, which move with it. */
+  joined: number;
+  /** Triangles with two corners at one place. */
+  degenerate: number;
+  /** Triangles that are there twice. */
+  repeated: number;
+  /** Triangles that faced the other side than those around them. */
+  turned: number;
+  /** Vertices of no triangle, which stay where they are. */
+  unused: number;
+}
+
+/** One linearisation of a fit over a mesh, and the convex problem about it. */
+export interface MeshPass {
+  iterations: number;
+  cgIterations: number;
+  /** Energy of the best iterate, in the linearised problem. */
+  objective: number;
+  /** Certified lower bound of that problem's optimum. */
+  dualBound: number;
+  gap?: number;
+  stopReason: StopReason;
+  /** Vertices on creases, where bends cost less in this pass. */
+  creases: number;
+  /** How far vertices went in it: root mean square, and at most, in the input's units. */
+  moved: number;
+  movedMost: number;
+}
+
+/** What was solved over a mesh, how well and at what cost. */
+export interface MeshReport {
+  /** Vertices of the solve: those of the input, but at most one at each place. */
+  vertices: number;
+  /** Those with triangles all around, where the surface bends. */
+  interior: number;
+  /** Those on the border, put where the surface inside goes on to. */
+  border: number;
+  /** Those where parts of the surface touch in a point. */
+  pinched: number;
+  components: number;
+  repairs: MeshRepairs;
+  /** From one vertex to the next, on a hexagonal lattice with as many: in the input's units. */
+  spacing: number;
+  /** Factor from the input's units to normalised coordinates. */
+  scale: number;
+  /** Standard deviation of the noise along the normals, in the input's units. */
+  sigma?: number;
+  /** λ as a number. */
+  lambda: number;
+  /**
+   * The linearisations, in order. A gap is a certificate for that linearised problem's best iterate alone: the energy
+   * itself is not convex, and nothing is certified of it.
+   */
+  passes: MeshPass[];
+  /** What the surface encloses before and after; nothing for open ones. */
+  volume?: [number, number];
+  /** Its area before and after. */
+  area: [number, number];
+  /** Triangles that face away from the surface around them, before and after. */
+  flipped: [number, number];
+  stopReason: StopReason;
+  seconds: Report['seconds'];
+}
+
+/** A mesh whose vertices were moved; all else is the input's. */
+export interface MeshSurface extends Mesh {
+  report: MeshReport;
+}
+
 /** A pinhole camera, in pixels: the centre of the top left one is (0, 0), rows count down. */
 export interface Intrinsics {
   /** Focal length in columns. */

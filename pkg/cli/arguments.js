@@ -62,6 +62,10 @@ import { split, usage } from './flags.js';
  *   map?: string, quality?: number,
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
+ * @typedef {{
+ *   command: 'surface', input: string, output: string, extension: Extension, written: string[], report?: string,
+ *   options: import('../types.js').MeshSolverOptions,
+ * }} MeshTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
  */
 
@@ -93,7 +97,7 @@ const THRESHOLD = 4e4;
 /**
  * @param {string[]} args
  * @returns {FitTask | OcclusionsTask | AnalyzeTask | PatchesTask | RulingsTask | UnrollTask | PatternTask |
- *   DewarpTask | PageTask | InfoTask | { command: 'help', about?: import('./commands.js').Command } | { command: 'version' }}
+ *   DewarpTask | PageTask | MeshTask | InfoTask | { command: 'help', about?: import('./commands.js').Command } | { command: 'version' }}
  */
 export function parse(args) {
   const { values, positionals } = split(args);
@@ -142,6 +146,7 @@ export function parse(args) {
     noData: number('no-data', values),
     normalize: !values['no-normalize'],
   };
+  if (command === 'fit' && values.surface) return whole(about, values);
   if (command === 'occlusions') return { command, ...about, threshold: number('threshold', values) };
   if (command === 'fit' && texture !== undefined && !['.obj', '.ply', '.glb'].includes(about.extension)) {
     throw usage('--texture is for outputs that end in .obj, .ply or .glb');
@@ -229,6 +234,42 @@ export function parse(args) {
     default:
       return { command, ...fitting };
   }
+}
+
+/** What a fit over a whole mesh takes. @satisfies {readonly Flag[]} */
+const wholeFlags = [
+  'surface', 'output', 'report', 'lambda', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'gap', 'max-iterations',
+];
+
+/**
+ * A mesh as it is, without a view.
+ * @param {InputTask} about
+ * @param {Values} values
+ * @returns {MeshTask}
+ */
+function whole({ input, output, written, extension: kind }, values) {
+  /** @type {readonly string[]} */
+  const known = wholeFlags;
+  const stray = Object.keys(values).find((flag) => !known.includes(flag));
+  if (stray !== undefined) throw usage(`--${stray} is for heights, and with --surface the whole mesh is fitted`, 'fit');
+  if (!isMesh(output) || kind === '.json') throw usage('with --surface the output is a mesh: .obj, .ply, .stl or .glb', 'fit');
+  return {
+    command: 'surface',
+    input,
+    output,
+    written,
+    extension: kind,
+    report: values.report,
+    options: {
+      lambda: lambda(values.lambda),
+      gap: number('gap', values),
+      maxIterations: number('max-iterations', values),
+      bendRadius: number('bend-radius', values),
+      flatness: number('flatness', values),
+      creaseRadius: number('crease-radius', values),
+      creasePasses: number('crease-passes', values),
+    },
+  };
 }
 
 const pageFlags = /** @type {const} */ (['focal', 'fov', 'page']);
@@ -331,12 +372,12 @@ export function isMesh(input) {
 
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */
 const strangers = {
-  image: ['view', 'resolution', 'rotate-depth', 'ray'],
+  image: ['surface', 'view', 'resolution', 'rotate-depth', 'ray'],
   mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'rotate-depth', 'ray'],
-  depths: ['lattice', 'pixel-size', 'height-scale', 'constraints', 'free', 'occlusion-mask'],
+  depths: ['surface', 'lattice', 'pixel-size', 'height-scale', 'constraints', 'free', 'occlusion-mask'],
 };
 
-const plurals = { image: 'meshes and depths', mesh: 'images', depths: 'heights, and the input is depths' };
+const plurals = { image: 'meshes and depths', mesh: 'images', depths: 'heights or meshes, and the input is depths' };
 
 /**
  * @param {string} input

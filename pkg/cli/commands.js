@@ -56,10 +56,11 @@ export const commands = {
     summary: 'fit a surface to heights',
     about: 'Fits a piecewise-developable surface to heights, with a certified bound of how far from the optimum it can be.',
     terms: { INPUT, OUTPUT },
-    flags: [...fitted, 'report', 'texture', 'mtl'],
+    flags: [...fitted, 'surface', 'report', 'texture', 'mtl'],
     examples: [
       'fit scan.tif -o surface.obj --lambda big --report report.json',
       'fit scan.ply -o surface.glb --view -z',
+      'fit scan.ply -o surface.ply --surface',
       'fit depth.png -o depth.ply --intrinsics 525,525,319.5,239.5,0.001',
     ],
   },

@@ -102,6 +102,11 @@ export const sections = {
   mesh: {
     title: 'How to look at a mesh',
     flags: {
+      surface: {
+        help: 'do not look at it along a view: fit the whole mesh as it is, closed, overhanging or open. OUTPUT is the same ' +
+          'mesh (.obj, .ply, .stl or .glb), its vertices moved; lambda is auto unless it is given, and radii are shares of ' +
+          'the diameter of a ball about it',
+      },
       view: {
         value: 'V',
         help: 'the direction to look in: -x, +x, -y, +y, -z (the default: what has the largest z is in front), +z, a ' +
@@ -253,7 +258,7 @@ export const sections = {
 
 /**
  * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections]} Flag
- * @typedef {'no-normalize' | 'ray' | 'as-is' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {'no-normalize' | 'surface' | 'ray' | 'as-is' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
 

@@ -105,18 +105,56 @@ function checkScale({ input, noData, command = '' }, file) {
   );
 }
 
+/** Share of a mesh's area behind which there may be more than a rough outline. */
+const HIDDEN = 0.1;
+
+/**
+ * The share of a mesh's area that is behind what is seen of it.
+ * @param {import('../types.js').Mesh} mesh
+ * @param {import('../types.js').SampledMesh} seen
+ */
+function hiddenShare({ positions, triangles }, { rows, cols, spacing, origin, heights, frame }) {
+  const axes = [frame.right, frame.up, frame.towards];
+  let [whole, hidden] = [0, 0];
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => {
+      const at = 3 * triangles[i + k];
+      return axes.map((axis) => axis[0] * positions[at] + axis[1] * positions[at + 1] + axis[2] * positions[at + 2]);
+    });
+    const [u, v] = [b, c].map((corner) => corner.map((x, j) => x - a[j]));
+    const area = Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    const [x, y, z] = a.map((first, j) => (first + b[j] + c[j]) / 3);
+    const row = Math.round((origin[1] - y) / (spacing * Math.sqrt(0.75)));
+    const col = Math.round((x - origin[0]) / spacing + (row % 2) / 2);
+    const inside = row >= 0 && row < rows && col >= 0 && col < cols;
+    const height = inside ? heights[row * cols + col] : NaN;
+    if (!Number.isFinite(area)) continue;
+    whole += area;
+    if (height - z > 3 * spacing) hidden += area;
+  }
+  return whole > 0 ? hidden / whole : 0;
+}
+
 /** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
   const mesh = await readMesh(task);
-  return developable.sampleMesh({ ...mesh, unit: task.unit ?? mesh.unit }, { view, resolution, spacing });
+  const seen = await developable.sampleMesh({ ...mesh, unit: task.unit ?? mesh.unit }, { view, resolution, spacing });
+  const lost = task.camera ? 0 : hiddenShare(mesh, seen);
+  if (lost > HIDDEN) {
+    process.stderr.write(
+      `developable: warning: ${Math.round(100 * lost)} % of the area of ${task.input} is not seen in this view, and not in the ` +
+        'result; fit --surface fits the whole mesh as it is\n',
+    );
+  }
+  return seen;
 }
 
 /**
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
  * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
  */
-async function readMesh({ input, array, camera, mask, confidence, noData, written, photo }) {
+export async function readMesh({ input, array, camera, mask, confidence, noData, written, photo }) {
   if (!camera) {
     const mesh = await readMeshFile(input, await readBytes(input), written);
     for (const name of mesh.missing ?? []) {

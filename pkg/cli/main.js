@@ -12,6 +12,7 @@ import { occlusions } from './occlusions.js';
 import { page } from './page.js';
 import { dewarp, pattern, unroll } from './sheets.js';
 import { analyze, patches, rulings } from './tell.js';
+import { whole } from './whole.js';
 import { print } from './terminal.js';
 
 /**
@@ -63,6 +64,8 @@ async function perform(task, signal) {
       return pattern(task, signal);
     case 'dewarp':
       return dewarp(task, signal);
+    case 'surface':
+      return whole(task, signal);
     case 'page':
       return page(task, signal);
     default:

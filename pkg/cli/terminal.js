@@ -50,6 +50,18 @@ export function announce(output, { interior, boundary, omitted, iterations, gap,
   );
 }
 
+/**
+ * @param {string} output
+ * @param {import('../types.js').MeshReport} report
+ */
+export function announceMesh(output, { vertices, passes, seconds }) {
+  if (!terminal.isTTY) return;
+  const iterations = passes.reduce((sum, pass) => sum + pass.iterations, 0);
+  const gap = passes.at(-1)?.gap;
+  const quality = gap === undefined ? '' : `, the last of ${passes.length} linearised problems within ${percent(gap)} of its optimum`;
+  terminal.write(`${output}: ${vertices} vertices${quality} after ${iterations} iterations and ${seconds.total.toFixed(1)} s\n`);
+}
+
 /** @param {number} share */
 export function percent(share, digits = 3) {
   return `${Number((100 * share).toPrecision(digits))} %`;

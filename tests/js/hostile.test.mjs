@@ -12,7 +12,7 @@ import { boom, hostileValues, resizableBuffer, withGetter } from './support/host
 import { cylinder, image, lattice } from './support/shapes.mjs';
 
 await direct.init();
-await direct.load('files', 'images', 'meshes', 'unroll', 'patterns');
+await direct.load('files', 'images', 'meshes', 'fitmesh', 'unroll', 'patterns');
 after(promise.dispose);
 
 const { DevelopableError } = direct;
@@ -46,6 +46,8 @@ const camera = { fx: 8, fy: 8, cx: 4, cy: 4, depthScale: 1, depth: 'planar' };
 const npy = direct.writeNpy(bent);
 const ply = direct.writePly(hex);
 const drawing = direct.pattern(hex);
+const { positions, triangles } = direct.readMesh(ply);
+const whole = { positions, triangles, confidence: new Float32Array(positions.length / 3).fill(1) };
 
 /**
  * What each function is called with when all is in order, and the table of its options, the last argument.
@@ -67,6 +69,7 @@ const calls = {
   writeGlb: { args: { input: shaded }, options: 'writeGlb' },
   readMesh: { args: { bytes: ply }, options: 'readMesh' },
   sampleMesh: { args: { mesh }, options: 'sampleMesh' },
+  fitMesh: { args: { mesh: whole }, options: 'meshSolver' },
   backProject: { args: { input: bent, camera } },
   parseCamera: { args: { text: JSON.stringify(camera), images: [{ width: 8, height: 8 }] } },
   paint: { args: { input: shaded, picture: photo }, options: 'paint' },
@@ -118,7 +121,7 @@ function* hostileArguments(name) {
 /** @param {Record<string, any>} api */
 function everyFunction(api) {
   const functions = Object.keys(api).filter((name) => typeof api[name] === 'function');
-  const others = ['init', 'load', 'Solver', 'DevelopableError', 'DevelopableWorker', 'open', 'draw', 'dispose'];
+  const others = ['init', 'load', 'Solver', 'MeshSolver', 'DevelopableError', 'DevelopableWorker', 'open', 'draw', 'dispose'];
   assert.deepEqual(functions.filter((name) => !(name in calls) && !others.includes(name)), []);
   return Object.keys(calls);
 }

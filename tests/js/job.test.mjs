@@ -58,7 +58,8 @@ test('a finished job gives its best surface and is done', async () => {
   job.finish();
   const { surface } = await news;
   assert.equal(surface?.report.stopReason, 'cancelled');
-  assert.equal(surface?.report.cgIterations, solver.iterations);
+  const report = /** @type {import('../../pkg/types.js').Surface} */ (surface).report;
+  assert.equal(report.cgIterations, solver.iterations);
   assert.equal(solver.disposed, true);
 });
 

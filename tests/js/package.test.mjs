@@ -38,7 +38,7 @@ test('the package holds what it needs and nothing else', async () => {
     'index.js', 'index.d.ts', 'direct.js', 'direct.d.ts', 'types.d.ts', 'worker.js', 'bin/developable.js',
     'wasm/solver.js', 'wasm/solver_bg.wasm', 'wasm/files.js', 'wasm/files_bg.wasm',
     'wasm/images.js', 'wasm/images_bg.wasm', 'wasm/meshes.js', 'wasm/meshes_bg.wasm',
-    'wasm/unroll.js', 'wasm/unroll_bg.wasm', 'wasm/patterns.js', 'wasm/patterns_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
+    'wasm/fitmesh.js', 'wasm/fitmesh_bg.wasm', 'wasm/unroll.js', 'wasm/unroll_bg.wasm', 'wasm/patterns.js', 'wasm/patterns_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
     'inline/worker.js', 'inline/solver.js', 'LICENSE-MIT', 'LICENSE-APACHE', 'README.md',
   ];
   for (const path of needed) assert.ok(paths.includes(path), path);
@@ -182,7 +182,7 @@ test('an app bundled with Vite runs under the strict policy', { skip }, async ()
   const assets = await readdir(join(app, 'dist/assets'));
   // Each of the package's wasm files, once.
   const modules = assets.filter((name) => name.endsWith('.wasm')).map((name) => name.split('-')[0]);
-  assert.deepEqual(modules.sort(), ['files_bg', 'images_bg', 'meshes_bg', 'patterns_bg', 'solver_bg', 'unroll_bg']);
+  assert.deepEqual(modules.sort(), ['files_bg', 'fitmesh_bg', 'images_bg', 'meshes_bg', 'patterns_bg', 'solver_bg', 'unroll_bg']);
   // And none of the copies, which are gzipped.
   for (const name of assets.filter((one) => one.endsWith('.js'))) {
     assert.doesNotMatch(await readFile(join(app, 'dist/assets', name), 'utf8'), /H4sIA{4}/, name);

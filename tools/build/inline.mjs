@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { pkg, pkgInline, pkgWasm } from '../util/paths.mjs';
 
-const names = ['solver', 'files', 'images', 'meshes', 'unroll', 'patterns'];
+const names = ['solver', 'files', 'images', 'meshes', 'fitmesh', 'unroll', 'patterns'];
 
 export async function buildInline() {
   const draft = await mkdtemp(join(pkg, 'inline-draft-'));

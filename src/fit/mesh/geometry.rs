@@ -112,6 +112,41 @@ pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
     }
 }
 
+/// Steps in which folded triangles are laid flat, at most.
+const UNFOLDING: usize = 40;
+
+/// Lays triangles flat that face away from the normals of their corners: their vertices go towards the mean
+/// of their neighbours, along the surface. Those that are `held` stay.
+pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
+    let mut folded = vec![false; x.len()];
+    for _ in 0..UNFOLDING {
+        folded.fill(false);
+        let mut any = false;
+        for triangle in &topology.triangles {
+            let sum: Point = triangle.iter().map(|i| up[*i as usize]).sum();
+            if twice_area(x, triangle).dot(&sum) < 0.0 {
+                any = true;
+                for corner in triangle {
+                    folded[*corner as usize] = true;
+                }
+            }
+        }
+        if !any {
+            return;
+        }
+        for vertex in 0..x.len() {
+            let held = held.get(vertex).is_some_and(|held| *held);
+            if !folded[vertex] || held || !topology.inside[vertex] {
+                continue;
+            }
+            let ring = topology.around(vertex);
+            let sum: Point = ring.iter().map(|other| x[*other as usize]).sum();
+            let towards = sum / ring.len() as f64 - x[vertex];
+            x[vertex] += 0.5 * (towards - up[vertex] * up[vertex].dot(&towards));
+        }
+    }
+}
+
 /// `x` where it is along the `rays`, and at `places` across them.
 pub(super) fn across(x: &[Point], places: &[Point], rays: &[Point]) -> Vec<Point> {
     let all = x.iter().zip(places).zip(rays);

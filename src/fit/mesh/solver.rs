@@ -3,7 +3,7 @@
 use web_time::Instant;
 
 use super::border::restore;
-use super::geometry::{Frame, Point, across, areas, normals, smooth, twice_area, volume};
+use super::geometry::{Frame, Point, across, areas, normals, smooth, twice_area, unfold, volume};
 use super::linear::{Given, Linearised, NONE, spacing_of};
 use super::noise::noise;
 use super::options::{MeshOptions, check_confidence};
@@ -296,6 +296,10 @@ impl MeshSolver {
         let z = &level.best.z;
         let mut next = self.linear.moved(z);
         restore(&self.given, &mut next, &self.linear.frames);
+        let topology = &self.given.topology;
+        let old: Vec<Point> = self.linear.frames.iter().map(|f| f.normal).collect();
+        let up = normals(topology, &next, Some(&old));
+        unfold(topology, &mut next, &up, &self.given.held);
         let moved = next
             .iter()
             .zip(&self.linear.base)
@@ -406,7 +410,8 @@ fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
     let mut smoothed = places.clone();
     smooth(topology, &mut smoothed, SURFACE - PLACES);
     let rays = normals(topology, &smoothed, None);
-    let base = across(&smoothed, &places, &rays);
+    let mut base = across(&smoothed, &places, &rays);
+    unfold(topology, &mut base, &rays, &given.held);
     let rays = normals(topology, &base, Some(&rays));
     let frames = rays
         .into_iter()

@@ -10,6 +10,7 @@ pub mod fields;
 pub mod file;
 pub mod flat;
 pub mod frame;
+pub mod mesh;
 pub mod options;
 pub mod photo;
 pub mod scene;

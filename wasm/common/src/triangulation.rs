@@ -1,5 +1,6 @@
 //! Heights on the lattice as the mesh that is written.
 
+use js_sys::Reflect;
 use serde::Deserialize;
 use serde_wasm_bindgen::{from_value, preserve};
 use wasm_bindgen::prelude::*;
@@ -8,6 +9,7 @@ use super::Result;
 use super::arrays::groups;
 use super::fields::LatticeInput;
 use super::frame::FrameFields;
+use super::mesh::MeshInput;
 use developable::Mesh;
 use developable::Triangulation;
 
@@ -21,8 +23,11 @@ struct Extras {
     uvs: JsValue,
 }
 
-/// The mesh of a `Heightfield`, in the axes of its frame.
+/// The mesh of a `Heightfield`, in the axes of its frame, or a `Mesh` itself.
 pub fn mesh_of(field: JsValue) -> Result<Mesh> {
+    if Reflect::has(&field, &"positions".into()).unwrap_or(false) {
+        return from_value::<MeshInput>(field)?.into_mesh();
+    }
     let extras = from_value::<Extras>(field.clone())?;
     let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
     let frame = extras.frame.map(Into::into).unwrap_or_default();

@@ -4,39 +4,22 @@ mod camera;
 mod surfaces;
 
 use js_sys::{Array, Float32Array, Float64Array, Int32Array, Uint8Array, Uint32Array};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::Error;
 use developable::Mesh;
 use developable::View;
-use developable::checks::{check_count, try_filled};
+use developable::checks::check_count;
 use developable::files::meshes::{MeshFormat, read_mesh_beside};
 use developable::{Resolution, sample};
 use developable_wasm::Result;
-use developable_wasm::arrays::{filled, groups};
+use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::frame::FrameFields;
+use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{entries, option, unknown};
-
-/// `Mesh` of `types.d.ts`, on its way in; checked by `input.js` to have arrays of these types.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct MeshInput {
-    #[serde(with = "preserve")]
-    positions: Float64Array,
-    #[serde(with = "preserve")]
-    triangles: Uint32Array,
-    #[serde(default, with = "preserve")]
-    colors: JsValue,
-    #[serde(default, with = "preserve")]
-    uvs: JsValue,
-    #[serde(default, with = "preserve")]
-    texture_of: JsValue,
-    #[serde(default, with = "preserve")]
-    confidence: JsValue,
-}
 
 /// `Mesh` of `types.d.ts`, on its way out.
 #[derive(Serialize)]
@@ -221,30 +204,4 @@ fn floats<const N: usize>(values: Option<&[[f32; N]]>) -> JsValue {
     values.map_or(JsValue::UNDEFINED, |values| {
         Float32Array::from(values.as_flattened()).into()
     })
-}
-
-impl MeshInput {
-    fn into_mesh(self) -> Result<Mesh> {
-        let mut positions = filled(self.positions.length(), 0.0)?;
-        self.positions.copy_to(positions.as_flattened_mut());
-        let mut triangles = filled(self.triangles.length(), 0)?;
-        self.triangles.copy_to(triangles.as_flattened_mut());
-        let mut mesh = if triangles.is_empty() {
-            Mesh::cloud(positions)?
-        } else {
-            Mesh::new(positions, triangles)?
-        };
-        if let Some(colors) = groups(&self.colors)? {
-            mesh = mesh.with_colors(colors)?;
-        }
-        if let Some(uvs) = groups(&self.uvs)? {
-            mesh = mesh.with_uvs(uvs)?;
-        }
-        if let Some(numbers) = self.texture_of.dyn_ref::<Int32Array>() {
-            let mut own = try_filled("mesh", numbers.length() as usize, 0)?;
-            numbers.copy_to(&mut own);
-            mesh = mesh.with_textures(own)?;
-        }
-        Ok(mesh)
-    }
 }

@@ -1,0 +1,181 @@
+/** Whole meshes, without a view: directly, in a worker and by the command. */
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as developable from '../../pkg/index.js';
+import * as direct from '../../pkg/direct.js';
+import { run, temporaryFolder } from './support/command.mjs';
+
+after(() => developable.dispose());
+
+/** @param {string} code @param {RegExp} [message] */
+const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
+  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
+  assert.equal(thrown.code, code);
+  assert.match(thrown.message, message);
+  return true;
+};
+
+/** A repeatable number about normal, of variance 1. */
+function noise() {
+  let state = 5;
+  const uniform = () => {
+    state = (state * 1103515245 + 12345) % 2 ** 31;
+    return state / 2 ** 31;
+  };
+  return () => Array.from({ length: 12 }, uniform).reduce((sum, x) => sum + x, -6);
+}
+
+/**
+ * A bottle lying along z: a pipe of radius 1 that goes on to a cone, open at both ends, with noise along its normals.
+ * @param {number} around @param {number} sigma
+ */
+function bottle(around, sigma) {
+  const rows = Math.round(around / 2);
+  const random = noise();
+  const positions = [];
+  const triangles = [];
+  for (let j = 0; j <= rows; j++) {
+    const z = (3 * j) / rows;
+    for (let i = 0; i < around; i++) {
+      const angle = (2 * Math.PI * (i + (j % 2) / 2)) / around;
+      const r = radius(z) + sigma * random();
+      positions.push(r * Math.cos(angle), r * Math.sin(angle), z);
+      if (j === rows) continue;
+      const [a, b] = [j * around + i, j * around + ((i + 1) % around)];
+      const [c, d] = [a + around, b + around];
+      triangles.push(...(j % 2 === 0 ? [a, b, c, b, d, c] : [a, d, c, a, b, d]));
+    }
+  }
+  return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles) };
+}
+
+/** @param {number} z */
+const radius = (z) => (z < 2 ? 1 : 1 - (z - 2) / 2);
+
+/** Root mean square of how far vertices are from the bottle. @param {Float64Array} positions */
+function off(positions) {
+  let squares = 0;
+  for (let i = 0; i < positions.length; i += 3) {
+    const [x, y, z] = positions.subarray(i, i + 3);
+    squares += (Math.hypot(x, y) - radius(z)) ** 2;
+  }
+  return Math.sqrt((3 * squares) / positions.length);
+}
+
+const sigma = 0.02;
+const noisy = bottle(60, sigma);
+
+test('fits to meshes have a wasm of their own', async () => {
+  assert.throws(() => direct.fitMesh(noisy), error('NOT_INITIALIZED', /load\('fitmesh'\)/));
+  await Promise.all([direct.init(), direct.load('files', 'meshes', 'fitmesh')]);
+});
+
+test('a whole mesh comes out smoother, and all else of it as it was', async () => {
+  const count = noisy.positions.length / 3;
+  const colors = Float32Array.from({ length: 3 * count }, (_, i) => (i % 7) / 7);
+  const uvs = Float32Array.from({ length: 2 * count }, (_, i) => (i % 5) / 5);
+  const before = noisy.positions.slice();
+  /** @type {import('../../pkg/types.js').Progress[]} */
+  const news = [];
+  const mesh = { ...noisy, colors, uvs, unit: /** @type {const} */ ('mm') };
+  const found = await developable.fitMesh(mesh, { onProgress: (progress) => void news.push(progress) });
+  assert.ok(off(found.positions) < 0.4 * sigma, `${off(found.positions)}`);
+  assert.deepEqual(noisy.positions, before);
+  assert.deepEqual([found.triangles, found.colors, found.uvs, found.unit], [noisy.triangles, colors, uvs, 'mm']);
+  const { report } = found;
+  assert.equal(report.vertices, count);
+  assert.equal(report.border, 120);
+  assert.ok(report.sigma !== undefined && Math.abs(report.sigma / sigma - 1) < 0.15, String(report.sigma));
+  const last = report.passes[report.passes.length - 1];
+  assert.ok(last.gap !== undefined && last.gap <= 0.01 && last.dualBound <= last.objective);
+  assert.equal(report.volume, undefined);
+  assert.ok(news.length > 0);
+  // The same here, and the result is an input again.
+  const own = direct.fitMesh(mesh);
+  assert.deepEqual(own.positions, found.positions);
+  assert.ok(direct.fitMesh(own).report.passes.length > 0);
+  assert.ok((await developable.sampleMesh(found, { view: 'best-fit' })).rows > 10);
+});
+
+test('vertices are held, and trusted more or less', () => {
+  const count = noisy.positions.length / 3;
+  const held = Array.from({ length: count }, (_, i) => i % 50 === 7);
+  const found = direct.fitMesh(noisy, { held });
+  for (let i = 0; i < count; i++) {
+    const same = [0, 1, 2].every((k) => found.positions[3 * i + k] === noisy.positions[3 * i + k]);
+    assert.equal(same, held[i], `vertex ${i}`);
+  }
+  // A dent that is not to be trusted goes.
+  const dented = { ...noisy, positions: noisy.positions.slice(), confidence: new Float32Array(count).fill(1) };
+  const dent = [607, 608, 667];
+  for (const i of dent) {
+    for (const k of [0, 1]) dented.positions[3 * i + k] *= 0.9;
+    dented.confidence[i] = 0;
+  }
+  /** @param {{ positions: Float64Array }} mesh */
+  const depth = ({ positions }) => 1 - Math.min(...dent.map((i) => Math.hypot(positions[3 * i], positions[3 * i + 1])));
+  const [trusting, wary] = [direct.fitMesh({ ...dented, confidence: undefined }), direct.fitMesh(dented)];
+  assert.ok(depth(wary) < 0.5 * depth(trusting), `${depth(wary)} ${depth(trusting)}`);
+});
+
+test('what is wrong is told, and nothing is harmed', async () => {
+  const { positions, triangles } = noisy;
+  const thrice = Uint32Array.from([...triangles, triangles[3000], triangles[3001], 999]);
+  assert.throws(() => direct.fitMesh({ positions, triangles: thrice }), error('TOPOLOGY', /has 3 triangles/));
+  await assert.rejects(developable.fitMesh({ positions, triangles: thrice }), error('TOPOLOGY', /vertex \d+ \(/));
+  const cloud = { positions, triangles: new Uint32Array() };
+  assert.throws(() => direct.fitMesh(cloud), error('UNSUPPORTED', /no triangles/));
+  assert.throws(() => direct.fitMesh(noisy, { held: [true] }), error('SHAPE', /held/));
+  assert.throws(() => direct.fitMesh(noisy, { creasePasses: 30 }), error('OPTION', /creasePasses/));
+  const unknown = /** @type {object} */ ({ energy: 'nuclear' });
+  assert.throws(() => direct.fitMesh(noisy, unknown), error('OPTION', /energy/));
+});
+
+test('an abort stops it, or keeps the best surface so far', async () => {
+  const large = bottle(300, sigma);
+  const stopping = new AbortController();
+  const reason = new Error('enough');
+  const wait = developable.fitMesh(large, { signal: stopping.signal, gap: 1e-6, onProgress: () => stopping.abort(reason) });
+  await assert.rejects(wait, reason);
+  const keeping = new AbortController();
+  const kept = await developable.fitMesh(large, {
+    signal: keeping.signal,
+    onAbort: 'keep',
+    gap: 1e-6,
+    onProgress: () => keeping.abort(),
+  });
+  assert.equal(kept.report.stopReason, 'cancelled');
+  assert.ok(kept.positions.every(Number.isFinite));
+});
+
+test('the command fits whole meshes, and says so where a view would lose much', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
+  const done = await run(folder, ['fit', 'scan.ply', '-o', 'whole.ply', '--surface', '--report', 'r.json']);
+  assert.deepEqual(done, { status: 0, stdout: '', stderr: '' });
+  const report = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
+  assert.equal(report.vertices, noisy.positions.length / 3);
+  const found = direct.readMesh(await readFile(join(folder, 'whole.ply')));
+  assert.ok(off(found.positions) < 0.4 * sigma);
+  for (const output of ['whole.obj', 'whole.stl', 'whole.glb']) {
+    assert.equal((await run(folder, ['fit', 'scan.ply', '-o', output, '--surface'])).stderr, '');
+    const other = direct.readMesh(await readFile(join(folder, output)));
+    assert.equal(other.triangles.length, noisy.triangles.length, output);
+  }
+  const seen = await run(folder, ['fit', 'scan.ply', '-o', 'seen.ply', '--view', '-x']);
+  assert.equal(seen.status, 0);
+  const [, share] = /(\d+) % of the area of scan\.ply is not seen/.exec(seen.stderr) ?? [];
+  assert.ok(Number(share) > 35 && Number(share) < 65, seen.stderr);
+  for (const [args, message] of /** @type {const} */ ([
+    [['--view', '-z'], /--view is for heights/],
+    [['--energy', 'huber'], /--energy is for heights/],
+  ])) {
+    const refused = await run(folder, ['fit', 'scan.ply', '-o', 'x.ply', '--surface', ...args]);
+    assert.equal(refused.status, 2);
+    assert.match(refused.stderr, message);
+  }
+  assert.match((await run(folder, ['fit', 'scan.ply', '-o', 'x.npy', '--surface'])).stderr, /\.obj, \.ply, \.stl or \.glb/);
+  assert.match((await run(folder, ['fit', 'scan.png', '-o', 'x.ply', '--surface'])).stderr, /--surface is for meshes/);
+});

@@ -1,0 +1,107 @@
+//! Surfaces fitted to meshes as they are, without a view.
+
+use js_sys::{Float64Array, Uint8Array};
+use serde::Serialize;
+use serde_wasm_bindgen::{from_value, preserve, to_value};
+use wasm_bindgen::prelude::*;
+
+use developable::{Lambda, MeshKnown, MeshOptions, MeshReport, Status};
+use developable_wasm::Result;
+use developable_wasm::arrays::groups;
+use developable_wasm::bytes::copied;
+use developable_wasm::mesh::MeshInput;
+use developable_wasm::options::{entries, option, unknown};
+
+/// What `MeshSurface` of `types.d.ts` has besides its mesh.
+#[derive(Serialize)]
+struct Output<'a> {
+    #[serde(with = "preserve")]
+    positions: Float64Array,
+    report: &'a MeshReport,
+}
+
+/// A solve over a mesh that runs in steps.
+#[wasm_bindgen]
+pub struct MeshSolver {
+    solver: developable::MeshSolver,
+}
+
+#[wasm_bindgen]
+impl MeshSolver {
+    /// A solver on a mesh, all of it.
+    #[wasm_bindgen(js_name = onMesh)]
+    pub fn on_mesh(mesh: JsValue, options: JsValue) -> Result<MeshSolver> {
+        let mesh = from_value::<MeshInput>(mesh)?;
+        let mut known = MeshKnown::default();
+        if let Some(confidence) = groups::<1>(&mesh.confidence)? {
+            let confidence = confidence.as_flattened().iter().map(|c| f64::from(*c));
+            known = known.with_confidence(confidence.collect())?;
+        }
+        let mesh = mesh.into_mesh()?;
+        let mut settings = MeshOptions::default();
+        const NUMBER: &str = "must be a number";
+        for (name, value) in entries(&options)? {
+            match name.as_str() {
+                "lambda" => settings = settings.lambda(lambda(value)?),
+                "gap" => settings = settings.gap(option("gap", value, NUMBER)?),
+                "maxIterations" => {
+                    settings = settings.max_iterations(option("maxIterations", value, NUMBER)?);
+                }
+                "bendRadius" => {
+                    settings = settings.bend_radius(option("bendRadius", value, NUMBER)?);
+                }
+                "flatness" => settings = settings.flatness(option("flatness", value, NUMBER)?),
+                "creaseRadius" => {
+                    settings = settings.crease_radius(option("creaseRadius", value, NUMBER)?);
+                }
+                "creasePasses" => {
+                    settings = settings.crease_passes(option("creasePasses", value, NUMBER)?);
+                }
+                "held" => {
+                    let held = copied(value.unchecked_ref::<Uint8Array>())?;
+                    known = known.with_held(held.into_iter().map(|held| held != 0).collect());
+                }
+                _ => {
+                    let known = "lambda, gap, maxIterations, bendRadius, flatness, creaseRadius, \
+                                 creasePasses and held";
+                    return Err(unknown(&name, known));
+                }
+            }
+        }
+        Ok(MeshSolver {
+            solver: developable::MeshSolver::new(mesh, known, &settings)?,
+        })
+    }
+
+    /// Runs about `work` conjugate-gradient iterations; whether to go on.
+    pub fn advance(&mut self, work: usize) -> Result<bool> {
+        Ok(self.solver.advance(work)? == Status::Running)
+    }
+
+    /// Figures of the linearisation under way.
+    pub fn progress(&self) -> Result<JsValue> {
+        Ok(to_value(&self.solver.progress())?)
+    }
+
+    /// Stops.
+    pub fn cancel(&mut self) {
+        self.solver.cancel();
+    }
+
+    /// The best surface so far.
+    pub fn surface(&self) -> Result<JsValue> {
+        let surface = self.solver.surface()?;
+        Ok(to_value(&Output {
+            positions: surface.mesh().positions().as_flattened().into(),
+            report: surface.report(),
+        })?)
+    }
+}
+
+fn lambda(value: JsValue) -> Result<Lambda> {
+    const MUST: &str = "must be small, medium, big, auto or a number above zero";
+    match value.as_string() {
+        Some(name) => Ok(name.parse()?),
+        None => Ok(Lambda::Value(option("lambda", value, MUST)?)),
+    }
+}

@@ -2,10 +2,10 @@
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
-import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
+import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf, isScan } from './input.js';
 import { files, images, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh } from './mesh-input.js';
-import { optionsOf } from './options.js';
+import { forScan, optionsOf } from './options.js';
 import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
@@ -49,6 +49,8 @@ export class Solver {
   #work = 1;
   /** What the surface has from the input. */
   #carried;
+  /** Whether there are heights, rather than constraints alone. */
+  #scan;
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
@@ -56,8 +58,9 @@ export class Solver {
    */
   constructor(input, given) {
     const field = asInput(input);
-    const options = optionsOf('solver', given);
+    const options = forScan(isScan(field), optionsOf('solver', given));
     this.#carried = carriedOf(field);
+    this.#scan = isScan(field);
     this.#handle = solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     );
@@ -66,7 +69,7 @@ export class Solver {
   /** @param {import('./types.js').SolverOptions} [given] */
   restart(given) {
     const handle = this.#live();
-    const options = optionsOf('solver', given);
+    const options = forScan(this.#scan, optionsOf('solver', given));
     solver.call(() => handle.restart(options));
     this.#work = 1;
   }
@@ -78,11 +81,13 @@ export class Solver {
   restartWith(input, given) {
     const handle = this.#live();
     const field = asInput(input);
-    const options = optionsOf('solver', given);
+    const scan = isScan(field);
+    const options = forScan(scan, optionsOf('solver', given));
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
     this.#carried = carriedOf(field);
+    this.#scan = scan;
     this.#work = 1;
   }
 

@@ -426,7 +426,8 @@ export interface LambdaChoice {
    * Where lambda comes from:
    * - `'prediction'`: it predicts best what heights are that were held out;
    * - `'noise'`: there are too few heights to hold some out, or their noise is alike from one to the
-   *   next, so that lambda follows from how large that is;
+   *   next, so that lambda follows from how large that is; what bends cost is compared by prediction all
+   *   the same, where there are enough;
    * - `'noNoise'`: the heights have no noise to speak of, and lambda is `'big'`;
    * - `'unknown'`: there are too few heights to tell their noise, and lambda is `'medium'`.
    */

@@ -2,10 +2,10 @@
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
-import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
+import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf, isScan } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
-import { optionsOf } from './options.js';
+import { forScan, optionsOf } from './options.js';
 import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
@@ -40,6 +40,8 @@ const PROGRESS_INTERVAL = 60;
 export class Solver extends Steps {
   /** What the surface has from the input. */
   #carried;
+  /** Whether there are heights, rather than constraints alone. */
+  #scan;
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
@@ -47,17 +49,18 @@ export class Solver extends Steps {
    */
   constructor(input, given) {
     const field = asInput(input);
-    const options = optionsOf('solver', given);
+    const options = forScan(isScan(field), optionsOf('solver', given));
     super(solver, solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     ));
     this.#carried = carriedOf(field);
+    this.#scan = isScan(field);
   }
 
   /** @param {import('./types.js').SolverOptions} [given] */
   restart(given) {
     const handle = this.live();
-    const options = optionsOf('solver', given);
+    const options = forScan(this.#scan, optionsOf('solver', given));
     solver.call(() => handle.restart(options));
     this.restarted();
   }
@@ -69,11 +72,13 @@ export class Solver extends Steps {
   restartWith(input, given) {
     const handle = this.live();
     const field = asInput(input);
-    const options = optionsOf('solver', given);
+    const scan = isScan(field);
+    const options = forScan(scan, optionsOf('solver', given));
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
     this.#carried = carriedOf(field);
+    this.#scan = scan;
     this.restarted();
   }
 

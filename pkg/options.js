@@ -239,6 +239,23 @@ export function optionsOf(call, given) {
   });
 }
 
+/** What says how closely to follow heights, or what to minimise. */
+const ENERGY = /** @type {const} */ (['lambda', 'energy', 'reweighting']);
+
+/**
+ * The options of a solve, with what they leave open: of heights about which nothing is said, how large their noise is
+ * says how closely to follow them, and what bends smoothly is to stay smooth. A design has no noise; the paper's schedule is for
+ * the paper's energy.
+ * @param {boolean} scan whether there are heights, rather than constraints alone
+ * @param {import('./types.js').SolverOptions} options
+ * @returns {import('./types.js').SolverOptions}
+ */
+export function forScan(scan, options) {
+  const said = ENERGY.some((name) => options[name] !== undefined) || options.schedule === 'paper';
+  if (said || !scan) return options;
+  return { ...options, lambda: 'auto', energy: 'huber' };
+}
+
 /**
  * @param {string} name
  * @param {Kind} kind

@@ -365,7 +365,10 @@ export interface SolverOptions {
   /**
    * Weight of the fidelity term, for coordinates normalised to the unit square:
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
-   * (nearly developable input), or a number from 1e-12 to 1e15. Default `'medium'`.
+   * (nearly developable input), or a number from 1e-12 to 1e15. Default `'medium'`, but for heights
+   * about which nothing is said (no `lambda`, `energy` or `reweighting`, and not the paper's
+   * schedule): then `'auto'`, with the energy `'huber'`. Terrain, busts and other shapes that are not
+   * noisy, but are to be approximated, want a number: the smaller, the fewer and larger the sheets.
    *
    * `'auto'`, for heights with noise: from how large that is, and then the one that predicts best what
    * a part of the heights are, which are held out from some solves on a lattice of twice the spacing.
@@ -383,7 +386,7 @@ export interface SolverOptions {
   normalize?: boolean;
   /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
   spacing?: number;
-  /** What is minimised besides the fidelity term. Default `'nuclear'`. */
+  /** What is minimised besides the fidelity term. Default `'nuclear'`; see `lambda` for when it is `'huber'`. */
   energy?: Energy;
   /**
    * Passes after the first solve in which each vertex's norm is weighted by one over its size
@@ -514,7 +517,8 @@ export interface LambdaChoice {
    * Where lambda comes from:
    * - `'prediction'`: it predicts best what heights are that were held out;
    * - `'noise'`: there are too few heights to hold some out, or their noise is alike from one to the
-   *   next, so that lambda follows from how large that is;
+   *   next, so that lambda follows from how large that is; what bends cost is compared by prediction all
+   *   the same, where there are enough;
    * - `'noNoise'`: the heights have no noise to speak of, and lambda is `'big'`;
    * - `'unknown'`: there are too few heights to tell their noise, and lambda is `'medium'`.
    */

@@ -34,7 +34,7 @@ import { Events } from './events.js';
 
 /**
  * @typedef {object} Settings
- * @property {number} lambda
+ * @property {number | 'auto'} lambda
  * @property {number} gap
  * @property {'default' | 'paper'} schedule
  * @property {number} coarsening lattice spacing in pixels

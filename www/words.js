@@ -1,5 +1,5 @@
 /** What happened, in plain words. */
-import { count, percent, percentAtMost, seconds } from './format.js';
+import { count, number, percent, percentAtMost, seconds, shortest } from './format.js';
 
 /** @import {Energy, PageReport, Report, StopReason, Verdict} from './api.js' */
 
@@ -116,6 +116,25 @@ export function lambdaHint(lambda) {
   if (exponent < 6.5) return 'Medium: for some noise, and shapes to be approximated by patches.';
   if (exponent < 7.5) return 'Big: for input that is nearly developable but for small artefacts.';
   return 'Very big: stays close to the input, and keeps its noise.';
+}
+
+/** In its place, before it is known. */
+export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp creases: for scans. It takes some solves more.';
+
+/**
+ * How λ came about.
+ * @param {Report} report
+ */
+export function lambdaFound({ lambda, lambdaChoice }) {
+  if (!lambdaChoice) return '';
+  const { reason, sigma, step, solves } = lambdaChoice;
+  const noise = step === undefined ? `noise of ${number(sigma ?? 0)}` : `steps of ${number(step)}`;
+  switch (reason) {
+    case 'prediction': return `The heights have ${noise}, in their own unit. Of ${count(solves)} tries, λ = ${shortest(lambda)} predicts best what heights are that were held out.`;
+    case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.`;
+    case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
+    default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;
+  }
 }
 
 /** In the place of a hint, where there are only constraints. */

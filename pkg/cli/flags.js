@@ -26,13 +26,14 @@ export const sections = {
     flags: {
       lambda: {
         value: 'L',
-        help: 'how closely to follow the input: small (1e5), medium (1e6, the default), big (1e7), any number above zero, or auto: ' +
-          'by the noise of the input',
+        help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), any number above zero, or auto: by the noise of ' +
+          'the input (default: auto with the energy huber; medium where --energy, --reweight or --schedule paper is given, ' +
+          'and for a design)',
       },
       energy: {
         value: 'E',
-        help: 'nuclear (the default), huber (smooth bends and sharp creases), frobenius, squaredNuclear, secondFormOfInput or ' +
-          'secondForm',
+        help: 'nuclear, huber (smooth bends and sharp creases), frobenius, squaredNuclear, secondFormOfInput or secondForm (default: ' +
+          'nuclear; huber where --lambda is not given either)',
       },
       reweight: {
         value: 'N',

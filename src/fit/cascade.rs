@@ -37,6 +37,8 @@ pub(crate) struct Cascade {
     /// Those at creases: the radius, and what the last one was about.
     crease_radius: Option<f64>,
     creases: Creases,
+    /// Whether all that is left has begun.
+    ends: bool,
     seconds: Seconds,
     reason: Option<StopReason>,
 }
@@ -84,6 +86,7 @@ impl Cascade {
             passes_left,
             crease_radius,
             creases: Creases::default(),
+            ends: false,
             seconds: Seconds::default(),
             reason: None,
         };
@@ -124,7 +127,10 @@ impl Cascade {
             self.carried = Some((state, None));
             return Ok(());
         }
-        while self.passes_left > 0 && matches!(reason, StopReason::Gap | StopReason::Residuals) {
+        while !self.ends
+            && self.passes_left > 0
+            && matches!(reason, StopReason::Gap | StopReason::Residuals)
+        {
             self.passes_left -= 1;
             let next = match self.crease_radius {
                 None => self.level.reweight()?,
@@ -142,6 +148,10 @@ impl Cascade {
                 Some(next) => reason = next,
                 None => return Ok(()),
             }
+        }
+        if !self.ends && self.level.begin_reduction(reason)? {
+            self.ends = true;
+            return Ok(());
         }
         self.reason = Some(reason);
         Ok(())

@@ -184,6 +184,13 @@ impl Bending {
         crease_radius: 0.1,
     };
 
+    /// The nuclear norm: no bend costs its square, and nothing is a crease.
+    pub(crate) const NUCLEAR: Bending = Bending {
+        bend_radius: 0.1,
+        flatness: 1.0,
+        crease_radius: *RADII.start(),
+    };
+
     /// With what the options give in place of its own.
     pub(crate) fn within(self, options: &Options) -> Self {
         Bending {

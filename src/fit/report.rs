@@ -125,7 +125,8 @@ pub enum LambdaReason {
     /// It predicts best what heights are that were held out.
     Prediction,
     /// There are too few heights to hold some out, or their noise is alike from one to the next, as
-    /// that of quantised heights is: it follows from how large that is.
+    /// that of quantised heights is: it follows from how large that is. What bends cost is compared by
+    /// prediction all the same, where there are enough.
     Noise,
     /// The heights have no noise to speak of: it is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,

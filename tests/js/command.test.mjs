@@ -152,7 +152,8 @@ test('a plane comes back in each format, with nothing said in a pipe', async () 
 
 test('the options reach the solver', async () => {
   const plain = await report('rough.npy');
-  assert.deepEqual([plain.lambda, plain.stopReason, plain.scale < 0.1], [1e6, 'gap', true]);
+  assert.deepEqual([plain.energy, plain.lambda, plain.stopReason, plain.scale < 0.1], ['huber', plain.lambda, 'gap', true]);
+  assert.ok(plain.lambdaChoice !== undefined && plain.lambda === (await report('rough.npy --lambda auto --energy huber')).lambda);
   assert.ok(plain.gap <= 0.01);
   assert.equal((await report('rough.npy --lambda big')).lambda, 1e7);
   assert.equal((await report('rough.npy --lambda small')).lambda, 1e5);

@@ -266,5 +266,29 @@ test('lambda by itself follows the noise, and tells how it came about', () => {
   assert.ok((quiet.gap ?? 1) <= 0.01);
   const plain = direct.fit(lattice(30, 30, plane), { lambda: 'auto' }).report;
   assert.deepEqual([plain.lambda, plain.lambdaChoice?.reason], [1e7, 'noNoise']);
-  assert.equal(direct.fit(lattice(30, 30, faces)).report.lambdaChoice, undefined);
+  assert.equal(direct.fit(lattice(30, 30, faces), { energy: 'nuclear' }).report.lambdaChoice, undefined);
+});
+
+test('of a scan about which nothing is said, lambda follows the noise, and bends stay smooth', () => {
+  const scan = lattice(60, 60, noisy((/** @type {number} */ x) => 9 * Math.sin(x / 20), 0.3));
+  const silent = direct.fit(scan);
+  const said = direct.fit(scan, { lambda: 'auto', energy: 'huber' });
+  assert.deepEqual(silent.heights, said.heights);
+  assert.deepEqual([silent.report.energy, silent.report.lambdaChoice], [said.report.energy, said.report.lambdaChoice]);
+  const solver = new direct.Solver(scan, { lambda: 'big' });
+  solver.restart({ gap: 0.02 });
+  while (solver.advance(100));
+  assert.equal(solver.surface().report.energy, 'huber');
+  solver.dispose();
+
+  // Whoever says something means the paper's energy but for that.
+  /** @type {[import('../../pkg/types.js').SolverOptions, number][]} */
+  const given = [[{ lambda: 1e4 }, 1e4], [{ lambda: 'medium' }, 1e6], [{ energy: 'nuclear' }, 1e6], [{ reweighting: 1 }, 1e6], [{ schedule: 'paper' }, 1e6]];
+  for (const [options, lambda] of given) {
+    const { report } = direct.fit(scan, { ...options, gap: 0.1 });
+    assert.deepEqual([report.lambda, report.energy, report.lambdaChoice], [lambda, 'nuclear', undefined], JSON.stringify(options));
+  }
+  const held = scan.heights.map((z, i) => (i % 37 === 0 ? z : NaN));
+  const design = direct.fit({ rows: scan.rows, cols: scan.cols, spacing: scan.spacing, constraints: held }, { gap: 0.1 });
+  assert.deepEqual([design.report.energy, design.report.lambdaChoice], ['nuclear', undefined]);
 });

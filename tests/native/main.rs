@@ -36,6 +36,7 @@ mod page;
 mod parts;
 mod patches;
 mod pattern;
+mod rank;
 mod recovery;
 mod registration;
 mod resample;

@@ -153,3 +153,21 @@ pageTest('the slider restarts the solver while it is dragged', async (page) => {
   assert.ok(parsed(await reported(page, 'Iterations')) <= cold);
   await page.mouse.up();
 });
+
+pageTest('λ by the noise, and what came of it, beside the slider', async (page) => {
+  const button = page.locator('#lambda-auto');
+  await runBy(page, () => button.click());
+  assert.equal(await button.getAttribute('aria-pressed'), 'true');
+  assert.equal(await page.locator('#energy').inputValue(), 'huber');
+  const lambda = parsed(await reported(page, 'λ'));
+  const hint = await page.locator('#lambda-hint').innerText();
+  assert.match(hint, /noise of .*predicts best/);
+  // Two digits of it, where the slider goes on from.
+  const field = Number(await page.locator('#lambda-value').inputValue());
+  assert.ok(Math.abs(field / lambda - 1) < 0.06, `${field} and ${lambda}`);
+  assert.ok(hint.includes(`λ = ${await page.locator('#lambda-value').inputValue()}`), hint);
+  assert.ok(parsed(await reported(page, 'Noise, σ')) > 0);
+  await runBy(page, () => page.getByRole('button', { name: /^big/ }).click());
+  assert.equal(await button.getAttribute('aria-pressed'), 'false');
+  assert.equal(parsed(await reported(page, 'λ')), 1e7);
+});

@@ -2,7 +2,7 @@
 import { element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { ENERGIES, STOP_REASONS } from '../words.js';
+import { ENERGIES, STOP_REASONS, lambdaFound } from '../words.js';
 
 /** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
@@ -66,6 +66,7 @@ function work(report) {
     title: 'Work',
     lines: [
       line('λ', number(report.lambda), 'Weight of the fidelity, in the unit square.'),
+      line('Noise, σ', number(report.lambdaChoice?.sigma ?? 0), lambdaFound(report), report.lambdaChoice?.sigma !== undefined),
       line('Reweighted', count(report.reweighting), 'Passes after the first; the certificate is the last one’s.', report.reweighting > 0),
       line('Creases', count(report.huber?.creases ?? 0), `Vertices on them; ${count(report.huber?.creasePasses ?? 0)} passes after the first, and the certificate is the last one’s.`, report.huber !== undefined),
       line('Lattices', count(report.levels.length), `From coarse to fine, with ${report.levels.map(({ interior }) => count(interior)).join(', ')} interior vertices.`),

@@ -1,5 +1,6 @@
 /** The result as files. */
 import { download, element, elements } from '../dom.js';
+import { shortest } from '../format.js';
 import { resultImage } from '../surface/known.js';
 
 /** @import {Result, Session} from '../session.js' */
@@ -62,8 +63,8 @@ async function encode({ api }, result, format) {
 }
 
 /** @param {Result} result */
-function fileStem({ input, settings, surface }) {
-  const lambda = input.design ? '' : `-${settings.lambda.toExponential().replace('e+', 'e')}`;
+function fileStem({ input, surface }) {
+  const lambda = input.design ? '' : `-${shortest(surface.report.lambda)}`;
   const cancelled = surface.report.stopReason === 'cancelled' ? '-cancelled' : '';
   return `${input.name}-developable${lambda}${cancelled}`;
 }

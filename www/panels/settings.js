@@ -1,7 +1,7 @@
 /** λ on a logarithmic slider with the paper's presets, and the further options. */
 import { element, elements } from '../dom.js';
 import { shortest } from '../format.js';
-import { ENERGIES, NO_FIDELITY, lambdaHint } from '../words.js';
+import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint } from '../words.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session} from '../session.js' */
@@ -17,6 +17,15 @@ export function settingsPanel(session) {
   const fieldset = element('fidelity', HTMLFieldSetElement);
   const presets = elements('button[data-exponent]', HTMLButtonElement);
 
+  const auto = element('lambda-auto', HTMLButtonElement);
+
+  /** What λ means, or how it came about. */
+  const explain = () => {
+    const { input, result, settings: { lambda } } = session;
+    if (input?.design) hint.textContent = NO_FIDELITY;
+    else if (lambda !== 'auto') hint.textContent = lambdaHint(lambda);
+    else hint.textContent = (result?.settings.lambda === 'auto' && lambdaFound(result.surface.report)) || BY_NOISE;
+  };
   /** @param {number} lambda */
   const display = (lambda) => {
     slider.value = String(Math.log10(lambda));
@@ -31,6 +40,7 @@ export function settingsPanel(session) {
   /** @param {number} lambda */
   const choose = (lambda) => {
     display(lambda);
+    auto.setAttribute('aria-pressed', 'false');
     if (lambda !== session.settings.lambda) session.set({ lambda });
   };
   // To the digits that are shown.
@@ -57,11 +67,17 @@ export function settingsPanel(session) {
     if (sound) choose(lambda);
     else field.reportValidity();
   });
-  display(session.settings.lambda);
+  if (session.settings.lambda !== 'auto') display(session.settings.lambda);
   session.on('input', ({ design, lattice }) => {
     fieldset.disabled = design === true;
     coarsening.disabled = lattice !== undefined;
-    hint.textContent = design ? NO_FIDELITY : lambdaHint(session.settings.lambda);
+    explain();
+  });
+  session.on('cleared', explain);
+  session.on('result', ({ settings, surface }) => {
+    // Where the slider goes on from.
+    if (settings.lambda === 'auto' && session.settings.lambda === 'auto') display(surface.report.lambda);
+    explain();
   });
 
   const gap = element('gap', HTMLSelectElement);
@@ -82,6 +98,16 @@ export function settingsPanel(session) {
     session.set({ energy: chosen(), reweighting: reweighting.disabled ? 0 : Number(reweighting.value) });
   });
   energyHint.textContent = ENERGIES[chosen()];
+  auto.addEventListener('click', () => {
+    clearTimeout(rest);
+    auto.setAttribute('aria-pressed', 'true');
+    for (const preset of presets) preset.setAttribute('aria-pressed', 'false');
+    energy.value = 'huber';
+    energyHint.textContent = ENERGIES.huber;
+    reweighting.disabled = true;
+    session.set({ lambda: 'auto', energy: 'huber', reweighting: 0 });
+    explain();
+  });
   const reweighting = element('reweighting', HTMLSelectElement);
   reweighting.addEventListener('change', () => session.set({ reweighting: Number(reweighting.value) }));
 

@@ -64,7 +64,7 @@ export function viewsPanel(session) {
   session.on('result', (result) => {
     after.show(resultNormals(result));
     // λ has no say in a design.
-    caption.textContent = result.input.design ? '' : `λ = ${shortest(result.settings.lambda)}`;
+    caption.textContent = result.input.design ? '' : `λ = ${shortest(result.surface.report.lambda)}`;
     stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
     stamp.hidden = !stamp.textContent;
     empty.hidden = true;

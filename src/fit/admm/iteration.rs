@@ -4,6 +4,7 @@ use web_time::Instant;
 
 use super::ascent::{Ascent, LOOK};
 use super::balance::{Balanced, ENOUGH, balanced_bound};
+use super::rank::RankReduction;
 use super::schedule::Plan;
 use super::state::{Certificate, State};
 use crate::error::Result;
@@ -23,6 +24,8 @@ pub(crate) struct Level<O: Operator> {
     pub(super) plan: Plan,
     pub(super) solver: O::Solver,
     ascent: Option<Ascent<O>>,
+    /// What is done to the surface at the very end, and why the iterations had stopped before.
+    reduction: Option<(RankReduction, StopReason)>,
     /// A check whose search for a better bound is under way, and how much `z` changed before it.
     checking: Option<(Certificate, f64)>,
     /// The iteration from which on it is worth it again, and the first one of this pass.
@@ -143,6 +146,7 @@ impl<O: Operator> Level<O> {
             first_energy: 0.0,
             solver,
             ascent: None,
+            reduction: None,
             checking: None,
             next_climb,
             pass_start: 0,
@@ -182,6 +186,15 @@ impl<O: Operator> Level<O> {
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 {
             let start = Instant::now();
+            if self.reduction.is_some() {
+                *left = left.saturating_sub(2);
+                let reason = self.lower_rank();
+                self.seconds.z_step += start.elapsed().as_secs_f64();
+                if reason.is_some() {
+                    return Ok(reason);
+                }
+                continue;
+            }
             if self.checking.is_some() {
                 *left = left.saturating_sub(LOOK);
                 let reason = self.look();
@@ -404,6 +417,33 @@ impl<O: Operator> Level<O> {
         };
         ascent.begin(&mut self.state, &self.problem, bound, goal)?;
         Ok(true)
+    }
+
+    /// Begins to bring the rank of the best surface's Hessians down, if that is worth it.
+    pub(crate) fn begin_reduction(&mut self, reason: StopReason) -> Result<bool> {
+        if reason != StopReason::Gap || self.best.affine || !self.plan.reduces_rank(&self.problem) {
+            return Ok(false);
+        }
+        // Its memory is free for that.
+        self.ascent = None;
+        let reduction = RankReduction::new(&self.problem, &self.best.z)?;
+        self.reduction = reduction.map(|reduction| (reduction, reason));
+        Ok(self.reduction.is_some())
+    }
+
+    /// Goes on with that; at the end, takes the surface if it is certified as well.
+    fn lower_rank(&mut self) -> Option<StopReason> {
+        let (reduction, reason) = self.reduction.as_mut()?;
+        let reason = *reason;
+        self.cg_iterations += 1;
+        let z = reduction.step(&self.problem, &mut self.state, &mut self.solver)?;
+        let (fidelity, nuclear_norm) = (self.problem.distance(z), self.problem.smoothness(z));
+        if self.plan.is_certified(fidelity + nuclear_norm, &self.best) {
+            self.best.z.copy_from_slice(z);
+            (self.best.fidelity, self.best.nuclear_norm) = (fidelity, nuclear_norm);
+        }
+        self.reduction = None;
+        Some(reason)
     }
 
     /// Another pass, in which every vertex's norm is weighted by one over its

@@ -4,5 +4,6 @@ mod affine;
 mod ascent;
 mod balance;
 pub(crate) mod iteration;
+mod rank;
 pub(crate) mod schedule;
 pub(crate) mod state;

@@ -82,6 +82,9 @@ const CELLS: f64 = 10.0;
 /// Most of what a search for a better bound divides the gap by.
 const CLIMBABLE: f64 = 100.0;
 
+/// Gaps from here on leave the surface's Hessians a smaller eigenvalue that is worth taking away.
+const FULL_RANK: f64 = 2e-3;
+
 /// A start is far from a gap if its own is this many times the root of it: from there it is no
 /// faster than from coarse lattices.
 const FAR: f64 = 3.0;
@@ -260,6 +263,21 @@ impl Plan {
             && !problem.loose
             && gap > self.gap
             && gap < CLIMBABLE * self.gap
+    }
+
+    /// Whether the surface's Hessians are to be brought to the rank of the split ones once the iterations
+    /// have stopped: those of a smaller gap have it.
+    pub(crate) fn reduces_rank<O: Operator>(&self, problem: &Problem<O>) -> bool {
+        self.schedule == Schedule::Default
+            && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
+            && !problem.loose
+            && !self.follows_normals
+            && self.gap >= FULL_RANK
+    }
+
+    /// Whether another surface of such an objective has the gap that is asked for, too.
+    pub(crate) fn is_certified(&self, objective: f64, best: &Best) -> bool {
+        objective - best.dual_bound + best.rounding <= self.gap * objective
     }
 
     /// Whether an objective that has come down from one check to the next by so much is about as low

@@ -47,8 +47,14 @@ const BETTER: [f64; 3] = [1.0, -0.5, 2.0];
 /// From here on, times [`START`], noise would come back in passes at creases.
 const LOUD: f64 = 2.0;
 
-/// For smooth bends, for creases among these, and for flat facets.
-const BENDINGS: [Bending; 3] = [
+/// By how much less the squares of what predictions miss must be on average for another bending, where
+/// noise is alike from one vertex to the next: a surface that bends, or creases, more easily follows such
+/// noise, and so predicts heights that have it, too.
+const IN_SPITE: [f64; 2] = [0.15, 0.045];
+
+/// What there is no reason to leave, for smooth bends, for creases among these, and for flat facets.
+const BENDINGS: [Bending; 4] = [
+    Bending::NUCLEAR,
     Bending::SMOOTH,
     Bending {
         bend_radius: 0.3,
@@ -137,6 +143,31 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
     out
 }
 
+/// The input on the lattice that a search is made on, and whether its noise is alike from one vertex to
+/// the next there.
+fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
+    let [enough, least] = ENOUGH;
+    let halved = |input: &Input| -> Result<(Input, usize)> {
+        let merged = merge(input)?;
+        let size = merged.domain().map_or(0, |domain| domain.interior_len());
+        Ok((merged, size))
+    };
+    // What is rounded alike predicts itself, on any lattice.
+    if noise.step.is_none() && (1..=MOST_MERGED).contains(&noise.merged) {
+        let mut coarse = input.clone();
+        let mut size = usize::MAX;
+        for _ in 0..noise.merged {
+            (coarse, size) = halved(&coarse)?;
+        }
+        if size >= least {
+            return Ok((coarse, false));
+        }
+    }
+    let (coarse, size) = halved(input)?;
+    let searched = if size < enough { input.clone() } else { coarse };
+    Ok((searched, noise.merged > 0))
+}
+
 /// What is to be tried: which of the bendings, and how many factors above the first λ.
 type Candidate = (usize, i32);
 
@@ -144,8 +175,10 @@ type Candidate = (usize, i32);
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
     held_out: HeldOut,
-    /// Most steps to larger λ: none where noise may be predictable after all.
-    highest: i32,
+    /// Most steps to smaller and larger λ: no larger where noise may be predictable after all.
+    steps: [i32; 2],
+    /// Whether noise is predictable, so that λ must not be chosen by that, and bendings with care.
+    dependent: bool,
     known: Known,
     /// Those that were asked for, with the first λ.
     options: Options,
@@ -161,7 +194,8 @@ pub(crate) struct Search {
 
 impl Search {
     /// About the options that [`first`] gives; nothing where there are too few vertices to search
-    /// with.
+    /// with. Where noise is alike from one vertex to the next on any lattice that has enough of them,
+    /// only bendings are compared.
     pub(crate) fn new(
         input: &Input,
         asked: &Options,
@@ -171,24 +205,7 @@ impl Search {
         let Some(noise) = known.noise else {
             return Ok(None);
         };
-        if noise.step.is_some() && noise.merged > 0 {
-            // What is rounded alike predicts itself, on any lattice.
-            return Ok(None);
-        }
-        let [enough, least] = ENOUGH;
-        let mut input = input.clone();
-        for count in 1..=noise.merged.max(1) {
-            let merged = merge(&input)?;
-            let size = merged.domain().map_or(0, |domain| domain.interior_len());
-            if noise.merged == 0 && size < enough {
-                break;
-            }
-            if size < least || count > MOST_MERGED {
-                // Held-out heights would be predicted by their neighbours' noise.
-                return Ok(None);
-            }
-            input = merged;
-        }
+        let (input, dependent) = searchable(input, noise)?;
         let Some(held_out) = HeldOut::of(&input)? else {
             return Ok(None);
         };
@@ -205,7 +222,14 @@ impl Search {
         let solve = trial(&held_out, &options, known, None)?;
         Ok(Some(Search {
             held_out,
-            highest: i32::from(noise.merged == 0 && noise.step.is_none()),
+            steps: match dependent {
+                true => [0, 0],
+                false => [
+                    -FARTHEST,
+                    i32::from(noise.merged == 0 && noise.step.is_none()),
+                ],
+            },
+            dependent,
             known,
             options: *first,
             bendings,
@@ -232,7 +256,7 @@ impl Search {
             let surface = self.solve.surface()?;
             self.iterations += surface.report().iterations;
             let misses = self.held_out.misses(surface.heightfield());
-            if self.tried.is_empty() || advantage(&self.misses, &misses) > self.hurdle() {
+            if self.tried.is_empty() || self.is_better(&misses) {
                 (self.best, self.misses) = (self.now, misses);
             }
             self.tried.push(self.now);
@@ -247,14 +271,24 @@ impl Search {
         Ok(false)
     }
 
-    /// What it takes to be better than the best so far.
-    fn hurdle(&self) -> f64 {
+    /// Whether the present candidate is better than the best so far.
+    fn is_better(&self, misses: &[f64]) -> bool {
         let [other, smaller, larger] = BETTER;
-        match self.now.1.cmp(&self.best.1) {
+        let hurdle = match self.now.1.cmp(&self.best.1) {
             Ordering::Equal => other,
             Ordering::Less => smaller,
             Ordering::Greater => larger,
-        }
+        };
+        let [new, old] = [self.now, self.best].map(|(bending, _)| self.bendings[bending]);
+        let [bends, creases] = IN_SPITE;
+        let least = match self.dependent {
+            true if new.flatness < old.flatness => bends,
+            true if new.crease_radius > old.crease_radius => creases,
+            _ => 0.0,
+        };
+        let sum = |misses: &[f64]| misses.iter().sum::<f64>();
+        let enough = sum(misses) <= (1.0 - least) * sum(&self.misses);
+        (least == 0.0 || enough) && advantage(&self.misses, misses) > hurdle
     }
 
     /// From bending to bending, then from λ to λ as long as that is better.
@@ -264,7 +298,7 @@ impl Search {
         let others = (0..self.bendings.len()).map(|bending| (bending, 0));
         let beside = [step - 1, step + 1]
             .into_iter()
-            .filter(|step| (-FARTHEST..=self.highest).contains(step))
+            .filter(|step| (self.steps[0]..=self.steps[1]).contains(step))
             .map(|step| (bending, step));
         others.chain(beside).find(missing)
     }
@@ -276,7 +310,9 @@ impl Search {
 
     /// The options that the search has come to.
     pub(crate) fn found(&self, choice: &mut LambdaChoice) -> Options {
-        choice.reason = LambdaReason::Prediction;
+        if !self.dependent {
+            choice.reason = LambdaReason::Prediction;
+        }
         choice.solves = self.tried.len();
         choice.iterations = self.iterations;
         of(&self.options, &self.bendings, self.best)
@@ -351,13 +387,13 @@ mod tests {
     #[test]
     fn candidates_are_guarded() {
         let first = Options::default().energy(Energy::Huber).lambda(1e4);
-        let at = |step| of(&first, &BENDINGS, (0, step));
+        let at = |step| of(&first, &BENDINGS, (1, step));
         assert_eq!((at(0).flatness, at(0).crease_passes), (Some(0.3), 2));
         assert_eq!((at(-1).flatness, at(-1).crease_passes), (Some(0.3), 2));
         assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == 0);
         assert_eq!(at(2).flatness, Some(1.0));
         let asked = first.flatness(0.1);
-        let given = of(&asked, &[BENDINGS[0].within(&asked)], (0, 2));
+        let given = of(&asked, &[BENDINGS[1].within(&asked)], (0, 2));
         assert_eq!(given.flatness, Some(0.1));
     }
 

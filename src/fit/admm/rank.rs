@@ -1,0 +1,189 @@
+//! The rank of the surface's own Hessians, brought down to that of ADMM's.
+//!
+//! ADMM's `H` has rank one almost everywhere long before its `z` has: what is left of the smaller
+//! eigenvalues in `Cz` is primal residual. Heights whose Hessians have rank one are what alternating
+//! projections find (Cadzow, Signal Enhancement: A Composite Property Mapping Algorithm, 1988): the
+//! part `N` of `Cz` that is too much is taken away where that is possible, in the norm of the z-step,
+//!
+//! ```text
+//! z ← z − A⁻¹ Cᵀ ρN,   A = 2λw + ρCᵀC,
+//! ```
+//!
+//! with the solver that is there for it, and with momentum. Where a smaller eigenvalue is large, as where
+//! creases meet, it is no residual: beyond a limit, which comes down with each step, it counts the less
+//! the larger it is.
+
+use super::state::State;
+use crate::error::{Result, try_filled};
+use crate::fit::energy::problem::Problem;
+use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
+use crate::math::lanes;
+use crate::math::real::larger;
+use crate::math::sym2::Sym2;
+
+/// Steps, each of which costs about as much as an iteration of ADMM.
+const STEPS: usize = 8;
+
+/// The first limit, in medians of the smaller eigenvalues, and what it is multiplied by from step to
+/// step.
+const LIMIT: f64 = 1.2;
+const SHRINKING: f64 = 0.7;
+
+/// Over-relaxation: heights can follow but a part of what is asked of the Hessians.
+const RELAXATION: f64 = 2.0;
+
+/// One stencil of so many is looked at for the median.
+const SAMPLE: usize = 7;
+
+#[derive(Debug, Clone)]
+pub(super) struct RankReduction {
+    /// Where the next step starts from, and where the last one has led.
+    start: Vec<f64>,
+    z: Vec<f64>,
+    limit: f64,
+    steps: usize,
+}
+
+impl RankReduction {
+    /// From the surface `z`; nothing where its Hessians are of rank one as it is.
+    pub(super) fn new<O: Operator>(problem: &Problem<O>, z: &[f64]) -> Result<Option<Self>> {
+        let mut sizes = Vec::new();
+        let mut count = 0;
+        problem.operator.hessians(z, |_, hessian| {
+            if count % SAMPLE == 0 {
+                sizes.push(lesser_eigenvalue(hessian).0.abs());
+            }
+            count += 1;
+        });
+        let middle = sizes.len() / 2;
+        if middle == 0 {
+            return Ok(None);
+        }
+        let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+        if !(*median > 0.0 && median.is_finite()) {
+            return Ok(None);
+        }
+        let copy = || -> Result<Vec<f64>> {
+            let mut copy = try_filled("surface", z.len(), 0.0)?;
+            copy.copy_from_slice(z);
+            Ok(copy)
+        };
+        Ok(Some(RankReduction {
+            start: copy()?,
+            z: copy()?,
+            limit: LIMIT * *median,
+            steps: 0,
+        }))
+    }
+
+    /// One step, with the conjugate-gradient iteration that it takes; the surface, once there are
+    /// enough.
+    pub(super) fn step<O: Operator>(
+        &mut self,
+        problem: &Problem<O>,
+        state: &mut State<O>,
+        solver: &mut O::Solver,
+    ) -> Option<&[f64]> {
+        state.lower_rank(problem, &self.start, self.limit, solver);
+        solver.step(&problem.operator);
+        solver.correct(&problem.operator, &mut self.start);
+        // Nesterov's.
+        let momentum = self.steps as f64 / (self.steps as f64 + 3.0);
+        for (start, z) in self.start.iter_mut().zip(&mut self.z) {
+            let before = std::mem::replace(z, *start);
+            *start += momentum * (*z - before);
+        }
+        self.steps += 1;
+        self.limit *= SHRINKING;
+        (self.steps == STEPS).then_some(self.z.as_slice())
+    }
+}
+
+/// The eigenvalue of smaller magnitude, and the sign of the other one.
+#[inline(always)]
+fn lesser_eigenvalue(hessian: Sym2) -> (f64, f64) {
+    let sign = 1f64.copysign(hessian.mean);
+    (hessian.mean - sign * hessian.radius(), sign)
+}
+
+/// The part of a Hessian that belongs to it, as far as the limit lets that count.
+#[inline(always)]
+fn lesser_part(hessian: Sym2, limit: f64) -> Sym2 {
+    let (value, sign) = lesser_eigenvalue(hessian);
+    let share = limit / larger(value.abs(), limit);
+    let half = 0.5 * value * (share * share);
+    let radius = hessian.radius();
+    let factor = if radius > 0.0 {
+        -sign * half / radius
+    } else {
+        0.0
+    };
+    Sym2 {
+        mean: half,
+        diff: factor * hessian.diff,
+        off: factor * hessian.off,
+    }
+}
+
+impl<O: Operator> State<O> {
+    /// Makes `−ρCᵀN` of the surface `z` the residual of the next z-step.
+    fn lower_rank(&mut self, problem: &Problem<O>, z: &[f64], limit: f64, solver: &mut O::Solver) {
+        let State {
+            rho,
+            scratch,
+            terms,
+            ..
+        } = self;
+        let [_, [wide, ..]] = terms;
+        let factor = -RELAXATION * *rho * solver.residual_scale();
+        let residual = solver.residual();
+        problem.operator.sweep(
+            scratch,
+            z,
+            wide,
+            |_, run, hessians, mut matrices| {
+                for i in 0..run.end - run.start {
+                    let hessian = Sym2::from_coordinates(hessians.at(i));
+                    matrices.set(i, lesser_part(hessian, limit).coordinates());
+                }
+            },
+            |wide, run, sums| {
+                let wide = &mut wide[..run.end - run.start];
+                for (i, value) in wide.iter_mut().enumerate() {
+                    *value = factor * sums.at(i);
+                }
+                lanes::narrow(wide, &mut residual[run.start..run.end]);
+            },
+        );
+        solver.restart(&problem.operator);
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Within the limit all of the smaller eigenvalue, beyond it the less the larger it is.
+        #[test]
+        fn what_is_left_has_the_larger_eigenvalue_alone(
+            xx in -5.0..5.0f64, xy in -5.0..5.0f64, yy in -5.0..5.0f64, limit in 0.01..8.0f64,
+        ) {
+            for hessian in [Sym2::new(xx, xy, yy), Sym2::new(xx, 0.0, xx), Sym2::new(0.0, xy, 0.0)] {
+                let by_size = |h: Sym2| {
+                    let [a, b] = h.eigenvalues();
+                    if a.abs() > b.abs() { [a, b] } else { [b, a] }
+                };
+                let [larger, smaller] = by_size(hessian);
+                let part = lesser_part(hessian, limit);
+                let [value, none] = by_size(part);
+                let expected = smaller * (limit / smaller.abs()).min(1.0).powi(2);
+                prop_assert!(none.abs() < 1e-12 && (value.abs() - expected.abs()).abs() < 1e-12);
+                let [first, rest] = by_size(hessian - part);
+                prop_assert!((first.abs() - larger.abs()).abs() < 1e-12);
+                prop_assert!((rest.abs() - (smaller - expected).abs()).abs() < 1e-12);
+            }
+        }
+    }
+}

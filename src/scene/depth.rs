@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::camera::Intrinsics;
 use super::mesh::Mesh;
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
@@ -37,6 +37,22 @@ impl Intrinsics {
     /// [`Error::Unsupported`] if no three neighbours can be joined,
     /// [`Error::OutOfMemory`].
     pub fn back_project(&self, depths: &HeightImage) -> Result<Mesh> {
+        self.project_back(depths, None)
+    }
+
+    /// The same of those pixels alone whose flag is not 0, as of [`Intrinsics::within`]. What is beside them
+    /// still shows where a jump is: depths that are masked first lose the wall behind a page, and what is
+    /// left of the jump to it, mixtures of both, would bend the page's border.
+    ///
+    /// # Errors
+    /// Those of [`Intrinsics::back_project`]; [`Error::Shape`] if there is not a flag for each pixel.
+    pub fn back_project_within(&self, depths: &HeightImage, keep: &[u8]) -> Result<Mesh> {
+        let (width, height) = (depths.width(), depths.height());
+        check_count("mask", height, width, keep.len())?;
+        self.project_back(depths, Some(keep))
+    }
+
+    fn project_back(&self, depths: &HeightImage, keep: Option<&[u8]>) -> Result<Mesh> {
         let (width, height) = (depths.width(), depths.height());
         let camera = self.for_size([width, height])?;
         let mut positions = try_filled("mesh", width * height, [0.0; 3])?;
@@ -55,6 +71,9 @@ impl Intrinsics {
         }
         for (there, outline) in there.iter_mut().zip(camera.outlines(&positions, width)?) {
             *there &= !outline;
+        }
+        for (there, keep) in there.iter_mut().zip(keep.into_iter().flatten()) {
+            *there &= *keep != 0;
         }
         let grid = Grid {
             width,

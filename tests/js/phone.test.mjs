@@ -195,6 +195,23 @@ test('what is seen behind a page, within its corners, is none of it', () => {
   assert.ok(displacement(coarse, flat) < 0.004, String(displacement(coarse, flat)));
 });
 
+test('mixtures of a page and what is behind it are none of it, though a mask ends where it does', () => {
+  const page = depths().data;
+  const far = page.map((depth) => depth || 0.6);
+  const mixed = far.map((depth, i) => {
+    const around = [i - 1, i + 1, i - width, i + width].map((j) => far[j] ?? depth);
+    return around.reduce((sum, other) => sum + other, depth) / 5;
+  });
+  const mask = { width, height, data: Uint8Array.from(page, (depth) => Number(depth > 0)) };
+  const seen = { width, height, data: mixed };
+  /** How many of the mesh's corners are off. @param {import('../../pkg/index.js').Mesh} mesh */
+  const off = ({ triangles, positions }) =>
+    Array.from(triangles).filter((vertex) => Math.abs(positions[3 * vertex + 2] + page[vertex]) > 0.005).length;
+  assert.equal(off(direct.backProject(seen, numbers, { mask })), 0);
+  const cut = { ...seen, data: mixed.map((depth, i) => (mask.data[i] ? depth : 0)) };
+  assert.ok(off(direct.backProject(cut, numbers)) > 0, 'there are some');
+});
+
 /** ARKit's levels for depths, row by row: from the right 0, a strip that is 1, the rest 2. @param {number} i */
 const level = (i) => {
   const col = i % width;

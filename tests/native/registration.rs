@@ -1,5 +1,7 @@
 //! A phone's depths and photo of a bent page: where on the page is what the flat image shows?
 
+use std::collections::HashSet;
+
 use crate::common::similarity;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
@@ -298,7 +300,7 @@ fn a_field_of_view_is_across_the_longer_side() {
 #[test]
 fn flying_pixels_are_taken_away() {
     let scene = Scene::new(0.12, 0.0);
-    let (page, table) = (scene.depths(), 0.6);
+    let (page, table) = (scene.depths(), 0.54);
     let [width, height] = DEPTHS;
     let there = |col: usize, row: usize| page.values()[row * width + col] > 0.0;
     let depth = |col: usize, row: usize| {
@@ -352,6 +354,24 @@ fn flying_pixels_are_taken_away() {
         .count();
     let all = page.values().iter().filter(|d| **d > 0.0).count();
     assert!(kept as f64 > 0.85 * all as f64, "{kept} of {all}");
+    // Cut out along its very outline: the jump is beside what is kept, and shows all the same.
+    let keep: Vec<u8> = page.values().iter().map(|d| u8::from(*d > 0.0)).collect();
+    let cut = camera.back_project_within(&mixed, &keep).unwrap();
+    let used: HashSet<u32> = cut.triangles().as_flattened().iter().copied().collect();
+    assert!(used.iter().all(|v| keep[*v as usize] != 0));
+    assert!(
+        used.len() as f64 > 0.98 * kept as f64,
+        "{} of {kept}",
+        used.len()
+    );
+    let off = |v: &u32| (values[*v as usize] - page.values()[*v as usize]).abs() > 0.005;
+    assert!(!used.iter().any(off));
+    let masked = camera
+        .back_project(&mixed.clone().masked(&keep).unwrap())
+        .unwrap();
+    assert!(masked.triangles().as_flattened().iter().any(off));
+    let error = camera.back_project_within(&mixed, &keep[1..]).unwrap_err();
+    assert_eq!(error.code(), "SHAPE");
 }
 
 /// Between the nodes of a coarse grid the map is what it was, at the border of the sheet as well.

@@ -3,9 +3,14 @@
 use super::merge::merge;
 use crate::error::Result;
 use crate::fit::input::Input;
+use crate::lattice::stencil::Quadratic;
 
 /// From the median of a normal distribution's absolute values to its standard deviation.
 const MEDIAN: f64 = 1.4826;
+
+/// The same of the smaller principal curvature, at a spacing of 1, for noise of standard deviation 1 that is
+/// independent from vertex to vertex.
+const SMALLER_BEND: f64 = 0.93;
 
 /// Fewer samples say nothing.
 const FEWEST: usize = 50;
@@ -18,6 +23,13 @@ const MOST_MERGED: usize = 2;
 /// each time is no noise but the surface's own shape, which grows by up to 16; where that comes in
 /// later, noise ends where it grows least.
 const CORRELATED: [f64; 2] = [1.3, 5.0];
+
+/// Noise that is smooth over several vertices shows late, behind what is rougher and smaller, such as
+/// rounding or the edges of pixels: growth rises by this factor, to no more than what noise that is still
+/// smooth can grow by. What rises with it is no shape of a developable surface, which does not bend two
+/// ways: its Gaussian curvature is noise.
+const RISES: f64 = 1.3;
+const FASTEST: f64 = 12.0;
 
 /// Steps are looked for if at most this share of the heights are different ones, and counted as equal
 /// within this share of them.
@@ -65,20 +77,25 @@ impl Noise {
         let mut merged = merge(input)?;
         let mut last = noise;
         let mut slowest = most;
+        let mut grown = Vec::new();
         for count in 1..=MOST_MERGED + 1 {
             spacing *= 2.0;
-            let Some(next) = ring_noise(&merged) else {
+            let Some(found) = ring_noise(&merged) else {
                 break;
             };
             let next = Noise {
-                sigma: noise.sigma.max(next),
+                sigma: noise.sigma.max(found),
                 merged: count,
-                product: trust * next * spacing,
+                product: trust * found * spacing,
                 step,
             };
             let growth = next.product / last.product;
             if growth <= least || growth.is_nan() {
                 return Ok(Some(last));
+            }
+            grown.push(growth);
+            if count > MOST_MERGED && rises(&grown) && bend_noise(&merged) > Some(found) {
+                return Ok(Some(next));
             }
             if growth < slowest && count <= MOST_MERGED {
                 (noise, slowest) = (next, growth);
@@ -94,21 +111,46 @@ impl Noise {
     }
 }
 
+/// Whether noise shows on the lattices merged last, behind what grows slowly on those before.
+fn rises(growth: &[f64]) -> bool {
+    let (first, later) = (growth[0], &growth[1..]);
+    let fastest = later.iter().copied().fold(0.0, f64::max);
+    fastest > RISES * first && (CORRELATED[1]..FASTEST).contains(&fastest)
+}
+
 /// What rings of six neighbours have in excess of any quadratic: the sum of their heights with
-/// alternating signs. A median, so that creases do not count.
+/// alternating signs.
 fn ring_noise(input: &Input) -> Option<f64> {
+    let found = median_of_rings(input, |_, [w, e, nw, ne, sw, se]| {
+        (w - nw) + (ne - e) + (se - sw)
+    })?;
+    Some(MEDIAN * found / 6f64.sqrt())
+}
+
+/// The same by how far surfaces bend both ways: the smaller principal curvature. Of a developable surface it
+/// is noise's alone, however smooth that is.
+fn bend_noise(input: &Input) -> Option<f64> {
+    let found = median_of_rings(input, |centre, ring| {
+        let [a, b] = Quadratic::fit(centre, ring, 1.0).hessian.eigenvalues();
+        a.abs().min(b.abs())
+    })?;
+    Some(found / SMALLER_BEND)
+}
+
+/// The median of absolute values at rings of six neighbours, so that creases do not count.
+fn median_of_rings(input: &Input, value: impl Fn(f64, [f64; 6]) -> f64) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = TRUSTED * largest_trust(input);
     let sample = |vertex| sample(input, vertex, least);
     let mut samples = Vec::new();
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
-            let [w, e, nw, ne, sw, se] = lattice
+            let ring = lattice
                 .neighbours(row, col)
                 .map(|n| n.map_or(f64::NAN, |(row, col)| sample(lattice.index(row, col))));
-            let alternating = (w - nw) + (ne - e) + (se - sw);
-            if alternating.is_finite() {
-                samples.push(alternating.abs());
+            let value = value(sample(lattice.index(row, col)), ring);
+            if value.is_finite() {
+                samples.push(value.abs());
             }
         }
     }
@@ -117,7 +159,7 @@ fn ring_noise(input: &Input) -> Option<f64> {
     }
     let middle = samples.len() / 2;
     let (_, median, _) = samples.select_nth_unstable_by(middle, f64::total_cmp);
-    Some(MEDIAN * *median / 6f64.sqrt())
+    Some(*median)
 }
 
 /// Bridged vertices have less, as a share of the largest confidence.
@@ -241,6 +283,49 @@ mod tests {
         // Smoothing leaves the mean over large areas as it is, and so `σh` there.
         assert!(noise.merged > 0, "{noise:?}");
         assert!((0.4..1.3).contains(&(noise.product / 1e-4)), "{noise:?}");
+    }
+
+    /// As a depth camera's is that rounds: over so many vertices, behind small noise that is rough.
+    fn smooth(vertices: f64, rough: f64) -> Vec<f64> {
+        let lattice = lattice();
+        let reach = (3.0 * vertices).ceil() as isize;
+        let kernel = |d: isize| (-0.5 * (d as f64 / vertices).powi(2)).exp();
+        let along = |noise: &[f64], rows: isize, cols: isize| -> Vec<f64> {
+            let size = [lattice.rows() as isize, lattice.cols() as isize];
+            let at = |i: usize, d: isize| {
+                let row = i as isize / size[1] + d * rows;
+                let col = i as isize % size[1] + d * cols;
+                noise[(row.rem_euclid(size[0]) * size[1] + col.rem_euclid(size[1])) as usize]
+            };
+            let sum = |i| (-reach..=reach).map(|d| kernel(d) * at(i, d)).sum();
+            (0..noise.len()).map(sum).collect()
+        };
+        let noise = along(&along(&white(8), 1, 0), 0, 1);
+        let size = (noise.iter().map(|n| n * n).sum::<f64>() / noise.len() as f64).sqrt();
+        noise
+            .iter()
+            .zip(white(9))
+            .map(|(n, w)| n / size + rough * w)
+            .collect()
+    }
+
+    #[test]
+    fn smooth_noise_is_seen_behind_rough_noise() {
+        let (sigma, vertices) = (1e-2, 3.0);
+        let field = roof(sigma, &smooth(vertices, 0.03));
+        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        assert_eq!(noise.merged, 3, "{noise:?}");
+        // No more than it has, and more than rough noise a tenth of its size.
+        assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
+        // A shape that shows behind rough noise alike is none.
+        let [rough, shape] = [3e-4, 0.028];
+        let wave = |x: f64, _: f64| shape * (8.0 * x).sin();
+        let wave = Heightfield::from_fn(lattice(), wave).unwrap();
+        let heights = wave.heights().iter().zip(smooth(0.7, 0.0));
+        let heights = heights.map(|(z, n)| z + rough * n).collect();
+        let field = Heightfield::new(lattice(), heights).unwrap();
+        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        assert!(noise.merged < 3 && noise.sigma < 3.0 * rough, "{noise:?}");
     }
 
     #[test]

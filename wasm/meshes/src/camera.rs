@@ -28,8 +28,11 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
     let camera = known.turn.camera(&camera, stored);
     let mut depths = known.turn.image(&depths)?;
     let size = [depths.width(), depths.height()];
+    let mut keep = vec![1u8; depths.values().len()];
     for flags in known.masks(&camera, &depths, stored)? {
-        depths = depths.masked(&flags)?;
+        for (keep, flag) in keep.iter_mut().zip(flags) {
+            *keep &= u8::from(flag != 0);
+        }
     }
     let confidence = match &known.confidence {
         Some(Sized { size: own, data }) => {
@@ -45,7 +48,7 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
         }
         None => JsValue::UNDEFINED,
     };
-    let mut mesh = camera.back_project(&depths)?;
+    let mut mesh = camera.back_project_within(&depths, &keep)?;
     if known.crop.is_some() {
         mesh = mesh.without_scraps()?;
     }

@@ -222,10 +222,11 @@ export class DevelopableWorker {
    */
   async paint(input, picture, given) {
     const own = reading('INPUT', 'the input', () => ({ ...input }));
-    const { extent } = optionsOf('paint', given);
+    const { extent, camera } = optionsOf('paint', given);
     const { field, buffers } = detached(asLattice(own));
     const found = asPicture(isBlob(picture) ? await ownBytes(picture) : picture);
-    const place = { extent: extent ?? (field.uvs ? undefined : extentOf(own)) };
+    const known = camera ?? field.camera ?? field.uvs;
+    const place = { camera, extent: extent ?? (known ? undefined : extentOf(own)) };
     return { ...own, ...await this.#request((remote) => remote.paint(transfer(field, buffers), found, place)) };
   }
 

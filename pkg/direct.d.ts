@@ -143,10 +143,10 @@ export function sampleMesh(mesh: Mesh, options?: SampleMeshOptions): SampledMesh
  */
 export function backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Mesh;
 /**
- * Gives a surface the colours of a picture of it, and texture coordinates where it has none: the
- * picture shows what the heights show, with as many pixels as it likes. Of a file, `texture` is set,
- * too. Where the picture is transparent, colours stay as they are. Takes `load('files')`, and for JPEG
- * and WebP `load('images')`.
+ * Gives a surface the colours of a picture of it, and texture coordinates: where its camera, or the picture's own, sees its
+ * points; without a camera those that it has, or else the picture shows what the heights show. It has as many pixels as it
+ * likes. Of a file, `texture` is set, too, upright. Where the picture is transparent, and where the camera does not see,
+ * colours stay as they are. Takes `load('files')`, for JPEG and WebP `load('images')`, by a camera `load('meshes')`.
  */
 export function paint<F extends Heightfield>(input: F, picture: Picture, options?: PaintOptions): Painted<F>;
 /** How developable a surface is: curvatures at its vertices, and what they come to. */

@@ -171,7 +171,7 @@ export const OPTIONS = {
     rotation: rows(3, numbers(3, 'three numbers'), 'three rows of three numbers: a rotation matrix'),
     translation: numbers(3, 'three numbers'),
   },
-  paint: { extent },
+  paint: { extent, camera: photoCamera },
   analyze: { ...resampled, threshold: number, reference: anything },
   patches: { ...resampled, ...patching },
   picture: {

@@ -5,14 +5,14 @@ import { isRecord, reading, record, refuseUnknown, show } from './values.js';
 
 /**
  * @typedef {{ beziers: boolean, points: Float64Array }} TraceInput
- * @typedef {{ sideways: boolean, edges: [TraceInput, TraceInput] }} EdgesInput
+ * @typedef {{ sideways: boolean, edges: number, traces: TraceInput[] }} EdgesInput `traces`: so many edges, then lines of text
  * @typedef {import('./types.js').DewarpPageOptions} Options
  */
 
 const SIDES = /** @type {const} */ (['top', 'bottom', 'left', 'right']);
 
-/** Most points of one edge, as in Rust: to be refused before they are copied. */
-const MOST = 100_000;
+/** Most points of one edge, and most lines of text, as in Rust: to be refused before they are copied. */
+const [MOST, LINES] = [100_000, 500];
 
 /**
  * The edges of one page, or of the two pages of a spread.
@@ -35,24 +35,33 @@ function asPair(given) {
   if (!isRecord(given)) {
     throw new DevelopableError('INPUT', `the edges must be { top, bottom } or { left, right }, but are ${show(given)}`);
   }
-  refuseUnknown('INPUT', 'edge', given, SIDES);
-  const { top, bottom, left, right } = record('INPUT', 'the edges', given, SIDES);
-  if (top !== undefined && bottom !== undefined && left === undefined && right === undefined) {
-    return { sideways: false, edges: [asTrace('top', top), asTrace('bottom', bottom)] };
+  refuseUnknown('INPUT', 'edge', given, [...SIDES, 'lines']);
+  const { lines, ...edges } = record('INPUT', 'the edges', given, [...SIDES, 'lines']);
+  const told = SIDES.filter((side) => edges[side] !== undefined);
+  if (!['top bottom', 'left right', SIDES.join(' ')].includes(told.join(' '))) {
+    throw new DevelopableError('INPUT', 'the edges must be `top` and `bottom`, or `left` and `right`: the two that are bent; or all four');
   }
-  if (left !== undefined && right !== undefined && top === undefined && bottom === undefined) {
-    return { sideways: true, edges: [asTrace('left', left), asTrace('right', right)] };
-  }
-  throw new DevelopableError('INPUT', 'the edges must be `top` and `bottom`, or `left` and `right`: the two that are bent');
+  const sides = told.map((side) => asTrace(`the ${side} edge`, edges[side]));
+  return { sideways: told[0] === 'left', edges: sides.length, traces: [...sides, ...(lines === undefined ? [] : asLines(lines))] };
 }
 
 /**
- * @param {string} name
+ * @param {unknown} given
+ * @returns {TraceInput[]}
+ */
+function asLines(given) {
+  if (!Array.isArray(given)) throw new DevelopableError('INPUT', '`lines` must be a list of lines of text, each a list of points [x, y]');
+  const found = reading('INPUT', 'the lines of text', () => given.slice(0, LINES + 1));
+  if (found.length > LINES) throw new DevelopableError('TOO_LARGE', `there are more than ${LINES} lines of text, which is the limit`);
+  return found.map((line, number) => asTrace(`line ${number} of the text`, line));
+}
+
+/**
+ * @param {string} what
  * @param {unknown} given
  * @returns {TraceInput}
  */
-function asTrace(name, given) {
-  const what = `the ${name} edge`;
+function asTrace(what, given) {
   return reading('INPUT', what, () => {
     if (Array.isArray(given)) return { beziers: false, points: pointsOf(what, given) };
     refuseUnknown('INPUT', `property of ${what}`, given, ['beziers']);
@@ -95,8 +104,11 @@ export function plainEdges(pages) {
       /** @type {[number, number]} */ ([points[2 * i], points[2 * i + 1]]));
     return beziers ? { beziers: list } : list;
   };
-  return pages.map(({ sideways, edges: [first, second] }) =>
-    (sideways ? { left: plain(first), right: plain(second) } : { top: plain(first), bottom: plain(second) }));
+  return pages.map(({ sideways, edges, traces }) => {
+    const own = traces.slice(0, edges).map((trace, i) => [SIDES[sideways ? i + 2 : i], plain(trace)]);
+    const all = { ...Object.fromEntries(own), lines: traces.slice(edges).map(plain) };
+    return /** @type {import('./types.js').PageEdges} */ (/** @type {unknown} */ (all));
+  });
 }
 
 /**

@@ -2,14 +2,15 @@
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
 import { asLattice } from './input.js';
-import { files, images } from './instances.js';
+import { files, images, meshes } from './instances.js';
 import { asPicture } from './mesh-input.js';
 import { optionsOf } from './options.js';
-import { extentOf } from './sheet-input.js';
+import { extentOf, placeOf } from './sheet-input.js';
 
 /**
  * @typedef {import('./types.js').SampledMesh} SampledMesh
  * @typedef {Uint8Array | import('./sheet-input.js').Pixels} Given a picture as `asPicture` gives it
+ * @typedef {{ width: number, height: number, data: Uint8Array | Uint8ClampedArray, orientation?: number }} Decoded
  */
 
 /** @type {typeof import('./direct.js').readPhoto} */
@@ -19,20 +20,35 @@ export function readPhoto(bytes) {
 }
 
 /**
- * What `paint` adds to a field.
+ * What `paint` adds to a field: of what a camera has seen, the picture is where that camera, or the photo's own, sees the
+ * points of this surface, and not where it saw the noisy ones.
  * @param {import('./types.js').Heightfield} input
  * @param {import('./types.js').Picture} picture
  * @param {import('./types.js').PaintOptions} [given]
  */
 export function paintOf(input, picture, given) {
-  const { extent } = optionsOf('paint', given);
+  const options = optionsOf('paint', given);
   const lattice = asLattice(input);
-  const { uvs: own, colors, heights = new Float64Array() } = lattice;
-  const place = own && extent === undefined ? undefined : extent ?? extentOf(input);
-  const uvs = own && extent === undefined ? own : files.call((wasm) => wasm.planeUvs(lattice, place));
+  const { colors, heights = new Float64Array() } = lattice;
   const found = asPicture(picture);
+  /** @type {Decoded} */
+  const pixels = found instanceof Uint8Array ? readPhoto(found) : found;
   const start = colors ?? blank(heights);
-  return { uvs, colors: painted(start, uvs, found), texture: fileOf(found) };
+  const uvs = uvsOf(input, lattice, pixels, options);
+  return { uvs, colors: painted(start, uvs, pixels), texture: uprightFile(found, pixels) };
+}
+
+/**
+ * @param {import('./types.js').Heightfield} input
+ * @param {import('./input.js').Lattice} lattice
+ * @param {{ width: number, height: number }} picture
+ * @param {import('./types.js').PaintOptions} options
+ * @returns {Float32Array}
+ */
+function uvsOf(input, lattice, { width, height }, options) {
+  const { camera, frame, uvs } = placeOf(lattice, options);
+  if (camera) return meshes.call((wasm) => wasm.cameraUvs(lattice, camera, frame, width, height));
+  return uvs ?? files.call((wasm) => wasm.planeUvs(lattice, options.extent ?? extentOf(input)));
 }
 
 /**
@@ -68,7 +84,7 @@ export function inColour(seen, textureOf, textures = []) {
 /**
  * @param {Float32Array} colors
  * @param {Float32Array} uvs
- * @param {Given} picture
+ * @param {Given | Decoded} picture
  * @param {Int32Array} [textureOf]
  * @param {number} [number]
  */
@@ -81,6 +97,18 @@ function painted(colors, uvs, picture, textureOf, number = 0) {
 /** White where there is something. @param {ArrayLike<number>} heights */
 function blank(heights) {
   return Float32Array.from({ length: 3 * heights.length }, (_, i) => (Number.isNaN(heights[Math.floor(i / 3)]) ? NaN : 1));
+}
+
+/**
+ * The file for a mesh's texture. glTF has no regard for the Exif note which way up a photo is, so that one which lies on
+ * its side is written anew.
+ * @param {Given} picture
+ * @param {Decoded} pixels
+ */
+function uprightFile(picture, { width, height, data, orientation }) {
+  if (orientation === undefined) return fileOf(picture);
+  const bytes = new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
+  return files.call((wasm) => wasm.writePhoto(width, height, bytes, { format: 'jpeg', quality: 92 }));
 }
 
 /** The file, if it is one that meshes can have as their texture. @param {Given} picture */

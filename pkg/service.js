@@ -181,7 +181,8 @@ export const service = {
 
   /** @type {(input: Input, picture: import('./types.js').Picture, options?: import('./types.js').PaintOptions) => Promise<ReturnType<typeof paintOf>>} */
   async paint(input, picture, options) {
-    await withPictures([picture]);
+    const seen = /** @type {import('./types.js').Heightfield} */ (input).camera ?? options?.camera;
+    await Promise.all([withPictures([picture]), seen && loaded('meshes')]);
     const painted = paintOf(/** @type {import('./types.js').Heightfield} */ (input), picture, options);
     return transfer(painted, buffersOf(painted.uvs, painted.colors));
   },

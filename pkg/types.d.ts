@@ -807,10 +807,15 @@ export interface WritePhotoOptions {
 
 export interface PaintOptions {
   /**
-   * The part of the plane that the picture shows: left, bottom, right, top. Default: what the
-   * surface's texture coordinates say; without any, as for `dewarp`.
+   * The part of the plane that the picture shows: left, bottom, right, top. Default: the picture is where the surface's
+   * camera sees its points, or else where its texture coordinates say; without any, as for `dewarp`.
    */
   extent?: readonly [number, number, number, number];
+  /**
+   * The camera that took the picture, for heights that were sampled from a mesh in a camera's axes, as for `dewarp`.
+   * What it does not see keeps its colour.
+   */
+  camera?: PhotoCamera;
 }
 
 /** A surface in the colours of a picture. */
@@ -1132,11 +1137,20 @@ export type EdgeTrace = readonly (readonly [number, number])[] | { beziers: read
 
 /**
  * The two edges of a page that are bent, with its corners at their ends: each from left to right
- * (`top`, `bottom`), or from top to bottom (`left`, `right`).
+ * (`top`, `bottom`), or from top to bottom (`left`, `right`). Or all four: which two are bent is seen, and
+ * the straight ones check the page.
  */
-export type PageEdges =
+export type PageEdges = (
   | { top: EdgeTrace; bottom: EdgeTrace; left?: undefined; right?: undefined }
-  | { left: EdgeTrace; right: EdgeTrace; top?: undefined; bottom?: undefined };
+  | { left: EdgeTrace; right: EdgeTrace; top?: undefined; bottom?: undefined }
+  | { top: EdgeTrace; bottom: EdgeTrace; left: EdgeTrace; right: EdgeTrace }
+) & {
+  /**
+   * Lines of text, traced likewise from where they begin to where they end (at most 500): level on the flat page, they
+   * make it more accurate, and show folds between the edges.
+   */
+  lines?: readonly EdgeTrace[];
+};
 
 export interface DewarpPageOptions {
   /** The camera's focal length, in pixels of the photo. */
@@ -1169,10 +1183,11 @@ export interface DewarpPageOptions {
 
 /**
  * Whether a page that was made flat by its edges is to be trusted: both edges are straight, so that it was flat
- * or is folded along them, which they do not show (`'flat'`); it was curled one way (`'unrolled'`), and both edges agree; nothing checks it, for too few points were traced or
- * one edge looks straight however the page is bent (`'unchecked'`); it is likely to be wrong by more
- * than 1 % of its width, or hides a part of itself (`'doubtful'`); or it is folded, crumpled, bent
- * both ways or wrongly traced (`'notThisKind'`).
+ * or is folded along them, which they do not show (`'flat'`); it was curled one way, and its edges and lines of text
+ * agree (`'unrolled'`); nothing checks it, for too few points were traced or one edge looks straight however the page is
+ * bent (`'unchecked'`); it is likely to be wrong by more than 1 % of its width, or hides a part of itself, or its edges
+ * and lines disagree by about as much as they were meant to be traced to (`'doubtful'`); or they disagree by more: it is
+ * folded, crumpled, bent both ways or wrongly traced (`'notThisKind'`).
  */
 export type PageVerdict = 'flat' | 'unrolled' | 'unchecked' | 'doubtful' | 'notThisKind';
 
@@ -1190,10 +1205,12 @@ export interface PageReport {
   tilt: number;
   /** Most that the page's direction changes along its curve, in degrees. */
   bend: number;
-  /** Root mean square distance of the traced points from the edges found, in pixels, of the worse edge. */
+  /** Root mean square distance of the traced points from the edge found, in pixels: of the edge that fits worst, or of all lines of text. */
   residual: number;
-  /** The part of it that goes on from point to point, in % of a page's width as it is seen. */
+  /** The part of it that goes on from point to point, or from one line of text to the next, in % of a page's width as it is seen. */
   disagreement: number;
+  /** Lines of text that it was found by besides the edges. */
+  lines: number;
   /** Height over width as it is seen, without use of a format that was given. */
   ratio: number;
 }

@@ -1,6 +1,7 @@
 /** The one place that knows where the package is: `pkg/` beside this page. */
 
 /** @typedef {typeof import('../pkg/index.js')} Api */
+/** @typedef {import('../pkg/types.js').DepthOptions} DepthOptions */
 /** @typedef {import('../pkg/types.js').Energy} Energy */
 /** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
 /** @typedef {import('../pkg/index.js').OpenSolver} OpenSolver */

@@ -8,7 +8,7 @@
  */
 import { Events } from './events.js';
 
-/** @import {Api, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
+/** @import {Api, DepthOptions, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -30,6 +30,14 @@ import { Events } from './events.js';
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`
  * @property {{ name: string, image: ImageData }} [photo] that came with it
+ * @property {Beside} [beside] what came with depths, besides
+ */
+
+/**
+ * @typedef {object} Beside
+ * @property {DepthOptions['confidence']} [confidence]
+ * @property {DepthOptions['mask']} [mask]
+ * @property {string[]} names of their files
  */
 
 /**

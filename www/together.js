@@ -1,4 +1,4 @@
-/** Which of several files is what: a mesh and what it names, or depths with their photo and their camera. */
+/** Which of several files is what: a mesh and what it names, or depths with what is known of them. */
 import { isMesh } from './panels/mesh.js';
 
 /**
@@ -7,11 +7,14 @@ import { isMesh } from './panels/mesh.js';
  * @property {File} [depths]
  * @property {File} [photo]
  * @property {File} [camera]
+ * @property {File} [confidence] of the depths
+ * @property {File} [mask] of the depths, or drawn on the photo
  * @property {File[]} others
  */
 
 const CAMERA = /\.(json|csv|txt)$/i;
 const HEIGHTS = /\.(tiff?|exr|pfm|npy|npz)$/i;
+const PICTURE = /\.(png|jpe?g|webp|avif|heic)$/i;
 
 /** Whether it is a text with the numbers of a camera, by its name. @param {File} file */
 export function isCamera({ name }) {
@@ -35,16 +38,19 @@ export async function together(files) {
 
 /**
  * @param {File} file
- * @returns {Promise<'mesh' | 'depths' | 'photo' | 'camera' | null>}
+ * @returns {Promise<Exclude<keyof Together, 'others'> | null>}
  */
 async function kindOf(file) {
   const { name } = file;
   if (isMesh(name)) return 'mesh';
   if (CAMERA.test(name)) return 'camera';
-  if (/conf/i.test(name)) return null;
+  if (HEIGHTS.test(name) || PICTURE.test(name)) {
+    if (/conf/i.test(name)) return 'confidence';
+    if (/mask|matte|segment/i.test(name)) return 'mask';
+  }
   if (HEIGHTS.test(name)) return 'depths';
   if (/\.png$/i.test(name) && (/depth/i.test(name) || await isGrey16(file))) return 'depths';
-  return /\.(png|jpe?g|webp|avif|heic)$/i.test(name) ? 'photo' : null;
+  return PICTURE.test(name) ? 'photo' : null;
 }
 
 /** Whether it is a PNG of 16 bits of grey, as depth cameras write it. @param {File} file */

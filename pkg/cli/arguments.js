@@ -42,7 +42,7 @@ import { split, usage } from './flags.js';
  * @property {string} [occlusionMask]
  *
  * @typedef {InputTask & KnownTask & {
- *   command: 'fit' | 'design', report?: string, texture?: string, mtl?: string, options: SolverOptions,
+ *   command: 'fit' | 'design', report?: string, texture?: string, photoCamera?: string, mtl?: string, options: SolverOptions,
  * }} FitTask
  * @typedef {InputTask & { command: 'occlusions', threshold?: number }} OcclusionsTask
  * @typedef {Omit<FitTask, 'command'> & { asIs: boolean }} SheetTask `asIs`: without a fit
@@ -168,6 +168,7 @@ export function parse(args) {
     occlusionMask: values['occlusion-mask'],
     report,
     texture,
+    photoCamera,
     mtl,
     options: {
       lambda: lambda(values.lambda),
@@ -186,6 +187,12 @@ export function parse(args) {
       bridge: values.bridge === 'none' ? false : number('bridge', values, 'none or '),
     },
   };
+  if (photoCamera !== undefined && kind === 'image') {
+    throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
+  }
+  if (photoCamera !== undefined && texture === undefined && command === 'fit') {
+    throw usage('--photo-camera is about a photo, and there is none: --texture PHOTO');
+  }
   const asIs = values['as-is'] === true;
   switch (command) {
     case 'analyze':
@@ -214,16 +221,12 @@ export function parse(args) {
       if (texture === undefined && kind !== 'mesh') {
         throw usage("the photo is missing: --texture PHOTO; or INPUT is the photo, then the page's edges: --edges FILE");
       }
-      if (photoCamera !== undefined && kind === 'image') {
-        throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
-      }
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
       return {
         command,
         ...fitting,
         asIs,
         texture,
-        photoCamera,
         crop: corners(values.crop),
         dots: number('dots', values),
         trim: values.trim === true,

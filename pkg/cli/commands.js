@@ -56,7 +56,7 @@ export const commands = {
     summary: 'fit a surface to heights',
     about: 'Fits a piecewise-developable surface to heights, with a certified bound of how far from the optimum it can be.',
     terms: { INPUT, OUTPUT },
-    flags: [...fitted, 'surface', 'report', 'texture', 'mtl'],
+    flags: [...fitted, 'surface', 'report', 'texture', 'photo-camera', 'mtl'],
     examples: [
       'fit scan.tif -o surface.obj --lambda big --report report.json',
       'fit scan.ply -o surface.glb --view -z',

@@ -1,6 +1,7 @@
 /** `developable fit` and `developable design`. */
 import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
+import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about, readInput } from './inputs.js';
 import { announce, percent, progressLine } from './terminal.js';
@@ -17,10 +18,11 @@ import { announce, percent, progressLine } from './terminal.js';
 export async function fit(task, signal) {
   await checkPlaces(...task.written);
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
-  const bare = await solve(task, await readInput(task), { signal, transfer: true });
+  const { photo, camera } = texture === undefined ? {} : await seenBy(task, texture);
+  const bare = await solve(task, await readInput({ ...task, photo }), { signal, transfer: true });
   const surface = texture === undefined
     ? bare
-    : await about(String(task.texture), () => developable.paint(bare, texture));
+    : await about(String(task.texture), () => developable.paint(bare, texture, camera && { camera }));
   const files = [{ path: task.output, bytes: await encode(task, surface) }];
   if (task.mtl !== undefined) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
@@ -40,6 +42,19 @@ export async function fit(task, signal) {
   } else if (report.stopReason === 'diverged') {
     process.stderr.write(`developable: warning: the iterations diverged; the best surface before is ${certainty}\n`);
   }
+}
+
+/**
+ * What depths and meshes have to know of the picture before they are read: cameras' numbers may be about it, and it may lie
+ * otherwise.
+ * @param {FitTask} task
+ * @param {Uint8Array} texture
+ */
+async function seenBy({ texture: path, camera: depths, photoCamera }, texture) {
+  if (depths === undefined && photoCamera === undefined) return {};
+  const { width, height, orientation } = await about(String(path), () => developable.readPhoto(texture));
+  const camera = photoCamera === undefined ? undefined : await readCamera(photoCamera, [{ width, height }]);
+  return { photo: { width, height, orientation, camera }, camera };
 }
 
 /**

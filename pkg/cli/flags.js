@@ -166,8 +166,8 @@ export const sections = {
     flags: {
       texture: {
         value: 'FILE',
-        help: 'PNG, JPEG or WebP picture with the outline of INPUT, or that its texture coordinates are about: the ' +
-          'colours of an .obj or .ply, the texture of a .glb (of a WebP its colours alone). A mesh with textures of its ' +
+        help: 'PNG, JPEG or WebP picture with the outline of INPUT, of depths the photo from the same place, of a mesh what its ' +
+          'texture coordinates are about: the colours of an .obj or .ply, the texture of a .glb (of a WebP its colours alone). A mesh with textures of its ' +
           'own does not need it',
       },
       'photo-camera': {

@@ -28,7 +28,8 @@ export async function page(task, signal) {
 }
 
 /** @param {import('../types.js').PageReport} report */
-function words({ verdict, error, errorBound, disagreement }) {
+function words({ verdict, error, errorBound, disagreement, lines }) {
+  const text = lines > 0 ? ' and lines of text' : '';
   const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases)`;
   switch (verdict) {
     case 'flat':
@@ -38,9 +39,9 @@ function words({ verdict, error, errorBound, disagreement }) {
         `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
     case 'doubtful':
       return `warning: the flat page is doubtful: its places are wrong by ${likely}, or it hides a part of itself, or ` +
-        `its edges disagree (by ${percent(disagreement / 100, 2)})`;
+        `its edges${text} disagree (by ${percent(disagreement / 100, 2)})`;
     case 'notThisKind':
-      return `warning: this is no page that is curled one way: its edges disagree (by ${percent(disagreement / 100, 2)} of ` +
+      return `warning: this is no page that is curled one way: its edges${text} disagree (by ${percent(disagreement / 100, 2)} of ` +
         'its width); it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
     default:
       return undefined;

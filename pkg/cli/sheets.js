@@ -82,12 +82,40 @@ export async function dewarp(task, signal) {
     files.push({ path: task.map, bytes: mapFile(flat, photo) });
   }
   await writeWhole(files, signal);
+  if (task.camera !== undefined && crop === undefined && reachesRim(surface)) {
+    process.stderr.write(
+      'developable: warning: what was made flat goes on to the rim of the depths: it is all that they show, such as a page and ' +
+        'the table that it lies on; --crop x,y,x,y,... with the corners of the page in the photo takes it alone, and so does --mask\n',
+    );
+  }
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
     const strain = percent(flat.report.distortion.rms, 2);
     process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
   }
+}
+
+/** How near to the rim of an image something is to reach it, and on what share of a side, in shares of that. */
+const [NEAR, LONG] = [0.03, 0.3];
+
+/**
+ * Whether what a depth camera has seen of a surface goes on to the rim of its image, as a page alone does not.
+ * @param {Input} surface
+ */
+function reachesRim(surface) {
+  const { uvs, heights } = /** @type {import('../types.js').Heightfield} */ (surface);
+  if (uvs === undefined || heights === undefined) return false;
+  const steps = 100;
+  const sides = Array.from({ length: 4 }, () => new Uint8Array(steps + 1));
+  for (let i = 0; i < heights.length; i += 1) {
+    const [u, v] = [uvs[2 * i], uvs[2 * i + 1]];
+    if (!Number.isFinite(heights[i]) || !(u >= 0 && u <= 1 && v >= 0 && v <= 1)) continue;
+    const [across, up] = [u, v].map((share) => Math.round(steps * share));
+    [u, 1 - u].forEach((far, k) => far < NEAR && (sides[k][up] = 1));
+    [v, 1 - v].forEach((far, k) => far < NEAR && (sides[2 + k][across] = 1));
+  }
+  return sides.some((side) => side.reduce((sum, one) => sum + one, 0) > LONG * steps);
 }
 
 /** Says what a true size takes, where it is not known. @param {Input} input */

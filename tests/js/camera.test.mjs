@@ -90,6 +90,46 @@ test('from depths to a surface in the axes of the camera, with a picture of the 
   }
 });
 
+test('a photo is laid on by the camera, wherever it was', async () => {
+  // Red says from where in the photo a colour is, green from how far down.
+  const size = { width: 160, height: 120 };
+  const photo = { ...size, data: Uint8ClampedArray.from({ length: 4 * 160 * 120 }, (_, i) => [Math.floor(i / 4) % 160, Math.floor(i / 640), 0, 255][i % 4]) };
+  const seen = direct.sampleMesh(direct.backProject(image, camera), { view: 'best-fit', resolution: 60 });
+  const surface = direct.fit(seen, { lambda: 'big' });
+  /**
+   * Colours where they belong, by the written file alone.
+   * @param {import('../../pkg/types.js').Heightfield} field
+   * @param {{ fx: number, fy: number, cx: number, cy: number, rotation?: number[][], translation?: number[] }} by in pixels of the photo
+   */
+  const check = (field, { fx, fy, cx, cy, translation: [tx, ty, tz] = [0, 0, 0] }) => {
+    const { positions, colors = [], uvs = [] } = direct.readMesh(direct.writeGlb({ ...field, texture: undefined }));
+    let inside = 0;
+    for (let i = 0; i < positions.length / 3; i++) {
+      const [x, y, z] = [positions[3 * i] + tx, -positions[3 * i + 1] + ty, -positions[3 * i + 2] + tz];
+      const [u, v] = [cx + (fx * x) / z, cy + (fy * y) / z];
+      if (u < 1 || v < 1 || u > 158 || v > 118) continue;
+      inside++;
+      assert.ok(Math.abs(255 * colors[3 * i] - u) < 0.6 && Math.abs(255 * colors[3 * i + 1] - v) < 0.6, `${i}: ${u} ${v}`);
+      assert.ok(Math.abs(160 * uvs[2 * i] - 0.5 - u) < 0.05 && Math.abs(120 * (1 - uvs[2 * i + 1]) - 0.5 - v) < 0.05);
+    }
+    return inside;
+  };
+  const scale = 160 / width;
+  const own = { fx: scale * camera.fx, fy: scale * camera.fy, cx: scale * (camera.cx + 0.5) - 0.5, cy: scale * (camera.cy + 0.5) - 0.5 };
+  // The surface is not where the depths were: the fitted points count.
+  const lifted = { ...surface, heights: surface.heights.map((z) => z + 0.03) };
+  assert.ok(check(direct.paint(surface, photo), own) > 500);
+  assert.ok(check(direct.paint(lifted, photo), own) > 500);
+  const elsewhere = { ...own, cx: own.cx + 3, ...size, translation: /** @type {const} */ ([0.04, -0.03, 0.02]), rotation: /** @type {const} */ ([[1, 0, 0], [0, 1, 0], [0, 0, 1]]) };
+  const painted = direct.paint(surface, photo, { camera: elsewhere });
+  assert.ok(check(painted, { ...elsewhere, rotation: undefined, translation: [...elsewhere.translation] }) > 400);
+  assert.deepEqual((await developable.paint(surface, photo, { camera: elsewhere })).colors, painted.colors);
+  // A photo that is no image of this camera, and two ways to say the same.
+  const square = { width: 10, height: 10, data: new Uint8ClampedArray(400) };
+  assert.throws(() => direct.paint(surface, square), error('UNSUPPORTED', /10 × 10/));
+  assert.throws(() => direct.paint(surface, photo, { camera: elsewhere, extent: [0, 0, 1, 1] }), error('OPTION', /extent/));
+});
+
 test('what is wrong with a camera is said', async () => {
   /** @param {any} changed */
   const changed = (changed) => () => direct.backProject(image, { ...camera, ...changed });
@@ -111,8 +151,12 @@ test('the command takes depths with --intrinsics', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'depth.npy'), direct.writeNpy({ width, height, data: depths.map((v) => 1000 * v) }));
   await writeFile(join(folder, 'rays.npy'), direct.writeNpy({ width, height, data: depths.map((v, i) => v * Math.hypot(...ray(i))) }));
-  const photo = await readFile(new URL('../data/grey.jpg', import.meta.url));
+  const grey = { width: 2 * width, height: 2 * height, data: new Uint8Array(16 * width * height).fill(128) };
+  const photo = Buffer.from(direct.writePhoto(grey, { format: 'jpeg' }));
   await writeFile(join(folder, 'photo.jpg'), photo);
+  await writeFile(join(folder, 'part.jpg'), await readFile(new URL('../data/grey.jpg', import.meta.url)));
+  const { fx, fy, cx, cy } = camera;
+  await writeFile(join(folder, 'phone.json'), JSON.stringify({ fx: 2 * fx, fy: 2 * fy, cx: 2 * cx + 0.5, cy: 2 * cy + 0.5, w: 2 * width, h: 2 * height }));
   /** @param {string} args */
   const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
   const silent = { status: 0, stdout: '', stderr: '' };
@@ -122,6 +166,9 @@ test('the command takes depths with --intrinsics', async () => {
     [`depth.npy ${numbers},0.001 --view best-fit`, 'b.ply'],
     [`rays.npy ${numbers} --ray --spacing 0.05`, 'c.obj'],
     [`rays.npy ${numbers} --ray --texture photo.jpg`, 'd.glb'],
+    // Numbers that are about the photo, and a camera of its own.
+    [`rays.npy --intrinsics phone.json --ray --texture photo.jpg`, 'e.glb'],
+    [`rays.npy ${numbers} --ray --texture photo.jpg --photo-camera phone.json`, 'f.glb'],
   ]) {
     assert.deepEqual(await fit(`${args} --lambda big -o ${output}`), silent, args);
     checkPlane(direct.readMesh(await readFile(join(folder, output))).positions, 1e-5);
@@ -133,6 +180,8 @@ test('the command takes depths with --intrinsics', async () => {
     [`depth.npy --intrinsics 90,110,30,b -o x.ply`, 2, /--intrinsics/],
     [`depth.npy --intrinsics 0,110,30,25 -o x.ply`, 2, /--fx|fx/],
     [`depth.npy --ray -o x.ply`, 2, /--ray/],
+    [`depth.npy ${numbers} --texture part.jpg -o x.ply`, 3, /16 × 16 pixels.*another part/],
+    [`depth.npy ${numbers} --photo-camera phone.json -o x.ply`, 2, /--texture/],
     [`depth.npy ${numbers} --texture photo.jpg -o x.stl`, 2, /--texture.*\.glb/],
     [`depth.npy ${numbers} --texture missing.jpg -o x.glb`, 3, /missing\.jpg/],
     [`depth.npy ${numbers} --height-scale 2 -o x.ply`, 2, /--height-scale/],

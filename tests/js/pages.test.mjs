@@ -204,3 +204,48 @@ test('the command', async () => {
     assert.match(stderr, message);
   }
 });
+
+test('lines of text, and all four edges', async () => {
+  /** @param {number} t @param {number} [bent] down the page, by its middle */
+  const line = (t, bent = 0) => Array.from({ length: 12 }, (_, i) => {
+    const s = 0.1 + (0.8 * i) / 11;
+    return seen(s, t + bent * Math.sin(Math.PI * s));
+  });
+  const levels = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
+  const known = { focalLength: focal, dots: 1 };
+  const straight = { ...edges, lines: levels.map((t) => line(t)) };
+  const flat = direct.dewarpPage(photo, straight, known);
+  assert.deepEqual([flat.verdict, flat.report.lines], ['unrolled', 7]);
+  assert.ok(flat.report.disagreement < 0.05);
+  assert.deepEqual(await developable.dewarpPage(photo, straight, known), flat);
+  // Lines that sag are not those of such a page, whatever its edges say.
+  const bent = direct.dewarpPage(photo, { ...edges, lines: levels.map((t) => line(t, 0.03)) }, known);
+  assert.equal(bent.verdict, 'notThisKind');
+  assert.equal(direct.dewarpPage(photo, edges, known).verdict, 'unrolled');
+
+  /** @param {number} s */
+  const side = (s) => Array.from({ length: 9 }, (_, i) => seen(s, i / 8));
+  const all = direct.dewarpPage(photo, { ...edges, left: side(0), right: side(1) }, known);
+  assert.equal(all.verdict, 'unrolled');
+  // The right side bulges by 8 pixels.
+  const bulging = side(1).map(([x, y], i) => /** @type {[number, number]} */ ([x + 8 * Math.sin((Math.PI * i) / 8), y]));
+  const wrong = direct.dewarpPage(photo, { ...edges, left: side(0), right: bulging }, known);
+  assert.equal(wrong.verdict, 'notThisKind');
+
+  /** @param {any} changed */
+  const by = (changed) => () => direct.dewarpPage(photo, { ...edges, ...changed }, known);
+  assert.throws(by({ lines: 1 }), error('INPUT', /`lines` must be a list/));
+  assert.throws(by({ lines: [[[1, 2, 3]]] }), error('INPUT', /point 0 of line 0 of the text/));
+  assert.throws(by({ lines: [[[1, 2], [9, 9]]] }), error('EDGES', /line 0 of the text.*not between/));
+  assert.throws(by({ lines: Array.from({ length: 501 }, () => line(0.5)) }), error('TOO_LARGE', /500/));
+  assert.throws(by({ left: side(0) }), error('INPUT', /or all four/));
+  assert.throws(by({ line: [] }), error('INPUT', /lines/));
+  await assert.rejects(developable.dewarpPage(photo, { ...edges, lines: [/** @type {any} */ ('a')] }, known), error('INPUT', /line 0 of the text/));
+
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo));
+  await writeFile(join(folder, 'edges.json'), JSON.stringify({ ...edges, lines: levels.map((t) => line(t, 0.03)) }));
+  const told = await run(folder, ['dewarp', 'photo.png', '--edges', 'edges.json', '--focal', String(focal), '-o', 'page.png']);
+  assert.equal(told.status, 0);
+  assert.match(told.stderr, /its edges and lines of text disagree \(by .*folded or crumpled/);
+});

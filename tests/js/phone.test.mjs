@@ -132,6 +132,14 @@ test('the command takes what capture apps write', async () => {
     if (!Number.isNaN(map[i])) largest = Math.max(largest, Math.hypot(map[i] - flat.map[i], map[i + 1] - flat.map[i + 1]));
   }
   assert.ok(largest <= 0.251 && Math.abs(largest - stated.maximum) < 0.002 && stated.rms < stated.maximum, `${largest} ${stated.maximum}`);
+  assert.doesNotMatch(full.stderr, /rim/);
+  // With the table around it, at the page's own height, it is no page that is made flat, and that is said.
+  await writeFile(join(folder, 'table.exr'), direct.writeExr({ width, height, data: data.map((depth) => depth || 0.44) }));
+  const table = ['dewarp', 'table.exr', '--intrinsics', 'transforms.json', ...common, '-o', 'page.png'];
+  const all = await run(folder, table);
+  assert.equal(all.status, 0, all.stderr);
+  assert.match(all.stderr, /goes on to the rim of the depths: it is all that they show.*--crop/);
+  assert.doesNotMatch((await run(folder, [...table, '--crop', cornersAt(0.1, 0.9).join()])).stderr, /rim/);
   // The wrong file, and depths that are taken for heights.
   await writeFile(join(folder, 'other.json'), JSON.stringify({ name: 'a phone' }));
   const other = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', 'other.json', ...common, '-o', 'page.png']);

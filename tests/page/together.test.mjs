@@ -50,6 +50,27 @@ pageTest('depths, photo and camera in one drop come out flat', async (page) => {
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
 });
 
+pageTest('what is known of depths is dropped with them, and what is not is said', async (page) => {
+  // A table at the page's own depth beside it: by the mask none of it is left. The middle is not to be trusted.
+  const scene = depths(0.45).map((depth, i) => (Math.hypot((i % 256) - 128, Math.floor(i / 256) - 96) < 9 ? 0.3 : depth));
+  const mask = grid(256, 192, (col, row) => (meets(depthCamera, col, row) ? 65535 : 0));
+  const trust = grid(256, 192, (col, row) => (Math.hypot(col - 128, row - 96) < 10 ? 0 : 2));
+  await runBy(page, () => dropAll(page, {
+    'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers,
+    'confidence.png': png16(256, trust), 'IMG_1_mask.png': png16(256, mask), 'notes.md': Buffer.from('a page'),
+  }));
+  await page.getByRole('alert').filter({ hasText: 'Not used: “notes.md”' }).waitFor();
+  assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths, with confidence.png and IMG_1_mask.png)');
+  const flat = await flatPng(page);
+  const error = misplaced(flat);
+  assert.ok(error < 0.005, `dots are off by ${100 * error} % of the width`);
+  assert.ok(Math.abs(flat.width / flat.height / (0.21 / 0.297) - 1) < 0.1, `${flat.width} × ${flat.height}: the page alone`);
+
+  // What cannot be used is said with its name.
+  await dropAll(page, { 'depth.npy': npy(256, scene), 'confidence.png': coloured });
+  await page.getByRole('alert').filter({ hasText: 'confidence.png' }).filter({ hasText: 'colour' }).waitFor();
+});
+
 pageTest('without the camera’s file it is asked for, and may be typed', async (page) => {
   await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
   await page.locator('#camera').waitFor();

@@ -29,7 +29,8 @@ export function cameraPanel(session, take) {
     if (!input) return;
     const { width = input.width, height = input.height, k1, k2, k3, p1, p2 } = further;
     const lens = [k1, k2, k3, p1, p2].some((value) => value) ? ', and a lens that distorts' : '';
-    about.textContent = `For images of ${width} × ${height} pixels${lens}.`;
+    const beside = input.beside ? ` With ${input.beside.names.map((name) => `“${name}”`).join(' and ')}.` : '';
+    about.textContent = `For images of ${width} × ${height} pixels${lens}.${beside}`;
     const [near, far] = rangeOf(input.data).map((depth) => depth * scale.valueAsNumber);
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
@@ -91,9 +92,11 @@ export function cameraPanel(session, take) {
       if (!field.reportValidity()) return false;
     }
     const [x, y, across, down, depthScale] = fields.map((field) => field.valueAsNumber);
-    const { name, width, height, data, photo } = input;
+    const { name, width, height, data, photo, beside } = input;
     const camera = { ...further, fx: x, fy: y, cx: across, cy: down, depthScale };
-    return take({ name, kind: 'depths', photo }, () => session.api.backProject({ width, height, data }, camera), 'The depths could not be put in space');
+    const known = beside && { confidence: beside.confidence, mask: beside.mask };
+    const kind = beside ? `depths, with ${beside.names.join(' and ')}` : 'depths';
+    return take({ name, kind, photo }, () => session.api.backProject({ width, height, data }, camera, known), 'The depths could not be put in space');
   };
   element('back-project', HTMLButtonElement).addEventListener('click', project);
   session.on('cleared', () => {

@@ -7,9 +7,11 @@ import { pixelsOf } from '../pixels.js';
 import { isCamera, together } from '../together.js';
 import { cameraPanel } from './camera.js';
 import { isMesh, meshPanel } from './mesh.js';
+import { showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @import {Beside, Input, Session} from '../session.js' */
+/** @import {Together} from '../together.js' */
 
 /**
  * @param {Session} session
@@ -57,9 +59,9 @@ export function sourcePanel(session, choose) {
   /**
    * @param {File} chosen
    * @param {string} [wanted] array of it
-   * @param {File} [picture] that goes with it
+   * @param {Pick<Together, 'photo' | 'confidence' | 'mask'>} [others] that go with it
    */
-  const openFile = async (chosen, wanted, picture) => {
+  const openFile = async (chosen, wanted, { photo: picture, ...others } = {}) => {
     if (isMesh(chosen.name)) return mesh.open(chosen);
     if (isCamera(chosen)) return camera.read(chosen);
     /** @type {Float64Array} */
@@ -70,13 +72,14 @@ export function sourcePanel(session, choose) {
       const options = several && { array: several.name };
       const { format, dataType, width, height, data, pixelSize: side, heightScale: step, unit } = await session.api.read(chosen, options).catch(plainly);
       const photo = picture && { name: picture.name, image: await pixelsOf(picture) };
+      const beside = await besideOf(session, others);
       if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
       if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
       if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
       values = data;
       const name = chosen.name.replace(/\.[^.]*$/, '') || 'heights';
       const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
-      return { name, kind, dataType, photo, width, height, data, pixelSize: side, heightScale: step, unit: unit ?? undefined, array: several };
+      return { name, kind, dataType, photo, beside, width, height, data, pixelSize: side, heightScale: step, unit: unit ?? undefined, array: several };
     });
     if (!opened) return false;
     stored = values;
@@ -88,19 +91,25 @@ export function sourcePanel(session, choose) {
   /** What belongs together, or one file. @param {readonly File[]} files */
   const openFiles = async (files) => {
     if (files.length === 1) return void openFile(files[0]);
-    const { mesh: scan, depths, photo, camera: numbers } = await together(files);
+    const { mesh: scan, depths, camera: numbers, others, ...beside } = await together(files);
     if (scan) return void mesh.open(scan, files.filter((file) => file !== scan));
     if (!depths) {
       session.fail('These files could not be put together', new Error('there are neither a mesh nor depths (a TIFF, EXR, PFM, NPY or 16-bit PNG) among them'));
       return;
     }
-    if (!(await openFile(depths, undefined, photo))) return;
+    if (!(await openFile(depths, undefined, beside))) return;
     camera.ask();
-    if (!numbers) return;
+    if (numbers && !(await camera.read(numbers))) return;
+    if (numbers && !(await camera.project())) return;
     // All that is needed is there.
-    if (!(await camera.read(numbers)) || !(await camera.project()) || !photo) return;
-    choose('dewarped');
-    await session.run();
+    const run = numbers && beside.photo ? session.run() : undefined;
+    if (run) choose('dewarped');
+    // A run takes away what was said before.
+    if (others.length > 0) {
+      const names = others.map(({ name }) => `“${name}”`).join(', ');
+      showNotice(`Not used: ${names}. With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.`);
+    }
+    await run;
   };
 
   const dropZeros = () => {
@@ -163,6 +172,30 @@ async function arraysOf(session, file) {
   if (!/\.npz$/i.test(file.name)) return [];
   const arrays = await session.api.npzArrays(file);
   return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
+}
+
+/**
+ * What is known of depths besides, as it is stored.
+ * @param {Session} session
+ * @param {Pick<Together, 'confidence' | 'mask'>} files
+ * @returns {Promise<Beside | undefined>}
+ */
+async function besideOf(session, { confidence, mask }) {
+  /** @param {File} [file] */
+  const read = async (file) => {
+    if (!file) return undefined;
+    try {
+      const { width, height, data, dataType } = await session.api.read(file);
+      // Whole numbers are levels, or shares of the largest.
+      if (dataType === 'u8') return { width, height, data: Uint8Array.from(data, (value) => value || 0) };
+      if (dataType === 'u16') return { width, height, data: Uint16Array.from(data, (value) => value || 0) };
+      return { width, height, data };
+    } catch (error) {
+      throw new Error(`its “${file.name}” could not be read: ${error instanceof Error ? error.message : error}`);
+    }
+  };
+  const names = [confidence, mask].flatMap((file) => (file ? [file.name] : []));
+  return names.length === 0 ? undefined : { confidence: await read(confidence), mask: await read(mask), names };
 }
 
 /** Says what to do with a photo. @param {unknown} error @returns {never} */

@@ -1,7 +1,8 @@
 //! Where in a photo the points of a surface are.
 
 use super::Extent;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_count, try_filled};
+use crate::heights::heightfield::Heightfield;
 use crate::math::lanes;
 use crate::scene::camera::{Camera, Distortion, Intrinsics};
 use crate::scene::triangulation::Triangulation;
@@ -27,6 +28,49 @@ pub enum Registration<'a> {
 impl From<Extent> for Registration<'_> {
     fn from(extent: Extent) -> Self {
         Registration::Extent(extent)
+    }
+}
+
+impl Registration<'_> {
+    /// Texture coordinates of each vertex of a surface in a photo of so many pixels: its place, as
+    /// shares from the left and from the bottom, for [`paint`](super::paint) and
+    /// [`Triangulation::with_uvs`](crate::Triangulation::with_uvs). Not a number where there is no surface, or nothing in the photo: behind a
+    /// camera, beside its photo by more than a hundredth, without texture coordinates. What is
+    /// less far beside has the place nearest to it, and so has everything beside an extent.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] for a photo without pixels or an extent without area; those of
+    /// [`Camera::for_size`] for a camera of other images than the photo; [`Error::Shape`] if there are not as many
+    /// coordinates as vertices; [`Error::OutOfMemory`].
+    pub fn uvs(&self, surface: &Heightfield, photo: [usize; 2]) -> Result<Vec<[f32; 2]>> {
+        /// Shares of the photo: more than half a pixel of depths.
+        const BESIDE: f64 = 0.01;
+        let lattice = surface.lattice();
+        let (camera, frame) = match self {
+            Registration::Extent(extent) => return extent.uvs(lattice),
+            Registration::Uvs(uvs) => {
+                let what = "texture coordinates of the surface";
+                check_count(what, lattice.len(), 2, 2 * uvs.len())?;
+                return Ok(uvs.to_vec());
+            }
+            Registration::Camera(camera, frame) => (camera.for_size(photo)?, frame),
+        };
+        let mut uvs = try_filled("texture coordinates", lattice.len(), [f32::NAN; 2])?;
+        for (i, (uv, z)) in uvs.iter_mut().zip(surface.heights()).enumerate() {
+            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+            let seen = camera.seen_from(frame.unview([x, y, *z]));
+            let Some(pixel) = camera.intrinsics.project(seen) else {
+                continue;
+            };
+            let [u, v] = [0, 1].map(|k| (pixel[k] + 0.5) / photo[k] as f64);
+            if [u, v]
+                .iter()
+                .all(|share| (-BESIDE..=1.0 + BESIDE).contains(share))
+            {
+                *uv = [u, 1.0 - v].map(|share| lanes::single(share.clamp(0.0, 1.0)));
+            }
+        }
+        Ok(uvs)
     }
 }
 

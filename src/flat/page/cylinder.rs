@@ -20,6 +20,8 @@ pub(super) struct Cylinder {
     pub length: f64,
     /// Each page.
     pub pages: Vec<Strip>,
+    /// By how much the print is turned on each page, in radians, where lines of text tell; else none.
+    pub skews: Vec<f64>,
 }
 
 /// One page's part of the curve.
@@ -49,6 +51,7 @@ impl Cylinder {
             .map(|page| page.turns.len() + 1)
             .sum::<usize>()
             - 2
+            + self.skews.len()
     }
 
     /// Degree of the polynomials.
@@ -66,7 +69,8 @@ impl Cylinder {
 
     /// Each parameter changed a little, in the order: logarithm of the focal length, rotation
     /// about the page's middle (3), place (3), logarithm of the length, and for each page the
-    /// logarithm of its width and its coefficients, but for the first page's width and mean.
+    /// logarithm of its width and its coefficients, but for the first page's width and mean; the
+    /// skews come last.
     pub fn moved(&self, step: &[f64]) -> Self {
         let mut moved = self.clone();
         moved.focal *= step[0].exp();
@@ -86,6 +90,9 @@ impl Cylinder {
             for coefficient in &mut page.turns[1..] {
                 *coefficient += next();
             }
+        }
+        for skew in &mut moved.skews {
+            *skew += next();
         }
         moved
     }
@@ -143,6 +150,59 @@ impl Cylinder {
 }
 
 impl Cylinder {
+    /// Where on a page a pixel lies: along its curve, and down its ruling. Beyond the page's sides the
+    /// curve goes on straight.
+    pub fn place(&self, curve: &Curve, page: usize, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        let focal = self.focal;
+        let sight = Vector3::new(
+            (x - self.centre[0]) / focal,
+            (y - self.centre[1]) / focal,
+            1.0,
+        );
+        // The camera and the sight in the cylinder's own axes.
+        let (camera, sight) = (self.axes.tr_mul(&-self.origin), self.axes.tr_mul(&sight));
+        let beside = |[u, v]: [f64; 2]| sight.x * (v - camera.y) - sight.y * (u - camera.x);
+        let at = |node: usize| beside(curve.node(page, node));
+        let ([first, last], [second, before]) = ([at(0), at(PIECES)], [at(1), at(PIECES - 1)]);
+        let (along, on) = if (first > 0.0) != (last > 0.0) {
+            let (mut low, mut high) = (0, PIECES);
+            while high - low > 1 {
+                let middle = (low + high) / 2;
+                if (at(middle) > 0.0) == (first > 0.0) {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let share = |piece: f64| (low as f64 + piece) / PIECES as f64;
+            let (mut from, mut to) = ((0.0, at(low)), (1.0, at(high)));
+            // Three steps of the secant are exact to rounding, for a piece is nearly straight.
+            let mut piece = 0.5;
+            for _ in 0..3 {
+                if from.1 == to.1 {
+                    break;
+                }
+                piece = (from.0 - from.1 * (to.0 - from.0) / (to.1 - from.1)).clamp(0.0, 1.0);
+                (from, to) = (to, (piece, beside(curve.at(page, share(piece)))));
+            }
+            let share = share(piece);
+            (share * self.pages[page].width, curve.at(page, share))
+        } else {
+            let end = if first.abs() < last.abs() { 0 } else { PIECES };
+            let (here, change) = if end == 0 {
+                (first, second - first)
+            } else {
+                (last, last - before)
+            };
+            let share = (end as f64 - here / change) / PIECES as f64;
+            (share * self.pages[page].width, curve.straight(page, share))
+        };
+        let off = [on[0] - camera.x, on[1] - camera.y];
+        let reach = (off[0] * sight.x + off[1] * sight.y) / (sight.x.powi(2) + sight.y.powi(2));
+        let found = [along, camera.z + reach * sight.z];
+        found.iter().all(|v| v.is_finite()).then_some(found)
+    }
+
     /// By how much the direction changes at most along the curve of a page, in radians.
     pub fn bend(&self) -> f64 {
         let page = |page: &Strip| {
@@ -187,6 +247,19 @@ impl Curve {
                 + q[k] * (3.0 * x2 - 2.0 * x3)
                 + step * (d[k] * (x - 2.0 * x2 + x3) + e[k] * (x3 - x2))
         })
+    }
+
+    /// The same, and beyond the page's sides straight on.
+    pub fn straight(&self, page: usize, share: f64) -> [f64; 2] {
+        let end = if share < 0.0 { 0 } else { PIECES };
+        let beyond = if share < 0.0 {
+            share
+        } else {
+            (share - 1.0).max(0.0)
+        };
+        let way = self.nodes[page][end].1;
+        let on = self.at(page, share);
+        [0, 1].map(|k| on[k] + beyond * self.widths[page] * way[k])
     }
 
     /// The place at a node.
@@ -237,6 +310,37 @@ mod tests {
     }
 
     #[test]
+    fn a_place_is_where_it_is_seen() {
+        let page = |turns: &[f64]| Strip {
+            width: 1.0,
+            turns: turns.to_vec(),
+        };
+        let cylinder = Cylinder {
+            focal: 2000.0,
+            centre: [900.0, 700.0],
+            axes: Rotation3::from_euler_angles(0.3, -0.2, 0.1).into_inner()
+                * Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0),
+            origin: Vector3::new(-0.5, -0.6, 2.0),
+            length: 1.4,
+            pages: vec![page(&[0.0, 0.4, -0.3]), page(&[0.2, -0.3])],
+            skews: Vec::new(),
+        };
+        let curve = cylinder.curve();
+        for (number, share, down) in [(0, 0.0, 0.2), (0, 0.37, 1.4), (1, 0.71, 0.6), (1, 1.0, 0.0)]
+        {
+            let seen = cylinder.seen(curve.at(number, share), down).unwrap();
+            let [along, found] = cylinder.place(&curve, number, seen).unwrap();
+            assert!((along - share).abs() < 1e-7 && (found - down).abs() < 1e-7);
+        }
+        // Beyond its end the curve is a straight line.
+        let (from, way) = curve.nodes[1][PIECES];
+        let beyond = [0, 1].map(|k| from[k] + 0.1 * way[k]);
+        let seen = cylinder.seen(beyond, 0.5).unwrap();
+        let [along, down] = cylinder.place(&curve, 1, seen).unwrap();
+        assert!((along - 1.1).abs() < 1e-4 && (down - 0.5).abs() < 1e-4);
+    }
+
+    #[test]
     fn a_constant_turn_is_an_arc() {
         let page = Strip {
             width: 2.0,
@@ -249,6 +353,7 @@ mod tests {
             origin: Vector3::zeros(),
             length: 1.0,
             pages: vec![page],
+            skews: Vec::new(),
         };
         // From −0.6 to 0.6 rad over a length of 2: a radius of 1/0.6.
         let (curve, radius) = (arc.curve(), 1.0 / 0.6f64);

@@ -4,7 +4,8 @@
 use nalgebra::{DMatrix, DVector, Matrix2};
 
 use super::cylinder::Cylinder;
-use super::solve::{Prior, Residuals, Traces};
+use super::prior::Prior;
+use super::solve::{Residuals, Traces};
 
 /// Root mean square of the displacements on the flat page after the best similarity, over the width
 /// of a page.
@@ -53,7 +54,7 @@ pub(super) fn estimate(
     let mut field = places.columns(0, parameters).into_owned();
     let mut centred = places.columns(parameters, 2).into_owned();
     // A wrong principal point moves everything, and the solution after it.
-    let pull = data.tr_mul(&traces.shifted(residuals, prior)) * share;
+    let pull = data.tr_mul(&traces.shifted(cylinder, residuals, prior)?) * share;
     centred -= product(&field, &product(&covariance, &pull));
     let similarities = similarities(cylinder);
     for k in 0..parameters {

@@ -39,16 +39,21 @@
 //! # }
 //! ```
 //!
-//! What it cannot know: an edge whose plane passes near the camera looks straight however the page
-//! is bent, and then nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
-//! slight fold that both edges explain nearly as well by a curve is told from one only by its known
-//! format. Lenses are taken to be free of distortion.
+//! What two edges cannot tell: an edge whose plane passes near the camera looks straight however the
+//! page is bent, and then nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
+//! slight fold that both edges explain nearly as well by a curve is told from one by its known
+//! format, by lines of text ([`CurledPage::with_lines`]) or by its straight edges ([`Edges::All`]).
+//! Lenses are taken to be free of distortion.
 
+mod corners;
+mod cross;
 mod cylinder;
 mod estimate;
 mod find;
 mod known;
+mod misfit;
 mod output;
+mod prior;
 mod report;
 mod solve;
 mod start;
@@ -69,7 +74,7 @@ pub enum Trace {
     Beziers(Vec<[f64; 2]>),
 }
 
-/// The two bent edges of a page. Each is listed from left to right, or from top to bottom; if all
+/// The edges of a page: the two that are bent, or all. Each is listed from left to right, or from top to bottom; if all
 /// are the other way round that is seen and mended.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -84,6 +89,18 @@ pub enum Edges {
     /// Of a page whose rulings run from left to right.
     LeftRight {
         /// The left edge as one reads.
+        left: Trace,
+        /// The right one.
+        right: Trace,
+    },
+    /// All four, of which two are bent and the other two straight: which ones is seen. The straight
+    /// ones check the page: a letter that is folded along two of its edges shows it by the others.
+    All {
+        /// The upper edge as one reads.
+        top: Trace,
+        /// The lower one.
+        bottom: Trace,
+        /// The left one.
         left: Trace,
         /// The right one.
         right: Trace,

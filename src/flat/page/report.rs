@@ -1,6 +1,7 @@
 //! What is told about a page besides its shape.
 
 use super::estimate::Estimate;
+use super::misfit::Misfit;
 
 /// Whether a flat page is to be trusted, in a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,8 +12,9 @@ use super::estimate::Estimate;
 )]
 #[non_exhaustive]
 pub enum PageVerdict {
-    /// Both edges are straight, and only the perspective is taken out: the page was flat, or it is folded
-    /// along them, which they do not show.
+    /// Both edges are straight, and so are lines of text where they are known; only the perspective is
+    /// taken out. The page was flat, or it is folded along them, which they do not show (its other two
+    /// edges do: [`Edges::All`](super::Edges::All)).
     Flat,
     /// The page was curled one way and is flat now, with lengths as on the page.
     Unrolled,
@@ -20,10 +22,10 @@ pub enum PageVerdict {
     /// is bent, so that nothing checks the other one.
     Unchecked,
     /// The page is likely to be wrong by more than 1 % of its width, or hides a part of itself, or its
-    /// edges disagree by about as much as they were meant to be traced to.
+    /// edges and lines disagree by about as much as they were meant to be traced to.
     Doubtful,
-    /// The edges are not those of a page that is curled one way only: it is folded, crumpled, bent
-    /// both ways, or an edge is traced wrongly. Depth is needed, or better traces.
+    /// The edges, or the lines of text, are not those of a page that is curled one way only: it is
+    /// folded, crumpled, bent both ways, or one is traced wrongly. Depth is needed, or better traces.
     NotThisKind,
 }
 
@@ -52,11 +54,15 @@ pub struct PageReport {
     /// By how much the page's direction changes from one end of its curve to the other at most, in
     /// degrees.
     pub bend: f64,
-    /// Root mean square of the distances between the traced points and the edges found, in pixels.
+    /// Root mean square of the distances between the traced points and the edge found, in pixels; of
+    /// the edge that fits worst, or of all lines of text together.
     pub residual: f64,
-    /// The part of it that goes on from point to point, which is no scatter of a hand: by how much
-    /// the two edges disagree, in % of a page's width as it is seen.
+    /// The part of it that goes on from point to point along an edge, or from one line of text to the
+    /// next, which is no scatter of a hand: by how much they disagree, in % of a page's width as it is
+    /// seen.
     pub disagreement: f64,
+    /// Lines of text that it was found by besides the edges.
+    pub lines: usize,
     /// Height over width of a page as it is seen, without use of a format that was given.
     pub ratio: f64,
 }
@@ -64,15 +70,18 @@ pub struct PageReport {
 /// What a verdict is made of.
 pub(super) struct Findings {
     pub estimate: Estimate,
-    /// Root mean square of the residuals, in pixels.
-    pub residual: f64,
-    /// That of their smooth part.
-    pub smooth: f64,
+    /// How the residuals are spread along each of the edges.
+    pub edges: Vec<Misfit>,
+    /// Likewise along lines of text.
+    pub text: Vec<Misfit>,
+    /// What these have in common, as a mean square in pixels².
+    pub common: f64,
     /// Standard deviation that was assumed.
     pub accuracy: f64,
     /// Length of a page's edge as it is seen, in pixels.
     pub seen: f64,
-    /// How far from straight the two edges are seen, in pixels, the straighter one last.
+    /// How far from straight the two edges are seen, in pixels, the straighter one last; if there are
+    /// lines of text that run like them, the two least straight of all.
     pub bow: [f64; 2],
     /// Independent points of the edge with fewest, corners included.
     pub fewest: f64,
@@ -84,14 +93,29 @@ impl Findings {
     pub fn verdict(&self) -> PageVerdict {
         /// Share of the page's width.
         const DOUBTFUL: f64 = 0.01;
+        /// What lines have in common is free of errors of tracing them, so that less of it tells.
+        const LINES: f64 = 0.4;
         // No lens is true to less than this share of the width.
         let least = self.accuracy.max(0.0007 * self.seen);
         // What that many points come to by chance, and a little more.
         let scatter = 1.3 + 1.3 / self.fewest.sqrt();
-        if self.smooth > 1.2 * least || self.residual > scatter * least {
+        let over = |limit: f64| {
+            let smooth = |own: &Misfit| own.smooth.sqrt() > limit * least;
+            self.edges.iter().any(smooth) || self.common.sqrt() > LINES * limit * least
+        };
+        let far =
+            |own: &Misfit| own.all.sqrt() > 1.3 * chance(own.count / own.correlation()) * least;
+        if over(1.2)
+            || self
+                .edges
+                .iter()
+                .any(|own| own.all.sqrt() > scatter * least)
+            || self.text.iter().any(far)
+            || Misfit::together(&self.text).is_some_and(|all| far(&all))
+        {
             return PageVerdict::NotThisKind;
         }
-        if self.estimate.expected > DOUBTFUL || self.hidden || self.smooth > 0.85 * least {
+        if self.estimate.expected > DOUBTFUL || self.hidden || over(0.85) {
             return PageVerdict::Doubtful;
         }
         let straight = 3.0 * self.accuracy;
@@ -105,4 +129,11 @@ impl Findings {
             PageVerdict::Unrolled
         }
     }
+}
+
+/// What so many points' root mean square exceeds once in a few thousand times, over its expectation
+/// (Wilson and Hilferty's quantile of chi-squared).
+fn chance(count: f64) -> f64 {
+    let part = 2.0 / (9.0 * count.max(1.0));
+    (1.0 - part + 3.4 * part.sqrt()).powf(1.5)
 }

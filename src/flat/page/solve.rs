@@ -3,19 +3,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::cross::{Crosses, Off};
 use super::cylinder::{Curve, Cylinder, PIECES};
-use super::trace::Line;
-
-/// What is known besides the traces, each as a value and its standard deviation.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Prior {
-    /// Logarithm of the focal length.
-    pub focal: Option<[f64; 2]>,
-    /// Logarithm of length over width.
-    pub ratio: Option<[f64; 2]>,
-    /// Standard deviation of a traced point, in pixels.
-    pub accuracy: f64,
-}
+use super::misfit::Misfit;
+use super::prior::{Prior, prior_rows};
+use super::trace::Traced;
+use crate::error::Result;
 
 /// A traced point.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +26,7 @@ struct Point {
 #[derive(Debug, Clone)]
 pub(super) struct Traces {
     points: Vec<Point>,
+    crosses: Crosses,
 }
 
 /// How far from the traces a cylinder is seen.
@@ -41,6 +35,7 @@ pub(super) struct Residuals {
     /// For each point its share of the page, and the distance, in pixels: across the edge, and for
     /// corners along it, too.
     found: Vec<Found>,
+    crosses: Vec<Off>,
     /// What is minimised.
     pub cost: f64,
 }
@@ -61,16 +56,15 @@ const MOST: usize = 300;
 const INDEPENDENT: f64 = 60.0;
 
 /// Distances above so many standard deviations count by their size, not by their square (Huber).
-const OUTLIER: f64 = 3.0;
-
-/// Standard deviation of a coefficient of the curve's direction, over its degree, in radians.
-const TURN: f64 = 1.0;
+pub(super) const OUTLIER: f64 = 3.0;
 
 impl Traces {
-    pub fn new(pages: &[[Line; 2]]) -> Self {
+    /// # Errors
+    /// [`Error::Edges`](crate::Error::Edges) for lines of text beside their page.
+    pub fn new(pages: &[Traced], sideways: bool) -> Result<Self> {
         let mut points = Vec::new();
-        for (page, pair) in pages.iter().enumerate() {
-            for (edge, line) in pair.iter().enumerate() {
+        for (page, traced) in pages.iter().enumerate() {
+            for (edge, line) in traced.pair.iter().enumerate() {
                 let last = line.points.len() - 1;
                 let step = line.points.len().div_ceil(MOST);
                 let count = (last / step) as f64;
@@ -92,13 +86,19 @@ impl Traces {
                 }
             }
         }
-        Traces { points }
+        let crosses = Crosses::new(pages, sideways)?;
+        Ok(Traces { points, crosses })
+    }
+
+    /// How many lines of text there are.
+    pub fn text(&self) -> usize {
+        self.crosses.text
     }
 
     /// How many distances count, by their weights.
     pub fn count(&self) -> f64 {
         let own = |p: &Point| p.weight * if p.corner.is_some() { 2.0 } else { 1.0 };
-        self.points.iter().map(own).sum()
+        self.points.iter().map(own).sum::<f64>() + self.crosses.count()
     }
 
     /// Distances of a cylinder from the traces; none if part of it is not in front of the camera.
@@ -144,11 +144,17 @@ impl Traces {
                 trust,
             });
         }
+        let (crosses, of_crosses) = self.crosses.distances(cylinder, prior)?;
+        cost += of_crosses;
         cost += prior_rows(cylinder, prior)
             .iter()
             .map(|(value, _)| value * value)
             .sum::<f64>();
-        cost.is_finite().then_some(Residuals { found, cost })
+        cost.is_finite().then_some(Residuals {
+            found,
+            crosses,
+            cost,
+        })
     }
 
     /// Derivatives of the weighted distances by the parameters, and these distances; the rows of
@@ -162,7 +168,8 @@ impl Traces {
     ) -> Option<(DMatrix<f64>, DVector<f64>)> {
         let parameters = cylinder.parameters();
         let known = prior_rows(cylinder, prior);
-        let rows = 2 * self.points.len() + known.len();
+        let (own, first) = (2 * self.points.len(), self.rows());
+        let rows = first + known.len();
         let mut matrix = DMatrix::zeros(rows, parameters);
         let mut values = DVector::zeros(rows);
         let factors: Vec<f64> = (self.points.iter().zip(&residuals.found))
@@ -171,12 +178,14 @@ impl Traces {
         let mut step = vec![0.0; parameters];
         for k in 0..parameters {
             let mut column = matrix.column_mut(k);
-            for sign in [1.0, -1.0] {
+            let both = [1.0, -1.0].map(|sign| {
                 step[k] = sign * STEP;
-                let moved = cylinder.moved(&step);
+                cylinder.moved(&step)
+            });
+            for (sign, moved) in [1.0, -1.0].into_iter().zip(&both) {
                 let curve = moved.curve();
                 for (i, (point, found)) in self.points.iter().zip(&residuals.found).enumerate() {
-                    let on = self.seen(&moved, &curve, point, found.share)?;
+                    let on = self.seen(moved, &curve, point, found.share)?;
                     let scale = sign / (2.0 * STEP) * factors[i];
                     let [nx, ny] = found.normal;
                     column[2 * i] += scale * (on[0] * nx + on[1] * ny);
@@ -185,16 +194,20 @@ impl Traces {
                     }
                 }
             }
+            let [plus, minus] = &both;
+            let write = |row, value| column[row] = value;
+            (self.crosses).column(own, &residuals.crosses, [plus, minus], prior, write)?;
             step[k] = 0.0;
         }
+        (self.crosses).values(own, &residuals.crosses, prior, &mut values);
         for (i, (found, factor)) in residuals.found.iter().zip(&factors).enumerate() {
             values[2 * i] = factor * found.distance[0];
             values[2 * i + 1] = factor * found.distance[1];
         }
         for (i, (value, derivative)) in known.iter().enumerate() {
-            values[2 * self.points.len() + i] = -value;
+            values[first + i] = -value;
             for (k, d) in derivative {
-                matrix[(2 * self.points.len() + i, *k)] = *d;
+                matrix[(first + i, *k)] = *d;
             }
         }
         Some((matrix, values))
@@ -236,10 +249,10 @@ impl Traces {
         Some((best, residuals))
     }
 
-    /// Mean squares of the distances across the edges, in pixels², by page and edge: all of it, and
-    /// what does not change from one point to the next, which no noise of single points explains.
-    pub fn misfit(&self, residuals: &Residuals) -> Vec<[f64; 2]> {
-        let mut out = Vec::new();
+    /// How the distances are spread along each of the edges, the bent ones first, and along each line of
+    /// text.
+    pub fn misfits(&self, residuals: &Residuals) -> [Vec<Misfit>; 2] {
+        let mut edges = Vec::new();
         let key = |p: &Point| (p.page, p.edge);
         let mut start = 0;
         while start < self.points.len() {
@@ -251,33 +264,46 @@ impl Traces {
             let own: Vec<f64> = (residuals.found[start..start + count].iter())
                 .map(|found| found.distance[0])
                 .collect();
-            let all = own.iter().map(|d| d * d).sum::<f64>() / count as f64;
-            // Of white noise, one independent point has no correlation with the next.
             let weight = self.points[start + count / 2].weight;
-            let lag = ((1.0 / weight).round() as usize).clamp(1, count - 1);
-            let both: f64 = own.iter().zip(&own[lag..]).map(|(d, e)| d * e).sum();
-            let smooth = (both / (count - lag) as f64).clamp(0.0, all);
-            // A correlation that as many points of white noise have, too, is none.
-            let chance = 2.5 / (count as f64 / lag as f64).sqrt();
-            let smooth = if smooth > chance * all { smooth } else { 0.0 };
-            out.push([all, smooth]);
+            edges.push(Misfit::new(&own, weight * count as f64));
             start += count;
         }
-        out
+        let [sides, text] = self.crosses.misfits(&residuals.crosses);
+        edges.extend(sides);
+        [edges, text]
+    }
+
+    /// What neighbouring lines of text have in common of their distances, as a mean square in pixels²: that
+    /// of errors of tracing them is not certain to be above 0.
+    pub fn common(&self, residuals: &Residuals) -> f64 {
+        let (product, count) = self.crosses.common(&residuals.crosses);
+        let [_, text] = self.misfits(residuals);
+        let Some(all) = Misfit::together(&text) else {
+            return 0.0;
+        };
+        let independent = count / all.correlation();
+        let sure = product > 3.0 * all.all / independent.sqrt();
+        if sure && independent > 8.0 {
+            product
+        } else {
+            0.0
+        }
     }
 
     /// The weighted sum of squares of the distances, in pixels².
     pub fn squares(&self, residuals: &Residuals) -> f64 {
-        (self.points.iter().zip(&residuals.found))
+        let edges: f64 = (self.points.iter().zip(&residuals.found))
             .map(|(p, found)| {
                 let [across, along] = found.distance;
                 p.weight * (across * across + along * along)
             })
-            .sum()
+            .sum();
+        edges + self.crosses.squares(&residuals.crosses)
     }
 
-    /// How far from straight the edges are seen, in pixels: each edge's farthest point.
-    pub fn bows(&self, cylinder: &Cylinder) -> Option<[f64; 2]> {
+    /// How far from straight both edges and the lines of text are seen, in pixels, as far as these run
+    /// like the edges: by the farthest point of each.
+    pub fn bows(&self, cylinder: &Cylinder) -> Option<Vec<f64>> {
         let mut bows = [0.0f64; 2];
         for pair in self.edges(cylinder, &cylinder.curve())? {
             for (bow, nodes) in bows.iter_mut().zip(pair) {
@@ -290,16 +316,23 @@ impl Traces {
                 }
             }
         }
+        let mut bows = bows.to_vec();
+        bows.extend(self.crosses.bows());
         Some(bows)
     }
 
     /// Rows of the traces in the matrix of derivatives.
     pub fn rows(&self) -> usize {
-        2 * self.points.len()
+        2 * self.points.len() + self.crosses.rows()
     }
 
     /// Derivatives of the weighted distances by the principal point.
-    pub fn shifted(&self, residuals: &Residuals, prior: &Prior) -> DMatrix<f64> {
+    pub fn shifted(
+        &self,
+        cylinder: &Cylinder,
+        residuals: &Residuals,
+        prior: &Prior,
+    ) -> Option<DMatrix<f64>> {
         let mut matrix = DMatrix::zeros(self.rows(), 2);
         for (i, (point, found)) in self.points.iter().zip(&residuals.found).enumerate() {
             let factor = (point.weight * found.trust).sqrt() / prior.accuracy;
@@ -311,16 +344,19 @@ impl Traces {
                 }
             }
         }
-        matrix
+        let first = 2 * self.points.len();
+        (self.crosses).shifted(first, &residuals.crosses, cylinder, prior, &mut matrix)?;
+        Some(matrix)
     }
 
     /// How many neighbouring points have one error in common, from the correlation of their
     /// distances.
     pub fn correlation(&self, residuals: &Residuals) -> f64 {
-        let found = self.misfit(residuals);
-        let [all, smooth] = [0, 1].map(|k| found.iter().map(|edge| edge[k]).sum::<f64>());
-        let share = (smooth / all.max(1e-12)).min(0.9);
-        (1.0 + share) / (1.0 - share)
+        // By the edges, or by the lines of text: a short line does not show all of it.
+        (self.misfits(residuals).iter())
+            .filter_map(|list| Misfit::together(list))
+            .map(|all| all.correlation())
+            .fold(1.0, f64::max)
     }
 
     fn edges(&self, cylinder: &Cylinder, curve: &Curve) -> Option<Vec<[Vec<[f64; 2]>; 2]>> {
@@ -340,42 +376,9 @@ impl Traces {
 }
 
 /// Half the step of central differences.
-const STEP: f64 = 1e-5;
+pub(super) const STEP: f64 = 1e-5;
 
 const ITERATIONS: usize = 40;
-
-/// What is known besides the traces: how far off it is, over its standard deviation, and the
-/// derivatives of that.
-fn prior_rows(cylinder: &Cylinder, prior: &Prior) -> Vec<(f64, Vec<(usize, f64)>)> {
-    let mut rows = Vec::new();
-    if let Some([value, deviation]) = prior.focal {
-        rows.push((
-            (cylinder.focal.ln() - value) / deviation,
-            vec![(0, 1.0 / deviation)],
-        ));
-    }
-    if let Some([value, deviation]) = prior.ratio {
-        let mut at = 8 + cylinder.degree();
-        // All pages of a spread are alike.
-        for page in &cylinder.pages[1..] {
-            rows.push((page.width.ln() / deviation, vec![(at, 1.0 / deviation)]));
-            at += page.turns.len() + 1;
-        }
-        let off = (cylinder.length.ln() - value) / deviation;
-        rows.push((off, vec![(7, 1.0 / deviation)]));
-    }
-    let mut at = 8;
-    for (number, page) in cylinder.pages.iter().enumerate() {
-        // All but the first have a width and a mean.
-        at += if number > 0 { 2 } else { 0 };
-        for (k, turn) in page.turns.iter().enumerate().skip(1) {
-            let scale = k as f64 / TURN;
-            rows.push((turn * scale, vec![(at, scale)]));
-            at += 1;
-        }
-    }
-    rows
-}
 
 /// The share of the page at the nearest point of an edge, and the piece it lies on.
 fn nearest(nodes: &[[f64; 2]], at: [f64; 2]) -> (f64, usize) {

@@ -115,6 +115,7 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
         origin,
         length,
         pages,
+        skews: Vec::new(),
     };
     // The first page's mean direction goes into the axes, its width is the unit.
     let (mean, unit) = (found.pages[0].turns[0], found.pages[0].width);

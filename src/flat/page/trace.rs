@@ -1,5 +1,6 @@
 //! Edges as they were traced: checked, and brought into one order.
 
+use super::corners::{arrange, at_corners, neighbours};
 use super::{Edges, Trace};
 use crate::error::{Error, Result};
 
@@ -23,9 +24,25 @@ const MOST: usize = 100_000;
 /// How far beyond the photo a point may lie, as a share of the photo's diagonal.
 const BEYOND: f64 = 0.05;
 
-/// The two edges of each page: the cylinder's first and second, both from the curve's start to its
-/// end, so that the corners lie clockwise in the photo.
-pub(super) fn lines(pages: &[Edges], photo: [usize; 2]) -> Result<Vec<[Line; 2]>> {
+/// What was traced of a page.
+#[derive(Debug, Clone)]
+pub(super) struct Traced {
+    /// The cylinder's first and second edge, both from the curve's start to its end, so that the
+    /// corners lie clockwise in the photo.
+    pub pair: [Line; 2],
+    /// The two other edges, at the curve's start and at its end.
+    pub sides: Option<[Line; 2]>,
+    /// Lines of text.
+    pub text: Vec<Line>,
+}
+
+/// Everything that was traced, page by page from the curve's start, and whether the curve runs down
+/// the page. `text` are lines of text, by page.
+pub(super) fn traced(
+    pages: &[Edges],
+    text: &[Vec<Trace>],
+    photo: [usize; 2],
+) -> Result<(Vec<Traced>, bool)> {
     if !(1..=2).contains(&pages.len()) {
         return Err(Error::option(
             "edges",
@@ -33,30 +50,116 @@ pub(super) fn lines(pages: &[Edges], photo: [usize; 2]) -> Result<Vec<[Line; 2]>
             "must be those of one page, or of the two pages of a spread",
         ));
     }
-    let sideways = matches!(pages[0], Edges::LeftRight { .. });
-    if pages
-        .iter()
-        .any(|page| matches!(page, Edges::LeftRight { .. }) != sideways)
-    {
-        return Err(Error::edges(
-            "the two pages of a spread must both have `top` and `bottom`, or both `left` and `right`",
+    if text.len() > pages.len() {
+        return Err(Error::option(
+            "text",
+            text.len(),
+            "must be the lines of text of each page, in the order of the edges",
         ));
     }
+    let sideways = bent_sideways(pages)?;
     let mut found = Vec::with_capacity(pages.len());
-    for page in pages {
+    for (number, page) in pages.iter().enumerate() {
         // Turned by 90°, the right edge is the top one, and the left one the bottom.
-        let (first, second) = match page {
-            Edges::TopBottom { top, bottom } => (("top", top), ("bottom", bottom)),
-            Edges::LeftRight { left, right } => (("right", right), ("left", left)),
-        };
+        let ([first, second], sides) = page.named(sideways);
         let mut pair = [line(first, photo)?, line(second, photo)?];
         arrange(&mut pair)?;
-        found.push(pair);
+        let sides = match sides {
+            Some([start, end]) => Some([line(start, photo)?, line(end, photo)?]),
+            None => None,
+        };
+        if let Some(sides) = &sides {
+            at_corners(&pair, sides)?;
+        }
+        let text = (text.get(number).into_iter().flatten())
+            .map(|trace| line((TEXT, trace), photo))
+            .collect::<Result<_>>()?;
+        found.push(Traced { pair, sides, text });
     }
     if let [one, other] = &mut found[..] {
         neighbours(one, other)?;
     }
-    Ok(found)
+    Ok((found, sideways))
+}
+
+type Named<'a> = (&'static str, &'a Trace);
+
+impl Edges {
+    /// The bent edges, and those along the first and the last ruling.
+    fn named(&self, sideways: bool) -> ([Named<'_>; 2], Option<[Named<'_>; 2]>) {
+        match self {
+            Edges::TopBottom { top, bottom } => ([("top", top), ("bottom", bottom)], None),
+            Edges::LeftRight { left, right } => ([("right", right), ("left", left)], None),
+            Edges::All {
+                top,
+                bottom,
+                left,
+                right,
+            } => {
+                let upright = [("top", top), ("bottom", bottom)];
+                if sideways {
+                    ([("right", right), ("left", left)], Some(upright))
+                } else {
+                    (upright, Some([("left", left), ("right", right)]))
+                }
+            }
+        }
+    }
+}
+
+/// Whether it is the left and the right edges that are bent; of pages with all four, those that are
+/// seen farther from straight.
+fn bent_sideways(pages: &[Edges]) -> Result<bool> {
+    let mut bows = [0.0; 2];
+    let mut told = Vec::new();
+    for page in pages {
+        match page {
+            Edges::TopBottom { .. } => told.push(false),
+            Edges::LeftRight { .. } => told.push(true),
+            Edges::All {
+                top,
+                bottom,
+                left,
+                right,
+            } => {
+                bows[0] += bow(top) + bow(bottom);
+                bows[1] += bow(left) + bow(right);
+            }
+        }
+    }
+    if told.iter().any(|sideways| *sideways != told[0]) {
+        return Err(Error::edges(
+            "the two pages of a spread must both have `top` and `bottom`, or both `left` and `right`",
+        ));
+    }
+    Ok(told.first().copied().unwrap_or(bows[1] > bows[0]))
+}
+
+/// How far from straight a trace is, as a share of its chord.
+fn bow(trace: &Trace) -> f64 {
+    let points = match trace {
+        Trace::Points(points) => points.clone(),
+        Trace::Beziers(control) if control.len() % 3 == 1 => sampled(control),
+        Trace::Beziers(_) => return 0.0,
+    };
+    let [Some(from), Some(to)] = [points.first(), points.last()] else {
+        return 0.0;
+    };
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let squared = way[0] * way[0] + way[1] * way[1];
+    (points.iter())
+        .map(|p| (way[0] * (p[1] - from[1]) - way[1] * (p[0] - from[0])).abs() / squared)
+        .fold(0.0, f64::max)
+}
+
+/// What lines of text are called among edges.
+const TEXT: &str = "text";
+
+fn called(name: &str) -> String {
+    match name {
+        TEXT => "a line of text".into(),
+        edge => format!("the {edge} edge"),
+    }
 }
 
 fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line> {
@@ -95,8 +198,9 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
             if control.len() < 4 || control.len() % 3 != 1 {
                 return Err(Error::Edges {
                     reason: format!(
-                        "the {name} edge has {} control points; cubic Bézier curves that follow \
-                         each other have 4, 7, 10 and so on",
+                        "{} has {} control points; cubic Bézier curves that follow each other have \
+                         4, 7, 10 and so on",
+                        called(name),
                         control.len()
                     ),
                 });
@@ -111,8 +215,9 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
         _ => {
             return Err(Error::Edges {
                 reason: format!(
-                    "the {name} edge must go from one corner to another, through at least 2 \
-                     different points"
+                    "{} must go from one {} to the other, through at least 2 different points",
+                    called(name),
+                    if name == TEXT { "end" } else { "corner" },
                 ),
             });
         }
@@ -126,8 +231,9 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
     if let Some([x, y]) = points.iter().chain(&ends).find(outside) {
         return Err(Error::Edges {
             reason: format!(
-                "the {name} edge has a point at ({x:.0}, {y:.0}), outside of the photo of {width} \
-                 by {height} pixels; give the places in pixels of this very photo"
+                "{} has a point at ({x:.0}, {y:.0}), outside of the photo of {width} by {height} \
+                 pixels; give the places in pixels of this very photo",
+                called(name),
             ),
         });
     }
@@ -197,129 +303,6 @@ impl Line {
     }
 }
 
-/// Makes both edges run the same way, so that the corners lie clockwise as they are seen, and checks
-/// that they can be those of a page.
-fn arrange([first, second]: &mut [Line; 2]) -> Result<()> {
-    let turns = |first: &Line, second: &Line| {
-        let ([a, b], [d, c]) = (first.ends(), second.ends());
-        let corners = [a, b, c, d];
-        [0, 1, 2, 3].map(|i| {
-            let [p, q, r] = [0, 1, 2].map(|k| corners[(i + k) % 4]);
-            (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
-        })
-    };
-    let convex =
-        |turns: &[f64; 4]| turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0);
-    let mut found = turns(first, second);
-    if !convex(&found) {
-        // One of them may run backwards; which one, the sense of the corners tells.
-        second.points.reverse();
-        found = turns(first, second);
-        if convex(&found) && found[0] < 0.0 {
-            first.points.reverse();
-            second.points.reverse();
-            found = turns(first, second);
-        }
-        if !convex(&found) {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the ends of the {} and {} edges are no corners of a page: they do not make a \
-                     convex quadrilateral",
-                    first.name, second.name
-                ),
-            });
-        }
-    } else if found[0] < 0.0 {
-        // Both run backwards, or each is called by the other's name.
-        let sideways = first.name == "right";
-        let runs = |line: &Line| {
-            let [from, to] = line.ends();
-            let k = usize::from(sideways);
-            to[k] - from[k]
-        };
-        if runs(first) >= 0.0 || runs(second) >= 0.0 {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the {} and {} edges show the page from behind: exchange them, or list the \
-                     points of both from {}",
-                    first.name,
-                    second.name,
-                    if sideways {
-                        "top to bottom"
-                    } else {
-                        "left to right"
-                    }
-                ),
-            });
-        }
-        first.points.reverse();
-        second.points.reverse();
-    }
-    crossing(first, second)
-}
-
-/// Refuses edges that cross each other.
-fn crossing(first: &Line, second: &Line) -> Result<()> {
-    // A thousand by a thousand segments is enough to tell.
-    let thin = |line: &Line| -> Vec<[f64; 2]> {
-        let step = line.points.len().div_ceil(1000);
-        let mut thin: Vec<_> = line.points.iter().copied().step_by(step).collect();
-        thin.push(line.points[line.points.len() - 1]);
-        thin
-    };
-    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-    };
-    let (one, other) = (thin(first), thin(second));
-    for s in one.windows(2) {
-        for t in other.windows(2) {
-            let apart = |k: usize| {
-                s[0][k].max(s[1][k]) < t[0][k].min(t[1][k])
-                    || t[0][k].max(t[1][k]) < s[0][k].min(s[1][k])
-            };
-            if apart(0) || apart(1) {
-                continue;
-            }
-            if side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]) <= 0.0
-                && side(t[0], t[1], s[0]) * side(t[0], t[1], s[1]) <= 0.0
-            {
-                return Err(Error::Edges {
-                    reason: format!(
-                        "the {} and {} edges cross at about ({:.0}, {:.0}); a page's edges do not",
-                        first.name, second.name, s[0][0], s[0][1]
-                    ),
-                });
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Checks that the second page begins at the gutter, where the first one ends.
-fn neighbours(one: &mut [Line; 2], other: &mut [Line; 2]) -> Result<()> {
-    let gap = |one: &[Line; 2], other: &[Line; 2]| -> f64 {
-        (0..2)
-            .map(|e| distance(one[e].ends()[1], other[e].ends()[0]))
-            .sum()
-    };
-    if gap(other, one) < gap(one, other) {
-        std::mem::swap(one, other);
-    }
-    for e in 0..2 {
-        let apart = distance(one[e].ends()[1], other[e].ends()[0]);
-        if apart > 0.05 * one[e].chord().max(other[e].chord()) {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the {} edges of the two pages end {apart:.0} pixels apart; the pages of a \
-                     spread share the gutter, so that one edge begins where the other ends",
-                    one[e].name
-                ),
-            });
-        }
-    }
-    Ok(())
-}
-
-fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
+pub(super) fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
     (p[0] - q[0]).hypot(p[1] - q[1])
 }

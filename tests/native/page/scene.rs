@@ -47,6 +47,8 @@ pub struct Scene {
     pub centre: [f64; 2],
     /// Bends the page along its rulings, too: what a cylinder never is.
     pub fold: f64,
+    /// The same for a fold that runs from left to right, in the middle.
+    pub valley: f64,
     /// Heights of bumps, in millimetres.
     pub crumple: f64,
 }
@@ -85,6 +87,7 @@ impl Scene {
             photo: [3024, 4032],
             centre: [1511.5, 2015.5],
             fold: 0.0,
+            valley: 0.0,
             crumple: 0.0,
         }
     }
@@ -106,10 +109,12 @@ impl Scene {
         let u = scaled - i as f64;
         let [p, q] = [curve[i], curve[i + 1]];
         let [x, mut z] = [0, 1].map(|k| p[k] + u * (q[k] - p[k]));
-        let y = (t - 0.5) * self.sides[1];
+        let level = (1.0 + self.valley * self.valley).sqrt();
+        let y = (t - 0.5) * self.sides[1] / level;
         // A fold across a corner, and bumps.
         let beyond = (x / self.sides[0] + y / self.sides[1] - 0.25).max(0.0);
         z += self.fold * beyond * self.sides[0];
+        z += self.valley * y.abs();
         let bumps =
             (13.0 * s + 5.0 * t).sin() + (7.0 * s - 11.0 * t + 1.0).sin() + (19.0 * t * s).cos();
         z += self.crumple * bumps;

@@ -17,6 +17,8 @@ const camera = finer(depthCamera, 15.75);
 const [WRONG, SMOOTH] = [2, 2];
 /** Along each edge of a page. */
 const POINTS = 40;
+/** Lines of text on a page, and points along each. */
+const [LINES, LETTERS] = [24, 20];
 /** Most displacement, in widths of a page. */
 const target = 0.003;
 
@@ -29,11 +31,11 @@ export async function photoAlone({ quick }) {
   const rows = [];
   for (const page of [upright, ...pages]) {
     const ofThisKind = page === upright || page.name === 'spread';
-    for (const pose of poses) {
+    for (const pose of poses) for (const text of [false, true]) {
       const seen = view(page, pose, camera);
       const leaves = page.name === 'spread' ? 2 : 1;
       const results = Array.from({ length: quick ? 2 : 10 }, (_, seed) => {
-        const edges = traced(page, pose, leaves, seed);
+        const edges = traced(page, pose, leaves, seed).map((own, leaf) => (text ? { ...own, lines: lined(page, pose, leaf, leaves, seed) } : own));
         const format = /** @type {[number, number]} */ ([(1000 * page.width) / leaves, 1000 * page.height]);
         const options = { focalLength: camera.fx, centre: /** @type {[number, number]} */ ([camera.cx, camera.cy]) };
         try {
@@ -59,7 +61,7 @@ export async function photoAlone({ quick }) {
         `${within} of ${made.length}`,
       ];
       rows.push([
-        page.name, pose.name.replace(/, (in|on).*/, ''), ...figures,
+        page.name, pose.name.replace(/, (in|on).*/, ''), text ? 'and lines' : 'edges', ...figures,
         [...words].map(([verdict, times]) => (words.size === 1 ? verdict : `${verdict} (${times})`)).join(', '),
         ofThisKind ? (rms > target ? 'RMS' : worst > target ? 'worst' : 'none') : (words.has('flat') || words.has('unrolled') ? 'verdict' : 'none'),
       ]);
@@ -69,11 +71,11 @@ export async function photoAlone({ quick }) {
   return {
     title: 'Pages from a photo alone',
     text: `By ${POINTS} points along each of a page's bent edges in a photo of ${width} × ${height} pixels, which are wrong by ${WRONG} pixels in each direction, `
-      + `smoothly along the edge, ${quick ? 2 : 10} times; with focal length and format known. A page curled about upright rulings, and a spread of two pages, `
+      + `smoothly along the edge, ${quick ? 2 : 10} times; with focal length and format known; and with ${LINES} lines of text besides, traced likewise by ${LETTERS} points each, the print turned by a fifth of a degree. A page curled about upright rulings, and a spread of two pages, `
       + 'are of the kind that this is for; a page that is curled at a slant, a folded and a crumpled one are not. Displacement after the best similarity over all that is '
       + 'shown, in widths of a page (root mean square over all tries, and of the worst), what the report expects, in how many its bound of 95 % holds, and its verdict, or that it refuses the edges. '
       + 'Targets: 0.3 % for the pages of this kind; no word that the others are right.',
-    columns: ['page', 'pose', 'RMS', 'worst', 'expected', 'within bound', 'verdict', 'missed'],
+    columns: ['page', 'pose', 'by', 'RMS', 'worst', 'expected', 'within bound', 'verdict', 'missed'],
     rows,
   };
 }
@@ -102,4 +104,28 @@ function traced(page, pose, leaves, seed) {
     return { top: part(top), bottom: part(bottom) };
   };
   return Array.from({ length: leaves }, (_, k) => leaf(k));
+}
+
+/**
+ * Lines of text on one page, of which every fourth is short.
+ * @param {Page} page
+ * @param {import('../phone/camera.mjs').Pose} pose
+ * @param {number} leaf
+ * @param {number} leaves pages beside each other
+ * @param {number} seed
+ */
+function lined(page, pose, leaf, leaves, seed) {
+  const space = seenFrom(page, pose);
+  const next = normal(1000 * (leaf + 1) + seed);
+  const width = page.width / leaves;
+  return Array.from({ length: LINES }, (_, line) => {
+    const level = (0.1 + (0.8 * line) / (LINES - 1)) * page.height;
+    const end = line % 4 === 3 ? 0.6 : 0.88;
+    const [dx, dy] = [smoothRow(LETTERS, SMOOTH, next), smoothRow(LETTERS, SMOOTH, next)];
+    return Array.from({ length: LETTERS }, (_, i) => {
+      const along = (0.1 + ((end - 0.1) * i) / (LETTERS - 1)) * width;
+      const [x, y] = project(camera, space(leaf * width + along, level + 0.0035 * (along - width / 2)));
+      return /** @type {[number, number]} */ ([x + WRONG * dx[i], y + WRONG * dy[i]]);
+    });
+  });
 }

@@ -7,11 +7,13 @@ use wasm_bindgen::prelude::*;
 
 use super::MeshOutput;
 use developable::checks::check_count;
-use developable::{Camera, Error, HeightImage, Intrinsics, Region, Turn, resampled};
+use developable::dewarp::Registration;
+use developable::{Camera, Error, Frame, HeightImage, Intrinsics, Region, Turn, resampled};
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
 use developable_wasm::camera::{intrinsics, photo_camera};
-use developable_wasm::fields::{ImageInput, values};
+use developable_wasm::fields::{ImageInput, LatticeInput, values};
+use developable_wasm::frame::FrameFields;
 use developable_wasm::options::{entries, option, unknown};
 
 /// What a depth camera has seen, as a mesh.
@@ -59,6 +61,26 @@ pub fn back_project(image: JsValue, camera: JsValue, options: JsValue) -> Result
         },
         camera: Seen::new(&camera, size),
     })?)
+}
+
+/// Texture coordinates of a `Heightfield` of `types.d.ts` in a photo of so many pixels, by the camera that
+/// took it.
+#[wasm_bindgen(js_name = cameraUvs)]
+pub fn camera_uvs(
+    field: JsValue,
+    camera: JsValue,
+    frame: JsValue,
+    width: usize,
+    height: usize,
+) -> Result<Float32Array> {
+    let frame = match frame.is_undefined() {
+        true => Frame::default(),
+        false => from_value::<FrameFields>(frame)?.into(),
+    };
+    let registration = Registration::Camera(photo_camera(&camera)?, frame);
+    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
+    let uvs = registration.uvs(&field, [width, height])?;
+    Ok(uvs.as_flattened().into())
 }
 
 /// The mesh, and the camera as it is turned.

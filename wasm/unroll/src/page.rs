@@ -14,12 +14,14 @@ use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
 
-/// The edges of one page, as `asEdges` makes them.
+/// The edges of one page and its lines of text, as `asEdges` makes them.
 #[derive(Deserialize)]
 struct EdgesInput {
-    /// Whether they are the left and the right one.
+    /// Whether two edges are the left and the right one.
     sideways: bool,
-    edges: [TraceInput; 2],
+    /// Two edges, or the upper, lower, left and right one; then the lines.
+    traces: Vec<TraceInput>,
+    edges: usize,
 }
 
 #[derive(Deserialize)]
@@ -41,19 +43,33 @@ impl TraceInput {
 }
 
 impl EdgesInput {
-    fn into_edges(self) -> Edges {
-        let [first, second] = self.edges.map(TraceInput::into_trace);
-        if self.sideways {
-            Edges::LeftRight {
-                left: first,
-                right: second,
-            }
-        } else {
-            Edges::TopBottom {
+    fn into_edges(self) -> Result<(Edges, Vec<Trace>)> {
+        let mut traces: Vec<Trace> = Vec::new();
+        for trace in self.traces {
+            traces.push(trace.into_trace());
+        }
+        let lines = traces.split_off(self.edges.min(traces.len()));
+        let missing = || Failure::option("edges come in pairs that face each other");
+        let mut next = traces.into_iter();
+        let mut trace = || next.next().ok_or_else(missing);
+        let (first, second) = (trace()?, trace()?);
+        let edges = match (self.edges, self.sideways) {
+            (2, false) => Edges::TopBottom {
                 top: first,
                 bottom: second,
-            }
-        }
+            },
+            (2, true) => Edges::LeftRight {
+                left: first,
+                right: second,
+            },
+            _ => Edges::All {
+                top: first,
+                bottom: second,
+                left: trace()?,
+                right: trace()?,
+            },
+        };
+        Ok((edges, lines))
     }
 }
 
@@ -141,10 +157,15 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
         }
     }
     let edges: Vec<EdgesInput> = from_value(edges)?;
-    let edges: Vec<Edges> = edges.into_iter().map(EdgesInput::into_edges).collect();
+    let (mut pages, mut lines) = (Vec::new(), Vec::new());
+    for page in edges {
+        let (edges, own) = page.into_edges()?;
+        pages.push(edges);
+        lines.push(own);
+    }
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
-    let page = CurledPage::new(&edges, [photo.width(), photo.height()], &known)?;
+    let page = CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)?;
     let map = page.warp_map(&wanted)?;
     let mesh = page.mesh()?;
     Ok(to_value(&PageOutput {

@@ -1,0 +1,59 @@
+/** What axe finds wrong with the page, view by view, in both colour schemes. */
+import assert from 'node:assert/strict';
+import axe from 'axe-core';
+import { drop, pageTest, painted } from './support/page.mjs';
+import { dottedPhoto } from './support/photos.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/**
+ * Violations, each with the elements that have it.
+ * @param {Page} page
+ * @param {{ within?: string, rules?: string[] }} [what] a part of the page, and some rules
+ * @returns {Promise<string[]>}
+ */
+async function violations(page, { within = 'html', rules } = {}) {
+  // Added by the debugger, about which the page's security policy says nothing.
+  if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe.source);
+  const found = await page.evaluate(async ([part, only]) => {
+    const { axe: own } = /** @type {typeof globalThis & { axe: typeof import('axe-core') }} */ (globalThis);
+    const options = { resultTypes: /** @type {['violations']} */ (['violations']), ...(only && { runOnly: /** @type {string[]} */ (only) }) };
+    const { violations: list } = await own.run(/** @type {string} */ (part), options);
+    return list.map(({ id, help, nodes }) => ({ id, help, nodes: nodes.map(({ target, failureSummary }) => `${target}: ${failureSummary}`) }));
+  }, /** @type {const} */ ([within, rules]));
+  return found.flatMap(({ id, help, nodes }) => nodes.map((node) => `${id} (${help}): ${node}`));
+}
+
+/** @param {Page} page */
+async function unfold(page) {
+  for (const details of await page.locator('details').all()) await details.evaluate((one) => one.setAttribute('open', ''));
+}
+
+for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+  // Of the schemes only the colours differ.
+  const rules = colorScheme === 'dark' ? ['color-contrast'] : undefined;
+
+  pageTest(`axe finds nothing wrong with any view, ${colorScheme}`, async (page) => {
+    await unfold(page);
+    assert.deepEqual(await violations(page, { rules }), []);
+    for (const radio of await page.locator('input[name="view"]').all()) {
+      await radio.check({ force: true });
+      await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+      await painted(page);
+      assert.deepEqual(await violations(page, { within: 'section[aria-label="Surfaces"]', rules }), [], await radio.inputValue());
+    }
+    // It does see what is wrong.
+    await page.locator('#run').evaluate(({ style }) => Object.assign(style, { color: '#777', background: '#888' }));
+    assert.match(String(await violations(page, { rules })), /color-contrast.*#run/s);
+  }, { colorScheme });
+
+  pageTest(`axe finds nothing wrong with a photo of a page, ${colorScheme}`, async (page) => {
+    await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+    await drop(page, 'IMG_1.png', dottedPhoto());
+    await page.locator('#page-caption', { hasText: 'IMG_1' }).waitFor();
+    await page.locator('#flat-view[aria-busy="false"]').waitFor({ state: 'attached' });
+    await unfold(page);
+    await painted(page);
+    assert.deepEqual(await violations(page, { rules }), []);
+  }, { colorScheme });
+}

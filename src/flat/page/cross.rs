@@ -343,7 +343,7 @@ impl Off {
             let share = (along - from.along) / (to.along - from.along);
             (0.0..=1.0)
                 .contains(&share)
-                .then(|| from.pixels + share * (to.pixels - from.pixels))
+                .then_some(from.pixels + share * (to.pixels - from.pixels))
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::layout::apart;
 use super::leaf::Strain;
-use super::net::Net;
+use super::net::{Net, is_triangle};
 use super::outline::{Layout, Motion};
 use crate::error::Result;
 use crate::flat::unroll::joint::Joint;
@@ -10,7 +10,11 @@ use crate::flat::unroll::overlap::crossings;
 use crate::flat::unroll::pieces::Point;
 
 /// Sides that are no further apart, in spacings, need no joint unrolling.
-const CLOSE: f64 = 0.02;
+const CLOSE: f64 = 0.05;
+
+/// So many nodes beside the place where three patches meet are not tied: where more meet they are not
+/// where they should be.
+const LOOSE: usize = 3;
 
 /// Change of the energy in one step of it that is none.
 const TOLERANCE: f64 = 1e-8;
@@ -49,7 +53,14 @@ pub(super) fn join(net: &mut Net, layout: &mut Layout, patches: &[u32]) -> Resul
     }
     for seam in folded {
         let seam = &net.seams[seam];
-        for node in &seam.nodes {
+        let last = seam.nodes.len() - 1;
+        let from = if is_triangle(seam.nodes[0]) { LOOSE } else { 0 };
+        let to = if is_triangle(seam.nodes[last]) {
+            last.saturating_sub(LOOSE)
+        } else {
+            last
+        };
+        for node in seam.nodes.iter().take(to + 1).skip(from) {
             let mean = |side: usize| {
                 let patch = seam.patches[side];
                 let first = starts[patches.binary_search(&patch).ok()?];

@@ -20,6 +20,9 @@ const DIRECTIONS: usize = 16;
 const SCRAP: usize = 4;
 const SHARE: f64 = 0.03;
 
+/// The rise of an edge, over the spacing, that makes it a step.
+const STEEP: f64 = 4.0;
+
 /// How much the length of a cut counts beside what is left to bend in two directions.
 const LENGTH: f64 = 0.002;
 
@@ -60,6 +63,13 @@ impl Labels {
         if leaf.is_crumb() {
             return Ok(None);
         }
+        // Along steps, if there are any.
+        let steep = STEEP * lattice.spacing();
+        let level =
+            |i: usize, k: usize| (surface.heights()[i] - surface.heights()[k]).abs() < steep;
+        if let Some(parts) = self.try_cut(&lattice, part, &burden, |_| false, level) {
+            return Ok(Some(parts));
+        }
         let samples: Vec<Sample> = (burden.iter())
             .map(|(i, square)| Sample::new(surface, *i, *square))
             .collect();
@@ -75,26 +85,32 @@ impl Labels {
             })
             .collect();
         lines.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, line) in lines {
-            if let Some(parts) = self.try_line(&lattice, part, &burden, line) {
-                return Ok(Some(parts));
+        for (_, [a, b, c]) in lines {
+            let beyond = |i: usize| {
+                let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+                a * x + b * y + c > 0.0
+            };
+            let cut = self.try_cut(&lattice, part, &burden, beyond, |_, _| true);
+            if cut.is_some() {
+                return Ok(cut);
             }
         }
         Ok(None)
     }
 
-    fn try_line(
+    /// Cuts a part in what hangs together on either side and by edges that are `joined`.
+    fn try_cut(
         &mut self,
         lattice: &Lattice,
         part: u32,
         burden: &[(usize, f64)],
-        [a, b, c]: [f64; 3],
+        beyond: impl Fn(usize) -> bool,
+        joined: impl Fn(usize, usize) -> bool,
     ) -> Option<Vec<u32>> {
         let first = self.origins.len() as u32;
         let mut side = HashMap::with_capacity(burden.len());
         for (i, _) in burden {
-            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-            side.insert(*i, a * x + b * y + c > 0.0);
+            side.insert(*i, beyond(*i));
         }
         let around = |i: usize| {
             let neighbours = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
@@ -114,7 +130,8 @@ impl Labels {
             while let Some(i) = members.get(next).copied() {
                 next += 1;
                 for k in around(i) {
-                    if side.get(&k) == side.get(&i) && !numbers.contains_key(&k) {
+                    let same = side.get(&k) == side.get(&i) && joined(i, k);
+                    if same && !numbers.contains_key(&k) {
                         numbers.insert(k, groups.len());
                         members.push(k);
                     }

@@ -6,6 +6,7 @@
 //! into each other as the surface does.
 
 use super::labels::Labels;
+use super::layout::TORN;
 use crate::error::{Error, Result, try_filled};
 use crate::flat::unroll::pieces::{Piece, Point};
 use crate::flat::unroll::{UnrollOptions, Unrolling, unroll_mesh};
@@ -118,10 +119,14 @@ impl Leaf {
                 (around.into_iter().flatten()).any(|(r, c)| of[whole.index(r, c)] == patch)
             };
             let z = surface.heights()[k];
-            if of[k] == patch || (!z.is_nan() && labels.are_one(of[k], patch) && beside()) {
+            if of[k] == patch {
                 *height = z;
             } else if !z.is_nan() && beside() {
-                *height = extended(surface, of, patch, k);
+                let own = extended(surface, of, patch, k);
+                // A step between parts of one patch is a tear, too.
+                let near = (z - own).abs() <= TORN * whole.spacing();
+                let goes_on = labels.are_one(of[k], patch) && (near || own.is_nan());
+                *height = if goes_on { z } else { own };
             }
         }
         let field = Heightfield::new(lattice, heights)?;

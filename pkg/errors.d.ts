@@ -6,6 +6,7 @@
  * - `UNDERDETERMINED`: a part of the surface that its constraints and confidences do not hold in place;
  * - `EDGES`: traced edges that cannot be those of a page;
  * - `FOCAL_LENGTH`: a photo's focal length is not known, and cannot be found from the edges;
+ * - `NOT_FLAT`: a part of a surface that no cut lays flat within the limits of a pattern;
  * - `OPTION`: an option is unknown, of the wrong type or out of range;
  * - `FORMAT`, `UNSUPPORTED`: something about a file;
  * - `OUT_OF_MEMORY`.
@@ -21,7 +22,7 @@
  */
 export type ErrorCode =
   | 'EMPTY' | 'SHAPE' | 'NOT_FINITE' | 'NO_INTERIOR' | 'UNDERDETERMINED' | 'TOPOLOGY' | 'OPTION' | 'OVERFLOW' | 'UNDERFLOW'
-  | 'TOO_LARGE' | 'OUT_OF_MEMORY' | 'EDGES' | 'FOCAL_LENGTH'
+  | 'TOO_LARGE' | 'OUT_OF_MEMORY' | 'EDGES' | 'FOCAL_LENGTH' | 'NOT_FLAT'
   | 'FORMAT' | 'UNSUPPORTED'
   | 'INPUT' | 'NOT_INITIALIZED' | 'INIT' | 'DISPOSED' | 'REPLACED' | 'TRAP' | 'WORKER';
 

@@ -186,7 +186,7 @@ export const OPTIONS = {
   },
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
-  pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number },
+  pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number, maxStrain: number },
   dewarp: { ...resampled, ...unrolling, ...mapping, ...handOver, trim: flag, deskew: flag, crop: corners, extent, camera: photoCamera },
   dewarpPage: {
     focalLength: number,

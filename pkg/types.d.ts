@@ -973,11 +973,16 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
    * length; a quarter of the lattice's spacing is always allowed. Default 0.005.
    */
   gap?: number;
+  /**
+   * The most strain that a sheet may be laid flat with, as a share (root of the mean square); what is strained by more
+   * is cut. Default 0.01.
+   */
+  maxStrain?: number;
 }
 
 /** A line to fold along. */
 export interface FoldLine {
-  /** The crease, by its place in what `patches` gives with the same options. */
+  /** The crease, by its place in what `patches` gives with the same options, if there are no slits. */
   crease: number;
   /** Which way, seen from above: a mountain is a ridge. */
   direction: 'mountain' | 'valley';
@@ -1004,7 +1009,7 @@ export interface DrawingLabel {
 export interface DrawnSheet {
   /** `'Sheet 1'` and so on. */
   name: string;
-  /** Its patches, counted from 0. */
+  /** Its patches, counted from 0; where there are slits, the parts that patches were cut into. */
   patches: number[];
   /** Lower left and upper right corner. */
   bounds: [[number, number], [number, number]];
@@ -1033,6 +1038,13 @@ export interface Drawing {
     seams: number;
     folds: number;
     tabs: number;
+    /** Cuts through what was one patch, because it cannot be laid flat in one piece. */
+    slits: number;
+    /** Length of the creases that are cut, and of the slits, each line counted once. */
+    seamLength: number;
+    slitLength: number;
+    /** The most that both sides of one of these differ in length, as a share of it; short ones do not count. */
+    mismatch: number;
     cutLength: number;
     mountainLength: number;
     valleyLength: number;

@@ -132,6 +132,23 @@ pub enum Error {
         advice: &'static str,
     },
 
+    /// A part of the surface that no cut makes flat within the limits that were asked for.
+    #[error(
+        "the part of the surface around row {row}, column {col} ({vertices} vertices) cannot be laid \
+         flat: {reason}; smooth the surface more (a smaller lambda), take larger patches or allow \
+         more strain"
+    )]
+    NotFlat {
+        /// Row of a vertex in its middle.
+        row: usize,
+        /// Column of it.
+        col: usize,
+        /// Number of its vertices.
+        vertices: usize,
+        /// What cannot be met, and by how much.
+        reason: String,
+    },
+
     /// The energy of the input is not a finite number.
     #[error(
         "the energy overflows: the heights are too large for a lattice spacing of {spacing:e}; \
@@ -209,6 +226,7 @@ impl Error {
             Error::Edges { .. } => "EDGES",
             Error::FocalLength => "FOCAL_LENGTH",
             Error::Topology { .. } => "TOPOLOGY",
+            Error::NotFlat { .. } => "NOT_FLAT",
             Error::Overflow { .. } => "OVERFLOW",
             Error::Underflow { .. } => "UNDERFLOW",
             Error::TooLarge { .. } => "TOO_LARGE",

@@ -51,7 +51,8 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & { command: 'patches', patching: import('../types.js').PatchOptions }} PatchesTask
  * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
  * @typedef {SheetTask & {
- *   command: 'pattern', patching: import('../types.js').PatchOptions, scale?: number, tabs?: number, paper?: 'a4' | 'letter',
+ *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
+ *   paper?: 'a4' | 'letter',
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, deskew: boolean, map?: string,
@@ -348,6 +349,7 @@ function drawing(values, extension) {
   const paper = choice('paper', values.paper ?? 'none', papers);
   if (values.paper !== undefined && extension !== '.pdf') throw usage('--paper is for outputs that end in .pdf');
   return {
+    maxStrain: number('max-strain', values),
     scale: number('scale', values),
     tabs: number('tabs', values),
     paper: paper === 'none' ? undefined : paper,

@@ -32,18 +32,22 @@ export async function unroll(task, signal) {
 export async function pattern(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
-  const { scale, tabs, paper } = task;
-  const drawing = await developable.pattern(surface, { ...options, ...task.patching, scale, tabs });
+  const { maxStrain, scale, tabs, paper } = task;
+  const drawing = await developable.pattern(surface, { ...options, ...task.patching, maxStrain, scale, tabs });
   const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, paper) }];
   if (task.report !== undefined) files.push({ path: task.report, bytes: json(drawing.summary) });
   await writeWhole(files, signal);
-  const { strain } = drawing.summary;
-  if (strain > 0.01) {
+  const { slits, slitLength, sheets, strain } = drawing.summary;
+  if (slits > 0) {
     process.stderr.write(
-      `developable: warning: there is a sheet that cannot be laid flat without stretching it (by ${percent(strain, 2)})\n`,
+      `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
+        `besides the creases, ${slitLength.toFixed(0)} mm long\n`,
     );
   }
 }
+
+/** @param {number} count @param {string} what */
+const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
 
 /**
  * @param {import('../types.js').Drawing} drawing

@@ -10,7 +10,8 @@ use developable::pattern::{PatternOptions, Sheet, pattern};
 
 fn sheets(surface: &Heightfield) -> Vec<Sheet> {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
-    pattern(surface, &patches, &PatternOptions::default()).unwrap()
+    let found = pattern(surface, &patches, &PatternOptions::default());
+    found.unwrap().sheets
 }
 
 /// Vaults that meet in curves: three sheets.

@@ -7,8 +7,8 @@ use developable::{Example, ExampleOptions, Heightfield, Lambda, Lattice, Options
 
 fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
-    let sheets = pattern(surface, &patches, &PatternOptions::default()).unwrap();
-    (patches, sheets)
+    let found = pattern(surface, &patches, &PatternOptions::default()).unwrap();
+    (found.patches, found.sheets)
 }
 
 /// Width and height of what the outlines enclose.
@@ -135,7 +135,7 @@ fn a_pyramid_is_cut_along_one_of_its_edges() {
     assert_eq!(patches.patches().len(), 4);
     assert_eq!(sheets.len(), 1);
     assert_eq!(sheets[0].folds.len(), 3);
-    assert!(sheets[0].strain < 5e-4, "{}", sheets[0].strain);
+    assert!(sheets[0].strain < 2e-3, "{}", sheets[0].strain);
     let cut = (0..4)
         .find(|c| sheets[0].folds.iter().all(|f| f.seam.crease != *c))
         .unwrap();
@@ -241,6 +241,9 @@ fn nonsense_is_refused() {
             pattern(&field, &patches, &options).unwrap_err().code(),
             "OPTION"
         );
+        let options = PatternOptions::default().max_strain(gap);
+        let error = pattern(&field, &patches, &options).unwrap_err();
+        assert!(error.code() == "OPTION" && error.to_string().contains("maxStrain"));
     }
     let other = unit_square(30, |x, _| x);
     let error = pattern(&other, &patches, &PatternOptions::default()).unwrap_err();
@@ -315,4 +318,136 @@ fn patches_of_another_surface_are_refused() {
         assert_eq!(error.code(), "MISMATCH", "{error}");
         assert!(pattern(of, &patches, &options).is_ok());
     }
+}
+
+/// All closed lines of a sheet, the last point joined to the first.
+fn lines(sheet: &Sheet) -> Vec<Vec<[f64; 2]>> {
+    let outlines = sheet.outlines.iter();
+    let line = outlines.map(|runs| {
+        let points = runs
+            .iter()
+            .flat_map(|run| &run.points[..run.points.len() - 1]);
+        points.copied().collect()
+    });
+    line.collect()
+}
+
+/// Whether closed lines cross each other or themselves, each piece compared with each other one.
+fn crosses(lines: &[Vec<[f64; 2]>]) -> bool {
+    let piece = |line: &Vec<[f64; 2]>, k: usize| (line[k], line[(k + 1) % line.len()]);
+    let pieces: Vec<([f64; 2], [f64; 2])> = (lines.iter())
+        .flat_map(|line| (0..line.len()).map(move |k| piece(line, k)))
+        .collect();
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    };
+    let apart =
+        |(a, b), (c, d)| side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+    (0..pieces.len()).any(|i| (0..i).any(|k| apart(pieces[i], pieces[k])))
+}
+
+/// Area that closed lines enclose, holes being clockwise.
+fn enclosed(lines: &[Vec<[f64; 2]>]) -> f64 {
+    let area = |line: &Vec<[f64; 2]>| -> f64 {
+        let n = line.len();
+        let term = |k: usize| line[k][0] * line[(k + 1) % n][1] - line[(k + 1) % n][0] * line[k][1];
+        0.5 * (0..n).map(term).sum::<f64>()
+    };
+    lines.iter().map(area).sum()
+}
+
+/// What every pattern is to be: all of the surface, on sheets that are simple and hardly strained.
+fn check(name: &str, surface: &Heightfield, limit: f64) -> Vec<Sheet> {
+    let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
+    let options = PatternOptions::default().max_strain(limit);
+    let found = pattern(surface, &patches, &options).unwrap();
+    let total: f64 = patches.patches().iter().map(|patch| patch.area).sum();
+    let mut sum = 0.0;
+    for sheet in &found.sheets {
+        assert!(sheet.strain <= limit, "{name}: {}", sheet.strain);
+        assert!(!crosses(&lines(sheet)), "{name}: an outline crosses itself");
+        let area = enclosed(&lines(sheet));
+        // Half a cell around it is not the same, for the line is smooth.
+        near(
+            area / sheet.area,
+            1.0,
+            0.03 + 0.1 * f64::from(sheet.area < 0.02 * total),
+        );
+        sum += area;
+    }
+    near(sum / total, 1.0, 0.03);
+    let mut all: Vec<u32> = found
+        .sheets
+        .iter()
+        .flat_map(|s| s.patches.clone())
+        .collect();
+    all.sort_unstable();
+    let count = found.patches.patches().len() as u32;
+    assert_eq!(
+        all,
+        (0..count).collect::<Vec<_>>(),
+        "{name}: each part once"
+    );
+    found.sheets
+}
+
+#[test]
+fn a_cone_is_slit_and_becomes_a_sector() {
+    // Of slope 1, cut off at radius 0.45.
+    let cone = crate::common::cut(
+        &unit_square(100, |x, y| -(x - 0.503).hypot(y - 0.502)),
+        |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
+    );
+    let sheets = check("cone", &cone, 0.01);
+    assert_eq!(sheets.len(), 1);
+    let slits: Vec<&Run> = sheets[0].outlines[0]
+        .iter()
+        .filter(|r| r.seam.is_some())
+        .collect();
+    assert_eq!(slits.len(), 2, "one slit has two sides");
+    let slant = 0.45 * 2f64.sqrt();
+    for slit in &slits {
+        assert!(slit.seam.unwrap().slit);
+        near(length(&slit.points), slant, 0.03 * slant);
+    }
+    // A sector of 2π/√2, but for half a cell along the arc.
+    near(
+        enclosed(&lines(&sheets[0])),
+        std::f64::consts::PI * 0.445 * 0.445 * 2f64.sqrt(),
+        0.01,
+    );
+}
+
+#[test]
+fn domes_saddles_and_waves_are_cut_until_they_lie_flat() {
+    let dome = unit_square(80, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
+    let saddle = unit_square(80, |x, y| 0.6 * ((x - 0.5).powi(2) - (y - 0.5).powi(2)));
+    let waves = unit_square(80, |x, y| 0.05 * (9.0 * x).sin() * (8.0 * y).cos());
+    for (name, surface) in [("dome", dome), ("saddle", saddle), ("waves", waves)] {
+        for limit in [0.01, 0.003] {
+            let sheets = check(name, &surface, limit);
+            assert!(
+                sheets.iter().all(|sheet| sheet.folds.is_empty()),
+                "no crease is there"
+            );
+            assert!(sheets.len() < 30, "{name}: {} sheets", sheets.len());
+        }
+    }
+}
+
+#[test]
+fn what_no_cut_makes_flat_is_refused_with_its_place() {
+    // Rough from vertex to vertex.
+    let mut noise = crate::common::Noise::new(5);
+    let rough = unit_square(16, |_, _| 0.0);
+    let heights = rough
+        .heights()
+        .iter()
+        .map(|_| 0.2 * noise.sample())
+        .collect();
+    let rough = Heightfield::new(*rough.lattice(), heights).unwrap();
+    let patches = Patches::new(&rough, &PatchOptions::default()).unwrap();
+    let error = pattern(&rough, &patches, &PatternOptions::default()).unwrap_err();
+    assert_eq!(error.code(), "NOT_FLAT", "{error}");
+    assert!(error.to_string().contains("limit of 1.00 %"), "{error}");
 }

@@ -10,7 +10,7 @@
 //! // A folded card in metres, to be made ten times smaller.
 //! let card = Heightfield::from_fn(Lattice::new(40, 40, 0.025)?, |x, _| -0.5 * (x - 0.52).abs())?;
 //! let patches = Patches::new(&card, &PatchOptions::default())?;
-//! let sheets = pattern(&card, &patches, &PatternOptions::default())?;
+//! let sheets = pattern(&card, &patches, &PatternOptions::default())?.sheets;
 //! let drawing = Drawing::new(&sheets, &DrawingOptions::default().scale(100.0))?;
 //! let fold = &drawing.sheets[0].folds[0];
 //! assert!((fold.length / (100.0 * 39.0 * card.lattice().row_spacing()) - 1.0).abs() < 0.002);
@@ -139,6 +139,15 @@ pub struct Totals {
     pub sheets: usize,
     /// Creases that are cut, at least in part.
     pub seams: usize,
+    /// Cuts through what was one patch, because it cannot be laid flat in one piece.
+    pub slits: usize,
+    /// Length of the creases that are cut, as far as they are, each counted once.
+    pub seam_length: f64,
+    /// Length of the slits likewise.
+    pub slit_length: f64,
+    /// The most that both sides of one of these differ in length, as a share of it; lines shorter than
+    /// a tenth of the side of a square as large as all sheets do not count.
+    pub mismatch: f64,
     /// Creases that are folds.
     pub folds: usize,
     /// Number of tabs.
@@ -201,7 +210,7 @@ impl Drawing {
         let mut drawing = Drawing {
             width,
             height,
-            summary: summary(&sheets_drawn, sheets, scale, letters.len()),
+            summary: summary(&sheets_drawn, sheets, scale),
             sheets: sheets_drawn,
         };
         drawing.summary.a4 = Pages::count(&drawing, Paper::A4);
@@ -358,7 +367,31 @@ impl Line {
     }
 }
 
-fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> Totals {
+/// A line that is cut: how long it is on either patch, in the surface's units.
+struct Joint {
+    slit: bool,
+    sides: [f64; 2],
+}
+
+fn joints(sheets: &[Sheet]) -> Vec<Joint> {
+    let mut joints: BTreeMap<usize, Joint> = BTreeMap::new();
+    for run in sheets
+        .iter()
+        .flat_map(|sheet| sheet.outlines.iter().flatten())
+    {
+        if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
+            let joint = joints.entry(seam.crease).or_insert(Joint {
+                slit: seam.slit,
+                sides: [0.0; 2],
+            });
+            joint.sides[usize::from(patch == seam.patches[1])] += length(&run.points);
+        }
+    }
+    joints.into_values().collect()
+}
+
+fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64) -> Totals {
+    let joints = joints(sheets);
     let folds = |direction: Direction| -> f64 {
         let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
         let own = lines.filter(|line| line.direction == direction);
@@ -372,15 +405,32 @@ fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64, seams: usize) -> 
         };
         length(cut) + closing
     };
+    let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
+    let long = |joints: &[&Joint]| -> f64 {
+        joints
+            .iter()
+            .map(|j| 0.5 * scale * (j.sides[0] + j.sides[1]))
+            .fold(0.0, |a, b| a + b)
+    };
+    let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
     Totals {
         sheets: drawn.len(),
-        seams,
+        seams: creases.len(),
+        slits: slits.len(),
+        seam_length: long(&creases),
+        slit_length: long(&slits),
+        mismatch: (joints.iter())
+            .filter(|joint| joint.sides[0].min(joint.sides[1]) >= 0.1 * area.sqrt())
+            .map(|joint| {
+                (joint.sides[0] - joint.sides[1]).abs() / joint.sides[0].max(joint.sides[1])
+            })
+            .fold(0.0, f64::max),
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
         tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
         cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),
         mountain_length: folds(Direction::Mountain),
         valley_length: folds(Direction::Valley),
-        area: scale * scale * sheets.iter().map(|sheet| sheet.area).sum::<f64>(),
+        area: scale * scale * area,
         strain: sheets.iter().map(|sheet| sheet.strain).fold(0.0, f64::max),
         gap: scale * sheets.iter().map(|sheet| sheet.gap).fold(0.0, f64::max),
         a4: 0,

@@ -11,13 +11,14 @@ pub(super) struct Arrangement {
 }
 
 /// A seam whose sides are further apart in space, in spacings, is a tear.
-const TORN: f64 = 0.5;
+pub(super) const TORN: f64 = 0.5;
 
 /// A distance that the lattice cannot tell from none, in spacings.
-const FINE: f64 = 0.25;
+pub(super) const FINE: f64 = 0.25;
 
-/// Makes folds of the seams whose sides fit within a share of their length, the longest first.
-pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
+/// Makes folds of the seams whose sides fit within a share of their length and that are not `barred`,
+/// the longest first.
+pub(super) fn arranged(net: &Net, gap: f64, barred: &[bool]) -> Arrangement {
     let mut layout = Layout {
         motions: vec![Motion::NONE; net.leaves.len()],
         folded: vec![false; net.seams.len()],
@@ -28,8 +29,9 @@ pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
     let long = |seam: &Seam| length(&seam.sides[0]);
     let mut order: Vec<usize> = (0..net.seams.len())
         .filter(|seam| {
+            let free = !barred[*seam];
             let seam = &net.seams[*seam];
-            seam.apart <= TORN * net.spacing && long(seam) > 0.0
+            free && seam.apart <= TORN * net.spacing && long(seam) > 0.0
         })
         .collect();
     order.sort_by(|a, b| long(&net.seams[*b]).total_cmp(&long(&net.seams[*a])));
@@ -89,7 +91,7 @@ fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
 }
 
 /// Root mean square of the distances between the sides of a seam.
-fn apart(net: &Net, layout: &Layout, seam: usize) -> f64 {
+pub(super) fn apart(net: &Net, layout: &Layout, seam: usize) -> f64 {
     let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
     let squares: f64 = one
         .iter()

@@ -2,16 +2,22 @@
 //!
 //! The lattice's triangles that a crease runs through cut its corner. So each patch gets them for
 //! itself, with heights of its own at the corners that belong to others, as its vertices nearby have
-//! it. Where two patches so extended meet is where the crease is.
+//! it. Where two patches so extended meet is where the crease is. Parts of what was one patch go on
+//! into each other as the surface does.
 
+use super::labels::Labels;
+use super::layout::TORN;
 use crate::error::{Error, Result, try_filled};
-use crate::flat::unroll::pieces::Point;
+use crate::flat::unroll::pieces::{Piece, Point};
 use crate::flat::unroll::{UnrollOptions, Unrolling, unroll_mesh};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use crate::shape::patches::extend::extended;
+
+/// A part with fewer vertices is not cut any more.
+pub(super) const CRUMB: usize = 24;
 
 /// A part of the lattice, from an even row on, so that its rows are shifted alike.
 #[derive(Debug, Clone, Copy)]
@@ -47,17 +53,51 @@ impl Window {
 
 pub(super) struct Leaf {
     flat: Unrolling,
+    /// Where its vertices lie now.
+    places: Vec<Point>,
     window: Window,
+    /// Which of its vertices are the patch's own.
+    own: Vec<bool>,
+}
+
+/// What is left of stretch in a leaf.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Strain {
+    pub area: f64,
+    /// Area times the mean of the squared strains.
+    pub squares: f64,
+    /// Triangles that lie upside down.
+    pub flipped: usize,
+}
+
+impl Strain {
+    /// Root of the mean square.
+    pub(super) fn rms(&self) -> f64 {
+        match self.area > 0.0 {
+            true => (self.squares / self.area).sqrt(),
+            false => 0.0,
+        }
+    }
+
+    pub(super) fn with(self, other: Strain) -> Strain {
+        Strain {
+            area: self.area + other.area,
+            squares: self.squares + other.squares,
+            flipped: self.flipped + other.flipped,
+        }
+    }
 }
 
 impl Leaf {
-    /// The patch with all triangles that one of its vertices is in; `None` if there is none.
+    /// The patch with all triangles that one of its vertices is in; `None` if there is none. What
+    /// will surely be strained by more than `limit` is laid flat carelessly.
     pub(super) fn new(
         surface: &Heightfield,
-        labels: &[u32],
+        labels: &Labels,
         patch: u32,
         window: Window,
         options: &UnrollOptions,
+        limit: f64,
     ) -> Result<Option<Leaf>> {
         let whole = surface.lattice();
         if window.top > window.bottom {
@@ -70,35 +110,117 @@ impl Leaf {
         let lattice = Lattice::new(rows, cols, whole.spacing())?
             .with_origin(whole.position(window.top, window.left))?;
         let index = |i: usize| whole.index(window.top + i / cols, window.left + i % cols);
+        let of = &labels.of;
         let mut heights = try_filled("patch", lattice.len(), f64::NAN)?;
         for (i, height) in heights.iter_mut().enumerate() {
             let k = index(i);
             let beside = || {
                 let around = whole.neighbours(k / whole.cols(), k % whole.cols());
-                (around.into_iter().flatten()).any(|(r, c)| labels[whole.index(r, c)] == patch)
+                (around.into_iter().flatten()).any(|(r, c)| of[whole.index(r, c)] == patch)
             };
-            if labels[k] == patch {
-                *height = surface.heights()[k];
-            } else if !surface.heights()[k].is_nan() && beside() {
-                *height = extended(surface, labels, patch, k);
+            let z = surface.heights()[k];
+            if of[k] == patch {
+                *height = z;
+            } else if !z.is_nan() && beside() {
+                let own = extended(surface, of, patch, k);
+                // A step between parts of one patch is a tear, too.
+                let near = (z - own).abs() <= TORN * whole.spacing();
+                let goes_on = labels.are_one(of[k], patch) && (near || own.is_nan());
+                *height = if goes_on { z } else { own };
             }
         }
         let field = Heightfield::new(lattice, heights)?;
-        let own = |corners: [usize; 3]| corners.iter().any(|i| labels[index(*i)] == patch);
+        let own = |corners: [usize; 3]| corners.iter().any(|i| of[index(*i)] == patch);
         let mesh = match Triangulation::of_some(&field, &Frame::default(), own) {
             Err(Error::Unsupported { .. }) => return Ok(None),
             other => other?,
         };
-        let flat = unroll_mesh(mesh, options)?;
-        Ok(Some(Leaf { flat, window }))
+        let own = mesh.vertices().iter();
+        let own = own.map(|v| of[index(*v as usize)] == patch).collect();
+        let flat = unroll_mesh(mesh, options, Some(limit))?;
+        let places = flat.places().iter();
+        Ok(Some(Leaf {
+            places: places.map(|[x, y]| Point::new(*x, *y)).collect(),
+            flat,
+            window,
+            own,
+        }))
     }
 
-    pub(super) fn flat(&self) -> &Unrolling {
-        &self.flat
+    pub(super) fn places(&self) -> &[Point] {
+        &self.places
+    }
+
+    pub(super) fn set_places(&mut self, places: Vec<Point>) {
+        self.places = places;
+    }
+
+    /// Whether it is too small to be cut.
+    pub(super) fn is_crumb(&self) -> bool {
+        self.own.iter().filter(|own| **own).count() < CRUMB
+    }
+
+    /// Its triangles as they would lie by themselves, with the numbers of their corners. A triangle
+    /// most of which is another patch's is left out where there are others.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
+        let mesh = self.flat.mesh();
+        let inside = |corners: &[u32; 3]| {
+            let own = corners.iter().filter(|v| self.own[**v as usize]);
+            own.count() > 1
+        };
+        let some = mesh.triangles().iter().any(inside);
+        let corners = mesh.triangles().iter();
+        let corners = corners.filter(move |corners| !some || inside(corners));
+        corners.map(move |corners| {
+            let points = corners.map(|v| mesh.positions()[v as usize]);
+            (Piece::between(points), *corners)
+        })
+    }
+
+    /// All of its triangles likewise.
+    pub(super) fn all_pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
+        let mesh = self.flat.mesh();
+        mesh.triangles().iter().map(|corners| {
+            let points = corners.map(|v| mesh.positions()[v as usize]);
+            (Piece::between(points), *corners)
+        })
+    }
+
+    /// The strain where its vertices lie now.
+    pub(super) fn strain(&self) -> Strain {
+        let mut sum = Strain::default();
+        for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
+            let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            sum.area += piece.area();
+            sum.squares += 0.5 * piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+            sum.flipped += usize::from(short <= 0.0);
+        }
+        sum
+    }
+
+    /// For each of its vertices the lattice's index in the whole, and the squared strain around it
+    /// times the area.
+    pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
+        let mut shares = vec![0.0; self.places.len()];
+        for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
+            let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            let square = piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+            for v in corners {
+                shares[v as usize] += square;
+            }
+        }
+        let lattice = self.flat.mesh().lattice();
+        let index = |v: u32| {
+            let (row, col) = (v as usize / lattice.cols(), v as usize % lattice.cols());
+            whole.index(self.window.top + row, self.window.left + col)
+        };
+        let vertices = self.flat.mesh().vertices().iter().map(|v| index(*v));
+        let all = vertices.zip(shares).zip(&self.own);
+        all.filter(|(_, own)| **own).map(|(pair, _)| pair).collect()
     }
 
     /// Which of the leaf's vertices a vertex of the whole lattice is.
-    fn number(&self, vertex: [usize; 2]) -> Option<usize> {
+    pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;
         let lattice = self.flat.mesh().lattice();
         let (row, col) = (
@@ -122,9 +244,6 @@ impl Leaf {
     /// Its place on the plane likewise.
     pub(super) fn place(&self, vertex: [usize; 2]) -> Point {
         self.number(vertex)
-            .map_or(Point::new(f64::NAN, f64::NAN), |n| {
-                let [x, y] = self.flat.places()[n];
-                Point::new(x, y)
-            })
+            .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])
     }
 }

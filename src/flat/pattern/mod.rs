@@ -5,7 +5,7 @@
 //! own ([`Sheet::outlines`] says what that line is worth). Patches are then laid beside each other
 //! where their sides of a crease fit and nothing comes to lie on anything else, the longest creases
 //! first; such a crease is a fold, every other one a cut. Around a vertex where the angles make up
-//! a full turn, all creases are folds.
+//! a full turn, all creases are folds. What cannot be laid flat without strain is cut until it can.
 //!
 //! ```
 //! use developable::patches::{PatchOptions, Patches};
@@ -15,7 +15,7 @@
 //! // A folded card: two patches, one sheet.
 //! let card = Heightfield::from_fn(Lattice::new(40, 40, 0.025)?, |x, _| -0.5 * (x - 0.52).abs())?;
 //! let patches = Patches::new(&card, &PatchOptions::default())?;
-//! let sheets = pattern(&card, &patches, &PatternOptions::default())?;
+//! let sheets = pattern(&card, &patches, &PatternOptions::default())?.sheets;
 //! assert_eq!(sheets.len(), 1);
 //! assert_eq!(sheets[0].patches, [0, 1]);
 //! let fold = &sheets[0].folds[0];
@@ -24,22 +24,25 @@
 //! # }
 //! ```
 
+mod assembly;
+mod check;
+mod labels;
 mod layout;
 mod leaf;
 mod line;
 mod net;
 mod outline;
+mod parts;
 mod shape;
+mod simple;
 mod spots;
 
 use super::unroll::UnrollOptions;
 use crate::error::{Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
-use layout::arranged;
-use net::Net;
-use shape::{folds, outlines};
-use spots::spots;
+use assembly::{Assembly, assembled};
+use parts::Parts;
 
 /// What may stay together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +52,9 @@ pub struct PatternOptions {
     /// square), as a share of the fold's length; a quarter of the lattice's spacing is always
     /// allowed. Default 0.005.
     pub gap: f64,
+    /// The most strain that a sheet may be laid flat with (root of the mean square over its area).
+    /// Default 0.01.
+    pub max_strain: f64,
     /// How patches are laid flat.
     pub unrolling: UnrollOptions,
 }
@@ -57,6 +63,7 @@ impl Default for PatternOptions {
     fn default() -> Self {
         PatternOptions {
             gap: 0.005,
+            max_strain: 0.01,
             unrolling: UnrollOptions::default(),
         }
     }
@@ -68,10 +75,26 @@ impl PatternOptions {
         PatternOptions { gap, ..self }
     }
 
+    /// These options with another limit of the strain.
+    pub fn max_strain(self, max_strain: f64) -> Self {
+        PatternOptions { max_strain, ..self }
+    }
+
     /// These options with another way to lay patches flat.
     pub fn unrolling(self, unrolling: UnrollOptions) -> Self {
         PatternOptions { unrolling, ..self }
     }
+}
+
+/// A surface cut into sheets.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Pattern {
+    /// The sheets, that with the largest patch first.
+    pub sheets: Vec<Sheet>,
+    /// The patches of the sheets and the creases between them: those that were given, if none of
+    /// them was cut, or else what they were cut into, with the cuts among the creases.
+    pub patches: Patches,
 }
 
 /// A sheet to be cut out, as it is seen from above, from where the heights point. Lengths are in
@@ -94,7 +117,7 @@ pub struct Sheet {
     pub spots: Vec<Spot>,
     /// Area of the surface that it is made of.
     pub area: f64,
-    /// What strain is left in the patches: root of the mean square. 0 for what can be unrolled.
+    /// What strain is left in it: root of the mean square over its area. 0 for what can be unrolled.
     pub strain: f64,
     /// How far the sides of its folds were from each other at most (root of the mean square along
     /// a fold); the folds lie halfway.
@@ -127,7 +150,7 @@ pub struct Fold {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
-    /// The crease, by its place in [`Patches::creases`].
+    /// The crease, by its place in the [`Patches::creases`] of [`Pattern::patches`].
     pub crease: usize,
     /// The patches on either side of it, the lower number first.
     pub patches: [u32; 2],
@@ -135,6 +158,9 @@ pub struct Seam {
     pub direction: Direction,
     /// By how much, in radians: 0 is flat.
     pub angle: f64,
+    /// Whether it is no crease of the surface but a cut through what was one patch, because that cannot
+    /// be laid flat in one piece.
+    pub slit: bool,
 }
 
 /// Which way a sheet is folded, seen from above.
@@ -166,56 +192,58 @@ pub struct Spot {
 
 /// Cuts a surface into sheets, that with the largest patch first.
 ///
-/// Costs one unrolling of each patch, `O(vertices)` altogether, and for each crease a walk around
-/// the sheets on either side.
+/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]: what cannot be laid flat so is cut. A patch that is strained by more
+/// is cut in two where it is strained most, as often as it takes, and its parts are joined again as far
+/// as their sides fit, so that a cone is slit and a dome gets darts. Where a crease's sides fit along a
+/// part of it only, it is opened along the rest.
+///
+/// Costs one unrolling of each patch, `O(vertices)` altogether, two or three for what is cut, and for
+/// each crease a walk around the sheets on either side.
 ///
 /// # Errors
 /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch) if the
 /// patches are those of another surface,
-/// [`Error::Option`](crate::Error::Option) for a gap that is not positive and finite, and what
+/// [`Error::Option`](crate::Error::Option) for a gap or a strain that is not positive and finite,
+/// [`Error::NotFlat`](crate::Error::NotFlat) for what no cut makes flat, and what
 /// [`unroll`](super::unroll::unroll) has to say.
 pub fn pattern(
     surface: &Heightfield,
     patches: &Patches,
     options: &PatternOptions,
-) -> Result<Vec<Sheet>> {
+) -> Result<Pattern> {
     patches.check_of(surface)?;
-    let gap = positive("gap", options.gap)?;
-    let net = Net::new(surface, patches, &options.unrolling)?;
-    let arrangement = arranged(&net, gap);
-    let places = spots(surface, patches.labels(), &net, &arrangement.layout);
-    let seam = |crease: usize| Seam {
-        crease,
-        patches: net.seams[crease].patches,
-        direction: match net.seams[crease].rise > 0.0 {
-            true => Direction::Mountain,
-            false => Direction::Valley,
-        },
-        angle: patches.creases()[crease].fold,
-    };
-    let sheets = arrangement.sheets.iter().map(|(members, gap)| {
-        let outlines = outlines(&net, &arrangement.layout, members, seam);
-        let flat = |patch: &u32| net.leaves[*patch as usize].as_ref().map(|leaf| leaf.flat());
-        let (mut squares, mut area) = (0.0, 0.0);
-        for sheet in members.iter().filter_map(flat) {
-            let report = sheet.report();
-            squares += report.area * report.distortion.rms.powi(2);
-            area += report.area;
+    positive("gap", options.gap)?;
+    positive("maxStrain", options.max_strain)?;
+    let mut parts = Parts::new(surface, patches, options)?;
+    parts.cut_strained()?;
+    parts.give_away_crumbs()?;
+    // What is not as it should be is cut further, or goes to what is beside it if it is too small.
+    let mut rounds = 0;
+    loop {
+        let faults = match assembled(parts, patches, options)? {
+            Assembly::Whole(pattern) => return Ok(pattern),
+            Assembly::Cut(again, faults) => {
+                parts = again;
+                faults
+            }
+        };
+        rounds += 1;
+        let mut small = Vec::new();
+        for (part, reason) in faults {
+            if !parts.cut(part)? {
+                small.push((part, reason));
+            }
         }
-        let own = |patch: &u32| patches.patches()[*patch as usize].area;
-        Sheet {
-            folds: folds(&net, &arrangement.layout, members, &outlines, seam),
-            outlines,
-            spots: members.iter().map(|p| places[*p as usize]).collect(),
-            area: members.iter().map(own).sum(),
-            strain: if area > 0.0 {
-                (squares / area).sqrt()
-            } else {
-                0.0
-            },
-            gap: *gap,
-            patches: members.clone(),
+        parts.cut_strained()?;
+        // Numbers change as parts go: from the last one on.
+        small.sort_unstable();
+        for (part, reason) in small.into_iter().rev() {
+            if rounds > ROUNDS || !parts.give_away(part)? {
+                return Err(parts.refused(part, reason));
+            }
         }
-    });
-    Ok(sheets.collect())
+    }
 }
+
+/// How often parts are cut further once they were put together.
+const ROUNDS: usize = 24;

@@ -85,7 +85,10 @@ impl Layout {
         let seams = match node {
             (p, q) if p == q => return family,
             _ if is_triangle(node) => net.seams_at(node.0),
-            _ => [net.seam_of.get(&node).copied(), None, None],
+            _ => {
+                let [one, other] = net.seams_of(node);
+                [one, other, None]
+            }
         };
         // Each pass reaches one further; there are three patches at most.
         for _ in 0..2 {

@@ -3,6 +3,7 @@
 use super::line::{length, meeting, sharpened, simplified, simplified_ring};
 use super::net::{Net, is_triangle};
 use super::outline::{Corner, Layout};
+use super::simple::without_loops;
 use super::{Fold, Run, Seam};
 use crate::flat::unroll::pieces::Point;
 
@@ -20,7 +21,7 @@ const SPECK: f64 = 3.0;
 const BACK: usize = 6;
 
 /// A seam, and the one of its patches that is beside it.
-type Side = (usize, u32);
+pub(super) type Side = (usize, u32);
 
 /// The outlines of a sheet, the longest first.
 pub(super) fn outlines(
@@ -32,7 +33,7 @@ pub(super) fn outlines(
     let lines = layout.outlines(net, patches);
     let mut out: Vec<(f64, Vec<Run>)> = (lines.iter())
         .map(|line| {
-            let runs = runs(net, line);
+            let runs = without_loops(runs(net, line), net.spacing);
             let long = runs.iter().map(|(_, p)| length(p)).sum();
             let run = |(side, points): (Option<Side>, Vec<Point>)| Run {
                 seam: side.map(|(number, _)| seam(number)),
@@ -54,8 +55,10 @@ pub(super) fn folds(
     outlines: &[Vec<Run>],
     seam: impl Fn(usize) -> Seam,
 ) -> Vec<Fold> {
-    let own =
-        |number: &usize| layout.folded[*number] && patches.contains(&net.seams[*number].patches[0]);
+    let own = |number: &usize| {
+        let seam = &net.seams[*number];
+        layout.folded[*number] && !seam.smooth && patches.contains(&seam.patches[0])
+    };
     let fold = |number: usize| {
         let [one, other] = [0, 1].map(|side| layout.side(net, number, side));
         let mut points: Vec<Point> = one.iter().zip(other).map(|(p, q)| 0.5 * (p + q)).collect();

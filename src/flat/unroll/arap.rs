@@ -20,7 +20,16 @@ pub(super) struct Limits {
     /// Change of the energy in one iteration, over the area, that is none.
     pub tolerance: f64,
     pub iterations: usize,
+    /// Energy over area that is too much: above [`FAR`] times it an end is made where steps hardly
+    /// change it.
+    pub hopeless: f64,
 }
+
+/// How far the energy is above what is wanted, and its largest change, as a share, where it is given
+/// up, after so many steps.
+const FAR: f64 = 2.5;
+const STALLED: f64 = 0.01;
+const PATIENCE: usize = 6;
 
 /// How it went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -59,7 +68,8 @@ pub(super) fn relax(pieces: &Pieces, places: &mut [Point], limits: Limits) -> Re
             0
         };
         course.energy = energy;
-        if calm == CALM {
+        let stalled = course.iterations > PATIENCE && course.change.abs() < STALLED * energy;
+        if calm == CALM || (stalled && energy > FAR * limits.hopeless) {
             break;
         }
         course.iterations += 1;

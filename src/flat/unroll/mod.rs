@@ -30,6 +30,7 @@
 mod arap;
 mod distortion;
 mod grid;
+pub(crate) mod joint;
 mod laplacian;
 mod multigrid;
 pub(crate) mod overlap;
@@ -168,14 +169,22 @@ impl Unrolling {
 /// any whole triangle, [`Error::Overflow`] for heights out of all proportion to the spacing,
 /// [`Error::OutOfMemory`].
 pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrolling> {
-    unroll_mesh(Triangulation::new(surface, &Frame::default())?, options)
+    let mesh = Triangulation::new(surface, &Frame::default())?;
+    unroll_mesh(mesh, options, None)
 }
 
-/// The same for some of a surface's triangles.
-pub(crate) fn unroll_mesh(mesh: Triangulation, options: &UnrollOptions) -> Result<Unrolling> {
+/// The same for some of a surface's triangles; one whose strain (root of the mean square) will stay
+/// well above a limit is given up early.
+pub(crate) fn unroll_mesh(
+    mesh: Triangulation,
+    options: &UnrollOptions,
+    limit: Option<f64>,
+) -> Result<Unrolling> {
     let limits = Limits {
         tolerance: positive("tolerance", options.tolerance)?,
         iterations: options.max_iterations,
+        // Of the two principal strains the energy has the sum of the squares.
+        hopeless: limit.map_or(f64::INFINITY, |limit| 2.0 * limit * limit),
     };
     let lattice = *mesh.lattice();
     let spacing = lattice.spacing();

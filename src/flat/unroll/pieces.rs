@@ -13,13 +13,13 @@ pub(crate) type Point = Complex<f64>;
 /// the positive real axis. Lengths are in units of the lattice spacing. All zero where there is
 /// no triangle, so that it weighs nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Piece {
+pub(crate) struct Piece {
     /// The second corner.
-    pub second: f64,
+    pub(super) second: f64,
     /// The third corner.
-    pub third: Point,
+    pub(super) third: Point,
     /// Half the cotangents of the angles opposite the edges 1–2, 2–3 and 3–1.
-    pub weights: [f64; 3],
+    pub(super) weights: [f64; 3],
 }
 
 impl Piece {
@@ -39,11 +39,33 @@ impl Piece {
         }
     }
 
-    pub(super) fn exists(&self) -> bool {
+    /// The triangle between three points in space, in their own unit; all zero if it has no area.
+    pub(crate) fn between([a, b, c]: [[f64; 3]; 3]) -> Self {
+        let edge = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| q[k] - p[k]);
+        let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        let (ab, ac) = (edge(a, b), edge(a, c));
+        let (square2, square3, cosine) = (dot(ab, ab), dot(ac, ac), dot(ab, ac));
+        let cross = [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            ab[i] * ac[j] - ab[j] * ac[i]
+        });
+        let doubled = dot(cross, cross).sqrt();
+        if !(doubled > 0.0 && doubled.is_finite()) {
+            return Piece::default();
+        }
+        let (second, half) = (square2.sqrt(), 0.5 / doubled);
+        Piece {
+            second,
+            third: Point::new(cosine / second, doubled / second),
+            weights: [square3 - cosine, cosine, square2 - cosine].map(|c| half * c),
+        }
+    }
+
+    pub(crate) fn exists(&self) -> bool {
         self.second > 0.0
     }
 
-    pub(super) fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         0.5 * self.second * self.third.im
     }
 }
@@ -172,7 +194,7 @@ impl Pieces {
 
 impl Piece {
     #[inline(always)]
-    fn pull(&self, places: &[Point], pull: &mut [Point], [a, b, c]: [usize; 3]) -> f64 {
+    pub(super) fn pull(&self, places: &[Point], pull: &mut [Point], [a, b, c]: [usize; 3]) -> f64 {
         let [wab, wbc, wca] = self.weights;
         let (ab, ac) = (places[b] - places[a], places[c] - places[a]);
         let bc = ac - ab;
@@ -200,7 +222,7 @@ impl Piece {
 
     /// Singular values of the map from the piece to three places, the second one negative where
     /// it turns the piece over.
-    pub(super) fn stretches(&self, [a, b, c]: [Point; 3]) -> [f64; 2] {
+    pub(crate) fn stretches(&self, [a, b, c]: [Point; 3]) -> [f64; 2] {
         // The map is e ↦ αe + βē.
         let sum = (b - a) / self.second;
         let difference = ((c - a) - sum * self.third.re) / Point::new(0.0, self.third.im);

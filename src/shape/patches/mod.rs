@@ -136,7 +136,7 @@ impl Patches {
         merge::merge(surface.lattice(), &bend, fold, least, &mut labels);
         extend::settle(surface, &bend, &mut labels);
         let mesh = Triangulation::new(surface, &Frame::default())?;
-        let patches = sorted(&mesh, &mut labels)?;
+        let (patches, _) = sorted(&mesh, &mut labels)?;
         let creases = crease::creases(surface, &mesh, &bend, &labels);
         Ok(Patches {
             lattice: *surface.lattice(),
@@ -145,6 +145,29 @@ impl Patches {
             creases,
             bend: high,
         })
+    }
+
+    /// The same surface with other patches: labels from 0 to one less than `count`, each patch's number
+    /// in `labels` becoming its place among the areas; the second is what number each had.
+    pub(crate) fn divided(
+        &self,
+        surface: &Heightfield,
+        mut labels: Vec<u32>,
+    ) -> Result<(Self, Vec<usize>)> {
+        let bend = Bend::new(surface)?;
+        let mesh = Triangulation::new(surface, &Frame::default())?;
+        let (patches, order) = sorted(&mesh, &mut labels)?;
+        let creases = crease::creases(surface, &mesh, &bend, &labels);
+        let bend = self.bend;
+        let lattice = self.lattice;
+        let divided = Patches {
+            lattice,
+            labels,
+            patches,
+            creases,
+            bend,
+        };
+        Ok((divided, order))
     }
 
     /// The patch of each vertex, row by row; [`NO_PATCH`] where there is none.
@@ -190,8 +213,8 @@ impl Patches {
     }
 }
 
-/// Measures the patches, and numbers them anew by their areas.
-fn sorted(mesh: &Triangulation, labels: &mut [u32]) -> Result<Vec<Patch>> {
+/// Measures the patches, and numbers them anew by their areas; the second is what number each had.
+fn sorted(mesh: &Triangulation, labels: &mut [u32]) -> Result<(Vec<Patch>, Vec<usize>)> {
     let count = labels.iter().filter(|label| **label != NO_PATCH).max();
     let count = count.map_or(0, |label| *label as usize + 1);
     let blank = Patch {
@@ -222,5 +245,5 @@ fn sorted(mesh: &Triangulation, labels: &mut [u32]) -> Result<Vec<Patch>> {
     for label in labels.iter_mut().filter(|label| **label != NO_PATCH) {
         *label = numbers[*label as usize];
     }
-    Ok(order.into_iter().map(|old| patches[old]).collect())
+    Ok((order.iter().map(|old| patches[*old]).collect(), order))
 }

@@ -24,13 +24,14 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
             "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
             "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
             "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
+            "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
             "bend" => wanted = wanted.bend(option("bend", value, NUMBER)?),
             "fold" => wanted = wanted.fold(option("fold", value, NUMBER)?),
             "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "scale, tabs, gap, bend, fold, smallest, tolerance, maxIterations and \
-                             spacing";
+                let known = "scale, tabs, gap, maxStrain, bend, fold, smallest, tolerance, \
+                             maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
@@ -38,8 +39,8 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     check_spacing(settings.spacing, is_image(&field)?)?;
     let surface = Scene::new(field, settings.spacing)?.surface;
     let patches = Patches::new(&surface, &wanted)?;
-    let sheets = pattern(&surface, &patches, &sheets.unrolling(settings.unrolling))?;
-    Ok(to_value(&Drawing::new(&sheets, &drawing)?)?)
+    let found = pattern(&surface, &patches, &sheets.unrolling(settings.unrolling))?;
+    Ok(to_value(&Drawing::new(&found.sheets, &drawing)?)?)
 }
 
 /// SVG file of a drawing.

@@ -1,0 +1,137 @@
+//! Closed lines without the small loops in which they cross themselves.
+
+use super::shape::Side;
+use crate::flat::unroll::overlap::crossings;
+use crate::flat::unroll::pieces::Point;
+
+/// A loop goes if it encloses at most this, in squared spacings, and is at most so long, in spacings.
+const AREA: f64 = 6.0;
+const LENGTH: f64 = 60.0;
+
+/// How often lines are looked at.
+const PASSES: usize = 8;
+
+pub(super) type Runs = Vec<(Option<Side>, Vec<Point>)>;
+
+/// A closed line of runs, each of which begins where the one before ends, with its small loops cut off
+/// where they cross.
+pub(super) fn without_loops(runs: Runs, spacing: f64) -> Runs {
+    // Each point with the run that the piece from it on belongs to.
+    let mut line: Vec<(Point, usize)> = Vec::new();
+    for (number, (_, points)) in runs.iter().enumerate() {
+        let own = &points[..points.len() - 1];
+        line.extend(own.iter().map(|place| (*place, number)));
+    }
+    let mut changed = false;
+    for _ in 0..PASSES {
+        let Some(next) = pass(&line, spacing) else {
+            break;
+        };
+        line = next;
+        changed = true;
+    }
+    if !changed || line.len() < 3 {
+        return runs;
+    }
+    // It begins with a run.
+    let n = line.len();
+    let start = (0..n).find(|i| line[*i].1 != line[(*i + n - 1) % n].1);
+    line.rotate_left(start.unwrap_or(0));
+    let mut out: Runs = Vec::new();
+    let mut last = None;
+    for (place, run) in &line {
+        match out.last_mut() {
+            Some((_, points)) if last == Some(*run) => points.push(*place),
+            _ => out.push((runs[*run].0, vec![*place])),
+        }
+        last = Some(*run);
+    }
+    let starts: Vec<Point> = out.iter().map(|(_, points)| points[0]).collect();
+    let count = out.len();
+    for (k, (_, points)) in out.iter_mut().enumerate() {
+        points.push(starts[(k + 1) % count]);
+    }
+    out
+}
+
+/// The line without the loops there are; `None` where there is none to go.
+fn pass(line: &[(Point, usize)], spacing: f64) -> Option<Vec<(Point, usize)>> {
+    let n = line.len();
+    let places: Vec<Point> = line.iter().map(|(place, _)| *place).collect();
+    let edges: Vec<[u32; 2]> = (0..n).map(|k| [k as u32, ((k + 1) % n) as u32]).collect();
+    let mut gone = vec![false; n];
+    // The point that takes the place of a loop, by the piece that it ends with.
+    let mut instead: Vec<Option<Point>> = vec![None; n];
+    let mut any = false;
+    for [i, j] in crossings(&places, &edges) {
+        let at = crossing(
+            [places[i], places[(i + 1) % n]],
+            [places[j], places[(j + 1) % n]],
+        );
+        // From piece `a` on to piece `b`, whichever way encloses less.
+        let loops = [(i, j), (j, i)].map(|(a, b)| {
+            let inner: Vec<usize> = (1..=(b + n - a) % n).map(|k| (a + k) % n).collect();
+            let mut ring = vec![at];
+            ring.extend(inner.iter().map(|k| places[*k]));
+            (area(&ring), length(&ring), b, inner)
+        });
+        let [one, other] = loops;
+        let (area, length, end, inner) = if one.1 < other.1 { one } else { other };
+        let small = area <= AREA * spacing * spacing && length <= LENGTH * spacing;
+        if small && inner.iter().all(|k| !gone[*k]) && instead[end].is_none() {
+            inner.iter().for_each(|k| gone[*k] = true);
+            instead[end] = Some(at);
+            any = true;
+        }
+    }
+    let kept = (0..n).filter(|k| !gone[*k] || instead[*k].is_some());
+    let out = kept
+        .map(|k| (instead[k].unwrap_or(places[k]), line[k].1))
+        .collect();
+    any.then_some(out)
+}
+
+fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Point {
+    let (u, v) = (b - a, d - c);
+    let cross = (u.conj() * v).im;
+    match cross != 0.0 {
+        true => a + u * (((c - a).conj() * v).im / cross),
+        false => 0.5 * (b + c),
+    }
+}
+
+fn area(ring: &[Point]) -> f64 {
+    let n = ring.len();
+    let double: f64 = (0..n)
+        .map(|k| (ring[k].conj() * ring[(k + 1) % n]).im)
+        .sum();
+    0.5 * double.abs()
+}
+
+fn length(ring: &[Point]) -> f64 {
+    let n = ring.len();
+    (0..n).map(|k| (ring[(k + 1) % n] - ring[k]).norm()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_loop_goes_and_a_large_one_stays() {
+        let at = Point::new;
+        let square = |size: f64| {
+            // The upper side dips below the lower one.
+            let loop_ = [at(6.0, 10.0), at(6.0, -size), at(4.0, -size), at(4.0, 10.0)];
+            let mut points = vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 10.0)];
+            points.extend(loop_);
+            points.extend([at(0.0, 10.0), at(0.0, 0.0)]);
+            vec![(None, points)]
+        };
+        let cleaned = without_loops(square(1.0), 1.0);
+        let corners = &cleaned[0].1;
+        assert!(corners.iter().all(|p| p.im >= 0.0), "{corners:?}");
+        let kept = without_loops(square(9.0), 1.0);
+        assert_eq!(kept, square(9.0));
+    }
+}

@@ -1,0 +1,184 @@
+//! Meshes laid flat together, tied to each other along lines: what is cut and joined is no lattice,
+//! so that its global step is a sparse matrix's.
+//!
+//! Minimised is the energy of all pieces, as for one lattice, and for each tie the square of the
+//! distance between its two places, times [`TIE`].
+
+use sprs::{CsMat, TriMat};
+
+use super::pieces::{Piece, Point};
+use crate::error::{Result, try_filled};
+
+/// What a tie weighs; an edge between two equilateral triangles weighs 0.58.
+const TIE: f64 = 8.0;
+
+/// Steps of conjugate gradients in each global step.
+const INNER: usize = 16;
+
+/// How far a global step's residual falls.
+const REDUCTION: f64 = 1e-3;
+
+/// Most local and global steps.
+const OUTER: usize = 25;
+
+/// A place as a mean of vertices with weights; a vertex without a weight stands for none.
+pub(crate) type Mean = [(u32, f64); 3];
+
+/// Pieces by the numbers of their corners, and pairs of places that are to be one.
+pub(crate) struct Joint {
+    pub pieces: Vec<(Piece, [u32; 3])>,
+    pub ties: Vec<[Mean; 2]>,
+}
+
+impl Joint {
+    /// Moves the vertices to where pieces and ties fit best. `tolerance` is the change of the energy
+    /// in one step, over the area, that is none.
+    pub(crate) fn relax(&self, places: &mut [Point], tolerance: f64) -> Result<()> {
+        let matrix = self.matrix(places.len());
+        let mut diagonal = try_filled("unrolling", places.len(), 0.0)?;
+        for (row, entries) in matrix.outer_iterator().enumerate() {
+            let own = entries.get(row).copied().unwrap_or(0.0);
+            diagonal[row] = if own > 0.0 { 1.0 / own } else { 0.0 };
+        }
+        let mut gradients = Gradients::new(&matrix, diagonal)?;
+        let area: f64 = self.pieces.iter().map(|(piece, _)| piece.area()).sum();
+        let mut last = places.to_vec();
+        let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
+        for _ in 0..OUTER {
+            let found = self.pull(places, &mut gradients.right) / area;
+            if found > energy {
+                momentum = 1.0;
+            }
+            calm = match (found - energy).abs() < tolerance {
+                true => calm + 1,
+                false => 0,
+            };
+            energy = found;
+            if calm == 3 {
+                break;
+            }
+            gradients.solve();
+            let next = 0.5 + (0.25 + momentum * momentum).sqrt();
+            let ahead = (momentum - 1.0) / next;
+            momentum = next;
+            let steps = places.iter_mut().zip(&mut last).zip(&gradients.solution);
+            for ((place, last), step) in steps {
+                let moved = *place + step;
+                *place = moved + (moved - *last) * ahead;
+                *last = moved;
+            }
+        }
+        places.copy_from_slice(&last);
+        Ok(())
+    }
+
+    fn matrix(&self, count: usize) -> CsMat<f64> {
+        let room = 12 * self.pieces.len() + 36 * self.ties.len();
+        let mut entries = TriMat::with_capacity((count, count), room);
+        for (piece, corners) in &self.pieces {
+            for (k, weight) in piece.weights.into_iter().enumerate() {
+                let [a, b] = [k, (k + 1) % 3].map(|k| corners[k] as usize);
+                entries.add_triplet(a, a, weight);
+                entries.add_triplet(b, b, weight);
+                entries.add_triplet(a, b, -weight);
+                entries.add_triplet(b, a, -weight);
+            }
+        }
+        for tie in &self.ties {
+            let terms = difference(tie);
+            for (a, wa) in terms {
+                for (b, wb) in terms {
+                    if wa != 0.0 && wb != 0.0 {
+                        entries.add_triplet(a as usize, b as usize, TIE * wa * wb);
+                    }
+                }
+            }
+        }
+        entries.to_csr()
+    }
+
+    /// The energy; `pull` becomes minus half its gradient.
+    fn pull(&self, places: &[Point], pull: &mut [Point]) -> f64 {
+        pull.fill(Point::default());
+        let mut energy = 0.0;
+        for (piece, corners) in &self.pieces {
+            energy += piece.pull(places, pull, corners.map(|corner| corner as usize));
+        }
+        for tie in &self.ties {
+            let terms = difference(tie).into_iter().filter(|(_, w)| *w != 0.0);
+            let apart: Point = terms.clone().map(|(v, w)| places[v as usize] * w).sum();
+            energy += TIE * apart.norm_sqr();
+            for (v, w) in terms {
+                pull[v as usize] -= apart * (TIE * w);
+            }
+        }
+        energy
+    }
+}
+
+/// One place less the other.
+fn difference([one, other]: &[Mean; 2]) -> [(u32, f64); 6] {
+    let [a, b, c] = *one;
+    let [d, e, f] = other.map(|(v, w)| (v, -w));
+    [a, b, c, d, e, f]
+}
+
+/// Conjugate gradients with Jacobi's preconditioner, for both coordinates at once: the plane is that
+/// of the complex numbers, and the matrix is real.
+struct Gradients<'a> {
+    matrix: &'a CsMat<f64>,
+    /// Inverse of the diagonal.
+    inverse: Vec<f64>,
+    right: Vec<Point>,
+    solution: Vec<Point>,
+    direction: Vec<Point>,
+    image: Vec<Point>,
+}
+
+impl<'a> Gradients<'a> {
+    fn new(matrix: &'a CsMat<f64>, inverse: Vec<f64>) -> Result<Self> {
+        let blank = || try_filled("unrolling", inverse.len(), Point::default());
+        Ok(Gradients {
+            right: blank()?,
+            solution: blank()?,
+            direction: blank()?,
+            image: blank()?,
+            matrix,
+            inverse,
+        })
+    }
+
+    /// From 0; `right` becomes the residual.
+    fn solve(&mut self) {
+        self.solution.fill(Point::default());
+        self.direction.fill(Point::default());
+        let (mut last, mut first) = (0.0, None);
+        for _ in 0..INNER {
+            let pairs = self.right.iter().zip(&self.inverse);
+            let square: f64 = pairs.clone().map(|(r, d)| r.norm_sqr() * d).sum();
+            let goal = *first.get_or_insert(REDUCTION * REDUCTION * square);
+            if square <= goal || square <= f64::MIN_POSITIVE {
+                return;
+            }
+            let share = if last > 0.0 { square / last } else { 0.0 };
+            last = square;
+            for (direction, (r, d)) in self.direction.iter_mut().zip(pairs) {
+                *direction = r * *d + *direction * share;
+            }
+            let mut curvature = 0.0;
+            for (row, entries) in self.matrix.outer_iterator().enumerate() {
+                let sum: Point = entries.iter().map(|(k, w)| self.direction[k] * *w).sum();
+                curvature += (self.direction[row].conj() * sum).re;
+                self.image[row] = sum;
+            }
+            if curvature <= 0.0 {
+                return;
+            }
+            let step = square / curvature;
+            for k in 0..self.right.len() {
+                self.solution[k] += self.direction[k] * step;
+                self.right[k] -= self.image[k] * step;
+            }
+        }
+    }
+}

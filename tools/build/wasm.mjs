@@ -21,7 +21,7 @@ const files = [
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
   { name: 'unroll', limit: 230_000 },
-  { name: 'patterns', limit: 220_000 },
+  { name: 'patterns', limit: 275_000 },
 ];
 
 /**

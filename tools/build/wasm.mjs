@@ -21,8 +21,8 @@ const files = [
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 130_000 },
-  { name: 'unroll', limit: 250_000 },
-  { name: 'patterns', limit: 220_000 },
+  { name: 'unroll', limit: 255_000 },
+  { name: 'patterns', limit: 275_000 },
 ];
 
 /**

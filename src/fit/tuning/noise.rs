@@ -26,10 +26,11 @@ const CORRELATED: [f64; 2] = [1.3, 5.0];
 
 /// Noise that is smooth over several vertices shows late, behind what is rougher and smaller, such as
 /// rounding or the edges of pixels: growth rises by this factor, to no more than what noise that is still
-/// smooth can grow by. What rises with it is no shape of a developable surface, which does not bend two
-/// ways: its Gaussian curvature is noise.
-const RISES: f64 = 1.3;
+/// smooth can grow by. What rises with it is no shape of a developable surface, which does not bend both
+/// ways: what it does by at least this share is noise.
+const RISES: f64 = 1.1;
 const FASTEST: f64 = 12.0;
+const BOTH_WAYS: f64 = 0.75;
 
 /// Steps are looked for if at most this share of the heights are different ones, and counted as equal
 /// within this share of them.
@@ -94,7 +95,8 @@ impl Noise {
                 return Ok(Some(last));
             }
             grown.push(growth);
-            if count > MOST_MERGED && rises(&grown) && bend_noise(&merged) > Some(found) {
+            if count > MOST_MERGED && rises(&grown) && bend_noise(&merged) > Some(BOTH_WAYS * found)
+            {
                 return Ok(Some(next));
             }
             if growth < slowest && count <= MOST_MERGED {

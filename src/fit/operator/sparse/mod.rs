@@ -17,7 +17,7 @@ const LONGEST: usize = 256;
 
 /// Power iterations for the norm, and by how much they may fall short of it. Only the speed of the
 /// bound's ascent depends on it, not that it is one.
-const POWER: usize = 30;
+const POWER: usize = 15;
 const MARGIN: f32 = 1.1;
 
 /// `C` by stencils: the vertices of each, with what their heights count in the coordinates of [`Sym2`].

@@ -1159,7 +1159,7 @@ export type PageEdges = (
 ) & {
   /**
    * Lines of text, traced likewise from where they begin to where they end (at most 500): level on the flat page, they
-   * make it more accurate, and show folds between the edges.
+   * check it, and show folds between the edges.
    */
   lines?: readonly EdgeTrace[];
 };

@@ -54,8 +54,8 @@ impl CurledPage {
     /// The same with lines of text besides, traced like edges but from where they begin to where they
     /// end, for each page in the order of `edges`. Lines of text are level on the flat page. Where the
     /// bent edges are those above and below the text, each is a further cross-section; where they are
-    /// those beside it, each is a ruling, and straight. They make the page more accurate, and one that
-    /// is folded or bent both ways between its edges is seen to be.
+    /// those beside it, each is a ruling, and straight. By them a page that is folded or bent both ways
+    /// between its edges is seen to be, and one whose edges nothing checks is checked.
     ///
     /// The print may be turned on its page by half a degree or so. Of all lines 800 points are looked
     /// at, of one at most 24.
@@ -318,12 +318,19 @@ impl Search<'_> {
             (starts.first()).map_or(0, |c| c.clone().with_degree(degree).parameters()) as f64
         };
         let known = f64::from(prior.focal.is_some()) + f64::from(prior.ratio.is_some());
-        // Akaike's criterion, corrected for few points.
+        // Akaike's criterion, corrected for few points. Lines of text are many points in the page's
+        // middle, and would have a curve that swings at its ends: with them parameters cost as much
+        // as in Schwarz's.
+        let price = if self.traces.text() > 0 {
+            count.ln().max(2.0)
+        } else {
+            2.0
+        };
         let criterion = |residuals: &Residuals, degree: usize| {
             let p = parameters(degree) - known;
             let squares = residuals.cost * prior.accuracy.powi(2) + count * 0.05f64.powi(2);
             let spare = (count - p - 1.0).max(0.2);
-            count * (squares / count).ln() + 2.0 * p * (1.0 + (p + 1.0) / spare)
+            count * (squares / count).ln() + price * p * (1.0 + (p + 1.0) / spare)
         };
         let supported = |degree: usize| count + known - parameters(degree) >= 2.0;
         let lowest =

@@ -205,7 +205,10 @@ export const sections = {
         help: 'a line ends where the surface bends by more from one vertex to the next, in radians (default 0.2)',
       },
       scale: { value: 'MM', help: 'millimetres of the pattern for each unit of length (default 1)' },
-      'max-strain': { value: 'S', help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)' },
+      'max-strain': {
+        value: 'S',
+        help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)',
+      },
       tabs: { value: 'MM', help: 'depth of tabs to glue along creases that are cut (default: none)' },
       paper: {
         value: 'P',

@@ -227,8 +227,22 @@ test('both sides of a cut are as long as the crease', () => {
   near(drawing.summary.area, plain.summary.area, 1e-9);
 });
 
+/** A round cone of slope 0.8, which is a sector once it is slit. */
+const cone = lattice(81, 70, (x, y) => (Math.hypot(x - 34.3, y + 34.6) < 33 ? -0.8 * Math.hypot(x - 34.3, y + 34.6) : NaN));
+
+test('a cone is slit from its border to its point', () => {
+  const { sheets, summary } = direct.pattern(cone);
+  assert.deepEqual([sheets.length, summary.slits, summary.seams, summary.folds], [1, 1, 0, 0]);
+  near(summary.slitLength, 33 * Math.hypot(1, 0.8), 0.05);
+  assert.ok(summary.strain <= 0.01 && summary.mismatch < 0.03, `${summary.strain} ${summary.mismatch}`);
+  // Patches as they are lie flat where that much is allowed.
+  assert.equal(direct.pattern(cone, { maxStrain: 0.5 }).summary.slits, 0);
+});
+
 test('what is wrong is said', async () => {
-  for (const options of [{ scale: -1 }, { scale: NaN }, { tabs: NaN }, { tabs: 0 }, { gap: -1 }, { scale: 1e9 }]) {
+  const rough = lattice(12, 12, (x, y) => 40 * Math.abs(Math.sin(127.1 * x + 311.7 * y)));
+  assert.throws(() => direct.pattern(rough), error('NOT_FLAT', /row \d+, column \d+.* limit of 1.00 %/));
+  for (const options of [{ scale: -1 }, { scale: NaN }, { tabs: NaN }, { tabs: 0 }, { gap: -1 }, { maxStrain: 0 }, { scale: 1e9 }]) {
     const [name] = Object.keys(options);
     assert.throws(() => direct.pattern(card, options), error('OPTION', new RegExp(name)));
   }

@@ -71,12 +71,13 @@ pub(super) struct Strain {
 }
 
 impl Strain {
-    /// Root of the mean square.
+    /// Root of the mean square; infinite where it is not a number, which is no layout.
     pub(super) fn rms(&self) -> f64 {
-        match self.area > 0.0 {
+        let rms = match self.area > 0.0 {
             true => (self.squares / self.area).sqrt(),
             false => 0.0,
-        }
+        };
+        if rms.is_nan() { f64::INFINITY } else { rms }
     }
 
     pub(super) fn with(self, other: Strain) -> Strain {
@@ -193,7 +194,7 @@ impl Leaf {
             let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
             sum.area += piece.area();
             sum.squares += 0.5 * piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
-            sum.flipped += usize::from(short <= 0.0);
+            sum.flipped += usize::from(short <= 0.0 || short.is_nan());
         }
         sum
     }

@@ -22,7 +22,7 @@ const files = [
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 130_000 },
   { name: 'unroll', limit: 250_000 },
-  { name: 'patterns', limit: 220_000 },
+  { name: 'patterns', limit: 275_000 },
 ];
 
 /**

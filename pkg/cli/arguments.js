@@ -172,7 +172,7 @@ export function parse(args) {
     photoCamera,
     mtl,
     options: {
-      lambda: lambda(values.lambda) ?? usualLambda(command, values),
+      lambda: lambda(values.lambda),
       gap: number('gap', values),
       schedule: one('schedule', values, OPTIONS.solver.schedule),
       maxIterations: number('max-iterations', values),
@@ -479,17 +479,6 @@ function extension(what, output, known) {
   if (extension) return extension;
   const choices = known.length > 1 ? `${known.slice(0, -1).join(', ')} or ${known.at(-1)}` : known[0];
   throw usage(`the ${what} must end in ${choices}, but is "${output}"`);
-}
-
-/**
- * The λ of a command where none is given, if it is not what the package takes: pages are mostly seen by phones, whose
- * noise is alike over many vertices. There the usual λ comes closer, as far as has been measured.
- * @param {string} command
- * @param {Values} values
- * @returns {SolverOptions['lambda']}
- */
-function usualLambda(command, { energy, reweight }) {
-  return command === 'dewarp' && energy === undefined && reweight === undefined ? 'medium' : undefined;
 }
 
 /**

@@ -28,7 +28,7 @@ export const sections = {
         value: 'L',
         help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), any number above zero, or auto: by the noise of ' +
           'the input (default: auto with the energy huber; medium where --energy, --reweight or --schedule paper is given, ' +
-          'for a design, and to make a photo flat)',
+          'and for a design)',
       },
       energy: {
         value: 'E',

@@ -166,19 +166,6 @@ test('the options reach the solver', async () => {
   assert.ok(Math.abs(plain.interior / coarse.interior - 4) < 1);
 });
 
-test('a photo is made flat with the usual lambda where nothing is said', () => {
-  /** @param {string} line */
-  const options = (line) => {
-    const task = parse(line.split(' '));
-    if (!('options' in task)) return [];
-    const { lambda, energy } = /** @type {import('../../pkg/types.js').SolverOptions} */ (task.options);
-    return [lambda, energy];
-  };
-  assert.deepEqual(options('dewarp scan.png --texture photo.png -o flat.png'), ['medium', undefined]);
-  assert.deepEqual(options('dewarp scan.png --texture photo.png -o flat.png --lambda auto --energy huber'), ['auto', 'huber']);
-  for (const command of ['fit', 'unroll']) assert.deepEqual(options(`${command} scan.png -o out.obj`), [undefined, undefined]);
-});
-
 test('running out of iterations is told, and no failure', async () => {
   const { status, stdout, stderr } = await fit('rough.npy', '-o', 'out.npy', '--max-iterations', '2', '--gap=1e-6');
   assert.deepEqual([status, stdout], [0, '']);

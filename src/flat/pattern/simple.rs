@@ -121,17 +121,19 @@ mod tests {
     fn a_small_loop_goes_and_a_large_one_stays() {
         let at = Point::new;
         let square = |size: f64| {
-            // The upper side dips below the lower one.
-            let loop_ = [at(6.0, 10.0), at(6.0, -size), at(4.0, -size), at(4.0, 10.0)];
+            // The upper side curls.
+            let (left, top) = (5.0 - size, 10.0 + size);
+            let curl = [at(left, 10.0), at(left, top), at(5.0, top), at(5.0, 9.0)];
             let mut points = vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 10.0)];
-            points.extend(loop_);
-            points.extend([at(0.0, 10.0), at(0.0, 0.0)]);
+            points.extend(curl);
+            points.extend([at(0.0, 9.0), at(0.0, 0.0)]);
             vec![(None, points)]
         };
         let cleaned = without_loops(square(1.0), 1.0);
         let corners = &cleaned[0].1;
-        assert!(corners.iter().all(|p| p.im >= 0.0), "{corners:?}");
-        let kept = without_loops(square(9.0), 1.0);
-        assert_eq!(kept, square(9.0));
+        assert!(corners.iter().all(|p| p.im <= 10.0), "{corners:?}");
+        assert!(corners.contains(&at(5.0, 10.0)), "{corners:?}");
+        let kept = without_loops(square(3.0), 1.0);
+        assert_eq!(kept, square(3.0));
     }
 }

@@ -31,7 +31,7 @@ export async function phoneCommand({ quick }) {
       ['depths and photo', depth],
       ['cropped', [...depth, '--crop', crop]],
       ['cropped, with the warp map', [...depth, '--crop', crop, '--map', 'map.npy']],
-      ['cropped, energy huber, λ auto', [...depth, '--crop', crop, '--energy', 'huber', '--lambda', 'auto']],
+      ['cropped, λ medium', [...depth, '--crop', crop, '--lambda', 'medium']],
       ['photo and edges', ['dewarp', 'photo.jpg', '--edges', edges, '--focal', String(camera.fx), '--page', 'a4', '-o', 'page.png']],
     ];
     const rows = [];

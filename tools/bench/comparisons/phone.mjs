@@ -63,7 +63,7 @@ export async function phone({ quick }) {
           const found = await errors(image, print);
           const similar = alike(image, print.original);
           if (name === 'smoothed by the truth') oracle = truth.rms;
-          const ours = name === 'fitted' || name === 'huber, auto';
+          const ours = name.startsWith('fitted');
           rows.push([
             page.name, pose.name, `${noise} mm`, name, percent(truth.rms), percent(truth.anisotropy),
             percent(truth.strain), percent(truth.coverage), Number.isNaN(similar) ? 'none' : digits(similar),
@@ -125,8 +125,8 @@ function table(rows, originals, missing) {
       + 'millimetres with smooth noise (a Gaussian kernel with a standard deviation of 2 pixels) of 1 or 3 mm, 120 dropouts, and mixtures of the page and a wall '
       + '25 cm behind it, or the table under it, at outlines. The first pose is tilted by 25°, the second by 12°, and turned by 18° and 7°. '
       + 'The page is cropped by 32 points of its outline in the photo. The photo as it is; the depths unrolled as they are; smoothed by averages of '
-      + 'neighbours, as many steps (one at least) as leave the least displacement, which takes knowing the truth; fitted by default; and with the energy '
-      + '`huber` and λ `auto`. Against the page itself: displacement after the best similarity (root mean square, in widths of the page), how much longer lengths are in '
+      + 'neighbours, as many steps (one at least) as leave the least displacement, which takes knowing the truth; fitted by the '
+      + 'nuclear norm at medium λ; and by default (the energy `huber` and λ `auto`). Against the page itself: displacement after the best similarity (root mean square, in widths of the page), how much longer lengths are in '
       + 'one direction than in the other, the mean strain over 2 mm, the share of the page that is shown, the multi-scale structural similarity, and the share of '
       + `characters that the OCR program tesseract gets wrong at ${DPI} dots per inch (${flat}), both after the flat image is turned upright. `
       + 'Targets: 0.5 % of displacement, 0.8 % where crumpled, coverage of 95 %, at most 1.5 times as many characters wrong as in the flat original or 0.1 %, and less displacement '

@@ -100,6 +100,6 @@ export const ways = {
     }
     return flattened(best, scene);
   },
-  'fitted': (field, scene) => flattened(fit(field), scene),
-  'huber, auto': (field, scene) => flattened(fit(field, { energy: 'huber', lambda: 'auto' }), scene),
+  'fitted at medium λ': (field, scene) => flattened(fit(field, { lambda: 'medium' }), scene),
+  'fitted by default': (field, scene) => flattened(fit(field), scene),
 };

@@ -43,11 +43,11 @@ impl Solver {
     /// vertices' bounding box.
     ///
     /// # Errors
-    /// [`Error::Option`] for an option out of range, [`Error::NoInterior`] if
-    /// there is nothing to solve, [`Error::Underdetermined`] if a part of the
-    /// surface is not held in place, [`Error::Overflow`] or [`Error::Underflow`] if
+    /// [`Error::Option`](crate::Error::Option) for an option out of range, [`Error::NoInterior`](crate::Error::NoInterior) if
+    /// there is nothing to solve, [`Error::Underdetermined`](crate::Error::Underdetermined) if a part of the
+    /// surface is not held in place, [`Error::Overflow`](crate::Error::Overflow) or [`Error::Underflow`](crate::Error::Underflow) if
     /// the heights are too large or too small for their energy to be computed,
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(input: impl Into<Input>, options: &Options) -> Result<Self> {
         Solver::set_up(input.into(), options, None)
     }
@@ -111,7 +111,7 @@ impl Solver {
     /// do not depend on how the work is divided.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`] on the way to the first level or a finer one.
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) on the way to the first level or a finer one.
     pub fn advance(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while let Some(search) = &mut self.search
@@ -151,7 +151,7 @@ impl Solver {
     }
 
     /// Stops a running solve: its surface is then the best one so far, marked
-    /// [`StopReason::Cancelled`].
+    /// [`StopReason::Cancelled`](crate::StopReason::Cancelled).
     pub fn cancel(&mut self) {
         self.solve.cancel();
     }
@@ -163,7 +163,7 @@ impl Solver {
     /// that have no height there.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn surface(&self) -> Result<Surface> {
         let mut surface = self.solve.surface()?;
         surface.report.lambda_choice = self.choice;
@@ -181,7 +181,7 @@ pub fn fit(input: impl Into<Input>, options: &Options) -> Result<Surface> {
 
 /// Solves to the end, unless `on_progress` breaks off: it is called every few
 /// conjugate-gradient iterations, and after a break the best surface so far
-/// comes back, marked [`StopReason::Cancelled`].
+/// comes back, marked [`StopReason::Cancelled`](crate::StopReason::Cancelled).
 ///
 /// # Errors
 /// As [`Solver::new`].

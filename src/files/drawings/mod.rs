@@ -15,8 +15,8 @@
 //! # fn main() -> developable::Result<()> {
 //! # let card = Heightfield::from_fn(Lattice::new(40, 40, 2.5)?, |x, _| -0.5 * (x - 52.0).abs())?;
 //! # let patches = Patches::new(&card, &PatchOptions::default())?;
-//! # let sheets = pattern(&card, &patches, &PatternOptions::default())?;
-//! let drawing = Drawing::new(&sheets, &DrawingOptions::default())?;
+//! # let pattern = pattern(&card, &patches, &PatternOptions::default())?;
+//! let drawing = Drawing::new(&pattern.sheets, &DrawingOptions::default())?;
 //! let file = write_svg(&drawing)?;
 //! assert!(String::from_utf8_lossy(&file).contains("id=\"mountain\""));
 //! # Ok(())

@@ -14,7 +14,7 @@ pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame]) {
     let old = x.to_vec();
     let mut second = Vec::new();
     for vertex in 0..topology.len() {
-        if topology.inside[vertex] || given.held.get(vertex).is_some_and(|held| *held) {
+        if topology.inside[vertex] || given.held[vertex] {
             continue;
         }
         let mut ring: Vec<u32> = topology.around(vertex).to_vec();

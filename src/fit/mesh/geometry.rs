@@ -112,6 +112,12 @@ pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
     }
 }
 
+/// Whether a triangle faces away from the normals `up` of its corners.
+pub(super) fn faces_away(x: &[Point], up: &[Point], triangle: &[u32; 3]) -> bool {
+    let sum: Point = triangle.iter().map(|i| up[*i as usize]).sum();
+    twice_area(x, triangle).dot(&sum) < 0.0
+}
+
 /// Steps in which folded triangles are laid flat, at most.
 const UNFOLDING: usize = 40;
 
@@ -123,8 +129,7 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
         folded.fill(false);
         let mut any = false;
         for triangle in &topology.triangles {
-            let sum: Point = triangle.iter().map(|i| up[*i as usize]).sum();
-            if twice_area(x, triangle).dot(&sum) < 0.0 {
+            if faces_away(x, up, triangle) {
                 any = true;
                 for corner in triangle {
                     folded[*corner as usize] = true;
@@ -135,8 +140,7 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
             return;
         }
         for vertex in 0..x.len() {
-            let held = held.get(vertex).is_some_and(|held| *held);
-            if !folded[vertex] || held || !topology.inside[vertex] {
+            if !folded[vertex] || held[vertex] || !topology.inside[vertex] {
                 continue;
             }
             let ring = topology.around(vertex);

@@ -33,8 +33,9 @@ pub(super) struct Given {
     pub topology: Topology,
     /// The vertices as they were given.
     pub noisy: Vec<Point>,
-    /// What each vertex is trusted, 1 for all if empty; and which stay where they are.
+    /// What each vertex is trusted, 1 for all if empty.
     pub confidence: Vec<f64>,
+    /// Which vertices stay where they are.
     pub held: Vec<bool>,
 }
 

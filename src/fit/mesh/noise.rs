@@ -20,7 +20,7 @@ pub(super) fn noise(
     frames: &[Frame],
     noisy: &[Point],
 ) -> Option<f64> {
-    let inside = (0..topology.len()).filter(|vertex| topology.inside[*vertex]);
+    let inside = topology.vertices_inside();
     let step = inside.clone().count().div_ceil(MOST).max(1);
     let mut second = Vec::new();
     let mut samples = Vec::new();

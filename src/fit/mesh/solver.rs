@@ -3,7 +3,9 @@
 use web_time::Instant;
 
 use super::border::restore;
-use super::geometry::{Frame, Point, across, areas, normals, smooth, twice_area, unfold, volume};
+use super::geometry::{
+    Frame, Point, across, areas, faces_away, normals, smooth, twice_area, unfold, volume,
+};
 use super::linear::{Given, Linearised, NONE, spacing_of};
 use super::noise::noise;
 use super::options::{MeshOptions, check_confidence};
@@ -106,15 +108,15 @@ pub struct MeshSolver {
     /// The surface so far.
     surface: Vec<Point>,
     passes: Vec<MeshPass>,
-    before: Before,
+    before: Shape,
     reason: Option<StopReason>,
     seconds: Seconds,
     start: Instant,
 }
 
-/// Figures of the input.
+/// Figures of a shape.
 #[derive(Debug, Clone, Copy)]
-struct Before {
+struct Shape {
     volume: f64,
     area: f64,
     flipped: usize,
@@ -166,8 +168,9 @@ impl MeshSolver {
         let topology = &given.topology;
         let (base, frames) = first_base(&given);
         let own = areas(topology, &base);
-        let inside = || (0..topology.len()).filter(|vertex| topology.inside[*vertex]);
-        let mean = inside().map(|vertex| own[vertex]).sum::<f64>() / inside().count() as f64;
+        let inside = topology.vertices_inside();
+        let count = inside.clone().count() as f64;
+        let mean = inside.map(|vertex| own[vertex]).sum::<f64>() / count;
         let spacing = spacing_of(mean);
         let sigma = noise(topology, &base, &frames, &given.noisy);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
@@ -181,7 +184,7 @@ impl MeshSolver {
         if lambda > TOO_LARGE * auto {
             options.crease_passes = 0;
         }
-        let before = Before::of(topology, &given.noisy, &base);
+        let before = Shape::of(topology, &given.noisy, &base);
         let linear = linearised(&given, base, frames, &options, lambda)?;
         let mut solver = MeshSolver {
             mesh,
@@ -324,11 +327,9 @@ impl MeshSolver {
             return Ok(());
         }
         let start = Instant::now();
-        let hints = &self.linear.frames;
-        let old: Vec<Point> = hints.iter().map(|frame| frame.normal).collect();
         let frames = normals(&self.given.topology, &self.surface, Some(&old))
             .into_iter()
-            .zip(hints)
+            .zip(&self.linear.frames)
             .map(|(normal, hint)| Frame::about(normal, hint.tangents[0]))
             .collect();
         let base = self.surface.clone();
@@ -349,21 +350,14 @@ impl MeshSolver {
         // What no triangle has stays exactly where it is.
         for corner in self.mesh.triangles().as_flattened() {
             let joined = topology.joined[*corner as usize];
-            if !self
-                .given
-                .held
-                .get(joined as usize)
-                .is_some_and(|held| *held)
-            {
+            if !self.given.held[joined as usize] {
                 positions[*corner as usize] = self.bounds.outward(self.surface[joined as usize]);
             }
         }
-        let after = Before::of(topology, &self.surface, &self.surface);
+        let after = Shape::of(topology, &self.surface, &self.surface);
         let (length, closed) = (1.0 / self.bounds.scale, topology.closed);
         let interior = self.linear.centres.len();
-        let inside = (0..topology.len())
-            .filter(|vertex| topology.inside[*vertex])
-            .count();
+        let inside = topology.vertices_inside().count();
         let mut seconds = self.seconds;
         seconds.total = self.start.elapsed().as_secs_f64();
         Ok(MeshSurface {
@@ -420,15 +414,12 @@ fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
     (base, frames)
 }
 
-impl Before {
+impl Shape {
     /// Triangles are flipped that face away from the vertex normals of the `smooth` surface.
     fn of(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
         let up = normals(topology, smooth, None);
-        let flipped = topology.triangles.iter().filter(|triangle| {
-            let sum: Point = triangle.iter().map(|i| up[*i as usize]).sum();
-            twice_area(x, triangle).dot(&sum) < 0.0
-        });
-        Before {
+        let flipped = (topology.triangles.iter()).filter(|triangle| faces_away(x, &up, triangle));
+        Shape {
             volume: volume(topology, x),
             area: topology
                 .triangles
@@ -478,7 +469,7 @@ impl MeshKnown {
     /// For each vertex of the topology: the most of those that are joined.
     fn of(self, mesh: &Mesh, topology: &Topology) -> Result<(Vec<f64>, Vec<bool>)> {
         let count = mesh.positions().len();
-        let (mut confidence, mut held) = (Vec::new(), Vec::new());
+        let (mut confidence, mut held) = (Vec::new(), vec![false; topology.len()]);
         if !self.confidence.is_empty() {
             check_confidence(&self.confidence, count)?;
             confidence = vec![0.0f64; topology.len()];
@@ -488,7 +479,6 @@ impl MeshKnown {
         }
         if !self.held.is_empty() {
             crate::error::check_count("held vertices of the mesh", count, 1, self.held.len())?;
-            held = vec![false; topology.len()];
             for (own, joined) in self.held.iter().zip(&topology.joined) {
                 held[*joined as usize] |= own;
             }

@@ -118,11 +118,12 @@ const BENDS: Bends = Bends {
 };
 
 fn given(mesh: &Mesh) -> Given {
+    let topology = Topology::new(mesh).unwrap();
     Given {
-        topology: Topology::new(mesh).unwrap(),
         noisy: points(mesh),
         confidence: Vec::new(),
-        held: Vec::new(),
+        held: vec![false; topology.len()],
+        topology,
     }
 }
 
@@ -252,7 +253,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         topology,
         noisy: places.clone(),
         confidence: areas.iter().map(|area| whole / area).collect(),
-        held: Vec::new(),
+        held: vec![false; base.len()],
     };
     let frames = base
         .iter()

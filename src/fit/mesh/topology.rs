@@ -85,6 +85,11 @@ impl Topology {
         self.source.len()
     }
 
+    /// Those with triangles all around.
+    pub(super) fn vertices_inside(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        (0..self.len()).filter(|vertex| self.inside[*vertex])
+    }
+
     /// The neighbours of a vertex.
     pub(super) fn around(&self, vertex: usize) -> &[u32] {
         &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]

@@ -106,7 +106,7 @@ pub(super) fn assembled<'a>(
                 let rest = before(&net);
                 let gap = |seam: &usize| apart(&net, &arrangement.layout, *seam);
                 let loose: Vec<f64> = folded.iter().map(gap).collect();
-                let joined = join(&mut net, &mut arrangement.layout, members)?;
+                let joined = join(&mut net, &mut arrangement.layout, members, &folded)?;
                 if joined {
                     moved.extend(rest);
                 }

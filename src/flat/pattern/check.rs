@@ -19,13 +19,15 @@ const LOOSE: usize = 3;
 /// Change of the energy in one step of it that is none.
 const TOLERANCE: f64 = 1e-8;
 
-/// Lays the patches of a sheet flat together, tied along their folds, where these do not fit as they
+/// Lays the patches of a sheet flat together, tied along its folds, where these do not fit as they
 /// are. Returns whether that was done; the patches then lie where they are to be, and their motions are
 /// none.
-pub(super) fn join(net: &mut Net, layout: &mut Layout, patches: &[u32]) -> Result<bool> {
-    let folded: Vec<usize> = (0..net.seams.len())
-        .filter(|s| layout.folded[*s] && patches.contains(&net.seams[*s].patches[0]))
-        .collect();
+pub(super) fn join(
+    net: &mut Net,
+    layout: &mut Layout,
+    patches: &[u32],
+    folded: &[usize],
+) -> Result<bool> {
     if folded
         .iter()
         .all(|seam| apart(net, layout, *seam) <= CLOSE * net.spacing)
@@ -52,7 +54,7 @@ pub(super) fn join(net: &mut Net, layout: &mut Layout, patches: &[u32]) -> Resul
             .extend(pieces.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
     }
     for seam in folded {
-        let seam = &net.seams[seam];
+        let seam = &net.seams[*seam];
         let last = seam.nodes.len() - 1;
         let from = if is_triangle(seam.nodes[0]) { LOOSE } else { 0 };
         let to = if is_triangle(seam.nodes[last]) {

@@ -7,7 +7,7 @@ use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
 use super::{Failure, Result};
-use developable::Error;
+use developable::{Error, Lambda};
 
 /// What an options object says, without what is undefined in it.
 pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
@@ -40,6 +40,17 @@ pub fn option<T: DeserializeOwned>(
             requirement,
         ))
     })
+}
+
+/// A number, or the name of one.
+pub fn lambda(value: JsValue) -> Result<Lambda> {
+    const REQUIREMENT: &str = "must be small, medium, big, auto or a number above zero";
+    if let Some(number) = value.as_f64() {
+        return Ok(Lambda::Value(number));
+    }
+    let name: String = option("lambda", value, REQUIREMENT)?;
+    Lambda::named(&name)
+        .ok_or_else(|| Error::option("lambda", format!("{name:?}"), REQUIREMENT).into())
 }
 
 pub fn unknown(name: &str, known: &str) -> Failure {

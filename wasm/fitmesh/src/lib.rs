@@ -5,12 +5,12 @@ use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::{Lambda, MeshKnown, MeshOptions, MeshReport, Status};
+use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::{entries, lambda, option, unknown};
 
 /// What `MeshSurface` of `types.d.ts` has besides its mesh.
 #[derive(Serialize)]
@@ -95,13 +95,5 @@ impl MeshSolver {
             positions: surface.mesh().positions().as_flattened().into(),
             report: surface.report(),
         })?)
-    }
-}
-
-fn lambda(value: JsValue) -> Result<Lambda> {
-    const MUST: &str = "must be small, medium, big, auto or a number above zero";
-    match value.as_string() {
-        Some(name) => Ok(name.parse()?),
-        None => Ok(Lambda::Value(option("lambda", value, MUST)?)),
     }
 }

@@ -2,9 +2,9 @@
 
 use wasm_bindgen::prelude::*;
 
-use developable::{Bridging, Energy, Error, Lambda, Normalization, Options, Schedule};
+use developable::{Bridging, Energy, Normalization, Options, Schedule};
 use developable_wasm::Result;
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::{entries, lambda, option, unknown};
 
 /// `SolverOptions` of `types.d.ts`.
 #[derive(Clone, Copy)]
@@ -97,17 +97,6 @@ impl Settings {
             && self.bridging == other.bridging
             && (self.occlusion_threshold.is_none() || self.normalization == other.normalization)
     }
-}
-
-/// A number, or the name of one.
-fn lambda(value: JsValue) -> Result<Lambda> {
-    const REQUIREMENT: &str = "must be small, medium, big, auto or a number above zero";
-    if let Some(number) = value.as_f64() {
-        return Ok(Lambda::Value(number));
-    }
-    let name: String = option("lambda", value, REQUIREMENT)?;
-    Lambda::named(&name)
-        .ok_or_else(|| Error::option("lambda", format!("{name:?}"), REQUIREMENT).into())
 }
 
 fn number(name: &'static str, value: JsValue) -> Result<f64> {

@@ -3,6 +3,7 @@ import { element } from '../dom.js';
 import { number, shortest } from '../format.js';
 import { gridOf, nearest } from '../surface/lattice.js';
 import { inputNormals, resultNormals } from '../surface/known.js';
+import { normalsOf } from '../surface/normals.js';
 import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
@@ -61,7 +62,18 @@ export function viewsPanel(session) {
     stamp.hidden = true;
     empty.hidden = false;
   });
+  session.on('preview', ({ input, settings, image: { width, height, pixelSize, data } }) => {
+    after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
+    // Its colours and lines are those of the result before.
+    after.cover(null);
+    caption.textContent = input.design ? '' : `λ = ${shortest(Number(settings.lambda))}`;
+    figure.dataset.preview = '';
+    stamp.textContent = 'preview';
+    stamp.hidden = false;
+    empty.hidden = true;
+  });
   session.on('result', (result) => {
+    delete figure.dataset.preview;
     after.show(resultNormals(result));
     // λ has no say in a design.
     caption.textContent = result.input.design ? '' : `λ = ${shortest(result.surface.report.lambda)}`;

@@ -9,6 +9,8 @@ import { rasterOf } from './raster.js';
 /** @import {Marks} from './marks.js' */
 /** @import {Raster} from './raster.js' */
 
+/** Pixels for each one of a picture that is soon replaced by a finer one. */
+const COARSE = 2;
 /** Of the way from the middle to the rim, for each press of an arrow key. */
 const KEY_STEP = 0.08;
 /** @type {Record<string, readonly [number, number]>} */
@@ -17,6 +19,8 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 export class SurfaceView {
   /** @type {Normals | null} */
   #normals = null;
+  /** @type {{ width: number, height: number } | null} */
+  #frame = null;
   /** @type {Raster | null} */
   #raster = null;
   /** The raster, shaded; the canvas shows it reduced to its own pixels. */
@@ -60,9 +64,11 @@ export class SurfaceView {
   /**
    * @param {Normals | null} normals
    * @param {boolean} [lit] whether there is much to be lit
+   * @param {{ width: number, height: number } | null} [frame] in whose proportions, where there are coarser normals
    */
-  show(normals, lit = normals !== null) {
+  show(normals, lit = normals !== null, frame = normals) {
     this.#normals = normals;
+    this.#frame = frame;
     this.#raster = null;
     this.#overlay = null;
     this.#lit = lit;
@@ -107,13 +113,15 @@ export class SurfaceView {
     const context = canvas.getContext('2d');
     if (!context) return;
     context.clearRect(0, 0, canvas.width, canvas.height);
-    const normals = this.#normals;
-    if (!normals) return;
-    const fit = Math.min(canvas.width / normals.width, canvas.height / normals.height);
-    this.#raster ??= rasterOf(normals, fit);
+    const [normals, frame] = [this.#normals, this.#frame];
+    if (!normals || !frame || canvas.clientWidth === 0) return;
+    const fit = Math.min(canvas.width / frame.width, canvas.height / frame.height);
+    const coarse = frame !== normals;
+    const density = (fit * frame.width) / normals.width;
+    this.#raster ??= rasterOf(normals, coarse ? Math.min(density, COARSE) : density);
     this.#shade(this.#raster);
-    const width = Math.max(1, Math.round(normals.width * fit));
-    const height = Math.max(1, Math.round(normals.height * fit));
+    const width = Math.max(1, Math.round(frame.width * fit));
+    const height = Math.max(1, Math.round(frame.height * fit));
     const left = Math.floor((canvas.width - width) / 2);
     const top = Math.floor((canvas.height - height) / 2);
     context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;

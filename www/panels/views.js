@@ -8,6 +8,7 @@ import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
 import { MARKS } from '../words.js';
+import { spacePanel } from './space.js';
 
 /** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
@@ -21,6 +22,7 @@ export function viewsPanel(session) {
   const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light);
   const photo = new PictureView(element('input-picture', HTMLCanvasElement));
   const flat = new PictureView(element('result-picture', HTMLCanvasElement));
+  const space = spacePanel(session, light);
   const views = element('views', HTMLElement);
   const figure = element('result-view', HTMLElement);
   const inputCaption = element('input-caption', HTMLElement);
@@ -35,6 +37,7 @@ export function viewsPanel(session) {
     const { input } = session;
     const marks = input ? marksOf(input, torn, getComputedStyle(views)) : [];
     before.mark(marks);
+    space.mark(marks);
     legend.replaceChildren(...marks.map(({ colour, words }) => {
       const item = document.createElement('span');
       item.className = 'key';
@@ -91,14 +94,15 @@ export function viewsPanel(session) {
      * Draws over the surfaces, or puts pictures in their places.
      * @param {Partial<Shown>} shown
      */
-    show: ({ input, result, before: left, after: right }) => {
+    show: (shown) => {
+      const { input, result, before: left, after: right } = shown;
+      space.show(shown);
       before.cover(input ?? null);
       after.cover(result ?? null);
       photo.show(left ?? null);
       flat.show(right ?? null);
       element('input-title', HTMLElement).textContent = left?.title ?? 'Input';
       element('result-title', HTMLElement).textContent = right?.title ?? 'Result';
-      element('light-hint', HTMLElement).hidden = left !== undefined && right !== undefined;
       before.setAside(left !== undefined);
       after.setAside(right !== undefined);
     },

@@ -1,18 +1,25 @@
 /** What is drawn over a surface: colours for values, and lines. */
-import { divergingPixel } from './colours.js';
+import { css, divergingPixel } from './colours.js';
 import { interpolated, nearest } from './lattice.js';
 
 /** @import {Grid, Lattice} from './lattice.js' */
-/** @import {Scale} from './colours.js' */
+/** @import {Colour, Scale} from './colours.js' */
 
 /** @typedef {(x: number, y: number) => readonly [number, number]} Place from the plane to the canvas */
+
+/**
+ * @typedef {object} Line
+ * @property {readonly (readonly [number, number, number])[]} points
+ * @property {Colour} colour
+ * @property {number} width in pixels of the page
+ */
 
 /**
  * @typedef {object} Layer
  * @property {Grid} grid
  * @property {HTMLCanvasElement} [image] colours of the grid's pixels, in the place of steel
- * @property {(context: CanvasRenderingContext2D, place: Place, ratio: number) => void} [draw]
- *   `ratio`: pixels of the screen for one of the page
+ * @property {readonly Line[]} [lines]
+ * @property {(x: number, y: number) => string} [read] the value at a place of the plane, with its name and unit
  */
 
 /**
@@ -61,13 +68,29 @@ export function imageOf({ width, height }, colour) {
 }
 
 /**
- * Draws lines through points of the plane.
  * @param {CanvasRenderingContext2D} context
  * @param {Place} place
- * @param {readonly (readonly [number, number, number])[]} points
+ * @param {readonly Line[]} lines
+ * @param {number} ratio pixels of the screen for one of the page
  */
-export function drawLine(context, place, points) {
-  context.beginPath();
-  for (const [x, y] of points) context.lineTo(...place(x, y));
-  context.stroke();
+export function drawLines(context, place, lines, ratio) {
+  context.lineJoin = 'round';
+  for (const { points, colour, width } of lines) {
+    context.strokeStyle = css(colour);
+    context.lineWidth = width * ratio;
+    context.beginPath();
+    for (const [x, y] of points) context.lineTo(...place(x, y));
+    context.stroke();
+  }
+}
+
+/**
+ * The value at the vertex nearest to a place, NaN beyond the lattice.
+ * @param {Lattice & { values: ArrayLike<number> }} field
+ * @param {number} x
+ * @param {number} y
+ */
+export function valueAt({ values, ...lattice }, x, y) {
+  const vertex = nearest(lattice, { width: 1, height: 1, pixelSize: 1, left: x - 0.5, top: y + 0.5 })[0];
+  return vertex < 0 ? NaN : values[vertex];
 }

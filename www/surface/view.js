@@ -1,5 +1,6 @@
 /** One surface on a canvas, lit by the shared light, which can be moved from here. */
 import { eachFrame, followDevicePixels } from '../dom.js';
+import { drawLines } from './layer.js';
 import { markedCanvas } from './marks.js';
 import { rasterOf } from './raster.js';
 
@@ -136,10 +137,10 @@ export class SurfaceView {
     context.drawImage(this.#shaded, left, top, width, height);
     context.globalCompositeOperation = 'source-over';
     context.globalAlpha = 1;
-    if (layer?.draw) {
-      const { grid } = layer;
+    if (layer?.lines) {
+      const { grid, lines } = layer;
       const scale = width / (grid.width * grid.pixelSize);
-      layer.draw(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], window.devicePixelRatio);
+      drawLines(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], lines, window.devicePixelRatio);
     }
     if (this.#marks.length === 0) return;
     this.#overlay ??= markedCanvas(this.#marks, width, height, window.devicePixelRatio);

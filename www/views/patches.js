@@ -3,13 +3,16 @@ import { make } from '../dom.js';
 import { count, degrees, number, percent } from '../format.js';
 import { bytes, css, patchColour } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
-import { drawLine, labelImage } from '../surface/layer.js';
+import { labelImage, valueAt } from '../surface/layer.js';
 import { figures, key, table } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
+/** @import {Colour} from '../surface/colours.js' */
 /** @import {Shown} from './shown.js' */
 
+/** @type {Colour} */
+const CREASE = [20, 24, 28];
 /** Rows of each table. */
 const MOST = 6;
 
@@ -34,14 +37,11 @@ export async function patches(analyses, result) {
     result: {
       grid,
       image: labelImage(map, grid, (label) => colours[label]),
-      draw: (context, place, ratio) => {
-        context.strokeStyle = '#14181c';
-        context.lineJoin = 'round';
-        for (const { points, fold } of creases) {
-          // A sharper fold is a heavier line.
-          context.lineWidth = (1 + 2 * Math.min(1, fold)) * ratio;
-          drawLine(context, place, points);
-        }
+      // A sharper fold is a heavier line.
+      lines: creases.map(({ points, fold }) => ({ points, colour: CREASE, width: 1 + 2 * Math.min(1, fold) })),
+      read: (x, y) => {
+        const patch = valueAt({ ...map, values: map.labels }, x, y);
+        return patch >= 0 ? `patch ${patch + 1}` : '';
       },
     },
     about: [

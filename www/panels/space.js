@@ -1,0 +1,281 @@
+/** Input and result as surfaces in space, one on each side of a divider. */
+import { eachFrame, element, elements } from '../dom.js';
+import { number } from '../format.js';
+import { Camera } from '../surface/camera.js';
+import { takeInHand } from '../surface/hands.js';
+import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
+import { gridOf } from '../surface/lattice.js';
+import { normalsOf } from '../surface/normals.js';
+import { Space } from '../surface/space.js';
+
+/** @import {Input, Session} from '../session.js' */
+/** @import {Layer, Line} from '../surface/layer.js' */
+/** @import {Light} from '../surface/light.js' */
+/** @import {Marks} from '../surface/marks.js' */
+/** @import {Relief} from '../surface/space.js' */
+/** @import {Shown} from '../views/shown.js' */
+
+/** What is remembered of the arrangement. */
+const MEMORY = 'developable: arrangement';
+/** The share of the heights that lie within the box. */
+const WITHIN = 0.998;
+/** Pixels of the page of a mark on the surface. */
+const MARK = 5;
+/** Of the way across, for each press of an arrow key. */
+const KEY_STEP = 0.05;
+
+/**
+ * @param {Session} session
+ * @param {Light} light
+ */
+export function spacePanel(session, light) {
+  const panel = element('space', HTMLElement);
+  const flat = element('views', HTMLElement);
+  const canvas = element('space-canvas', HTMLCanvasElement);
+  const divider = element('divider', HTMLElement);
+  const reading = element('reading', HTMLElement);
+  const left = element('space-before', HTMLElement);
+  const right = element('space-after', HTMLElement);
+  const exaggeration = element('exaggeration', HTMLInputElement);
+  const exaggerated = element('exaggerated', HTMLElement);
+  const lights = element('drag-lights', HTMLInputElement);
+  const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
+  const hints = { flat: element('light-hint', HTMLElement), space: element('space-hint', HTMLElement) };
+  const camera = new Camera();
+  const space = spaceOn(canvas);
+  let share = 0.5;
+  /** @type {Partial<Shown>} */
+  let shown = {};
+  /** @type {readonly Marks[]} */
+  let marks = [];
+  const sides = /** @type {const} */ (['before', 'after']);
+
+  const wanted = () => arrangement.find(({ checked }) => checked)?.value === 'space';
+  const there = () => space !== null && wanted() && !shown.after;
+  const draw = () => {
+    if (!space || panel.hidden || canvas.clientWidth === 0) return;
+    const both = space.relief('after') !== null;
+    divider.hidden = !both;
+    divider.style.left = `${100 * share}%`;
+    if (space.draw(camera, light, both ? share : 1, 0)) drawSoon();
+  };
+  const drawSoon = eachFrame(draw);
+
+  const arrange = () => {
+    panel.hidden = !there();
+    flat.hidden = there();
+    hints.space.hidden = panel.hidden;
+    hints.flat.hidden = !panel.hidden || (shown.before !== undefined && shown.after !== undefined);
+    drawSoon();
+  };
+
+  if (space) {
+    // At once, for a resized canvas is blank.
+    new ResizeObserver(draw).observe(canvas);
+    light.onMove(drawSoon);
+    takeInHand(canvas, camera, {
+      changed: drawSoon,
+      relight: (x, y) => light.moveTo(x, y),
+      tilt: (x, y) => light.moveTo(light.x + 0.08 * x, light.y + 0.08 * y),
+      unlit: () => light.reset(),
+      lights: () => lights.checked,
+      other: { begin: () => false, move: () => {}, end: () => {} },
+    });
+    try {
+      const remembered = localStorage.getItem(MEMORY);
+      for (const radio of arrangement) radio.checked = radio.value === (remembered ?? 'space');
+    } catch {
+      // Without storage it is forgotten.
+    }
+  } else {
+    element('arrangement', HTMLElement).hidden = true;
+    for (const radio of arrangement) radio.checked = radio.value === 'flat';
+  }
+  for (const radio of arrangement) {
+    radio.addEventListener('change', () => {
+      arrange();
+      try {
+        localStorage.setItem(MEMORY, radio.value);
+      } catch {
+        // Likewise.
+      }
+    });
+  }
+
+  exaggeration.addEventListener('input', () => {
+    camera.exaggeration = 2 ** exaggeration.valueAsNumber;
+    exaggerated.textContent = `× ${number(camera.exaggeration, 2)}`;
+    exaggeration.setAttribute('aria-valuetext', `heights ${number(camera.exaggeration, 2)} times`);
+    drawSoon();
+  });
+  element('from-above', HTMLButtonElement).addEventListener('click', () => {
+    camera.above();
+    drawSoon();
+  });
+  element('at-an-angle', HTMLButtonElement).addEventListener('click', () => {
+    camera.oblique();
+    drawSoon();
+  });
+
+  /** @param {number} to */
+  const divide = (to) => {
+    share = Math.min(1, Math.max(0, to));
+    const percent = Math.round(100 * share);
+    divider.setAttribute('aria-valuenow', String(percent));
+    divider.setAttribute('aria-valuetext', `input on ${percent} % of the picture, result on the rest`);
+    drawSoon();
+  };
+  divider.addEventListener('pointerdown', (event) => {
+    if (event.button === 0) divider.setPointerCapture(event.pointerId);
+  });
+  divider.addEventListener('pointermove', (event) => {
+    if (!divider.hasPointerCapture(event.pointerId)) return;
+    const box = canvas.getBoundingClientRect();
+    divide((event.clientX - box.left) / box.width);
+  });
+  divider.addEventListener('keydown', (event) => {
+    const to = { ArrowLeft: share - KEY_STEP, ArrowDown: share - KEY_STEP, ArrowRight: share + KEY_STEP, ArrowUp: share + KEY_STEP, Home: 0, End: 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    divide(to);
+  });
+
+  canvas.addEventListener('pointermove', (event) => {
+    if (event.buttons !== 0 || !space || panel.hidden) return;
+    const ratio = canvas.width / canvas.clientWidth;
+    const [x, y] = [event.offsetX * ratio, event.offsetY * ratio];
+    const side = x < share * canvas.width || !space.relief('after') ? 'before' : 'after';
+    const relief = space.relief(side);
+    const point = relief && camera.hit(x, y, (px, py) => heightOn(relief, px, py));
+    const layer = side === 'before' ? shown.input : shown.result;
+    const unit = session.input?.unit ?? (Math.abs((point?.[2] ?? 0) - 1) < 1e-9 ? 'unit' : 'units');
+    reading.textContent = point
+      ? [`height ${number(point[2])} ${unit}`, layer?.read?.(point[0], point[1]) ?? ''].filter(Boolean).join(' · ')
+      : '';
+  });
+  canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
+
+  const cover = () => {
+    if (!space) return;
+    const layers = { before: shown.input, after: shown.result };
+    for (const side of sides) {
+      const layer = layers[side];
+      const points = side === 'before' && session.input ? pointsOf(marks, session.input) : [];
+      space.cover(side, layer?.image ?? null, [...(layer?.lines ?? []), ...points]);
+    }
+    drawSoon();
+  };
+
+  session.on('input', (input) => {
+    if (!space) return;
+    camera.box = boxOf(input);
+    space.show('before', reliefOf(input, inputNormals(input), input.data, input.heightScale));
+    left.textContent = 'Input';
+    cover();
+  });
+  session.on('cleared', () => {
+    space?.show('after', null);
+    right.textContent = '';
+    drawSoon();
+  });
+  session.on('preview', ({ input, image: { width, height, pixelSize, data } }) => {
+    if (!space || !there()) return;
+    space.show('after', reliefOf(input, normalsOf(data, width, height, 1 / pixelSize), data, 1));
+    right.textContent = 'Result · preview';
+    drawSoon();
+  });
+  session.on('result', (result) => {
+    if (!space) return;
+    space.show('after', reliefOf(result.input, resultNormals(result), resultImage(result).data, 1));
+    right.textContent = result.surface.report.stopReason === 'cancelled' ? 'Result · cancelled' : 'Result';
+    cover();
+  });
+  arrange();
+
+  return {
+    /** Whether surfaces are seen here. */
+    there,
+    /** @param {Partial<Shown>} now */
+    show: (now) => {
+      shown = now;
+      arrange();
+      cover();
+    },
+    /** @param {readonly Marks[]} now */
+    mark: (now) => {
+      marks = now;
+      cover();
+    },
+  };
+}
+
+/** Nothing where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
+function spaceOn(canvas) {
+  try {
+    return new Space(canvas);
+  } catch {
+    return null;
+  }
+}
+
+/**
+ * @param {Input} input
+ * @param {import('../surface/normals.js').Normals} normals
+ * @param {ArrayLike<number>} heights
+ * @param {number} heightScale
+ * @returns {Relief}
+ */
+function reliefOf(input, normals, heights, heightScale) {
+  const { width, height, pixelSize, left, top } = gridOf(input);
+  return { normals, heights, heightScale, extent: { left, top, width: width * pixelSize, height: height * pixelSize } };
+}
+
+/** @param {Relief} relief @param {number} x @param {number} y */
+function heightOn({ normals: { width, height }, heights, heightScale, extent }, x, y) {
+  const col = Math.floor(((x - extent.left) / extent.width) * width);
+  const row = Math.floor(((extent.top - y) / extent.height) * height);
+  if (col < 0 || row < 0 || col >= width || row >= height) return NaN;
+  return heights[row * width + col] * heightScale;
+}
+
+/**
+ * Around nearly all heights: what noise has thrown far off is no reason to look at the rest from afar.
+ * @param {Input} input
+ */
+function boxOf(input) {
+  const { width, height, pixelSize, left, top } = gridOf(input);
+  const step = Math.max(1, Math.floor(input.data.length / 20_000));
+  const found = [];
+  for (let i = 0; i < input.data.length; i += input.design ? 1 : step) {
+    const z = input.data[i] * input.heightScale;
+    if (!Number.isNaN(z)) found.push(z);
+  }
+  const sorted = Float64Array.from(found).sort();
+  const most = sorted.length - 1;
+  const [low, high] = [sorted[Math.ceil((1 - WITHIN) * most)] ?? 0, sorted[Math.floor(WITHIN * most)] ?? 0];
+  return { left, top, width: width * pixelSize, height: height * pixelSize, low, high };
+}
+
+/**
+ * Marked pixels as points on the surface.
+ * @param {readonly Marks[]} marks
+ * @param {Input} input
+ * @returns {Line[]}
+ */
+function pointsOf(marks, input) {
+  const { left, top, pixelSize } = gridOf(input);
+  /** @type {Line[]} */
+  const points = [];
+  for (const { width, height, has, colour } of marks) {
+    /** @param {number} at */
+    const byte = (at) => Number.parseInt(colour.slice(at, at + 2), 16);
+    const rgb = /** @type {const} */ ([byte(1), byte(3), byte(5)]);
+    for (let i = 0; i < width * height; i++) {
+      const z = input.data[i] * input.heightScale;
+      if (!has(i) || Number.isNaN(z)) continue;
+      const place = /** @type {const} */ ([left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize, z]);
+      points.push({ points: [place], colour: rgb, width: MARK });
+    }
+  }
+  return points;
+}

@@ -17,6 +17,8 @@ import { Space } from '../surface/space.js';
 
 /** What is remembered of the arrangement. */
 const MEMORY = 'developable: arrangement';
+/** Milliseconds after which nothing moves. */
+const REST = 250;
 /** The share of the heights that lie within the box. */
 const WITHIN = 0.998;
 /** Pixels of the page of a mark on the surface. */
@@ -52,12 +54,23 @@ export function spacePanel(session, light) {
 
   const wanted = () => arrangement.find(({ checked }) => checked)?.value === 'space';
   const there = () => space !== null && wanted() && !shown.after;
+  let rest = 0;
+  let resting = false;
   const draw = () => {
     if (!space || panel.hidden || canvas.clientWidth === 0) return;
     const both = space.relief('after') !== null;
     divider.hidden = !both;
     divider.style.left = `${100 * share}%`;
     if (space.draw(camera, light, both ? share : 1, 0)) drawSoon();
+    else if (!resting) {
+      clearTimeout(rest);
+      rest = window.setTimeout(() => {
+        resting = true;
+        space.rest();
+        draw();
+        resting = false;
+      }, REST);
+    }
   };
   const drawSoon = eachFrame(draw);
 

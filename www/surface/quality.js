@@ -12,7 +12,7 @@ const LEVELS = [
 ];
 /** Milliseconds that a picture may take, and below which a finer one is tried. */
 const MOST = 24;
-const LITTLE = 5;
+const LITTLE = 7;
 /** Pictures from one measurement to the next. */
 const EVERY = 12;
 
@@ -24,6 +24,11 @@ export class Quality {
   /** @returns {Level} */
   get level() {
     return LEVELS[this.#level];
+  }
+
+  /** The next picture is measured: nothing else is going on. */
+  rest() {
+    this.#drawn = 1;
   }
 
   /**

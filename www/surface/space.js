@@ -111,6 +111,11 @@ export class Space {
     this.#sheet = sheet && new Mesh(this.#gl, this.#mesh, sheet);
   }
 
+  /** Nothing moves any more: there may be time for a finer picture. */
+  rest() {
+    this.#quality.rest();
+  }
+
   /**
    * @param {Camera} camera
    * @param {Light} light

@@ -12,13 +12,17 @@ import { Space } from '../surface/space.js';
 /** @import {Layer, Line} from '../surface/layer.js' */
 /** @import {Light} from '../surface/light.js' */
 /** @import {Marks} from '../surface/marks.js' */
-/** @import {Relief} from '../surface/space.js' */
+/** @import {Box} from '../surface/camera.js' */
+/** @import {Relief, Sheet} from '../surface/space.js' */
 /** @import {Shown} from '../views/shown.js' */
 
 /** What is remembered of the arrangement. */
 const MEMORY = 'developable: arrangement';
 /** Milliseconds after which nothing moves. */
 const REST = 250;
+/** Milliseconds from bent to flat, and before it begins. */
+const PLAY = 2200;
+const WAIT = 500;
 /** The share of the heights that lie within the box. */
 const WITHIN = 0.998;
 /** Pixels of the page of a mark on the surface. */
@@ -41,11 +45,15 @@ export function spacePanel(session, light) {
   const exaggeration = element('exaggeration', HTMLInputElement);
   const exaggerated = element('exaggerated', HTMLElement);
   const lights = element('drag-lights', HTMLInputElement);
+  const unfold = element('unfold', HTMLInputElement);
+  const unfoldField = element('unfold-field', HTMLElement);
   const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
   const hints = { flat: element('light-hint', HTMLElement), space: element('space-hint', HTMLElement) };
   const camera = new Camera();
   const space = spaceOn(canvas);
   let share = 0.5;
+  /** Counts what moved the slider, to tell the newest. */
+  let playing = 0;
   /** @type {Partial<Shown>} */
   let shown = {};
   /** @type {readonly Marks[]} */
@@ -53,15 +61,16 @@ export function spacePanel(session, light) {
   const sides = /** @type {const} */ (['before', 'after']);
 
   const wanted = () => arrangement.find(({ checked }) => checked)?.value === 'space';
-  const there = () => space !== null && wanted() && !shown.after;
+  const there = () => space !== null && wanted() && (!shown.after || shown.unfolding !== undefined);
   let rest = 0;
   let resting = false;
   const draw = () => {
     if (!space || panel.hidden || canvas.clientWidth === 0) return;
     const both = space.relief('after') !== null;
-    divider.hidden = !both;
+    const seen = shown.unfolding ? 0 : both ? share : 1;
+    divider.hidden = !both || shown.unfolding !== undefined;
     divider.style.left = `${100 * share}%`;
-    if (space.draw(camera, light, both ? share : 1, 0)) drawSoon();
+    if (space.draw(camera, light, seen, unfold.valueAsNumber)) drawSoon();
     else if (!resting) {
       clearTimeout(rest);
       rest = window.setTimeout(() => {
@@ -130,6 +139,28 @@ export function spacePanel(session, light) {
     drawSoon();
   });
 
+  unfold.addEventListener('input', () => {
+    playing++;
+    drawSoon();
+  });
+  /** From bent to flat by itself, once, unless that is unwelcome or the slider is taken. */
+  const play = () => {
+    const turn = ++playing;
+    const start = performance.now();
+    const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    unfold.value = still ? '1' : '0';
+    /** @param {number} now */
+    const step = (now) => {
+      if (turn !== playing || !shown.unfolding) return;
+      const share = Math.min(1, Math.max(0, (now - start - WAIT) / PLAY));
+      unfold.value = String(share * share * (3 - 2 * share));
+      draw();
+      if (share < 1) requestAnimationFrame(step);
+    };
+    if (still) drawSoon();
+    else requestAnimationFrame(step);
+  };
+
   /** @param {number} to */
   const divide = (to) => {
     share = Math.min(1, Math.max(0, to));
@@ -154,7 +185,7 @@ export function spacePanel(session, light) {
   });
 
   canvas.addEventListener('pointermove', (event) => {
-    if (event.buttons !== 0 || !space || panel.hidden) return;
+    if (event.buttons !== 0 || !space || panel.hidden || shown.unfolding) return;
     const ratio = canvas.width / canvas.clientWidth;
     const [x, y] = [event.offsetX * ratio, event.offsetY * ratio];
     const side = x < share * canvas.width || !space.relief('after') ? 'before' : 'after';
@@ -210,7 +241,15 @@ export function spacePanel(session, light) {
     there,
     /** @param {Partial<Shown>} now */
     show: (now) => {
+      const anew = now.unfolding !== shown.unfolding;
       shown = now;
+      unfoldField.hidden = !now.unfolding;
+      if (anew && space && session.input) {
+        space.lay(now.unfolding ?? null);
+        camera.box = now.unfolding ? boxAround(now.unfolding, boxOf(session.input)) : boxOf(session.input);
+        panel.dataset.unfolding = String(now.unfolding !== undefined);
+        if (now.unfolding) play();
+      }
       arrange();
       cover();
     },
@@ -267,6 +306,24 @@ function boxOf(input) {
   const most = sorted.length - 1;
   const [low, high] = [sorted[Math.ceil((1 - WITHIN) * most)] ?? 0, sorted[Math.floor(WITHIN * most)] ?? 0];
   return { left, top, width: width * pixelSize, height: height * pixelSize, low, high };
+}
+
+/**
+ * Around a mesh on its whole way, too.
+ * @param {Sheet} sheet
+ * @param {Box} box
+ * @returns {Box}
+ */
+function boxAround({ forms }, { left, top, width, height, low, high }) {
+  let [right, bottom] = [left + width, top - height];
+  const flat = forms[forms.length - 1];
+  for (let i = 0; i < flat.length; i += 3) {
+    left = Math.min(left, flat[i]);
+    right = Math.max(right, flat[i]);
+    bottom = Math.min(bottom, flat[i + 1]);
+    top = Math.max(top, flat[i + 1]);
+  }
+  return { left, top, width: right - left, height: top - bottom, low, high };
 }
 
 /**

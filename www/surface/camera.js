@@ -13,6 +13,8 @@
 
 /** @type {{ turn: number, tip: number }} */
 const OBLIQUE = { turn: -0.5, tip: 0.9 };
+/** Of the canvas, where a surface is seen at an angle. */
+const MARGIN = 0.94;
 /** How many times larger, at most. */
 const MOST = 60;
 /** Steps of the search along a line of sight. */
@@ -23,6 +25,8 @@ export class Camera {
   turn = OBLIQUE.turn;
   tip = OBLIQUE.tip;
   zoom = 1;
+  /** The view that all is to have room in; turned from there, it stays as large. */
+  #fitted = OBLIQUE;
   /** Of the middle, in shares of the canvas' shorter side. */
   shift = { x: 0, y: 0 };
   /** Heights count so many times. */
@@ -32,11 +36,17 @@ export class Camera {
   size = { width: 1, height: 1 };
 
   above() {
-    Object.assign(this, { turn: 0, tip: 0, zoom: 1, shift: { x: 0, y: 0 } });
+    this.#look({ turn: 0, tip: 0 });
   }
 
   oblique() {
-    Object.assign(this, { ...OBLIQUE, zoom: 1, shift: { x: 0, y: 0 } });
+    this.#look(OBLIQUE);
+  }
+
+  /** @param {{ turn: number, tip: number }} view */
+  #look(view) {
+    this.#fitted = view;
+    Object.assign(this, { ...view, zoom: 1, shift: { x: 0, y: 0 } });
   }
 
   /** @param {number} across @param {number} up in radians */
@@ -72,15 +82,11 @@ export class Camera {
   /** Pixels of the canvas for a unit of length. */
   get scale() {
     const { width, height, low, high } = this.box;
-    const flat = Math.min(this.size.width / width, this.size.height / height);
-    // Turned, as much room as it may ever need.
-    const [across, deep] = [Math.hypot(width, height), (high - low) * this.exaggeration];
-    const round = 0.96 * Math.min(
-      this.size.width / across,
-      this.size.height / (across * Math.cos(this.tip) + deep * Math.sin(this.tip)),
-    );
-    const far = Math.min(1, Math.hypot(this.tip, Math.sin(this.turn)) / 0.3);
-    return this.zoom * (flat + (Math.min(flat, round) - flat) * far * far * (3 - 2 * far));
+    const { turn, tip } = this.#fitted;
+    const [c, sine] = [Math.abs(Math.cos(turn)), Math.abs(Math.sin(turn))];
+    const deep = (high - low) * this.exaggeration;
+    const up = (width * sine + height * c) * Math.cos(tip) + deep * Math.sin(tip);
+    return this.zoom * (tip > 0 ? MARGIN : 1) * Math.min(this.size.width / (width * c + height * sine), this.size.height / up);
   }
 
   get middle() {

@@ -16,9 +16,21 @@ const open = new Map();
  * @returns {Promise<ReturnType<Tasks[T]>>}
  */
 export function work(task, ...args) {
+  return handOver(task, [], ...args);
+}
+
+/**
+ * The same, but that some arrays are handed over and gone afterwards.
+ * @template {keyof Tasks} T
+ * @param {T} task
+ * @param {readonly { buffer: ArrayBufferLike }[]} arrays
+ * @param {Parameters<Tasks[T]>} args
+ * @returns {Promise<ReturnType<Tasks[T]>>}
+ */
+export function handOver(task, arrays, ...args) {
   worker ??= started();
   const id = ++last;
-  worker.postMessage({ id, task, args });
+  worker.postMessage({ id, task, args }, arrays.map(({ buffer }) => /** @type {ArrayBuffer} */ (buffer)));
   return new Promise((resolve, reject) => open.set(id, { resolve, reject }));
 }
 

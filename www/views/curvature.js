@@ -2,7 +2,8 @@
 import { number, percent } from '../format.js';
 import { logarithmic, magnitude } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
-import { valueAt, valueImage } from '../surface/layer.js';
+import { canvasOf, valueAt } from '../surface/layer.js';
+import { work } from '../surface/work.js';
 import { colourBar, figures } from './legend.js';
 
 /** @import {Analyses, Analysis} from '../analyses.js' */
@@ -54,24 +55,25 @@ export async function kappa2(analyses, result) {
  * @param {number} knee what is practically none: that of a surface which bends once over its own size
  * @param {string} title
  * @param {readonly (readonly [string, string])[]} facts
- * @returns {Shown}
+ * @returns {Promise<Shown>}
  */
-function coloured({ input }, { before, after }, what, inverse, knee, title, facts) {
+async function coloured({ input }, { before, after }, what, inverse, knee, title, facts) {
   const grid = gridOf(input);
-  const scale = logarithmic(knee, magnitude([after, ...(before ? [before] : [])].map((analysis) => analysis[what]), SPAN));
+  const most = magnitude([after, ...(before ? [before] : [])].map((analysis) => analysis[what]), SPAN);
   /** @param {Analysis} analysis */
-  const layer = (analysis) => {
-    const field = { ...analysis, values: analysis[what] };
+  const layer = async ({ rows, cols, spacing, origin, [what]: values }) => {
+    const lattice = { rows, cols, spacing, origin };
+    const field = { ...lattice, values };
     return {
       grid,
-      image: valueImage(field, grid, scale),
+      image: canvasOf(grid, await work('valuePixels', lattice, values, grid, knee, most)),
       read: (/** @type {number} */ x, /** @type {number} */ y) => `${NAMES[what]} ${number(valueAt(field, x, y))} ${inverse}`,
     };
   };
   return {
-    input: before ? layer(before) : undefined,
-    result: layer(after),
-    about: [colourBar(title, scale), figures(facts)],
+    input: before ? await layer(before) : undefined,
+    result: await layer(after),
+    about: [colourBar(title, logarithmic(knee, most)), figures(facts)],
   };
 }
 

@@ -3,7 +3,8 @@ import { make } from '../dom.js';
 import { count, degrees, number, percent } from '../format.js';
 import { bytes, css, patchColour } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
-import { labelImage, valueAt } from '../surface/layer.js';
+import { canvasOf, valueAt } from '../surface/layer.js';
+import { work } from '../surface/work.js';
 import { figures, key, table } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -23,7 +24,7 @@ const MOST = 6;
  */
 export async function patches(analyses, result) {
   const map = await analyses.patches(result);
-  const { creases } = map;
+  const { creases, rows, cols, spacing, origin } = map;
   const { input } = result;
   const unit = input.unit ?? 'units';
   const squared = input.unit ? `${unit}²` : 'square units';
@@ -36,7 +37,7 @@ export async function patches(analyses, result) {
   return {
     result: {
       grid,
-      image: labelImage(map, grid, (label) => colours[label]),
+      image: canvasOf(grid, await work('labelPixels', { rows, cols, spacing, origin }, map.labels, grid, colours)),
       // A sharper fold is a heavier line.
       lines: creases.map(({ points, fold }) => ({ points, colour: CREASE, width: 1 + 2 * Math.min(1, fold) })),
       read: (x, y) => {

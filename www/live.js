@@ -11,10 +11,12 @@ import { coarse } from './surface/coarse.js';
 /** @import {Input, Settings} from './session.js' */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
 /** @typedef {{ input: Input, settings: Settings, image: Image }} Preview */
-/** @typedef {{ pixelSize: number, solver: Promise<OpenSolver> }} Rung */
+/** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} Rung */
 
 /** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
 const SIDES = [96, 192, 384];
+/** A design has nothing to begin with but its pins, and takes longer. */
+const DESIGN = [48];
 /** What a picture needs no better than. */
 const GAP = 0.1;
 
@@ -23,14 +25,12 @@ export class Live {
   #events;
   /** @type {InstanceType<Api['DevelopableWorker']> | null} */
   #worker = null;
-  /** @type {Input | null} */
-  #input = null;
-  /** Those that were needed so far, from coarse to fine. @type {Rung[]} */
-  #rungs = [];
+  /** Those that were needed so far, by the side. @type {Map<number, Rung>} */
+  #rungs = new Map();
   /** @type {{ input: Input, settings: Settings, abort: AbortController } | null} */
   #wish = null;
   #climbing = false;
-  /** The last that was followed to the end. @type {Settings | null} */
+  /** The last that was followed to the end. @type {{ input: Input, settings: Settings } | null} */
   #done = null;
 
   /**
@@ -45,7 +45,7 @@ export class Live {
 
   /** @param {Input} input @param {Settings} settings */
   wish(input, settings) {
-    if (this.#input === input && [this.#wish?.settings, this.#done].includes(settings)) return;
+    if ([this.#wish, this.#done].some((one) => one?.input === input && one.settings === settings)) return;
     this.#wish?.abort.abort();
     this.#wish = { input, settings, abort: new AbortController() };
     if (!this.#climbing) void this.#climb();
@@ -62,7 +62,7 @@ export class Live {
     this.#climbing = true;
     for (let wish = this.#wish; wish; wish = this.#wish) {
       const { input, settings, abort } = wish;
-      const sides = SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
+      const sides = input.design ? DESIGN : SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
       for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
         try {
           const image = await this.#solve(input, settings, sides[i], i === 0 ? undefined : abort.signal);
@@ -74,7 +74,7 @@ export class Live {
       }
       if (this.#wish !== wish) continue;
       this.#wish = null;
-      this.#done = settings;
+      this.#done = wish;
       this.#events.rested(settings);
     }
     this.#climbing = false;
@@ -95,36 +95,41 @@ export class Live {
     return { ...image, pixelSize };
   }
 
-  /** @param {Input} input @param {number} side */
+  /** The rung for an input, which goes on from its last answer where only heights have changed. @param {Input} input @param {number} side */
   #rung(input, side) {
-    if (this.#input !== input || !this.#worker?.connected) {
-      for (const { solver } of this.#rungs) solver.then((open) => open.dispose(), () => {});
-      this.#input = input;
-      this.#rungs = [];
-      if (!this.#worker?.connected) this.#worker = new this.#api.DevelopableWorker();
-    }
-    return (this.#rungs[SIDES.indexOf(side)] ??= this.#opened(input, side, this.#worker));
-  }
-
-  /**
-   * @param {Input} input
-   * @param {number} side
-   * @param {InstanceType<Api['DevelopableWorker']>} worker
-   * @returns {Rung}
-   */
-  #opened({ width, height, data, pixelSize: each, heightScale, design, confidence, constraints }, side, worker) {
-    /** @param {ArrayLike<number>} values */
-    const reduced = (values) => coarse({ width, height, data: values }, side);
-    const heights = reduced(data);
-    const pixelSize = (each * width) / heights.width;
-    const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };
-    const known = {
-      confidence: confidence && reduced(confidence).data,
-      constraints: constraints && reduced(constraints).data,
-    };
-    const solver = worker.open(design ? { ...frame, constraints: heights.data } : { ...frame, data: heights.data, ...known });
+    const worker = this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.DevelopableWorker());
+    const found = this.#rungs.get(side);
+    if (found?.input === input) return found;
+    const { pixelSize, heights } = reducedTo(input, side);
+    const again = found && isAlike(found.input, input) && worker.connected;
+    const solver = again
+      ? found.solver.then((open) => open.replace(heights).then(() => open))
+      : worker.open(heights);
+    if (found && !again) found.solver.then((open) => open.dispose(), () => {});
     // Told where it is waited for.
-    solver.catch(() => {});
-    return { pixelSize, solver };
+    solver.catch(() => this.#rungs.delete(side));
+    const rung = { input, pixelSize, solver };
+    this.#rungs.set(side, rung);
+    return rung;
   }
+}
+
+/** @param {Input} a @param {Input} b */
+function isAlike(a, b) {
+  return ['width', 'height', 'pixelSize', 'heightScale', 'design'].every((name) => a[/** @type {keyof Input} */ (name)] === b[/** @type {keyof Input} */ (name)]);
+}
+
+/**
+ * An input on fewer pixels, as the package takes it.
+ * @param {Input} input
+ * @param {number} side
+ */
+function reducedTo({ width, height, data, pixelSize: each, heightScale, design, confidence, constraints }, side) {
+  /** @param {ArrayLike<number>} values */
+  const reduced = (values) => coarse({ width, height, data: values }, side);
+  const heights = reduced(data);
+  const pixelSize = (each * width) / heights.width;
+  const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };
+  const known = { confidence: confidence && reduced(confidence).data, constraints: constraints && reduced(constraints).data };
+  return { pixelSize, heights: design ? { ...frame, constraints: heights.data } : { ...frame, data: heights.data, ...known } };
 }

@@ -9,8 +9,9 @@
  */
 import { Events } from './events.js';
 import { Live } from './live.js';
-import { lookAt, lookInto } from './surface/known.js';
+import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 
+/** @import {Design} from './design.js' */
 /** @import {Preview} from './live.js' */
 /** @import {Api, DepthOptions, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
@@ -34,6 +35,7 @@ import { lookAt, lookInto } from './surface/known.js';
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`
  * @property {{ name: string, image: ImageData }} [photo] that came with it
+ * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
  */
 
@@ -88,7 +90,7 @@ export class Session extends Events {
   /** @type {Phase} */
   phase = 'starting';
 
-  /** The run under way. @type {{ abort: AbortController, settings: Settings } | null} */
+  /** The run under way. @type {{ abort: AbortController, input: Input, settings: Settings } | null} */
   #job = null;
   /** Whether a setting is still being chosen. */
   #following = false;
@@ -182,7 +184,7 @@ export class Session extends Events {
     if ('occlusionThreshold' in change || 'coarsening' in change) void this.#look();
     if (!this.#tried) return;
     // It may have been run, or be under way, since it was first thought of.
-    if (this.#job && isSame(this.#job.settings, this.settings)) this.#following = false;
+    if (this.#job?.input === this.input && isSame(this.#job.settings, this.settings)) this.#following = false;
     else void this.run();
   }
 
@@ -195,9 +197,33 @@ export class Session extends Events {
     const { input } = this;
     this.settings = { ...this.settings, lambda };
     if (!input || !this.#tried) return;
+    if (this.#job && !isClose(this.#job.settings.lambda, lambda)) this.#drop();
+    this.#awaitRest(input);
+  }
+
+  /**
+   * Heights that are being changed by hand, likewise.
+   * @param {Partial<Pick<Input, 'data' | 'drawn'>>} change
+   */
+  reshape(change) {
+    if (!this.input) return;
+    const input = (this.input = { ...this.input, ...change });
+    lookAtOnce(input);
+    this.emit('input', input);
+    if (!this.#tried) return;
+    this.#drop();
+    this.#awaitRest(input);
+  }
+
+  /** What was being chosen is chosen. */
+  settle() {
+    if (this.#following && !this.#job) void this.run();
+  }
+
+  /** @param {Input} input */
+  #awaitRest(input) {
     this.#following = true;
     if (this.phase !== 'running') this.emit('start', this.settings);
-    if (this.#job && !isClose(this.#job.settings.lambda, lambda)) this.#drop();
     this.#enter('running');
     this.#live.wish(input, this.settings);
   }
@@ -207,7 +233,7 @@ export class Session extends Events {
     const { input, settings } = this;
     if (!input) return;
     const abort = new AbortController();
-    const job = (this.#job = { abort, settings });
+    const job = (this.#job = { abort, input, settings });
     this.#tried = true;
     this.#following = false;
     this.emit('start', settings);
@@ -243,7 +269,7 @@ export class Session extends Events {
         this.#job = null;
         if (!this.#following) this.#enter('idle');
         // What was chosen meanwhile.
-        else this.#live.wish(input, this.settings);
+        else if (this.input) this.#live.wish(this.input, this.settings);
       }
     }
   }

@@ -8,6 +8,8 @@ import { gridOf } from '../surface/lattice.js';
 import { normalsOf } from '../surface/normals.js';
 import { Space } from '../surface/space.js';
 
+/** @import {Pin} from '../design.js' */
+/** @import {Taken} from '../surface/hands.js' */
 /** @import {Input, Session} from '../session.js' */
 /** @import {Layer, Line} from '../surface/layer.js' */
 /** @import {Light} from '../surface/light.js' */
@@ -52,6 +54,10 @@ export function spacePanel(session, light) {
   const camera = new Camera();
   const space = spaceOn(canvas);
   let share = 0.5;
+  /** Who takes drags over the surface, and who follows what is drawn. @type {Taken | null} */
+  let taken = null;
+  /** @type {(() => void)[]} */
+  const followers = [];
   /** Counts what moved the slider, to tell the newest. */
   let playing = 0;
   /** @type {Partial<Shown>} */
@@ -67,10 +73,14 @@ export function spacePanel(session, light) {
   const draw = () => {
     if (!space || panel.hidden || canvas.clientWidth === 0) return;
     const both = space.relief('after') !== null;
-    const seen = shown.unfolding ? 0 : both ? share : 1;
-    divider.hidden = !both || shown.unfolding !== undefined;
+    // Of a design there is nothing to be seen before.
+    const alone = shown.unfolding !== undefined || session.input?.design === true;
+    const seen = both && alone ? 0 : both ? share : 1;
+    divider.hidden = !both || alone;
     divider.style.left = `${100 * share}%`;
-    if (space.draw(camera, light, seen, unfold.valueAsNumber)) drawSoon();
+    const again = space.draw(camera, light, seen, unfold.valueAsNumber);
+    for (const follow of followers) follow();
+    if (again) drawSoon();
     else if (!resting) {
       clearTimeout(rest);
       rest = window.setTimeout(() => {
@@ -101,7 +111,11 @@ export function spacePanel(session, light) {
       tilt: (x, y) => light.moveTo(light.x + 0.08 * x, light.y + 0.08 * y),
       unlit: () => light.reset(),
       lights: () => lights.checked,
-      other: { begin: () => false, move: () => {}, end: () => {} },
+      other: {
+        begin: (x, y) => taken?.begin(x, y) ?? false,
+        move: (x, y) => taken?.move(x, y),
+        end: () => taken?.end(),
+      },
     });
     try {
       const remembered = localStorage.getItem(MEMORY);
@@ -204,7 +218,8 @@ export function spacePanel(session, light) {
     const layers = { before: shown.input, after: shown.result };
     for (const side of sides) {
       const layer = layers[side];
-      const points = side === 'before' && session.input ? pointsOf(marks, session.input) : [];
+      const here = side === 'before' || session.input?.design;
+      const points = here && session.input ? pointsOf(marks, session.input) : [];
       space.cover(side, layer?.image ?? null, [...(layer?.lines ?? []), ...points]);
     }
     drawSoon();
@@ -212,9 +227,10 @@ export function spacePanel(session, light) {
 
   session.on('input', (input) => {
     if (!space) return;
-    camera.box = boxOf(input);
+    // A design that is being changed by hand is looked at from where it was.
+    if (!input.drawn || session.phase !== 'running') camera.box = boxOf(input);
     space.show('before', reliefOf(input, inputNormals(input), input.data, input.heightScale));
-    left.textContent = 'Input';
+    left.textContent = input.design ? '' : 'Input';
     cover();
   });
   session.on('cleared', () => {
@@ -226,6 +242,7 @@ export function spacePanel(session, light) {
     if (!space || !there()) return;
     space.show('after', reliefOf(input, normalsOf(data, width, height, 1 / pixelSize), data, 1));
     right.textContent = 'Result · preview';
+    if (input.design) cover();
     drawSoon();
   });
   session.on('result', (result) => {
@@ -239,6 +256,55 @@ export function spacePanel(session, light) {
   return {
     /** Whether surfaces are seen here. */
     there,
+    /** Drags over the surface are somebody's, if he wants them. @param {Taken} by */
+    takes: (by) => (taken = by),
+    /** @param {() => void} follow */
+    onDraw: (follow) => followers.push(follow),
+    tip: () => camera.tip,
+    /** The place of the surface at one of the canvas. @param {number} x @param {number} y @returns {Pin | null} */
+    placeAt: (x, y) => {
+      const { input } = session;
+      const relief = space?.relief('after');
+      if (!input) return null;
+      const point = camera.hit(x, y, (px, py) => (relief ? heightOn(relief, px, py) : 0));
+      if (!point) return null;
+      const { left: start, top, pixelSize, width, height } = gridOf(input);
+      return {
+        x: clamp(((point[0] - start) / pixelSize - 0.5) / (width - 1)),
+        y: clamp(1 - ((top - point[1]) / pixelSize - 0.5) / (height - 1)),
+        z: point[2] / (width * pixelSize),
+      };
+    },
+    /** How high the surface is, in sides. @param {number} x @param {number} y */
+    heightAt: (x, y) => {
+      const relief = space?.relief('after');
+      const [px, py] = session.input ? lengthsOf(session.input, { x, y, z: 0 }) : [0, 0];
+      const z = relief ? heightOn(relief, px, py) : 0;
+      return Number.isNaN(z) ? 0 : z / (relief?.extent.width ?? 1);
+    },
+    /** Where a place is seen, in pixels of the page from the canvas' corner. @param {Pin} pin @returns {[number, number]} */
+    seenAt: (pin) => {
+      if (!session.input) return [0, 0];
+      const [x, y] = camera.seen(lengthsOf(session.input, pin));
+      const ratio = canvas.clientWidth / canvas.width;
+      return [x * ratio, y * ratio];
+    },
+    /**
+     * A place moved by so many pixels of the page: upwards, or along the ground.
+     * @param {Pin} pin
+     * @param {number} across
+     * @param {number} up
+     * @param {boolean} aground
+     * @returns {Pin}
+     */
+    dragged: (pin, across, up, aground) => {
+      const dots = (camera.scale * canvas.clientWidth) / canvas.width * (space?.relief('after')?.extent.width ?? 1);
+      const [a, b] = [across / dots, up / dots];
+      if (!aground) return { ...pin, z: pin.z + b / (Math.sin(camera.tip) * camera.exaggeration) };
+      const [c, s] = [Math.cos(camera.turn), Math.sin(camera.turn)];
+      const deep = b / Math.max(0.2, Math.cos(camera.tip));
+      return { x: clamp(pin.x + c * a - s * deep), y: clamp(pin.y + s * a + c * deep), z: pin.z };
+    },
     /** @param {Partial<Shown>} now */
     show: (now) => {
       const anew = now.unfolding !== shown.unfolding;
@@ -259,6 +325,21 @@ export function spacePanel(session, light) {
       cover();
     },
   };
+}
+
+/** @param {Input} input @param {Pin} pin @returns {[number, number, number]} */
+function lengthsOf(input, { x, y, z }) {
+  const { left, top, pixelSize, width, height } = gridOf(input);
+  return [
+    left + (0.5 + x * (width - 1)) * pixelSize,
+    top - (0.5 + (1 - y) * (height - 1)) * pixelSize,
+    z * width * pixelSize,
+  ];
+}
+
+/** @param {number} value */
+function clamp(value) {
+  return Math.min(1, Math.max(0, value));
 }
 
 /** Nothing where there is no WebGL 2. @param {HTMLCanvasElement} canvas */

@@ -90,6 +90,7 @@ export function viewsPanel(session) {
   });
 
   return {
+    space,
     /**
      * Draws over the surfaces, or puts pictures in their places.
      * @param {Partial<Shown>} shown

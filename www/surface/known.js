@@ -1,5 +1,6 @@
 /** What several panels ask about an input or a result: worked out before they are told of it, once for each. */
 import { gridOf } from './lattice.js';
+import { normalsOf } from './normals.js';
 import { work } from './work.js';
 
 /** @import {Input, Result} from '../session.js' */
@@ -21,6 +22,12 @@ const normalsLike = ({ width, height, heightScale, pixelSize }, heights) =>
 /** @param {Input} input */
 export async function lookAt(input) {
   if (!seen.has(input)) seen.set(input, await normalsLike(input, input.data));
+}
+
+/** For inputs that are small. @param {Input} input */
+export function lookAtOnce(input) {
+  const { data, width, height, heightScale, pixelSize } = input;
+  seen.set(input, normalsOf(data, width, height, heightScale / pixelSize));
 }
 
 /** @param {Result} result */

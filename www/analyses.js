@@ -5,6 +5,11 @@
  * no longer wanted is stopped with the worker.
  */
 
+import { coarse } from './surface/coarse.js';
+import { resultImage } from './surface/known.js';
+import { gridOf } from './surface/lattice.js';
+import { handOver, work } from './surface/work.js';
+
 /** @import {Api} from './api.js' */
 /** @import {Input, Result} from './session.js' */
 
@@ -18,12 +23,19 @@
  * @property {[number, number][]} [crop]
  */
 
+/** Vertices along the longer side of what is unfolded. */
+const UNFOLDED = 90;
+
+/** Milliseconds without a question after which the worker goes. */
+const REST = 2000;
+
 export class Analyses {
   #api;
   /** @type {Worker | null} */
   #worker = null;
   /** Questions without an answer yet. */
   #open = 0;
+  #resting = 0;
   /** @type {WeakMap<object, Map<string, Promise<any>>>} */
   #known = new WeakMap();
 
@@ -37,12 +49,13 @@ export class Analyses {
    * @param {(worker: Worker) => Promise<T>} question
    */
   async #ask(question) {
+    clearTimeout(this.#resting);
     const worker = (this.#worker ??= new this.#api.DevelopableWorker());
     this.#open++;
     try {
       return await question(worker);
     } finally {
-      if (worker === this.#worker) this.#open--;
+      if (worker === this.#worker && --this.#open === 0) this.#rest();
     }
   }
 
@@ -63,6 +76,14 @@ export class Analyses {
     // What failed may be asked again.
     answer.catch(() => answers.delete(name));
     return answer;
+  }
+
+  /** Gives its memory back when nobody has asked for a while. */
+  #rest() {
+    this.#resting = window.setTimeout(() => {
+      this.#worker?.dispose();
+      this.#worker = null;
+    }, REST);
   }
 
   /** Stops what is still being worked out; those who wait for it are told so. */
@@ -98,17 +119,45 @@ export class Analyses {
     return this.#once(surface, 'rulings', (worker) => worker.rulings(surface));
   }
 
-  /** @param {Result} result */
+  /**
+   * A picture of the sheet, and its figures; what they are made of is too much to be kept.
+   * @param {Result} result
+   */
   unroll({ surface }) {
-    return this.#once(surface, 'sheet', (worker) => worker.unroll(surface));
+    return this.#once(surface, 'sheet', async (worker) => {
+      const { triangles, places, stretches, report, verdict } = await worker.unroll(surface);
+      const picture = await handOver('sheetPixels', [triangles, places, stretches], triangles, places, stretches);
+      return { picture, report, verdict };
+    });
   }
 
   /**
-   * The true surface of an example, laid flat.
+   * The surface on its way to the sheet, on a coarser lattice.
+   * @param {Result} result
+   * @param {number} most strain at the end of the colours
+   */
+  unfold(result, most) {
+    return this.#once(result.surface, 'unfolding', async (worker) => {
+      const { width, pixelSize, ...image } = resultImage(result);
+      const small = coarse({ width, ...image }, UNFOLDED);
+      const size = (pixelSize * width) / small.width;
+      const sheet = await worker.unroll({ ...small, pixelSize: size });
+      const { left, top } = gridOf(result.input);
+      return work('unfolding', sheet, most, [left, top - small.height * size]);
+    });
+  }
+
+  /**
+   * An example's true surface with something printed on it, seen from above.
    * @param {Input & { truth: Float64Array }} input
    */
-  sheetOfTruth(input) {
-    return this.#once(input.truth, 'sheet', (worker) => worker.unroll({ ...heightsAlone(input), data: input.truth }));
+  printOf(input) {
+    return this.#once(input.truth, 'print', async (worker) => {
+      const { width, height, pixelSize, heightScale, truth } = input;
+      const { triangles, positions, places } = await worker.unroll({ ...heightsAlone(input), data: truth });
+      const known = { width, height, pixelSize, heightScale, truth };
+      return handOver('photographed', [triangles, positions, places], known, { triangles, positions, places });
+    });
   }
 
   /**

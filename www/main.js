@@ -4,6 +4,7 @@ import { element } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
 import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
+import { designPanel } from './panels/design.js';
 import { watchDrops } from './panels/drop.js';
 import { headline } from './panels/headline.js';
 import { modePanel } from './panels/mode.js';
@@ -21,7 +22,8 @@ import { complaint } from './words.js';
 async function start() {
   const session = new Session(await connect());
   headline(session);
-  const { show } = viewsPanel(session);
+  const { show, space } = viewsPanel(session);
+  designPanel(session, space);
   settingsPanel(session);
   besidePanel(session);
   runPanel(session);

@@ -15,9 +15,8 @@ const TEXT = 'What bends like paper can be laid flat again without a stretch or 
 export function printed(wide, high) {
   const scale = (PRINT - 1) / Math.max(wide, high);
   const [width, height] = [Math.ceil(wide * scale) + 1, Math.ceil(high * scale) + 1];
-  const canvas = document.createElement('canvas');
-  Object.assign(canvas, { width, height });
-  const context = canvas.getContext('2d', { willReadFrequently: true });
+  // In a worker, too.
+  const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
   if (!context) return new ImageData(width, height);
   context.fillStyle = '#fbfaf5';
   context.fillRect(0, 0, width, height);

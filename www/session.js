@@ -4,10 +4,15 @@
  *
  * Two rules keep it simple. The newest wish wins: a second run, or another input,
  * ends the one before. And once an input has been run, every change of a setting
- * runs it again, so that what is seen is what is set.
+ * runs it again, so that what is seen is what is set. Until the answer is there, and while a setting is
+ * still being chosen, previews show what it is about (`live.js`).
  */
 import { Events } from './events.js';
+import { Live } from './live.js';
+import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 
+/** @import {Design} from './design.js' */
+/** @import {Preview} from './live.js' */
 /** @import {Api, DepthOptions, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
@@ -30,6 +35,7 @@ import { Events } from './events.js';
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`
  * @property {{ name: string, image: ImageData }} [photo] that came with it
+ * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
  */
 
@@ -59,6 +65,7 @@ import { Events } from './events.js';
  * @property {Input} input another input, or the same understood otherwise
  * @property {Settings} start a run has begun
  * @property {Progress} progress
+ * @property {Preview} preview of the result to come, on a coarser lattice
  * @property {Result} result
  * @property {null} cleared the last result is gone, for another input is there
  * @property {Occlusions | null} occlusions where the present input is torn, if that was asked for
@@ -66,6 +73,11 @@ import { Events } from './events.js';
  * @property {null} unsolved a run has ended with nothing
  * @property {{ doing: string, error: unknown }} failure
  */
+
+/** Between two λ whose answers are hardly told apart. */
+const CLOSE = 1.3;
+/** Fewer pixels than this are solved in a moment. */
+const MANY = 150 ** 2;
 
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
@@ -78,8 +90,11 @@ export class Session extends Events {
   /** @type {Phase} */
   phase = 'starting';
 
-  /** @type {AbortController | null} */
+  /** The run under way. @type {{ abort: AbortController, input: Input, settings: Settings } | null} */
   #job = null;
+  /** Whether a setting is still being chosen. */
+  #following = false;
+  #live;
   /** The solver in the worker, which remembers its last answer. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
   #kept = null;
   /** Counts what was opened, to tell the newest. */
@@ -93,6 +108,14 @@ export class Session extends Events {
   constructor(api) {
     super();
     this.api = api;
+    this.#live = new Live(api, {
+      shown: (preview) => {
+        if (this.phase === 'running') this.emit('preview', preview);
+      },
+      rested: () => {
+        if (this.#following && !this.#job) void this.run();
+      },
+    });
   }
 
   /** @param {Phase} phase */
@@ -121,6 +144,7 @@ export class Session extends Events {
     const turn = ++this.#opened;
     try {
       const input = await load();
+      await lookAt(input);
       if (turn !== this.#opened) return false;
       this.#stop();
       this.#forget();
@@ -143,10 +167,13 @@ export class Session extends Events {
    * The same input, understood otherwise.
    * @param {Partial<Pick<Input, 'data' | 'pixelSize' | 'heightScale' | 'design' | 'confidence' | 'constraints'>>} change
    */
-  amend(change) {
+  async amend(change) {
     if (!this.input) return;
-    this.input = { ...this.input, ...change };
-    this.emit('input', this.input);
+    const input = (this.input = { ...this.input, ...change });
+    await lookAt(input);
+    // Another one may have been opened, or this one amended again.
+    if (this.input !== input) return;
+    this.emit('input', input);
     void this.#look();
     if (this.#tried) void this.run();
   }
@@ -155,17 +182,63 @@ export class Session extends Events {
   set(change) {
     this.settings = { ...this.settings, ...change };
     if ('occlusionThreshold' in change || 'coarsening' in change) void this.#look();
-    if (this.#tried) void this.run();
+    if (!this.#tried) return;
+    // It may have been run, or be under way, since it was first thought of.
+    if (this.#job?.input === this.input && isSame(this.#job.settings, this.settings)) this.#following = false;
+    else void this.run();
+  }
+
+  /**
+   * What is being chosen, and may be another in a moment: a preview follows, and the run when the choice
+   * rests. One that is under way is let finish where its λ is close.
+   * @param {{ lambda: number }} change
+   */
+  follow({ lambda }) {
+    const { input } = this;
+    this.settings = { ...this.settings, lambda };
+    if (!input || !this.#tried) return;
+    if (this.#job && !isClose(this.#job.settings.lambda, lambda)) this.#drop();
+    this.#awaitRest(input);
+  }
+
+  /**
+   * Heights that are being changed by hand, likewise.
+   * @param {Partial<Pick<Input, 'data' | 'drawn'>>} change
+   */
+  reshape(change) {
+    if (!this.input) return;
+    const input = (this.input = { ...this.input, ...change });
+    lookAtOnce(input);
+    this.emit('input', input);
+    if (!this.#tried) return;
+    this.#drop();
+    this.#awaitRest(input);
+  }
+
+  /** What was being chosen is chosen. */
+  settle() {
+    if (this.#following && !this.#job) void this.run();
+  }
+
+  /** @param {Input} input */
+  #awaitRest(input) {
+    this.#following = true;
+    if (this.phase !== 'running') this.emit('start', this.settings);
+    this.#enter('running');
+    this.#live.wish(input, this.settings);
   }
 
   /** Solves the present input, from the last answer if there is one; ends a run that is under way. */
   async run() {
     const { input, settings } = this;
     if (!input) return;
-    const job = (this.#job = new AbortController());
+    const abort = new AbortController();
+    const job = (this.#job = { abort, input, settings });
     this.#tried = true;
+    this.#following = false;
     this.emit('start', settings);
     this.#enter('running');
+    if (input.width * input.height > MANY && settings.lambda !== 'auto') this.#live.wish(input, settings);
     const { coarsening, ...options } = settings;
     try {
       const solver = await this.#solverOf(input);
@@ -173,24 +246,30 @@ export class Session extends Events {
       const surface = await solver.fit({
         ...options,
         ...spacingOf(input, coarsening),
-        signal: job.signal,
+        signal: abort.signal,
         onAbort: 'keep',
         onProgress: (progress) => {
-          if (this.#job === job && !job.signal.aborted) this.emit('progress', progress);
+          if (this.#job === job && !abort.signal.aborted) this.emit('progress', progress);
         },
       });
+      const result = { input, settings, surface };
+      await lookInto(result);
       if (this.#job !== job) return;
-      this.result = { input, settings, surface };
+      if (!this.#following) this.#live.stop();
+      this.result = result;
       this.emit('result', this.result);
     } catch (error) {
       if (this.#job !== job) return;
+      this.#stop();
       this.#forget();
       this.emit('unsolved', null);
       this.fail('This could not be solved', error);
     } finally {
       if (this.#job === job) {
         this.#job = null;
-        this.#enter('idle');
+        if (!this.#following) this.#enter('idle');
+        // What was chosen meanwhile.
+        else if (this.input) this.#live.wish(this.input, this.settings);
       }
     }
   }
@@ -239,16 +318,39 @@ export class Session extends Events {
 
   /** Ends the run; its best surface so far becomes the result. */
   cancel() {
-    this.#job?.abort();
+    this.#following = false;
+    this.#live.stop();
+    if (this.#job) this.#job.abort.abort();
+    else this.#stop();
   }
 
   /** Ends the run and forgets it. */
-  #stop() {
+  #drop() {
     const job = this.#job;
     this.#job = null;
-    job?.abort();
+    job?.abort.abort();
+  }
+
+  /** The same, and nothing else is to come. */
+  #stop() {
+    this.#drop();
+    this.#following = false;
+    this.#live.stop();
     if (this.phase === 'running') this.#enter('idle');
   }
+}
+
+/** @param {Settings} a @param {Settings} b */
+function isSame(a, b) {
+  return Object.entries({ ...a, ...b }).every(([name, value]) => a[/** @type {keyof Settings} */ (name)] === value);
+}
+
+/**
+ * @param {number | 'auto'} a
+ * @param {number} b
+ */
+function isClose(a, b) {
+  return a !== 'auto' && Math.abs(Math.log(a / b)) <= Math.log(CLOSE);
 }
 
 /**

@@ -57,3 +57,16 @@ for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
     assert.deepEqual(await violations(page, { rules }), []);
   }, { colorScheme });
 }
+
+pageTest('axe finds nothing wrong with surfaces in space, on a phone, or at twice the size', async (page) => {
+  for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
+    await page.emulateMedia({ colorScheme });
+    for (const width of [1280, 390, 640]) {
+      await page.setViewportSize({ width, height: 800 });
+      await painted(page);
+      assert.deepEqual(await violations(page, width === 1280 ? {} : { rules: ['color-contrast', 'target-size', 'scrollable-region-focusable'] }), [], `${colorScheme}, ${width}`);
+      const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+      assert.ok(excess <= 0, `${excess} pixels at ${width}`);
+    }
+  }
+}, { arrangement: 'space' });

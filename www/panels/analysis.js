@@ -7,6 +7,7 @@ import { patches } from '../views/patches.js';
 import { rulings } from '../views/rulings.js';
 import { sheet } from '../views/sheet.js';
 import { photoPanel } from './photo.js';
+import { waitingPanel } from './waiting.js';
 
 /** @import {Result, Session} from '../session.js' */
 /** @import {Shown} from '../views/shown.js' */
@@ -54,18 +55,24 @@ export function analysisPanel(session, show) {
       put({});
     }
     panel.hidden = name === 'shaded';
+    waiting.end();
     if (name === 'shaded') return;
     if (!result) {
       about.textContent = 'Appears when a run has ended.';
       return;
     }
     panel.setAttribute('aria-busy', 'true');
-    if (!anew) about.textContent = 'Working it out…';
+    if (!anew) about.replaceChildren();
+    const vertices = result.surface.heights.length;
+    waiting.begin(name, vertices);
     try {
       const shown = await (name === 'dewarped' ? flat(result) : VIEWS[name](analyses, result));
-      if (turn === asked) put(shown);
+      if (turn !== asked) return;
+      waiting.end(name, vertices);
+      put(shown);
     } catch (error) {
       if (turn !== asked) return;
+      waiting.end();
       // The photo stays, with what may be wrong on it.
       const wish = name === 'dewarped' ? await photo.wish(result).catch(() => null) : null;
       put(wish ? { before: photoPicture(wish.photo) } : {});
@@ -83,6 +90,16 @@ export function analysisPanel(session, show) {
     return shown;
   };
 
+  const waiting = waitingPanel(() => {
+    asked++;
+    analyses.stop();
+    waiting.end();
+    const again = make('button', '', 'Work it out');
+    again.type = 'button';
+    again.addEventListener('click', () => void update());
+    put({ about: [make('p', 'muted', 'Cancelled.'), again] });
+    again.focus();
+  });
   const photo = photoPanel(session, analyses, () => void update());
   /** What has begun for another result is of no use. */
   const renew = () => {

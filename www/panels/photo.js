@@ -3,7 +3,6 @@ import { choosesFile, download, element } from '../dom.js';
 import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
 import { see } from '../seen.js';
-import { photographed } from '../views/print.js';
 import { cropPanel } from './crop.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -119,7 +118,7 @@ export function photoPanel(session, analyses, changed) {
       }
       if (!photo && input.truth) {
         const known = { ...input, truth: input.truth };
-        const printed = photographed(known, await analyses.sheetOfTruth(known));
+        const printed = await analyses.printOf(known);
         if (session.input === input && !photo) {
           photo = printed;
           name.textContent = 'a page printed on the true surface';

@@ -30,9 +30,7 @@ export function runPanel(session) {
     session.cancel();
   });
 
-  session.on('phase', (phase) => {
-    if (phase !== 'running') cancel.setAttribute('aria-disabled', 'true');
-  });
+  session.on('phase', (phase) => cancel.setAttribute('aria-disabled', String(phase !== 'running')));
   session.on('start', () => {
     cancel.setAttribute('aria-disabled', 'false');
     first = NaN;

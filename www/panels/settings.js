@@ -6,9 +6,6 @@ import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint } from '../wor
 /** @import {Energy} from '../api.js' */
 /** @import {Session} from '../session.js' */
 
-/** Milliseconds that the slider has to rest before what it says is tried. */
-const REST = 80;
-
 /** @param {Session} session */
 export function settingsPanel(session) {
   const slider = element('lambda', HTMLInputElement);
@@ -46,16 +43,20 @@ export function settingsPanel(session) {
   // To the digits that are shown.
   const fromSlider = () => Number(shortest(10 ** slider.valueAsNumber));
 
-  // While it is dragged, too: the solver starts from its last answer, and the newest wish wins.
-  let rest = 0;
+  // While the pointer or a key is held, what it says may be another in a moment.
+  let held = false;
+  slider.addEventListener('keydown', ({ repeat }) => (held = repeat));
+  slider.addEventListener('keyup', () => {
+    if (held) session.set({ lambda: fromSlider() });
+    held = false;
+  });
   slider.addEventListener('input', () => {
     display(fromSlider());
-    clearTimeout(rest);
-    rest = window.setTimeout(() => choose(fromSlider()), REST);
+    auto.setAttribute('aria-pressed', 'false');
+    session.follow({ lambda: fromSlider() });
   });
   slider.addEventListener('change', () => {
-    clearTimeout(rest);
-    choose(fromSlider());
+    if (!held) session.set({ lambda: fromSlider() });
   });
   for (const preset of presets) {
     preset.addEventListener('click', () => choose(10 ** Number(preset.dataset.exponent)));
@@ -99,7 +100,6 @@ export function settingsPanel(session) {
   });
   energyHint.textContent = ENERGIES[chosen()];
   auto.addEventListener('click', () => {
-    clearTimeout(rest);
     auto.setAttribute('aria-pressed', 'true');
     for (const preset of presets) preset.setAttribute('aria-pressed', 'false');
     energy.value = 'huber';

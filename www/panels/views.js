@@ -3,10 +3,12 @@ import { element } from '../dom.js';
 import { number, shortest } from '../format.js';
 import { gridOf, nearest } from '../surface/lattice.js';
 import { inputNormals, resultNormals } from '../surface/known.js';
+import { normalsOf } from '../surface/normals.js';
 import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
 import { MARKS } from '../words.js';
+import { spacePanel } from './space.js';
 
 /** @import {Occlusions} from '../api.js' */
 /** @import {Input, Session} from '../session.js' */
@@ -20,6 +22,7 @@ export function viewsPanel(session) {
   const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light);
   const photo = new PictureView(element('input-picture', HTMLCanvasElement));
   const flat = new PictureView(element('result-picture', HTMLCanvasElement));
+  const space = spacePanel(session, light);
   const views = element('views', HTMLElement);
   const figure = element('result-view', HTMLElement);
   const inputCaption = element('input-caption', HTMLElement);
@@ -34,6 +37,7 @@ export function viewsPanel(session) {
     const { input } = session;
     const marks = input ? marksOf(input, torn, getComputedStyle(views)) : [];
     before.mark(marks);
+    space.mark(marks);
     legend.replaceChildren(...marks.map(({ colour, words }) => {
       const item = document.createElement('span');
       item.className = 'key';
@@ -61,7 +65,18 @@ export function viewsPanel(session) {
     stamp.hidden = true;
     empty.hidden = false;
   });
+  session.on('preview', ({ input, settings, image: { width, height, pixelSize, data } }) => {
+    after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
+    // Its colours and lines are those of the result before.
+    after.cover(null);
+    caption.textContent = input.design ? '' : `λ = ${shortest(Number(settings.lambda))}`;
+    figure.dataset.preview = '';
+    stamp.textContent = 'preview';
+    stamp.hidden = false;
+    empty.hidden = true;
+  });
   session.on('result', (result) => {
+    delete figure.dataset.preview;
     after.show(resultNormals(result));
     // λ has no say in a design.
     caption.textContent = result.input.design ? '' : `λ = ${shortest(result.surface.report.lambda)}`;
@@ -75,18 +90,20 @@ export function viewsPanel(session) {
   });
 
   return {
+    space,
     /**
      * Draws over the surfaces, or puts pictures in their places.
      * @param {Partial<Shown>} shown
      */
-    show: ({ input, result, before: left, after: right }) => {
+    show: (shown) => {
+      const { input, result, before: left, after: right } = shown;
+      space.show(shown);
       before.cover(input ?? null);
       after.cover(result ?? null);
       photo.show(left ?? null);
       flat.show(right ?? null);
       element('input-title', HTMLElement).textContent = left?.title ?? 'Input';
       element('result-title', HTMLElement).textContent = right?.title ?? 'Result';
-      element('light-hint', HTMLElement).hidden = left !== undefined && right !== undefined;
       before.setAside(left !== undefined);
       after.setAside(right !== undefined);
     },

@@ -1,65 +1,111 @@
-/** What several panels ask about an input or a result, worked out once for each. */
-import { meanAngle, rmsError } from './compare.js';
-import { gridOf, interpolated } from './lattice.js';
+/** What several panels ask about an input or a result: worked out before they are told of it, once for each. */
+import { gridOf } from './lattice.js';
 import { normalsOf } from './normals.js';
+import { work } from './work.js';
 
 /** @import {Input, Result} from '../session.js' */
+/** @import {Normals} from './normals.js' */
+/** @typedef {{ heights: { before: number, after: number }, normals: { before: number, after: number } }} Accuracy */
+/** @typedef {{ width: number, height: number, pixelSize: number, data: Float64Array }} Image */
 
-/**
- * @template {object} K
- * @template V
- * @param {(key: K) => V} make
- * @returns {(key: K) => V}
- */
-function once(make) {
-  /** @type {WeakMap<K, { value: V }>} */
-  const known = new WeakMap();
-  return (key) => {
-    const found = known.get(key) ?? { value: make(key) };
-    known.set(key, found);
-    return found.value;
-  };
+/** @type {WeakMap<Input, Normals>} */
+const seen = new WeakMap();
+/** @type {WeakMap<Float64Array, Promise<{ normals: Normals, heightError: number, normalError: number }>>} */
+const truths = new WeakMap();
+/** @type {WeakMap<Result, { image: Image, normals: Normals, accuracy: Accuracy | null }>} */
+const results = new WeakMap();
+
+/** @param {Input} input @param {ArrayLike<number>} heights */
+const normalsLike = ({ width, height, heightScale, pixelSize }, heights) =>
+  work('normalsOf', heights, width, height, heightScale / pixelSize);
+
+/** @param {Input} input */
+export async function lookAt(input) {
+  if (!seen.has(input)) seen.set(input, await normalsLike(input, input.data));
 }
 
-export const inputNormals = once((/** @type {Input} */ input) =>
-  normalsOf(input.data, input.width, input.height, input.heightScale / input.pixelSize));
+/** For inputs that are small. @param {Input} input */
+export function lookAtOnce(input) {
+  const { data, width, height, heightScale, pixelSize } = input;
+  seen.set(input, normalsOf(data, width, height, heightScale / pixelSize));
+}
 
-/** The result at the input's pixels, or at those that show the input's lattice. */
-export const resultImage = once((/** @type {Result} */ { input, surface }) => {
-  if (surface.image) return surface.image;
+/** @param {Result} result */
+export async function lookInto(result) {
+  const { input, surface } = result;
+  const image = surface.image ?? await pixelsOf(result);
+  const { width, height, pixelSize, data } = image;
+  const normals = await work('normalsOf', data, width, height, 1 / pixelSize);
+  results.set(result, { image, normals, accuracy: await accuracy(input, data, normals) });
+}
+
+/** At the pixels that show the input's lattice. @param {Result} result @returns {Promise<Image>} */
+async function pixelsOf({ input, surface: { rows, cols, spacing, origin, heights } }) {
   const grid = gridOf(input);
-  const { width, height, pixelSize } = grid;
-  return { width, height, pixelSize, data: interpolated(surface, surface.heights, grid) };
-});
+  const data = await work('interpolated', { rows, cols, spacing, origin }, heights, grid);
+  return { width: grid.width, height: grid.height, pixelSize: grid.pixelSize, data };
+}
 
-export const resultNormals = once((/** @type {Result} */ result) => {
-  const { data, width, height, pixelSize } = resultImage(result);
-  return normalsOf(data, width, height, 1 / pixelSize);
-});
-
-/** The truth and the input's errors against it, where it is known. */
-const truthOf = once((/** @type {Input} */ input) => {
-  const { truth, data, width, height, pixelSize, heightScale } = input;
+/**
+ * @param {Input} input
+ * @param {Float64Array} heights
+ * @param {Normals} normals
+ * @returns {Promise<Accuracy | null>}
+ */
+async function accuracy(input, heights, normals) {
+  const { truth, heightScale, data } = input;
   if (!truth) return null;
-  const normals = normalsOf(truth, width, height, heightScale / pixelSize);
-  return {
-    heights: truth,
-    normals,
-    heightError: rmsError(data, heightScale, truth, heightScale),
-    normalError: meanAngle(inputNormals(input), normals),
-  };
-});
+  const known = truths.get(truth) ?? aboutTruth(input, truth, data);
+  truths.set(truth, known);
+  const { normals: right, heightError, normalError } = await known;
+  const [after, angle] = await Promise.all([
+    work('rmsError', heights, 1, truth, heightScale),
+    work('meanAngle', normals, right),
+  ]);
+  return { heights: { before: heightError, after }, normals: { before: normalError, after: angle } };
+}
+
+/** @param {Input} input @param {Float64Array} truth @param {Float64Array} data */
+async function aboutTruth(input, truth, data) {
+  const [normals, heightError] = await Promise.all([
+    normalsLike(input, truth),
+    work('rmsError', data, input.heightScale, truth, input.heightScale),
+  ]);
+  return { normals, heightError, normalError: await work('meanAngle', inputNormals(input), normals) };
+}
+
+/** @param {Input} input */
+export function inputNormals(input) {
+  return of(seen, input);
+}
+
+/** The result at the input's pixels, or at those that show the input's lattice. @param {Result} result */
+export function resultImage(result) {
+  return of(results, result).image;
+}
+
+/** @param {Result} result */
+export function resultNormals(result) {
+  return of(results, result).normals;
+}
 
 /**
  * Errors against the truth before and after: of the heights, root mean square;
  * of the normals, mean angle in degrees. Null where the truth is not known.
+ * @param {Result} result
  */
-export const accuracyOf = once((/** @type {Result} */ result) => {
-  const { input } = result;
-  const truth = truthOf(input);
-  if (!truth) return null;
-  return {
-    heights: { before: truth.heightError, after: rmsError(resultImage(result).data, 1, truth.heights, input.heightScale) },
-    normals: { before: truth.normalError, after: meanAngle(resultNormals(result), truth.normals) },
-  };
-});
+export function accuracyOf(result) {
+  return of(results, result).accuracy;
+}
+
+/**
+ * @template {object} K
+ * @template V
+ * @param {WeakMap<K, V>} known
+ * @param {K} key
+ */
+function of(known, key) {
+  const found = known.get(key);
+  if (!found) throw new Error('it has not been looked at yet');
+  return found;
+}

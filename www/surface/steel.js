@@ -22,6 +22,16 @@ function studio(cosine) {
   return 0.12 + 0.46 * room + 0.42 * window + 0.2 * panel;
 }
 
+/** The same for WebGL, in steel's colour. */
+export const STUDIO = `
+vec3 steel(float cosine) {
+  float room = (1.0 + cosine) * (1.0 + cosine) / 4.0;
+  float panel = (cosine + 0.5) / 0.22;
+  float tone = 0.12 + 0.46 * room + 0.42 * exp((cosine - 1.0) / 0.13) + 0.2 * exp(-panel * panel);
+  float tint = 0.1 * (1.0 - tone);
+  return clamp(tone * vec3(1.0 - tint, 1.0, 1.0 + 1.3 * tint), 0.0, 1.0);
+}`;
+
 /** The studio in steel's colour at evenly spaced cosines, as the canvas' bytes. */
 function tabulate() {
   const bytes = new Uint8ClampedArray(4 * TONES);

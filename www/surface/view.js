@@ -1,5 +1,6 @@
 /** One surface on a canvas, lit by the shared light, which can be moved from here. */
 import { eachFrame, followDevicePixels } from '../dom.js';
+import { drawLines } from './layer.js';
 import { markedCanvas } from './marks.js';
 import { rasterOf } from './raster.js';
 
@@ -9,6 +10,8 @@ import { rasterOf } from './raster.js';
 /** @import {Marks} from './marks.js' */
 /** @import {Raster} from './raster.js' */
 
+/** Pixels for each one of a picture that is soon replaced by a finer one. */
+const COARSE = 2;
 /** Of the way from the middle to the rim, for each press of an arrow key. */
 const KEY_STEP = 0.08;
 /** @type {Record<string, readonly [number, number]>} */
@@ -17,6 +20,8 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 export class SurfaceView {
   /** @type {Normals | null} */
   #normals = null;
+  /** @type {{ width: number, height: number } | null} */
+  #frame = null;
   /** @type {Raster | null} */
   #raster = null;
   /** The raster, shaded; the canvas shows it reduced to its own pixels. */
@@ -60,9 +65,11 @@ export class SurfaceView {
   /**
    * @param {Normals | null} normals
    * @param {boolean} [lit] whether there is much to be lit
+   * @param {{ width: number, height: number } | null} [frame] in whose proportions, where there are coarser normals
    */
-  show(normals, lit = normals !== null) {
+  show(normals, lit = normals !== null, frame = normals) {
     this.#normals = normals;
+    this.#frame = frame;
     this.#raster = null;
     this.#overlay = null;
     this.#lit = lit;
@@ -107,13 +114,15 @@ export class SurfaceView {
     const context = canvas.getContext('2d');
     if (!context) return;
     context.clearRect(0, 0, canvas.width, canvas.height);
-    const normals = this.#normals;
-    if (!normals) return;
-    const fit = Math.min(canvas.width / normals.width, canvas.height / normals.height);
-    this.#raster ??= rasterOf(normals, fit);
+    const [normals, frame] = [this.#normals, this.#frame];
+    if (!normals || !frame || canvas.clientWidth === 0) return;
+    const fit = Math.min(canvas.width / frame.width, canvas.height / frame.height);
+    const coarse = frame !== normals;
+    const density = (fit * frame.width) / normals.width;
+    this.#raster ??= rasterOf(normals, coarse ? Math.min(density, COARSE) : density);
     this.#shade(this.#raster);
-    const width = Math.max(1, Math.round(normals.width * fit));
-    const height = Math.max(1, Math.round(normals.height * fit));
+    const width = Math.max(1, Math.round(frame.width * fit));
+    const height = Math.max(1, Math.round(frame.height * fit));
     const left = Math.floor((canvas.width - width) / 2);
     const top = Math.floor((canvas.height - height) / 2);
     context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;
@@ -128,10 +137,10 @@ export class SurfaceView {
     context.drawImage(this.#shaded, left, top, width, height);
     context.globalCompositeOperation = 'source-over';
     context.globalAlpha = 1;
-    if (layer?.draw) {
-      const { grid } = layer;
+    if (layer?.lines) {
+      const { grid, lines } = layer;
       const scale = width / (grid.width * grid.pixelSize);
-      layer.draw(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], window.devicePixelRatio);
+      drawLines(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], lines, window.devicePixelRatio);
     }
     if (this.#marks.length === 0) return;
     this.#overlay ??= markedCanvas(this.#marks, width, height, window.devicePixelRatio);

@@ -2,13 +2,15 @@
 import { number, percent } from '../format.js';
 import { logarithmic, magnitude } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
-import { valueImage } from '../surface/layer.js';
+import { canvasOf, valueAt } from '../surface/layer.js';
+import { work } from '../surface/work.js';
 import { colourBar, figures } from './legend.js';
 
 /** @import {Analyses, Analysis} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {Shown} from './shown.js' */
 
+const NAMES = { gaussian: 'K', kappa2: 'κ₂' };
 /** The share of the values that the scale spans. */
 const SPAN = 0.99;
 
@@ -24,7 +26,7 @@ export async function gaussian(analyses, result) {
   const { size, threshold } = both.after.summary;
   const area = size ** 2;
   const inverse = `1/${result.input.unit ?? 'unit'}²`;
-  return coloured(result, both, 'gaussian', 1 / area, `Gaussian curvature K in ${inverse}`, [
+  return coloured(result, both, 'gaussian', inverse, 1 / area, `Gaussian curvature K in ${inverse}`, [
     [`Median |K| in ${inverse}`, inBoth(both, ({ summary }) => number(summary.medianGaussian / area, 2))],
     [`|K| above ${number(threshold / area, 2)}`, inBoth(both, ({ summary }) => percent(summary.gaussianAbove))],
   ]);
@@ -39,7 +41,7 @@ export async function kappa2(analyses, result) {
   const both = await analyses.curvatures(result);
   const { size } = both.after.summary;
   const inverse = `1/${result.input.unit ?? 'unit'}`;
-  return coloured(result, both, 'kappa2', 1 / size, `κ₂, the smaller of the two bends, in ${inverse}`, [
+  return coloured(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller of the two bends, in ${inverse}`, [
     [`Median |κ₂| in ${inverse}`, inBoth(both, ({ summary }) => number(summary.medianKappa2 / size, 2))],
     [`Median |κ₁|, the larger one`, inBoth(both, ({ kappa1 }) => number(magnitude([kappa1], 0.5), 2))],
   ]);
@@ -49,20 +51,29 @@ export async function kappa2(analyses, result) {
  * @param {Result} result
  * @param {Both} both
  * @param {'gaussian' | 'kappa2'} what
+ * @param {string} inverse unit
  * @param {number} knee what is practically none: that of a surface which bends once over its own size
  * @param {string} title
  * @param {readonly (readonly [string, string])[]} facts
- * @returns {Shown}
+ * @returns {Promise<Shown>}
  */
-function coloured({ input }, { before, after }, what, knee, title, facts) {
+async function coloured({ input }, { before, after }, what, inverse, knee, title, facts) {
   const grid = gridOf(input);
-  const scale = logarithmic(knee, magnitude([after, ...(before ? [before] : [])].map((analysis) => analysis[what]), SPAN));
+  const most = magnitude([after, ...(before ? [before] : [])].map((analysis) => analysis[what]), SPAN);
   /** @param {Analysis} analysis */
-  const layer = (analysis) => ({ grid, image: valueImage({ ...analysis, values: analysis[what] }, grid, scale) });
+  const layer = async ({ rows, cols, spacing, origin, [what]: values }) => {
+    const lattice = { rows, cols, spacing, origin };
+    const field = { ...lattice, values };
+    return {
+      grid,
+      image: canvasOf(grid, await work('valuePixels', lattice, values, grid, knee, most)),
+      read: (/** @type {number} */ x, /** @type {number} */ y) => `${NAMES[what]} ${number(valueAt(field, x, y))} ${inverse}`,
+    };
+  };
   return {
-    input: before ? layer(before) : undefined,
-    result: layer(after),
-    about: [colourBar(title, scale), figures(facts)],
+    input: before ? await layer(before) : undefined,
+    result: await layer(after),
+    about: [colourBar(title, logarithmic(knee, most)), figures(facts)],
   };
 }
 

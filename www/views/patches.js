@@ -3,13 +3,17 @@ import { make } from '../dom.js';
 import { count, degrees, number, percent } from '../format.js';
 import { bytes, css, patchColour } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
-import { drawLine, labelImage } from '../surface/layer.js';
+import { canvasOf, valueAt } from '../surface/layer.js';
+import { work } from '../surface/work.js';
 import { figures, key, table } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
+/** @import {Colour} from '../surface/colours.js' */
 /** @import {Shown} from './shown.js' */
 
+/** @type {Colour} */
+const CREASE = [20, 24, 28];
 /** Rows of each table. */
 const MOST = 6;
 
@@ -20,7 +24,7 @@ const MOST = 6;
  */
 export async function patches(analyses, result) {
   const map = await analyses.patches(result);
-  const { creases } = map;
+  const { creases, rows, cols, spacing, origin } = map;
   const { input } = result;
   const unit = input.unit ?? 'units';
   const squared = input.unit ? `${unit}²` : 'square units';
@@ -33,15 +37,12 @@ export async function patches(analyses, result) {
   return {
     result: {
       grid,
-      image: labelImage(map, grid, (label) => colours[label]),
-      draw: (context, place, ratio) => {
-        context.strokeStyle = '#14181c';
-        context.lineJoin = 'round';
-        for (const { points, fold } of creases) {
-          // A sharper fold is a heavier line.
-          context.lineWidth = (1 + 2 * Math.min(1, fold)) * ratio;
-          drawLine(context, place, points);
-        }
+      image: canvasOf(grid, await work('labelPixels', { rows, cols, spacing, origin }, map.labels, grid, colours)),
+      // A sharper fold is a heavier line.
+      lines: creases.map(({ points, fold }) => ({ points, colour: CREASE, width: 1 + 2 * Math.min(1, fold) })),
+      read: (x, y) => {
+        const patch = valueAt({ ...map, values: map.labels }, x, y);
+        return patch >= 0 ? `patch ${patch + 1}` : '';
       },
     },
     about: [

@@ -2,17 +2,18 @@
 import { printed } from '../printed.js';
 import { normalsOf, UNIT } from '../surface/normals.js';
 import { fillTriangles } from '../surface/triangles.js';
-import { extentOf } from './sheet.js';
+import { extentOf } from '../surface/pixels.js';
 
 /** @import {Input} from '../session.js' */
-/** @typedef {import('../../pkg/types.js').Unrolling} Unrolling */
+/** @typedef {Pick<Input, 'width' | 'height' | 'pixelSize' | 'heightScale'> & { truth: Float64Array }} Known */
+/** @typedef {Pick<import('../../pkg/types.js').Unrolling, 'triangles' | 'positions' | 'places'>} Unrolling */
 
 /** Pixels along the longer side of the photo, about. */
 const PHOTO = 1000;
 const LIGHT = [-0.45, 0.4, 0.8];
 
 /**
- * @param {Input & { truth: Float64Array }} input
+ * @param {Known} input
  * @param {Unrolling} sheet the true surface, laid flat
  * @returns {ImageData}
  */

@@ -1,15 +1,16 @@
 /** The lines along which the surface is straight, over its shading. */
 import { count, number, percent } from '../format.js';
+import { css } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
-import { drawLine } from '../surface/layer.js';
 import { figures, key } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
+/** @import {Colour} from '../surface/colours.js' */
 /** @import {Shown} from './shown.js' */
 
-/** Seen on bright steel as on dark. */
-const COLOUR = '#e8590c';
+/** Seen on bright steel as on dark. @type {Colour} */
+const COLOUR = [232, 89, 12];
 
 /**
  * @param {Analyses} analyses
@@ -24,14 +25,10 @@ export async function rulings(analyses, result) {
   return {
     result: {
       grid: gridOf(input),
-      draw: (context, place, ratio) => {
-        context.strokeStyle = COLOUR;
-        context.lineWidth = 1.25 * ratio;
-        for (const { points } of lines) drawLine(context, place, points);
-      },
+      lines: lines.map(({ points }) => ({ points, colour: COLOUR, width: 1.25 })),
     },
     about: [
-      key(COLOUR, 'rulings: straight lines on the surface, across which alone it bends'),
+      key(css(COLOUR), 'rulings: straight lines on the surface, across which alone it bends'),
       figures([
         ['Lines', count(lines.length)],
         ['Longest', lines.length > 0 ? `${number(Math.max(...lines.map(({ length }) => length)))} ${unit}` : '–'],

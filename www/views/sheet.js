@@ -1,20 +1,16 @@
 /** The surface laid flat, to scale, each triangle in the colour of its strain. */
 import { count, number, percent } from '../format.js';
-import { divergingPixel, linear, magnitude } from '../surface/colours.js';
-import { imageOf } from '../surface/layer.js';
-import { fillTriangles } from '../surface/triangles.js';
+import { linear } from '../surface/colours.js';
+import { canvasOf } from '../surface/layer.js';
 import { VERDICTS } from '../words.js';
 import { colourBar, figures, say } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
-/** @import {Scale} from '../surface/colours.js' */
 /** @import {Picture} from '../surface/picture.js' */
 /** @import {Shown} from './shown.js' */
-/** @typedef {import('../../pkg/types.js').Unrolling} Unrolling */
+/** @typedef {ReturnType<typeof import('../surface/pixels.js').sheetPixels>} Sheet */
 
-/** Strain below which colours would only show rounding. */
-const FAINTEST = 1e-3;
 /** Free room around the sheet, in pixels of the page, at the sides and below. */
 const MARGIN = { side: 12, below: 34 };
 
@@ -24,15 +20,14 @@ const MARGIN = { side: 12, below: 34 };
  * @returns {Promise<Shown>}
  */
 export async function sheet(analyses, result) {
-  const unrolling = await analyses.unroll(result);
-  const { report: { distortion, crossings, parts, plan }, verdict } = unrolling;
+  const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result);
+  const { extent, most } = picture;
   const unit = result.input.unit ?? 'units';
-  const strains = strainsOf(unrolling.stretches);
-  const scale = linear(Math.max(FAINTEST, magnitude([strains], 0.99)), (value) => `${value > 0 ? '+' : ''}${percent(value)}`);
-  const extent = extentOf(unrolling.places);
+  const scale = linear(most, (value) => `${value > 0 ? '+' : ''}${percent(value)}`);
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
-    after: picture(unrolling, extent, strains, scale, unit, `The surface laid flat, ${size}`),
+    after: pictureOf(picture, unit, `The surface laid flat, ${size}`),
+    unfolding: await analyses.unfold(result, most),
     about: [
       say(VERDICTS[verdict]),
       colourBar('Strain: blue is compressed, red is stretched', scale),
@@ -51,40 +46,13 @@ export async function sheet(analyses, result) {
 }
 
 /**
- * Of each triangle, the strain of larger magnitude: above 0 where it is stretched.
- * @param {Float64Array} stretches singular values, two for each triangle
- */
-function strainsOf(stretches) {
-  return Float64Array.from({ length: stretches.length / 2 }, (_, t) => {
-    const [large, small] = [stretches[2 * t] - 1, stretches[2 * t + 1] - 1];
-    return Math.abs(large) >= Math.abs(small) ? large : small;
-  });
-}
-
-/** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */
-
-/** @param {Float64Array} places x, y */
-export function extentOf(places) {
-  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < places.length; i += 2) {
-    left = Math.min(left, places[i]);
-    right = Math.max(right, places[i]);
-    bottom = Math.min(bottom, places[i + 1]);
-    top = Math.max(top, places[i + 1]);
-  }
-  return { left, top, width: right - left, height: top - bottom };
-}
-
-/**
- * @param {Unrolling} unrolling
- * @param {Extent} extent
- * @param {Float64Array} strains
- * @param {Scale} scale
+ * @param {Sheet} sheet
  * @param {string} unit
  * @param {string} words
  * @returns {Picture}
  */
-function picture({ triangles, places }, extent, strains, scale, unit, words) {
+function pictureOf({ extent, width: cols, height: rows, pixels }, unit, words) {
+  const image = canvasOf({ width: cols, height: rows }, pixels);
   return {
     title: 'Laid flat',
     words,
@@ -93,15 +61,9 @@ function picture({ triangles, places }, extent, strains, scale, unit, words) {
       const room = { width: width - 2 * MARGIN.side * ratio, height: height - (MARGIN.side + MARGIN.below) * ratio };
       const dots = Math.min(room.width / extent.width, room.height / extent.height);
       if (!(dots > 0)) return;
-      const left = (width - extent.width * dots) / 2;
-      const top = MARGIN.side * ratio + (room.height - extent.height * dots) / 2;
-      const onCanvas = places.map((value, i) =>
-        (i % 2 === 0 ? left + (value - extent.left) * dots : top + (extent.top - value) * dots));
-      const pixels = new Uint32Array(width * height);
-      fillTriangles({ width, height }, triangles, onCanvas, (pixel, triangle) => {
-        pixels[pixel] = divergingPixel(scale.place(strains[triangle]));
-      });
-      context.drawImage(imageOf({ width, height }, (i) => pixels[i]), 0, 0);
+      const [wide, high] = [extent.width * dots, extent.height * dots];
+      context.imageSmoothingQuality = 'high';
+      context.drawImage(image, (width - wide) / 2, MARGIN.side * ratio + (room.height - high) / 2, wide, high);
       drawRuler(context, dots, unit, ratio);
     },
   };

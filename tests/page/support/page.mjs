@@ -49,11 +49,13 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions} [options]
+ * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat' }} [options]
+ *   side by side unless said otherwise, where what canvases show can be read
  */
-export function pageTest(name, body, options) {
+export function pageTest(name, body, { arrangement = 'flat', ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
+    await page.addInitScript((chosen) => localStorage.setItem('developable: arrangement', chosen), arrangement);
     await page.goto(server.url);
     await settled(page);
     await body(page);

@@ -1,0 +1,39 @@
+/** While λ is dragged. */
+import assert from 'node:assert/strict';
+import { parsed } from './support/numbers.mjs';
+import { pageTest, reported, runBy, settled } from './support/page.mjs';
+
+pageTest('while λ is dragged, pictures follow, and the last wish is certified', async (page) => {
+  await runBy(page, () => page.locator('#size').selectOption('400'));
+  const { events, pictures, wishes } = await page.evaluate(async () => {
+    const slider = /** @type {HTMLInputElement} */ (document.querySelector('#lambda'));
+    const caption = /** @type {HTMLElement} */ (document.querySelector('#result-caption'));
+    const mark = /** @type {HTMLElement} */ (document.querySelector('#result-mark'));
+    const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector('#result-canvas'));
+    /** @type {string[]} */
+    const wishes = [];
+    const pictures = new Set();
+    new MutationObserver(() => {
+      if (mark.textContent !== 'preview') return;
+      wishes.push(caption.textContent ?? '');
+      requestAnimationFrame(() => requestAnimationFrame(() => pictures.add(canvas.toDataURL())));
+    }).observe(caption, { childList: true });
+    const events = 60;
+    for (let i = 0; i < events; i++) {
+      slider.value = String(5 + i / 30);
+      slider.dispatchEvent(new Event('input', { bubbles: true }));
+      // As fast as a hand that does not rest.
+      await new Promise((resolve) => setTimeout(resolve, 33));
+    }
+    return { events, pictures: pictures.size, wishes };
+  });
+  // A few would be many for a machine that is busy with ten other things.
+  assert.ok(pictures >= events / 6, `${pictures} pictures of ${events} wishes`);
+  assert.ok(new Set(wishes).size >= events / 6, `${wishes}`);
+  await page.locator('#lambda').dispatchEvent('change');
+  await settled(page);
+  assert.equal(await page.locator('#result-mark').isVisible(), false, 'no preview any more');
+  const wished = 10 ** Number(await page.locator('#lambda').inputValue());
+  assert.ok(Math.abs(parsed(await reported(page, 'λ')) / wished - 1) < 0.06);
+  assert.match(await page.locator('#verdict').innerText(), /^Certified/);
+});

@@ -1,0 +1,110 @@
+/** Input and result in space. */
+import assert from 'node:assert/strict';
+import { parsePng } from './support/photos.mjs';
+import { pageTest, painted, runBy } from './support/page.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/**
+ * Brightness of what is seen of a canvas, over a square of so many places around its middle.
+ * @param {Page} page
+ * @param {string} selector
+ * @param {number} [places]
+ * @param {[number, number]} [columns] shares of the square that are wanted
+ */
+async function brightness(page, selector, places = 30, [from, to] = [0, 1]) {
+  await painted(page);
+  const box = await page.locator(selector).boundingBox();
+  assert.ok(box);
+  const { width, height, data } = parsePng(await page.screenshot({ clip: box }));
+  const side = Math.min(width, height);
+  const found = [];
+  for (let row = 2; row < places - 2; row++) {
+    for (let col = 2; col < places - 2; col++) {
+      if (col < from * places || col >= to * places) continue;
+      const x = Math.floor((width - side) / 2 + ((col + 0.5) * side) / places);
+      const y = Math.floor((height - side) / 2 + ((row + 0.5) * side) / places);
+      found.push(data[4 * (y * width + x) + 1]);
+    }
+  }
+  return found;
+}
+
+/** @param {number[]} a @param {number[]} b */
+function correlation(a, b) {
+  const mean = (/** @type {number[]} */ values) => values.reduce((sum, value) => sum + value, 0) / values.length;
+  const [ma, mb] = [mean(a), mean(b)];
+  const product = (/** @type {number[]} */ p, /** @type {number} */ mp, /** @type {number[]} */ q, /** @type {number} */ mq) =>
+    mean(p.map((value, i) => (value - mp) * (q[i] - mq)));
+  return product(a, ma, b, mb) / Math.sqrt(product(a, ma, a, ma) * product(b, mb, b, mb));
+}
+
+pageTest('in space the surface is turned, lit and divided, and from above it is the flat picture', async (page) => {
+  await runBy(page, () => page.locator('#size').selectOption('100'));
+  await runBy(page, () => page.locator('#noise').selectOption('0'));
+  assert.ok(await page.locator('#space-canvas').isVisible() && !(await page.locator('#result-canvas').isVisible()));
+  const divider = page.getByRole('slider', { name: 'Divider between input and result' });
+
+  await page.getByRole('button', { name: 'From above' }).click();
+  await divider.press('Home');
+  const above = await brightness(page, '#space-canvas');
+  assert.match(await divider.getAttribute('aria-valuetext') ?? '', /^input on 0 %/);
+
+  const canvas = page.locator('#space-canvas');
+  await canvas.press('ArrowUp');
+  await canvas.press('ArrowLeft');
+  const turned = await brightness(page, '#space-canvas');
+  assert.ok(correlation(above, turned) < 0.9, 'keys turn it');
+  await page.getByRole('button', { name: 'From above' }).click();
+  assert.ok(correlation(above, await brightness(page, '#space-canvas')) > 0.99, 'and back');
+
+  const box = await canvas.boundingBox();
+  assert.ok(box);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x + 40, y + 10);
+  assert.match(await page.locator('#reading').innerText(), /^height 0\.\d+ units$/);
+  await page.mouse.down();
+  await page.mouse.move(x - 80, y - 60, { steps: 4 });
+  await page.mouse.up();
+  assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'the mouse turns it');
+  await page.getByRole('button', { name: 'From above' }).click();
+
+  await page.getByLabel('Drag moves the light').check();
+  await canvas.press('ArrowRight');
+  await canvas.press('ArrowRight');
+  await canvas.press('ArrowRight');
+  const lit = await brightness(page, '#space-canvas');
+  assert.ok(correlation(above, lit) < 0.99, 'the light moves');
+  await canvas.press('Home');
+
+  await page.getByRole('radio', { name: 'Patches', exact: true }).check({ force: true });
+  await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+  await page.mouse.move(x + 40, y + 12);
+  assert.match(await page.locator('#reading').innerText(), /patch \d/);
+  assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'in colours');
+  await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
+
+  await divider.press('End');
+  for (let i = 0; i < 10; i++) await divider.press('ArrowLeft');
+  assert.match(await divider.getAttribute('aria-valuetext') ?? '', /^input on 50 %/);
+
+  await page.getByRole('radio', { name: 'Side by side' }).check({ force: true });
+  const flat = await brightness(page, '#result-canvas');
+  assert.ok(correlation(above, flat) > 0.97, `${correlation(above, flat)}`);
+  // It is what the next visit begins with.
+  await page.getByRole('radio', { name: 'In space' }).check({ force: true });
+  assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');
+}, { arrangement: 'space' });
+
+pageTest('without WebGL the flat pictures are there', async (page) => {
+  await page.addInitScript(() => {
+    const own = HTMLCanvasElement.prototype.getContext;
+    /** @type {any} */ (HTMLCanvasElement.prototype).getContext = function (/** @type {string} */ kind, /** @type {any} */ options) {
+      return kind.startsWith('webgl') ? null : own.call(this, kind, options);
+    };
+  });
+  await page.reload();
+  await page.locator('#page[data-phase="idle"]').waitFor();
+  assert.ok(await page.locator('#result-canvas').isVisible() && !(await page.locator('#space-canvas').isVisible()));
+  assert.equal(await page.getByRole('radio', { name: 'In space' }).isVisible(), false);
+}, { arrangement: 'space' });

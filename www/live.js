@@ -1,0 +1,135 @@
+/**
+ * Pictures of what a setting gives, while the certified answer is still to come: the same input on
+ * lattices from coarse to fine, in a worker of its own.
+ *
+ * The coarsest run always ends, so that each of many wishes in a row is followed by a picture; a finer one
+ * gives way to a newer wish.
+ */
+import { coarse } from './surface/coarse.js';
+
+/** @import {Api, OpenSolver} from './api.js' */
+/** @import {Input, Settings} from './session.js' */
+/** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
+/** @typedef {{ input: Input, settings: Settings, image: Image }} Preview */
+/** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} Rung */
+
+/** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
+const SIDES = [96, 192, 384];
+/** A design has nothing to begin with but its pins, and takes longer. */
+const DESIGN = [48];
+/** What a picture needs no better than. */
+const GAP = 0.1;
+
+export class Live {
+  #api;
+  #events;
+  /** @type {InstanceType<Api['DevelopableWorker']> | null} */
+  #worker = null;
+  /** Those that were needed so far, by the side. @type {Map<number, Rung>} */
+  #rungs = new Map();
+  /** @type {{ input: Input, settings: Settings, abort: AbortController } | null} */
+  #wish = null;
+  #climbing = false;
+  /** The last that was followed to the end. @type {{ input: Input, settings: Settings } | null} */
+  #done = null;
+
+  /**
+   * @param {Api} api
+   * @param {{ shown: (preview: Preview) => void, rested: (settings: Settings) => void }} events
+   *   `rested`: the finest picture of the newest wish is there
+   */
+  constructor(api, events) {
+    this.#api = api;
+    this.#events = events;
+  }
+
+  /** @param {Input} input @param {Settings} settings */
+  wish(input, settings) {
+    if ([this.#wish, this.#done].some((one) => one?.input === input && one.settings === settings)) return;
+    this.#wish?.abort.abort();
+    this.#wish = { input, settings, abort: new AbortController() };
+    if (!this.#climbing) void this.#climb();
+  }
+
+  /** No more pictures are wanted. */
+  stop() {
+    this.#wish?.abort.abort();
+    this.#wish = null;
+  }
+
+  /** From rung to rung for one wish, then for the newest one, until there is none. */
+  async #climb() {
+    this.#climbing = true;
+    for (let wish = this.#wish; wish; wish = this.#wish) {
+      const { input, settings, abort } = wish;
+      const sides = input.design ? DESIGN : SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
+      for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
+        try {
+          const image = await this.#solve(input, settings, sides[i], i === 0 ? undefined : abort.signal);
+          if (this.#wish?.input === input) this.#events.shown({ input, settings, image });
+        } catch {
+          // The run that certifies says what is wrong, if anything is.
+          break;
+        }
+      }
+      if (this.#wish !== wish) continue;
+      this.#wish = null;
+      this.#done = wish;
+      this.#events.rested(settings);
+    }
+    this.#climbing = false;
+  }
+
+  /**
+   * @param {Input} input
+   * @param {Settings} settings
+   * @param {number} side
+   * @param {AbortSignal} [signal]
+   * @returns {Promise<Image>}
+   */
+  async #solve(input, { lambda, energy }, side, signal) {
+    const { pixelSize, solver } = this.#rung(input, side);
+    const surface = await (await solver).fit({ lambda, energy, gap: GAP, signal });
+    const { image } = surface;
+    if (!image) throw new Error('it has no image');
+    return { ...image, pixelSize };
+  }
+
+  /** The rung for an input, which goes on from its last answer where only heights have changed. @param {Input} input @param {number} side */
+  #rung(input, side) {
+    const worker = this.#worker?.connected ? this.#worker : (this.#worker = new this.#api.DevelopableWorker());
+    const found = this.#rungs.get(side);
+    if (found?.input === input) return found;
+    const { pixelSize, heights } = reducedTo(input, side);
+    const again = found && isAlike(found.input, input) && worker.connected;
+    const solver = again
+      ? found.solver.then((open) => open.replace(heights).then(() => open))
+      : worker.open(heights);
+    if (found && !again) found.solver.then((open) => open.dispose(), () => {});
+    // Told where it is waited for.
+    solver.catch(() => this.#rungs.delete(side));
+    const rung = { input, pixelSize, solver };
+    this.#rungs.set(side, rung);
+    return rung;
+  }
+}
+
+/** @param {Input} a @param {Input} b */
+function isAlike(a, b) {
+  return ['width', 'height', 'pixelSize', 'heightScale', 'design'].every((name) => a[/** @type {keyof Input} */ (name)] === b[/** @type {keyof Input} */ (name)]);
+}
+
+/**
+ * An input on fewer pixels, as the package takes it.
+ * @param {Input} input
+ * @param {number} side
+ */
+function reducedTo({ width, height, data, pixelSize: each, heightScale, design, confidence, constraints }, side) {
+  /** @param {ArrayLike<number>} values */
+  const reduced = (values) => coarse({ width, height, data: values }, side);
+  const heights = reduced(data);
+  const pixelSize = (each * width) / heights.width;
+  const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };
+  const known = { confidence: confidence && reduced(confidence).data, constraints: constraints && reduced(constraints).data };
+  return { pixelSize, heights: design ? { ...frame, constraints: heights.data } : { ...frame, data: heights.data, ...known } };
+}

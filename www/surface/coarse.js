@@ -1,0 +1,31 @@
+/** The same heights on fewer pixels. */
+
+/**
+ * @typedef {object} Heights
+ * @property {number} width
+ * @property {number} height
+ * @property {ArrayLike<number>} data row by row, NaN for no data
+ */
+
+/**
+ * The mean of the values in each block of pixels, NaN where there is none.
+ * @param {Heights} image
+ * @param {number} side most blocks along the longer side
+ */
+export function coarse({ width, height, data }, side) {
+  const share = Math.min(1, side / Math.max(width, height));
+  const [cols, rows] = [Math.max(3, Math.round(width * share)), Math.max(3, Math.round(height * share))];
+  const sums = new Float64Array(cols * rows);
+  const counts = new Uint32Array(cols * rows);
+  const colOf = Int32Array.from({ length: width }, (_, x) => Math.floor((x * cols) / width));
+  for (let y = 0, i = 0; y < height; y++) {
+    const from = Math.floor((y * rows) / height) * cols;
+    for (let x = 0; x < width; x++, i++) {
+      const value = data[i];
+      if (value !== value) continue;
+      sums[from + colOf[x]] += value;
+      counts[from + colOf[x]]++;
+    }
+  }
+  return { width: cols, height: rows, data: sums.map((sum, i) => sum / counts[i]) };
+}

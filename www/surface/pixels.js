@@ -1,0 +1,73 @@
+/** What views show as colours: pixels as the canvas' bytes, 0 where there is nothing. */
+import { divergingPixel, logarithmic, magnitude } from './colours.js';
+import { interpolated, nearest } from './lattice.js';
+import { fillTriangles } from './triangles.js';
+import { strainOf } from './unfolding.js';
+
+/** @import {Grid, Lattice} from './lattice.js' */
+
+/** Pixels along the longer side of a sheet. */
+const SHEET = 1600;
+/** Strain below which colours would only show rounding. */
+const FAINTEST = 1e-3;
+
+/**
+ * Values on a logarithmic scale.
+ * @param {Lattice} lattice
+ * @param {ArrayLike<number>} values
+ * @param {Grid} grid
+ * @param {number} knee
+ * @param {number} most
+ */
+export function valuePixels(lattice, values, grid, knee, most) {
+  const { place } = logarithmic(knee, most);
+  return Uint32Array.from(interpolated(lattice, values, grid), (value) => (Number.isNaN(value) ? 0 : divergingPixel(place(value))));
+}
+
+/**
+ * @param {Lattice} lattice
+ * @param {ArrayLike<number>} labels below 0 for none
+ * @param {Grid} grid
+ * @param {readonly number[]} colours of the labels
+ */
+export function labelPixels(lattice, labels, grid, colours) {
+  return Uint32Array.from(nearest(lattice, grid), (vertex) => {
+    if (vertex < 0) return 0;
+    // At the border the nearest vertex may lie beyond it, and one beside it does not.
+    const near = labels[vertex] >= 0 ? vertex : labels[vertex - 1] >= 0 ? vertex - 1 : vertex + 1;
+    return labels[near] >= 0 ? colours[labels[near]] : 0;
+  });
+}
+
+/**
+ * A sheet in colours of its strain.
+ * @param {Uint32Array} triangles
+ * @param {Float64Array} places
+ * @param {Float64Array} stretches
+ */
+export function sheetPixels(triangles, places, stretches) {
+  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => strainOf(stretches, t));
+  const most = Math.max(FAINTEST, magnitude([strains], 0.99));
+  const extent = extentOf(places);
+  const dots = SHEET / Math.max(extent.width, extent.height);
+  const [width, height] = [Math.max(1, Math.ceil(extent.width * dots)), Math.max(1, Math.ceil(extent.height * dots))];
+  const onImage = places.map((value, i) => (i % 2 === 0 ? value - extent.left : extent.top - value) * dots);
+  const pixels = new Uint32Array(width * height);
+  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / most));
+  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => (pixels[pixel] = colours[triangle]));
+  return { extent, most, width, height, pixels };
+}
+
+/** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */
+
+/** @param {Float64Array} places x, y @returns {Extent} */
+export function extentOf(places) {
+  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let i = 0; i < places.length; i += 2) {
+    left = Math.min(left, places[i]);
+    right = Math.max(right, places[i]);
+    bottom = Math.min(bottom, places[i + 1]);
+    top = Math.max(top, places[i + 1]);
+  }
+  return { left, top, width: right - left, height: top - bottom };
+}

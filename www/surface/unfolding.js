@@ -1,0 +1,209 @@
+/**
+ * The way of a surface from its bent form to the flat one, in steps that stretch it as little as may be.
+ *
+ * Each triangle's map from the sheet to space is a rotation times a stretch, and is interpolated as such; the
+ * vertices follow by least squares over the edges (as-rigid-as-possible interpolation, Alexa et al. 2000).
+ */
+import { divergingPixel } from './colours.js';
+
+/** Steps from bent to flat. */
+const STEPS = 20;
+const ITERATIONS = 400;
+const TOLERANCE = 1e-3;
+
+/**
+ * @param {object} unrolling
+ * @param {Float64Array} unrolling.positions x, y, z of each vertex
+ * @param {Float64Array} unrolling.places x, y on the sheet
+ * @param {Uint32Array} unrolling.triangles
+ * @param {Float64Array} unrolling.stretches
+ * @param {number} most strain at the end of the colours
+ * @param {readonly [number, number]} offset of the plane that the surface is over
+ */
+export function unfolding({ positions, places, triangles, stretches }, most, [left, bottom]) {
+  const n = places.length / 2;
+  const bent = positions.map((value, i) => value + [left, bottom, 0][i % 3]);
+  const flat = new Float64Array(3 * n);
+  const middle = mean(bent, 3);
+  const [px, py] = mean(places, 2);
+  for (let i = 0; i < n; i++) flat.set([places[2 * i] - px + middle[0], places[2 * i + 1] - py + middle[1], middle[2]], 3 * i);
+  const maps = mapsOf(flat, bent, triangles);
+  const graph = graphOf(triangles, n);
+  const forms = Array.from({ length: STEPS + 1 }, (_, step) => {
+    const share = 1 - step / STEPS;
+    if (step === 0 || step === STEPS) return Float32Array.from(step === 0 ? bent : flat);
+    // Least squares leave open where each part is: where it would be on a straight way.
+    const form = flat.map((value, i) => value + share * (bent[i] - value));
+    solve(graph, rightSide(maps, flat, triangles, share), form);
+    return Float32Array.from(form);
+  });
+  return { triangles, forms, colours: coloursOf(triangles, stretches, n, most) };
+}
+
+/** @param {Float64Array} values @param {number} size of each */
+function mean(values, size) {
+  const sums = new Float64Array(size);
+  values.forEach((value, i) => (sums[i % size] += value));
+  return sums.map((sum) => (sum * size) / values.length);
+}
+
+/** @typedef {{ axis: [number, number, number], angle: number, stretch: [number, number, number] }} Map3 stretch: xx, xy, yy */
+
+/**
+ * @param {Float64Array} flat
+ * @param {Float64Array} bent
+ * @param {Uint32Array} triangles
+ * @returns {Map3[]}
+ */
+function mapsOf(flat, bent, triangles) {
+  return Array.from({ length: triangles.length / 3 }, (_, t) => {
+    const [i, j, k] = [3 * triangles[3 * t], 3 * triangles[3 * t + 1], 3 * triangles[3 * t + 2]];
+    const [ax, ay, bx, by] = [flat[j] - flat[i], flat[j + 1] - flat[i + 1], flat[k] - flat[i], flat[k + 1] - flat[i + 1]];
+    const area = ax * by - ay * bx;
+    if (!(Math.abs(area) > 1e-12 * (ax * ax + ay * ay + bx * bx + by * by))) return { axis: [1, 0, 0], angle: 0, stretch: [1, 0, 1] };
+    // Columns of the map: where the sheet's axes go.
+    const [first, second] = [j, k].map((corner) => [0, 1, 2].map((d) => bent[corner + d] - bent[i + d]));
+    const columns = [
+      first.map((value, d) => (value * by - second[d] * ay) / area),
+      second.map((value, d) => (value * ax - first[d] * bx) / area),
+    ];
+    const [xx, xy, yy] = [dot(columns[0], columns[0]), dot(columns[0], columns[1]), dot(columns[1], columns[1])];
+    // The square root of a symmetric 2×2 matrix in closed form, and its inverse.
+    const root = Math.sqrt(Math.max(1e-30, xx * yy - xy * xy));
+    const trace = Math.sqrt(xx + yy + 2 * root);
+    const stretch = /** @type {[number, number, number]} */ ([(xx + root) / trace, xy / trace, (yy + root) / trace]);
+    const inverse = [stretch[2] / root, -stretch[1] / root, stretch[0] / root];
+    const [e, f] = [[inverse[0], inverse[1]], [inverse[1], inverse[2]]].map(([p, q]) => columns[0].map((value, d) => p * value + q * columns[1][d]));
+    const g = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
+    const skew = [f[2] - g[1], g[0] - e[2], e[1] - f[0]];
+    const sine = Math.hypot(...skew);
+    const angle = Math.atan2(sine, e[0] + f[1] + g[2] - 1);
+    const axis = /** @type {[number, number, number]} */ (sine > 1e-12 ? skew.map((value) => value / sine) : [1, 0, 0]);
+    return { axis, angle, stretch };
+  });
+}
+
+/** @param {number[]} a @param {number[]} b */
+function dot(a, b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/**
+ * @param {Map3[]} maps
+ * @param {Float64Array} flat
+ * @param {Uint32Array} triangles
+ * @param {number} share of the way from flat to bent
+ */
+function rightSide(maps, flat, triangles, share) {
+  const out = new Float64Array(flat.length);
+  maps.forEach(({ axis: [u, v, w], angle, stretch: [xx, xy, yy] }, t) => {
+    const [c, s] = [Math.cos(share * angle), Math.sin(share * angle)];
+    const d = 1 - c;
+    const [sxx, sxy, syy] = [1 + share * (xx - 1), share * xy, 1 + share * (yy - 1)];
+    for (let corner = 0; corner < 3; corner++) {
+      const [i, j] = [3 * triangles[3 * t + corner], 3 * triangles[3 * t + ((corner + 1) % 3)]];
+      const [ex, ey] = [flat[j] - flat[i], flat[j + 1] - flat[i + 1]];
+      const [x, y] = [sxx * ex + sxy * ey, sxy * ex + syy * ey];
+      // Turned about the axis (Rodrigues).
+      const along = d * (u * x + v * y);
+      const edge = [c * x + along * u - s * w * y, c * y + along * v + s * w * x, along * w + s * (u * y - v * x)];
+      for (let k = 0; k < 3; k++) {
+        out[i + k] -= edge[k];
+        out[j + k] += edge[k];
+      }
+    }
+  });
+  return out;
+}
+
+/** @typedef {{ from: Uint32Array, to: Uint32Array, weight: Float64Array, degree: Float64Array }} Graph */
+
+/** @param {Uint32Array} triangles @param {number} n @returns {Graph} */
+function graphOf(triangles, n) {
+  /** @type {Map<number, number>} */
+  const edges = new Map();
+  const degree = new Float64Array(n);
+  for (let t = 0; t < triangles.length; t += 3) {
+    for (let corner = 0; corner < 3; corner++) {
+      const [i, j] = [triangles[t + corner], triangles[t + ((corner + 1) % 3)]];
+      const key = Math.min(i, j) * n + Math.max(i, j);
+      edges.set(key, (edges.get(key) ?? 0) + 1);
+      degree[i]++;
+      degree[j]++;
+    }
+  }
+  const keys = Float64Array.from(edges.keys());
+  return {
+    from: Uint32Array.from(keys, (key) => Math.floor(key / n)),
+    to: Uint32Array.from(keys, (key) => key % n),
+    weight: Float64Array.from(edges.values()),
+    degree: degree.map((value) => value || 1),
+  };
+}
+
+/**
+ * Conjugate gradients with the graph's Laplacian, for three coordinates at once.
+ * @param {Graph} graph
+ * @param {Float64Array} right
+ * @param {Float64Array} x from where to start, and the answer
+ */
+function solve({ from, to, weight, degree }, right, x) {
+  /** @param {Float64Array} values */
+  const laplacian = (values) => {
+    const out = new Float64Array(values.length);
+    for (let e = 0; e < from.length; e++) {
+      const [i, j] = [3 * from[e], 3 * to[e]];
+      for (let k = 0; k < 3; k++) {
+        const difference = weight[e] * (values[i + k] - values[j + k]);
+        out[i + k] += difference;
+        out[j + k] -= difference;
+      }
+    }
+    return out;
+  };
+  /** @param {Float64Array} a @param {Float64Array} b */
+  const product = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
+  const applied = laplacian(x);
+  const residual = right.map((value, i) => value - applied[i]);
+  const scaled = residual.map((value, i) => value / degree[Math.floor(i / 3)]);
+  const direction = scaled.slice();
+  let size = product(residual, scaled);
+  const enough = TOLERANCE ** 2 * product(right, right.map((value, i) => value / degree[Math.floor(i / 3)]));
+  for (let iteration = 0; iteration < ITERATIONS && size > enough; iteration++) {
+    const image = laplacian(direction);
+    const step = size / product(direction, image);
+    for (let i = 0; i < x.length; i++) {
+      x[i] += step * direction[i];
+      residual[i] -= step * image[i];
+      scaled[i] = residual[i] / degree[Math.floor(i / 3)];
+    }
+    const next = product(residual, scaled);
+    for (let i = 0; i < x.length; i++) direction[i] = scaled[i] + (next / size) * direction[i];
+    size = next;
+  }
+}
+
+/**
+ * @param {Uint32Array} triangles
+ * @param {Float64Array} stretches
+ * @param {number} n
+ * @param {number} most
+ */
+function coloursOf(triangles, stretches, n, most) {
+  const [sums, counts] = [new Float64Array(n), new Float64Array(n)];
+  triangles.forEach((vertex, i) => {
+    sums[vertex] += strainOf(stretches, Math.floor(i / 3));
+    counts[vertex]++;
+  });
+  return new Uint8Array(Uint32Array.from(sums, (sum, i) => divergingPixel(sum / (counts[i] || 1) / most)).buffer);
+}
+
+/**
+ * The strain of larger magnitude: above 0 where a triangle is stretched.
+ * @param {Float64Array} stretches singular values, two for each triangle
+ * @param {number} t
+ */
+export function strainOf(stretches, t) {
+  const [large, small] = [stretches[2 * t] - 1, stretches[2 * t + 1] - 1];
+  return Math.abs(large) >= Math.abs(small) ? large : small;
+}

@@ -1,0 +1,24 @@
+/** The worker in which the page works out what it shows; `work.js` is its other end. */
+import { photographed } from '../views/print.js';
+import { meanAngle, rmsError } from './compare.js';
+import { interpolated } from './lattice.js';
+import { normalsOf } from './normals.js';
+import { labelPixels, sheetPixels, valuePixels } from './pixels.js';
+import { unfolding } from './unfolding.js';
+
+/** What can be asked for, by name. Arrays of an answer are handed over. */
+export const tasks = { interpolated, labelPixels, meanAngle, normalsOf, photographed, rmsError, sheetPixels, unfolding, valuePixels };
+
+globalThis.addEventListener('message', ({ data: { id, task, args } }) => {
+  /** @type {{ id: number, value?: unknown, error?: string }} */
+  let answer;
+  try {
+    const work = /** @type {(...args: unknown[]) => unknown} */ (tasks[/** @type {keyof typeof tasks} */ (task)]);
+    answer = { id, value: work(...args) };
+  } catch (error) {
+    answer = { id, error: error instanceof Error ? error.message : String(error) };
+  }
+  const { value } = answer;
+  const arrays = Object.values(/** @type {object} */ (ArrayBuffer.isView(value) ? { value } : (value ?? {}))).filter(ArrayBuffer.isView);
+  globalThis.postMessage(answer, { transfer: arrays.map(({ buffer }) => buffer) });
+});

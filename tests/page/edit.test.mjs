@@ -69,6 +69,7 @@ pageTest('heights are taken out, trusted less, held and cropped by hand, and all
   assert.equal((await page.locator('#input-legend').innerText()).trim(), '');
   // By keyboard, at the middle.
   await page.locator('#drag').selectOption('out');
+  await page.locator('#edit-shape').selectOption('brush');
   await runBy(page, () => page.locator('#space-canvas').press('Enter'));
   assert.ok(parsed(await reported(page, 'Interior')) < whole);
   await runBy(page, () => page.keyboard.press('Control+z'));

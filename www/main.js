@@ -6,6 +6,7 @@ import { besidePanel } from './panels/beside.js';
 import { curvePanel } from './panels/curve.js';
 import { designPanel } from './panels/design.js';
 import { watchDrops } from './panels/drop.js';
+import { editPanel } from './panels/edit.js';
 import { headline } from './panels/headline.js';
 import { modePanel } from './panels/mode.js';
 import { hideNotice, showNotice } from './panels/notice.js';
@@ -24,6 +25,7 @@ async function start() {
   headline(session);
   const { show, space } = viewsPanel(session);
   designPanel(session, space);
+  editPanel(session, space);
   settingsPanel(session);
   besidePanel(session);
   runPanel(session);

@@ -69,13 +69,14 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'the mouse turns it');
   await page.getByRole('button', { name: 'From above' }).click();
 
-  await page.getByLabel('Drag moves the light').check();
+  await page.locator('#drag').selectOption('light');
   await canvas.press('ArrowRight');
   await canvas.press('ArrowRight');
   await canvas.press('ArrowRight');
   const lit = await brightness(page, '#space-canvas');
   assert.ok(correlation(above, lit) < 0.99, 'the light moves');
   await canvas.press('Home');
+  await page.locator('#drag').selectOption('turn');
 
   await page.getByRole('radio', { name: 'Patches', exact: true }).check({ force: true });
   await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });

@@ -54,7 +54,7 @@ function imageRow(session, what, take) {
   return (/** @type {Input} */ input) => {
     const there = input[what] !== undefined;
     drop.hidden = !there;
-    name.textContent = there ? opened : hint;
+    name.textContent = there ? opened || 'by hand' : hint;
   };
 }
 

@@ -11,6 +11,7 @@ import { Space } from '../surface/space.js';
 /** @import {Pin} from '../design.js' */
 /** @import {Taken} from '../surface/hands.js' */
 /** @import {Input, Session} from '../session.js' */
+/** @import {Colour} from '../surface/colours.js' */
 /** @import {Layer, Line} from '../surface/layer.js' */
 /** @import {Light} from '../surface/light.js' */
 /** @import {Marks} from '../surface/marks.js' */
@@ -29,6 +30,8 @@ const WAIT = 500;
 const WITHIN = 0.998;
 /** Pixels of the page of a mark on the surface. */
 const MARK = 5;
+/** @type {Colour} */
+const TRAIL = [214, 64, 43];
 /** Of the way across, for each press of an arrow key. */
 const KEY_STEP = 0.05;
 
@@ -46,7 +49,7 @@ export function spacePanel(session, light) {
   const right = element('space-after', HTMLElement);
   const exaggeration = element('exaggeration', HTMLInputElement);
   const exaggerated = element('exaggerated', HTMLElement);
-  const lights = element('drag-lights', HTMLInputElement);
+  const drag = element('drag', HTMLSelectElement);
   const unfold = element('unfold', HTMLInputElement);
   const unfoldField = element('unfold-field', HTMLElement);
   const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
@@ -56,6 +59,10 @@ export function spacePanel(session, light) {
   let share = 0.5;
   /** Who takes drags over the surface, and who follows what is drawn. @type {Taken | null} */
   let taken = null;
+  /** @type {Taken[]} */
+  const takers = [];
+  /** What is being drawn on the surface. @type {Line | null} */
+  let trail = null;
   /** @type {(() => void)[]} */
   const followers = [];
   /** Counts what moved the slider, to tell the newest. */
@@ -92,6 +99,8 @@ export function spacePanel(session, light) {
     }
   };
   const drawSoon = eachFrame(draw);
+  /** @param {number} x in the canvas' pixels @returns {'before' | 'after'} */
+  const sideAt = (x) => (x < share * canvas.width || !space?.relief('after') ? 'before' : 'after');
 
   const arrange = () => {
     panel.hidden = !there();
@@ -110,9 +119,12 @@ export function spacePanel(session, light) {
       relight: (x, y) => light.moveTo(x, y),
       tilt: (x, y) => light.moveTo(light.x + 0.08 * x, light.y + 0.08 * y),
       unlit: () => light.reset(),
-      lights: () => lights.checked,
+      lights: () => drag.value === 'light',
       other: {
-        begin: (x, y) => taken?.begin(x, y) ?? false,
+        begin: (x, y) => {
+          taken = takers.find((one) => one.begin(x, y)) ?? null;
+          return taken !== null;
+        },
         move: (x, y) => taken?.move(x, y),
         end: () => taken?.end(),
       },
@@ -202,7 +214,7 @@ export function spacePanel(session, light) {
     if (event.buttons !== 0 || !space || panel.hidden || shown.unfolding) return;
     const ratio = canvas.width / canvas.clientWidth;
     const [x, y] = [event.offsetX * ratio, event.offsetY * ratio];
-    const side = x < share * canvas.width || !space.relief('after') ? 'before' : 'after';
+    const side = sideAt(x);
     const relief = space.relief(side);
     const point = relief && camera.hit(x, y, (px, py) => heightOn(relief, px, py));
     const layer = side === 'before' ? shown.input : shown.result;
@@ -220,7 +232,7 @@ export function spacePanel(session, light) {
       const layer = layers[side];
       const here = side === 'before' || session.input?.design;
       const points = here && session.input ? pointsOf(marks, session.input) : [];
-      space.cover(side, layer?.image ?? null, [...(layer?.lines ?? []), ...points]);
+      space.cover(side, layer?.image ?? null, [...(layer?.lines ?? []), ...points, ...(trail ? [trail] : [])]);
     }
     drawSoon();
   };
@@ -257,15 +269,16 @@ export function spacePanel(session, light) {
     /** Whether surfaces are seen here. */
     there,
     /** Drags over the surface are somebody's, if he wants them. @param {Taken} by */
-    takes: (by) => (taken = by),
+    takes: (by) => takers.push(by),
+    canvas,
     /** @param {() => void} follow */
     onDraw: (follow) => followers.push(follow),
     tip: () => camera.tip,
     /** The place of the surface at one of the canvas. @param {number} x @param {number} y @returns {Pin | null} */
     placeAt: (x, y) => {
       const { input } = session;
-      const relief = space?.relief('after');
       if (!input) return null;
+      const relief = space?.relief(input.design ? 'after' : sideAt(x));
       const point = camera.hit(x, y, (px, py) => (relief ? heightOn(relief, px, py) : 0));
       if (!point) return null;
       const { left: start, top, pixelSize, width, height } = gridOf(input);
@@ -274,6 +287,35 @@ export function spacePanel(session, light) {
         y: clamp(1 - ((top - point[1]) / pixelSize - 0.5) / (height - 1)),
         z: point[2] / (width * pixelSize),
       };
+    },
+    /** The height of the result at a pixel, or of the input where there is none, in its steps. */
+    seenHeight: () => {
+      const { input } = session;
+      const relief = space?.relief('after') ?? space?.relief('before');
+      if (!input || !relief) return () => NaN;
+      const { normals, heights, heightScale } = relief;
+      /** @param {number} pixel */
+      return (pixel) => {
+        const col = Math.floor((((pixel % input.width) + 0.5) / input.width) * normals.width);
+        const row = Math.floor(((Math.floor(pixel / input.width) + 0.5) / input.height) * normals.height);
+        return (heights[row * normals.width + col] * heightScale) / input.heightScale;
+      };
+    },
+    /**
+     * A line that is being drawn on the surfaces.
+     * @param {readonly { x: number, y: number }[]} places
+     * @param {boolean} closed
+     */
+    trail: (places, closed) => {
+      const { input } = session;
+      const relief = space?.relief('after') ?? space?.relief('before');
+      const points = input && relief ? [...places, ...(closed && places[0] ? [places[0]] : [])].map(({ x, y }) => {
+        const [px, py] = lengthsOf(input, { x, y, z: 0 });
+        const z = heightOn(relief, px, py);
+        return /** @type {const} */ ([px, py, Number.isNaN(z) ? camera.middle[2] : z]);
+      }) : [];
+      trail = points.length > 0 ? { points, colour: TRAIL, width: 4 } : null;
+      cover();
     },
     /** How high the surface is, in sides. @param {number} x @param {number} y */
     heightAt: (x, y) => {

@@ -17,6 +17,8 @@ import { coarse } from './surface/coarse.js';
 const SIDES = [96, 192, 384];
 /** A design has nothing to begin with but its pins, and takes longer. */
 const DESIGN = [48];
+/** Milliseconds without a wish after which the worker's memory is given back. */
+const REST = 20_000;
 /** What a picture needs no better than. */
 const GAP = 0.1;
 
@@ -30,6 +32,7 @@ export class Live {
   /** @type {{ input: Input, settings: Settings, abort: AbortController } | null} */
   #wish = null;
   #climbing = false;
+  #resting = 0;
   /** The last that was followed to the end. @type {{ input: Input, settings: Settings } | null} */
   #done = null;
 
@@ -60,6 +63,7 @@ export class Live {
   /** From rung to rung for one wish, then for the newest one, until there is none. */
   async #climb() {
     this.#climbing = true;
+    clearTimeout(this.#resting);
     for (let wish = this.#wish; wish; wish = this.#wish) {
       const { input, settings, abort } = wish;
       const sides = input.design ? DESIGN : SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
@@ -78,6 +82,11 @@ export class Live {
       this.#events.rested(settings);
     }
     this.#climbing = false;
+    this.#resting = window.setTimeout(() => {
+      this.#worker?.dispose();
+      this.#worker = null;
+      this.#rungs.clear();
+    }, REST);
   }
 
   /**

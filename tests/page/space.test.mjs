@@ -92,6 +92,15 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   await page.getByRole('radio', { name: 'Side by side' }).check({ force: true });
   const flat = await brightness(page, '#result-canvas');
   assert.ok(correlation(above, flat) > 0.97, `${correlation(above, flat)}`);
+  // Looked at from closer, and what is under the pointer.
+  const result = page.locator('#result-canvas');
+  await result.hover();
+  assert.match(await page.locator('#flat-reading').innerText(), /^height 0\.\d+ units$/);
+  await result.press('+');
+  await result.press('+');
+  assert.ok(correlation(flat, await brightness(page, '#result-canvas')) < 0.95);
+  await result.press('0');
+  assert.ok(correlation(flat, await brightness(page, '#result-canvas')) > 0.999);
   // It is what the next visit begins with.
   await page.getByRole('radio', { name: 'In space' }).check({ force: true });
   assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');

@@ -1,6 +1,6 @@
 /** Input and result as surfaces in space, one on each side of a divider. */
 import { eachFrame, element, elements } from '../dom.js';
-import { number } from '../format.js';
+import { number, readingOf } from '../format.js';
 import { Camera } from '../surface/camera.js';
 import { takeInHand } from '../surface/hands.js';
 import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
@@ -106,6 +106,7 @@ export function spacePanel(session, light) {
     panel.hidden = !there();
     flat.hidden = there();
     hints.space.hidden = panel.hidden;
+    element('flat-reading', HTMLElement).hidden = !panel.hidden;
     hints.flat.hidden = !panel.hidden || (shown.before !== undefined && shown.after !== undefined);
     drawSoon();
   };
@@ -218,10 +219,7 @@ export function spacePanel(session, light) {
     const relief = space.relief(side);
     const point = relief && camera.hit(x, y, (px, py) => heightOn(relief, px, py));
     const layer = side === 'before' ? shown.input : shown.result;
-    const unit = session.input?.unit ?? (Math.abs((point?.[2] ?? 0) - 1) < 1e-9 ? 'unit' : 'units');
-    reading.textContent = point
-      ? [`height ${number(point[2])} ${unit}`, layer?.read?.(point[0], point[1]) ?? ''].filter(Boolean).join(' · ')
-      : '';
+    reading.textContent = point ? readingOf(point[2], session.input?.unit, layer?.read?.(point[0], point[1])) : '';
   });
   canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 

@@ -98,7 +98,9 @@ export class Live {
    */
   async #solve(input, { lambda, energy }, side, signal) {
     const { pixelSize, solver } = this.#rung(input, side);
-    const surface = await (await solver).fit({ lambda, energy, gap: GAP, signal });
+    // Passes at creases are for the answer.
+    const passes = energy === 'huber' ? { creasePasses: 0 } : {};
+    const surface = await (await solver).fit({ lambda, energy, ...passes, gap: GAP, signal });
     const { image } = surface;
     if (!image) throw new Error('it has no image');
     return { ...image, pixelSize };

@@ -54,6 +54,11 @@ export class Live {
     if (!this.#climbing) void this.#climb();
   }
 
+  /** Whether there is more to come of the newest wish. */
+  get busy() {
+    return this.#wish !== null;
+  }
+
   /** No more pictures are wanted. */
   stop() {
     this.#wish?.abort.abort();

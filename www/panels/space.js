@@ -10,7 +10,7 @@ import { Space } from '../surface/space.js';
 
 /** @import {Pin} from '../design.js' */
 /** @import {Taken} from '../surface/hands.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @import {Input, Result, Session} from '../session.js' */
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {Layer, Line} from '../surface/layer.js' */
 /** @import {Light} from '../surface/light.js' */
@@ -243,11 +243,7 @@ export function spacePanel(session, light) {
     left.textContent = input.design ? '' : 'Input';
     cover();
   });
-  session.on('cleared', () => {
-    space?.show('after', null);
-    right.textContent = '';
-    drawSoon();
-  });
+  session.on('cleared', () => showResult(null));
   session.on('preview', ({ input, image: { width, height, pixelSize, data } }) => {
     if (!space || !there()) return;
     space.show('after', reliefOf(input, normalsOf(data, width, height, 1 / pixelSize), data, 1));
@@ -255,12 +251,22 @@ export function spacePanel(session, light) {
     if (input.design) cover();
     drawSoon();
   });
-  session.on('result', (result) => {
+  /** @param {Result | null} result */
+  const showResult = (result) => {
     if (!space) return;
+    if (!result) {
+      space.show('after', null);
+      right.textContent = '';
+      drawSoon();
+      return;
+    }
     space.show('after', reliefOf(result.input, resultNormals(result), resultImage(result).data, 1));
     right.textContent = result.surface.report.stopReason === 'cancelled' ? 'Result · cancelled' : 'Result';
     cover();
-  });
+  };
+  session.on('result', showResult);
+  // Previews of it are no more.
+  session.on('unsolved', () => showResult(session.result));
   arrange();
 
   return {

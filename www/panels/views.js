@@ -81,10 +81,8 @@ export function viewsPanel(session) {
     mark();
   });
   session.on('cleared', () => {
-    after.show(null);
+    show(null);
     caption.textContent = '';
-    stamp.hidden = true;
-    empty.hidden = false;
   });
   session.on('preview', ({ input, settings, image: { width, height, pixelSize, data } }) => {
     after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
@@ -96,14 +94,27 @@ export function viewsPanel(session) {
     stamp.hidden = false;
     empty.hidden = true;
   });
-  session.on('result', (result) => {
+  /** @param {import('../session.js').Result | null} result */
+  const show = (result) => {
     delete figure.dataset.preview;
+    if (!result) {
+      after.show(null);
+      stamp.hidden = true;
+      empty.hidden = false;
+      return;
+    }
     after.show(resultNormals(result));
     // λ has no say in a design.
     caption.textContent = result.input.design ? '' : `λ = ${shortest(result.surface.report.lambda)}`;
     stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
     stamp.hidden = !stamp.textContent;
     empty.hidden = true;
+  };
+  session.on('result', show);
+  // Previews of it are no more.
+  session.on('unsolved', () => {
+    show(session.result);
+    after.cover(now.result ?? null);
   });
   session.on('phase', (phase) => {
     figure.setAttribute('aria-busy', String(phase === 'running'));

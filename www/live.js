@@ -18,7 +18,7 @@ const SIDES = [96, 192, 384];
 /** A design has nothing to begin with but its pins, and takes longer. */
 const DESIGN = [48];
 /** Milliseconds without a wish after which the worker's memory is given back. */
-const REST = 20_000;
+const REST = 10_000;
 /** What a picture needs no better than. */
 const GAP = 0.1;
 

@@ -6,6 +6,7 @@
  */
 
 import { coarse } from './surface/coarse.js';
+import { magnitude } from './surface/colours.js';
 import { resultImage } from './surface/known.js';
 import { gridOf } from './surface/lattice.js';
 import { handOver, work } from './surface/work.js';
@@ -14,6 +15,7 @@ import { handOver, work } from './surface/work.js';
 /** @import {Input, Result} from './session.js' */
 
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
+/** @typedef {ReturnType<typeof shownOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 /**
@@ -97,14 +99,14 @@ export class Analyses {
   /**
    * Curvatures before, on the same lattice, and after. Of a design there is no before.
    * @param {Result} result
-   * @returns {Promise<{ before: Analysis | null, after: Analysis }>}
+   * @returns {Promise<{ before: Curvatures | null, after: Curvatures }>}
    */
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
       input.design ? null : this.#once(input, `curvatures ${spacing}`, (worker) =>
-        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing })),
-      this.#once(surface, 'curvatures', (worker) => worker.analyze(surface)),
+        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shownOf)),
+      this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownOf)),
     ]);
     return { before, after };
   }
@@ -169,6 +171,19 @@ export class Analyses {
     return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, (worker) =>
       worker.dewarp(surface, photo, options));
   }
+}
+
+/**
+ * What is shown of an analysis, in half the memory.
+ * @param {Analysis} analysis
+ */
+function shownOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
+  return {
+    rows, cols, spacing, origin, summary,
+    gaussian: new Float32Array(gaussian),
+    kappa2: new Float32Array(kappa2),
+    medianKappa1: magnitude([kappa1], 0.5),
+  };
 }
 
 let photos = 0;

@@ -69,6 +69,11 @@ export function eachFrame(draw) {
   };
 }
 
+/** Lets the browser draw and listen before more is done. */
+export function breath() {
+  return new Promise((resolve) => setTimeout(resolve));
+}
+
 /**
  * Sizes the canvas' pixels to the device's, and calls back whenever they change.
  * @param {HTMLCanvasElement} canvas

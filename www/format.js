@@ -76,3 +76,13 @@ export function seconds(s) {
 export function shortest(lambda) {
   return Number(lambda.toPrecision(2)).toExponential().replace('e+', 'e');
 }
+
+/**
+ * What is under the pointer.
+ * @param {number} height NaN where there is none
+ * @param {string} [unit]
+ * @param {string} [value] what else is known there
+ */
+export function readingOf(height, unit = 'units', value = '') {
+  return Number.isNaN(height) ? '' : [`height ${number(height)} ${unit}`, value].filter(Boolean).join(' · ');
+}

@@ -17,6 +17,8 @@ import { coarse } from './surface/coarse.js';
 const SIDES = [96, 192, 384];
 /** A design has nothing to begin with but its pins, and takes longer. */
 const DESIGN = [48];
+/** Milliseconds without a wish after which the worker's memory is given back. */
+const REST = 10_000;
 /** What a picture needs no better than. */
 const GAP = 0.1;
 
@@ -30,6 +32,7 @@ export class Live {
   /** @type {{ input: Input, settings: Settings, abort: AbortController } | null} */
   #wish = null;
   #climbing = false;
+  #resting = 0;
   /** The last that was followed to the end. @type {{ input: Input, settings: Settings } | null} */
   #done = null;
 
@@ -51,6 +54,11 @@ export class Live {
     if (!this.#climbing) void this.#climb();
   }
 
+  /** Whether there is more to come of the newest wish. */
+  get busy() {
+    return this.#wish !== null;
+  }
+
   /** No more pictures are wanted. */
   stop() {
     this.#wish?.abort.abort();
@@ -60,6 +68,7 @@ export class Live {
   /** From rung to rung for one wish, then for the newest one, until there is none. */
   async #climb() {
     this.#climbing = true;
+    clearTimeout(this.#resting);
     for (let wish = this.#wish; wish; wish = this.#wish) {
       const { input, settings, abort } = wish;
       const sides = input.design ? DESIGN : SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
@@ -78,6 +87,11 @@ export class Live {
       this.#events.rested(settings);
     }
     this.#climbing = false;
+    this.#resting = window.setTimeout(() => {
+      this.#worker?.dispose();
+      this.#worker = null;
+      this.#rungs.clear();
+    }, REST);
   }
 
   /**
@@ -89,7 +103,9 @@ export class Live {
    */
   async #solve(input, { lambda, energy }, side, signal) {
     const { pixelSize, solver } = this.#rung(input, side);
-    const surface = await (await solver).fit({ lambda, energy, gap: GAP, signal });
+    // Passes at creases are for the answer.
+    const passes = energy === 'huber' ? { creasePasses: 0 } : {};
+    const surface = await (await solver).fit({ lambda, energy, ...passes, gap: GAP, signal });
     const { image } = surface;
     if (!image) throw new Error('it has no image');
     return { ...image, pixelSize };

@@ -269,7 +269,7 @@ export class Session extends Events {
         this.#job = null;
         if (!this.#following) this.#enter('idle');
         // What was chosen meanwhile.
-        else if (this.input) this.#live.wish(this.input, this.settings);
+        else if (!this.#live.busy) void this.run();
       }
     }
   }
@@ -320,8 +320,13 @@ export class Session extends Events {
   cancel() {
     this.#following = false;
     this.#live.stop();
-    if (this.#job) this.#job.abort.abort();
-    else this.#stop();
+    if (this.#job) {
+      this.#job.abort.abort();
+    } else if (this.phase === 'running') {
+      // There were previews only.
+      this.#stop();
+      this.emit('unsolved', null);
+    }
   }
 
   /** Ends the run and forgets it. */

@@ -1,7 +1,7 @@
 /** What axe finds wrong with the page, view by view, in both colour schemes. */
 import assert from 'node:assert/strict';
 import axe from 'axe-core';
-import { drop, pageTest, painted } from './support/page.mjs';
+import { drop, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -69,4 +69,7 @@ pageTest('axe finds nothing wrong with surfaces in space, on a phone, or at twic
       assert.ok(excess <= 0, `${excess} pixels at ${width}`);
     }
   }
+  await runBy(page, () => page.locator('input[value="design"]').check({ force: true }));
+  assert.ok(await page.locator('.knob').count() > 4);
+  assert.deepEqual(await violations(page), [], 'a design');
 }, { arrangement: 'space' });

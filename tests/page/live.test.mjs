@@ -36,4 +36,22 @@ pageTest('while λ is dragged, pictures follow, and the last wish is certified',
   const wished = 10 ** Number(await page.locator('#lambda').inputValue());
   assert.ok(Math.abs(parsed(await reported(page, 'λ')) / wished - 1) < 0.06);
   assert.match(await page.locator('#verdict').innerText(), /^Certified/);
+
+  // Cancelled while there is only a preview, the result before it stays.
+  const caption = await page.locator('#result-caption').innerText();
+  await page.evaluate(async () => {
+    const slider = /** @type {HTMLInputElement} */ (document.querySelector('#lambda'));
+    const mark = /** @type {HTMLElement} */ (document.querySelector('#result-mark'));
+    const seen = new Promise((resolve) => {
+      new MutationObserver(() => mark.textContent === 'preview' && resolve(null)).observe(mark, { childList: true });
+    });
+    slider.value = '4';
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+    await seen;
+    /** @type {HTMLButtonElement} */ (document.querySelector('#cancel')).click();
+  });
+  await settled(page);
+  assert.equal(await page.locator('#result-mark').isVisible(), false);
+  assert.equal(await page.locator('#result-caption').innerText(), caption);
+  assert.match(await page.locator('#verdict').innerText(), /^Not solved/);
 });

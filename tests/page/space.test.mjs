@@ -92,6 +92,15 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   await page.getByRole('radio', { name: 'Side by side' }).check({ force: true });
   const flat = await brightness(page, '#result-canvas');
   assert.ok(correlation(above, flat) > 0.97, `${correlation(above, flat)}`);
+  // Looked at from closer, and what is under the pointer.
+  const result = page.locator('#result-canvas');
+  await result.hover();
+  assert.match(await page.locator('#flat-reading').innerText(), /^height 0\.\d+ units$/);
+  await result.press('+');
+  await result.press('+');
+  assert.ok(correlation(flat, await brightness(page, '#result-canvas')) < 0.95);
+  await result.press('0');
+  assert.ok(correlation(flat, await brightness(page, '#result-canvas')) > 0.999);
   // It is what the next visit begins with.
   await page.getByRole('radio', { name: 'In space' }).check({ force: true });
   assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');
@@ -108,4 +117,31 @@ pageTest('without WebGL the flat pictures are there', async (page) => {
   await page.locator('#page[data-phase="idle"]').waitFor();
   assert.ok(await page.locator('#result-canvas').isVisible() && !(await page.locator('#space-canvas').isVisible()));
   assert.equal(await page.getByRole('radio', { name: 'In space' }).isVisible(), false);
+}, { arrangement: 'space' });
+
+pageTest('an answer that takes long can be done without, and asked for again; then it unfolds', async (page) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await runBy(page, () => page.locator('#size').selectOption('200'));
+  await runBy(page, () => page.locator('input[name="example"][value="cylinder"]').check());
+  // In one go, for the answer may be there in a moment.
+  const cancelled = await page.evaluate(() => {
+    const radio = /** @type {HTMLInputElement} */ (document.querySelector('input[name="view"][value="sheet"]'));
+    radio.checked = true;
+    radio.dispatchEvent(new Event('change', { bubbles: true }));
+    const waiting = /** @type {HTMLElement} */ (document.querySelector('#waiting'));
+    const seen = !waiting.hidden && /Working it out/.test(waiting.innerText);
+    /** @type {HTMLButtonElement} */ (document.querySelector('#waiting-cancel')).click();
+    return seen && waiting.hidden && document.querySelector('#about-view')?.textContent;
+  });
+  assert.match(String(cancelled), /^Cancelled/);
+  await page.getByRole('button', { name: 'Work it out' }).click();
+  await page.locator('#unfold-field').waitFor();
+  assert.equal(await page.locator('#unfold').inputValue(), '1', 'flat at once, where motion is unwelcome');
+  assert.equal(await page.locator('#divider').isVisible(), false);
+  const flat = await brightness(page, '#space-canvas');
+  await page.getByRole('slider', { name: 'From bent to flat' }).press('Home');
+  const bent = await brightness(page, '#space-canvas');
+  assert.ok(correlation(flat, bent) < 0.98, `${correlation(flat, bent)}`);
+  await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
+  assert.equal(await page.locator('#unfold-field').isVisible(), false);
 }, { arrangement: 'space' });

@@ -1,6 +1,6 @@
 /** Input and result as surfaces in space, one on each side of a divider. */
 import { eachFrame, element, elements } from '../dom.js';
-import { number } from '../format.js';
+import { number, readingOf } from '../format.js';
 import { Camera } from '../surface/camera.js';
 import { takeInHand } from '../surface/hands.js';
 import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
@@ -10,7 +10,7 @@ import { Space } from '../surface/space.js';
 
 /** @import {Pin} from '../design.js' */
 /** @import {Taken} from '../surface/hands.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @import {Input, Result, Session} from '../session.js' */
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {Layer, Line} from '../surface/layer.js' */
 /** @import {Light} from '../surface/light.js' */
@@ -106,6 +106,7 @@ export function spacePanel(session, light) {
     panel.hidden = !there();
     flat.hidden = there();
     hints.space.hidden = panel.hidden;
+    element('flat-reading', HTMLElement).hidden = !panel.hidden;
     hints.flat.hidden = !panel.hidden || (shown.before !== undefined && shown.after !== undefined);
     drawSoon();
   };
@@ -218,10 +219,7 @@ export function spacePanel(session, light) {
     const relief = space.relief(side);
     const point = relief && camera.hit(x, y, (px, py) => heightOn(relief, px, py));
     const layer = side === 'before' ? shown.input : shown.result;
-    const unit = session.input?.unit ?? (Math.abs((point?.[2] ?? 0) - 1) < 1e-9 ? 'unit' : 'units');
-    reading.textContent = point
-      ? [`height ${number(point[2])} ${unit}`, layer?.read?.(point[0], point[1]) ?? ''].filter(Boolean).join(' · ')
-      : '';
+    reading.textContent = point ? readingOf(point[2], session.input?.unit, layer?.read?.(point[0], point[1])) : '';
   });
   canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 
@@ -245,11 +243,7 @@ export function spacePanel(session, light) {
     left.textContent = input.design ? '' : 'Input';
     cover();
   });
-  session.on('cleared', () => {
-    space?.show('after', null);
-    right.textContent = '';
-    drawSoon();
-  });
+  session.on('cleared', () => showResult(null));
   session.on('preview', ({ input, image: { width, height, pixelSize, data } }) => {
     if (!space || !there()) return;
     space.show('after', reliefOf(input, normalsOf(data, width, height, 1 / pixelSize), data, 1));
@@ -257,12 +251,22 @@ export function spacePanel(session, light) {
     if (input.design) cover();
     drawSoon();
   });
-  session.on('result', (result) => {
+  /** @param {Result | null} result */
+  const showResult = (result) => {
     if (!space) return;
+    if (!result) {
+      space.show('after', null);
+      right.textContent = '';
+      drawSoon();
+      return;
+    }
     space.show('after', reliefOf(result.input, resultNormals(result), resultImage(result).data, 1));
     right.textContent = result.surface.report.stopReason === 'cancelled' ? 'Result · cancelled' : 'Result';
     cover();
-  });
+  };
+  session.on('result', showResult);
+  // Previews of it are no more.
+  session.on('unsolved', () => showResult(session.result));
   arrange();
 
   return {

@@ -1,12 +1,13 @@
 /** Input and result side by side under one light. */
 import { element } from '../dom.js';
-import { number, shortest } from '../format.js';
+import { number, readingOf, shortest } from '../format.js';
 import { gridOf, nearest } from '../surface/lattice.js';
-import { inputNormals, resultNormals } from '../surface/known.js';
+import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
 import { normalsOf } from '../surface/normals.js';
 import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
+import { Zoom } from '../surface/zoom.js';
 import { MARKS } from '../words.js';
 import { spacePanel } from './space.js';
 
@@ -18,10 +19,11 @@ import { spacePanel } from './space.js';
 /** @param {Session} session */
 export function viewsPanel(session) {
   const light = new Light();
-  const before = new SurfaceView(element('input-canvas', HTMLCanvasElement), light);
-  const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light);
+  const zoom = new Zoom();
+  const before = new SurfaceView(element('input-canvas', HTMLCanvasElement), light, zoom);
+  const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light, zoom);
   const photo = new PictureView(element('input-picture', HTMLCanvasElement));
-  const flat = new PictureView(element('result-picture', HTMLCanvasElement));
+  const flat = new PictureView(element('result-picture', HTMLCanvasElement), new Zoom());
   const space = spacePanel(session, light);
   const views = element('views', HTMLElement);
   const figure = element('result-view', HTMLElement);
@@ -32,6 +34,25 @@ export function viewsPanel(session) {
   const legend = element('input-legend', HTMLElement);
   /** @type {Occlusions | null} */
   let torn = null;
+
+  /** @type {Partial<Shown>} */
+  let now = {};
+  const reading = element('flat-reading', HTMLElement);
+  for (const [view, over] of /** @type {const} */ ([[before, 'input'], [after, 'result']])) {
+    view.canvas.addEventListener('pointermove', (event) => {
+      const { input, result } = session;
+      const place = view.under(event);
+      const shown = over === 'result' ? result && resultImage(result) : input;
+      if (!input || !shown || !place) {
+        reading.textContent = '\u00a0';
+        return;
+      }
+      const { width, height, pixelSize, left, top } = gridOf(input);
+      const z = shown.data[Math.floor(place[1] * height) * width + Math.floor(place[0] * width)] * (over === 'input' ? input.heightScale : 1);
+      reading.textContent = readingOf(z, input.unit, now[over]?.read?.(left + place[0] * width * pixelSize, top - place[1] * height * pixelSize)) || '\u00a0';
+    });
+    view.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
+  }
 
   const mark = () => {
     const { input } = session;
@@ -60,10 +81,8 @@ export function viewsPanel(session) {
     mark();
   });
   session.on('cleared', () => {
-    after.show(null);
+    show(null);
     caption.textContent = '';
-    stamp.hidden = true;
-    empty.hidden = false;
   });
   session.on('preview', ({ input, settings, image: { width, height, pixelSize, data } }) => {
     after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
@@ -75,14 +94,27 @@ export function viewsPanel(session) {
     stamp.hidden = false;
     empty.hidden = true;
   });
-  session.on('result', (result) => {
+  /** @param {import('../session.js').Result | null} result */
+  const show = (result) => {
     delete figure.dataset.preview;
+    if (!result) {
+      after.show(null);
+      stamp.hidden = true;
+      empty.hidden = false;
+      return;
+    }
     after.show(resultNormals(result));
     // λ has no say in a design.
     caption.textContent = result.input.design ? '' : `λ = ${shortest(result.surface.report.lambda)}`;
     stamp.textContent = result.surface.report.stopReason === 'cancelled' ? 'cancelled' : '';
     stamp.hidden = !stamp.textContent;
     empty.hidden = true;
+  };
+  session.on('result', show);
+  // Previews of it are no more.
+  session.on('unsolved', () => {
+    show(session.result);
+    after.cover(now.result ?? null);
   });
   session.on('phase', (phase) => {
     figure.setAttribute('aria-busy', String(phase === 'running'));
@@ -97,6 +129,7 @@ export function viewsPanel(session) {
      */
     show: (shown) => {
       const { input, result, before: left, after: right } = shown;
+      now = shown;
       space.show(shown);
       before.cover(input ?? null);
       after.cover(result ?? null);

@@ -102,7 +102,7 @@ export function linear(most, label) {
  */
 export function magnitude(fields, share) {
   /** More than this are not worth sorting. */
-  const enough = 100_000;
+  const enough = 30_000;
   const total = fields.reduce((sum, { length }) => sum + length, 0);
   const step = Math.max(1, Math.floor(total / enough));
   const found = [];

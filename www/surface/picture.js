@@ -1,5 +1,8 @@
 /** A picture in the place of a surface: a photo, or a flat sheet. */
 import { eachFrame, followDevicePixels } from '../dom.js';
+import { zoomable } from './zoom.js';
+
+/** @import {Zoom} from './zoom.js' */
 
 /**
  * @typedef {object} Picture
@@ -13,9 +16,15 @@ export class PictureView {
   #picture = null;
   #paintSoon = eachFrame(() => this.#paint());
 
-  /** @param {HTMLCanvasElement} canvas */
-  constructor(canvas) {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Zoom} [zoom] none where something else lies over the picture
+   */
+  constructor(canvas, zoom) {
     this.canvas = canvas;
+    this.zoom = zoom;
+    zoom?.onChange(this.#paintSoon);
+    if (zoom) zoomable(canvas, zoom);
     // At once, for a resized canvas is blank.
     followDevicePixels(canvas, () => this.#paint());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', this.#paintSoon);
@@ -34,7 +43,13 @@ export class PictureView {
     const context = canvas.getContext('2d');
     if (!context || !this.#picture || canvas.clientWidth === 0) return;
     context.clearRect(0, 0, canvas.width, canvas.height);
+    context.save();
+    if (this.zoom) {
+      const { left, top, width, height } = this.zoom.placed(canvas, { left: 0, top: 0, width: canvas.width, height: canvas.height });
+      context.setTransform(width / canvas.width, 0, 0, height / canvas.height, left, top);
+    }
     this.#picture.paint(context, canvas.width / canvas.clientWidth);
+    context.restore();
   }
 }
 

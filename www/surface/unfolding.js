@@ -9,7 +9,7 @@ import { divergingPixel } from './colours.js';
 /** Steps from bent to flat. */
 const STEPS = 20;
 const ITERATIONS = 400;
-const TOLERANCE = 1e-3;
+const TOLERANCE = 2e-4;
 
 /**
  * @param {object} unrolling

@@ -3,12 +3,14 @@ import { eachFrame, followDevicePixels } from '../dom.js';
 import { drawLines } from './layer.js';
 import { markedCanvas } from './marks.js';
 import { rasterOf } from './raster.js';
+import { zoomable } from './zoom.js';
 
 /** @import {Light} from './light.js' */
 /** @import {Normals} from './normals.js' */
 /** @import {Layer} from './layer.js' */
 /** @import {Marks} from './marks.js' */
 /** @import {Raster} from './raster.js' */
+/** @import {Zoom} from './zoom.js' */
 
 /** Pixels for each one of a picture that is soon replaced by a finer one. */
 const COARSE = 2;
@@ -40,10 +42,13 @@ export class SurfaceView {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {Light} light
+   * @param {Zoom} zoom
    */
-  constructor(canvas, light) {
+  constructor(canvas, light, zoom) {
     this.canvas = canvas;
     this.light = light;
+    this.zoom = zoom;
+    zoom.onChange(this.#paintSoon);
     const sun = canvas.parentElement?.querySelector('.sun');
     this.sun = sun instanceof HTMLElement ? sun : null;
     canvas.setAttribute('aria-valuemin', '0');
@@ -121,10 +126,8 @@ export class SurfaceView {
     const density = (fit * frame.width) / normals.width;
     this.#raster ??= rasterOf(normals, coarse ? Math.min(density, COARSE) : density);
     this.#shade(this.#raster);
-    const width = Math.max(1, Math.round(frame.width * fit));
-    const height = Math.max(1, Math.round(frame.height * fit));
-    const left = Math.floor((canvas.width - width) / 2);
-    const top = Math.floor((canvas.height - height) / 2);
+    const plain = { width: Math.max(1, Math.round(frame.width * fit)), height: Math.max(1, Math.round(frame.height * fit)) };
+    const { left, top, width, height } = this.#place(plain);
     context.imageSmoothingEnabled = this.#raster.width !== width || this.#raster.height !== height;
     context.imageSmoothingQuality = 'medium';
     const layer = this.#layer;
@@ -143,8 +146,32 @@ export class SurfaceView {
       drawLines(context, (x, y) => [left + (x - grid.left) * scale, top + (grid.top - y) * scale], lines, window.devicePixelRatio);
     }
     if (this.#marks.length === 0) return;
-    this.#overlay ??= markedCanvas(this.#marks, width, height, window.devicePixelRatio);
-    context.drawImage(this.#overlay, left, top);
+    this.#overlay ??= markedCanvas(this.#marks, plain.width, plain.height, window.devicePixelRatio);
+    context.drawImage(this.#overlay, left, top, width, height);
+  }
+
+  /** Where the surface is on the canvas. @param {{ width: number, height: number }} size as it is without zoom */
+  #place({ width, height }) {
+    const { canvas } = this;
+    return this.zoom.placed(canvas, {
+      left: Math.floor((canvas.width - width) / 2), top: Math.floor((canvas.height - height) / 2), width, height,
+    });
+  }
+
+  /**
+   * What is under the pointer, in shares of the surface from its upper left corner.
+   * @param {MouseEvent} event
+   * @returns {[number, number] | null}
+   */
+  under({ offsetX, offsetY }) {
+    const { canvas } = this;
+    const frame = this.#frame;
+    if (!frame) return null;
+    const fit = Math.min(canvas.width / frame.width, canvas.height / frame.height);
+    const { left, top, width, height } = this.#place({ width: frame.width * fit, height: frame.height * fit });
+    const ratio = canvas.width / canvas.clientWidth;
+    const [x, y] = [(offsetX * ratio - left) / width, (offsetY * ratio - top) / height];
+    return x >= 0 && y >= 0 && x < 1 && y < 1 ? [x, y] : null;
   }
 
   /** @param {Raster} raster */
@@ -183,13 +210,12 @@ export class SurfaceView {
         (box.top + box.height / 2 - event.clientY) / radius,
       );
     };
+    const zooms = zoomable(canvas, this.zoom);
     canvas.addEventListener('pointerdown', (event) => {
-      if (event.button !== 0) return;
-      canvas.setPointerCapture(event.pointerId);
-      follow(event);
+      if (event.button === 0 && !zooms()) follow(event);
     });
     canvas.addEventListener('pointermove', (event) => {
-      if (canvas.hasPointerCapture(event.pointerId)) follow(event);
+      if (canvas.hasPointerCapture(event.pointerId) && !zooms()) follow(event);
     });
     canvas.addEventListener('keydown', (event) => {
       const arrow = ARROWS[event.key];

@@ -6,7 +6,7 @@ import { canvasOf, valueAt } from '../surface/layer.js';
 import { work } from '../surface/work.js';
 import { colourBar, figures } from './legend.js';
 
-/** @import {Analyses, Analysis} from '../analyses.js' */
+/** @import {Analyses, Curvatures} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {Shown} from './shown.js' */
 
@@ -14,7 +14,7 @@ const NAMES = { gaussian: 'K', kappa2: 'κ₂' };
 /** The share of the values that the scale spans. */
 const SPAN = 0.99;
 
-/** @typedef {{ before: Analysis | null, after: Analysis }} Both */
+/** @typedef {{ before: Curvatures | null, after: Curvatures }} Both */
 
 /**
  * @param {Analyses} analyses
@@ -43,7 +43,7 @@ export async function kappa2(analyses, result) {
   const inverse = `1/${result.input.unit ?? 'unit'}`;
   return coloured(result, both, 'kappa2', inverse, 1 / size, `κ₂, the smaller of the two bends, in ${inverse}`, [
     [`Median |κ₂| in ${inverse}`, inBoth(both, ({ summary }) => number(summary.medianKappa2 / size, 2))],
-    [`Median |κ₁|, the larger one`, inBoth(both, ({ kappa1 }) => number(magnitude([kappa1], 0.5), 2))],
+    [`Median |κ₁|, the larger one`, inBoth(both, ({ medianKappa1 }) => number(medianKappa1, 2))],
   ]);
 }
 
@@ -60,7 +60,7 @@ export async function kappa2(analyses, result) {
 async function coloured({ input }, { before, after }, what, inverse, knee, title, facts) {
   const grid = gridOf(input);
   const most = magnitude([after, ...(before ? [before] : [])].map((analysis) => analysis[what]), SPAN);
-  /** @param {Analysis} analysis */
+  /** @param {Curvatures} analysis */
   const layer = async ({ rows, cols, spacing, origin, [what]: values }) => {
     const lattice = { rows, cols, spacing, origin };
     const field = { ...lattice, values };
@@ -80,7 +80,7 @@ async function coloured({ input }, { before, after }, what, inverse, knee, title
 /**
  * A figure of the input, if there is one, and of the result.
  * @param {Both} both
- * @param {(analysis: Analysis) => string} figure
+ * @param {(analysis: Curvatures) => string} figure
  */
 function inBoth({ before, after }, figure) {
   return before ? `${figure(before)} → ${figure(after)}` : figure(after);

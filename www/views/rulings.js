@@ -1,4 +1,5 @@
 /** The lines along which the surface is straight, over its shading. */
+import { breath } from '../dom.js';
 import { count, number, percent } from '../format.js';
 import { css } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
@@ -19,6 +20,7 @@ const COLOUR = [232, 89, 12];
  */
 export async function rulings(analyses, result) {
   const { lines } = await analyses.rulings(result);
+  await breath();
   const { input } = result;
   const unit = input.unit ?? 'units';
   const bent = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);

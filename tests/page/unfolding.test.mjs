@@ -1,0 +1,49 @@
+/** The way from a bent surface to its sheet, against a cylinder whose way is known. */
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { unfolding } from '../../www/surface/unfolding.js';
+
+test('a cylinder unfolds as cylinders of ever larger radius, without stretch', () => {
+  const [cols, rows, radius, step] = [25, 6, 3, 0.2];
+  /** @type {number[]} */
+  const positions = [];
+  /** @type {number[]} */
+  const places = [];
+  /** @type {number[]} */
+  const triangles = [];
+  for (let row = 0; row < rows; row++) {
+    for (let col = 0; col < cols; col++) {
+      const s = (col - (cols - 1) / 2) * step;
+      positions.push(radius * Math.sin(s / radius), row * step, radius * Math.cos(s / radius));
+      // The sheet lies elsewhere on the plane.
+      places.push(s + 7, row * step - 2);
+      if (col + 1 === cols || row + 1 === rows) continue;
+      const i = row * cols + col;
+      triangles.push(i, i + 1, i + cols, i + 1, i + cols + 1, i + cols);
+    }
+  }
+  const stretches = new Float64Array((2 * triangles.length) / 3).fill(1);
+  const { forms, colours } = unfolding({
+    positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles), stretches,
+  }, 0.01, [10, 20]);
+  assert.equal(colours.length, 4 * rows * cols);
+  const length = (/** @type {Float32Array} */ form, /** @type {number} */ i, /** @type {number} */ j) =>
+    Math.hypot(...[0, 1, 2].map((k) => form[3 * i + k] - form[3 * j + k]));
+  forms.forEach((form, n) => {
+    // Edges along the axis and across it; chords are a little shorter than arcs.
+    for (let t = 0; t < triangles.length; t += 3) {
+      for (const [a, b] of [[0, 1], [0, 2]]) {
+        const [i, j] = [triangles[t + a], triangles[t + b]];
+        const own = Math.hypot(places[2 * i] - places[2 * j], places[2 * i + 1] - places[2 * j + 1]);
+        assert.ok(Math.abs(length(form, i, j) / own - 1) < 2e-3, `form ${n}: ${length(form, i, j)} for ${own}`);
+      }
+    }
+    // Ends come apart as the arc of the radius in between has its chord.
+    const share = 1 - n / (forms.length - 1);
+    const angle = (share * (cols - 1) * step) / radius;
+    const chord = share === 0 ? (cols - 1) * step : (2 * (radius / share)) * Math.sin(angle / 2);
+    assert.ok(Math.abs(length(form, 0, cols - 1) / chord - 1) < 0.01, `form ${n}: ${length(form, 0, cols - 1)} for ${chord}`);
+  });
+  assert.ok(Math.abs(forms[0][0] - (positions[0] + 10)) < 1e-5 && Math.abs(forms[0][1] - 20) < 1e-5, 'it begins where the surface is');
+  assert.ok(forms[forms.length - 1].every((value, i) => i % 3 < 2 || Math.abs(value - forms[forms.length - 1][2]) < 1e-5), 'and ends flat');
+});

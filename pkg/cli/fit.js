@@ -4,6 +4,7 @@ import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about, readInput } from './inputs.js';
+import { Problem, status } from './problem.js';
 import { announce, percent, progressLine } from './terminal.js';
 
 /**
@@ -50,9 +51,19 @@ export async function fit(task, signal) {
  * @param {FitTask} task
  * @param {Uint8Array} texture
  */
-async function seenBy({ texture: path, camera: depths, photoCamera }, texture) {
-  if (depths === undefined && photoCamera === undefined) return {};
+async function seenBy({ texture: path, camera: depths, photoCamera, mtl }, texture) {
+  const seen = depths !== undefined || photoCamera !== undefined;
+  if (!seen && mtl === undefined) return {};
   const { width, height, orientation } = await about(String(path), () => developable.readPhoto(texture));
+  // Texture coordinates are those of the upright photo, and what reads an .obj may show the pixels as they are stored.
+  if (mtl !== undefined && orientation !== undefined) {
+    throw new Problem(
+      status.input,
+      `${path} is stored on its side or upside down, with a note (Exif orientation ${orientation}) that programs which open `
+        + 'an .obj follow or not: save the photo upright first, or choose an output .glb, which holds it upright',
+    );
+  }
+  if (!seen) return {};
   const camera = photoCamera === undefined ? undefined : await readCamera(photoCamera, [{ width, height }]);
   return { photo: { width, height, orientation, camera }, camera };
 }

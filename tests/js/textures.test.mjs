@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { withExif } from './support/exif.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'images', 'meshes')]);
@@ -260,10 +261,17 @@ test('the command paints with a photo', async () => {
     ['scan.npy -o out.obj --mtl a.mtl', 2, /--mtl/],
     ['scan.npy --texture colour-tum.png -o out.obj --mtl a.txt', 2, /mtl must end/],
     ['scan.npy --texture scan.npy -o out.obj', 3, /scan\.npy.*photos/],
+    // Whether who opens the .obj turns the picture cannot be known.
+    ['scan.npy --texture lying.jpg -o lying.obj --mtl lying.mtl', 3, /lying\.jpg.*Exif orientation 6.*save the photo upright/],
   ];
+  await writeFile(join(folder, 'lying.jpg'), withExif(await file('colour-tum.jpg'), { orientation: 6 }));
   for (const [args, status, message] of wrong) {
     const result = await fit(args);
     assert.equal(result.status, status, `${args}: ${result.stderr}`);
     assert.match(result.stderr, message);
+  }
+  await assert.rejects(readFile(join(folder, 'lying.obj')), { code: 'ENOENT' });
+  for (const args of ['--texture lying.jpg -o lying.ply', '--texture colour-tum.jpg -o lying.obj --mtl lying.mtl']) {
+    assert.deepEqual(await fit(`scan.npy ${args}`), silent);
   }
 });

@@ -26,9 +26,11 @@ const CORRELATED: [f64; 2] = [1.3, 5.0];
 
 /// Noise that is smooth over several vertices shows late, behind what is rougher and smaller, such as
 /// rounding or the edges of pixels: growth rises by this factor, to no more than what noise that is still
-/// smooth can grow by. What rises with it is no shape of a developable surface, which does not bend both
-/// ways: what it does by at least this share is noise.
+/// smooth can grow by, or it is that of noise on each lattice, and at least the second number. What grows so
+/// is no shape of a developable surface, which does not bend both ways: what it does by at least this share
+/// is noise.
 const RISES: f64 = 1.1;
+const EVERYWHERE: f64 = 3.0;
 const FASTEST: f64 = 12.0;
 const BOTH_WAYS: f64 = 0.75;
 
@@ -95,7 +97,9 @@ impl Noise {
                 return Ok(Some(last));
             }
             grown.push(growth);
-            if count > MOST_MERGED && rises(&grown) && bend_noise(&merged) > Some(BOTH_WAYS * found)
+            if count > MOST_MERGED
+                && shows_late(&grown)
+                && bend_noise(&merged) > Some(BOTH_WAYS * found)
             {
                 return Ok(Some(next));
             }
@@ -113,11 +117,12 @@ impl Noise {
     }
 }
 
-/// Whether noise shows on the lattices merged last, behind what grows slowly on those before.
-fn rises(growth: &[f64]) -> bool {
+/// Whether noise shows on the lattices merged last, behind what grows slowly on those before or as much.
+fn shows_late(growth: &[f64]) -> bool {
     let (first, later) = (growth[0], &growth[1..]);
     let fastest = later.iter().copied().fold(0.0, f64::max);
-    fastest > RISES * first && (CORRELATED[1]..FASTEST).contains(&fastest)
+    let rises = fastest > RISES * first && (CORRELATED[1]..FASTEST).contains(&fastest);
+    rises || (growth.iter()).all(|growth| (EVERYWHERE..CORRELATED[1]).contains(growth))
 }
 
 /// What rings of six neighbours have in excess of any quadratic: the sum of their heights with
@@ -318,6 +323,16 @@ mod tests {
         let noise = Noise::of(&field.into()).unwrap().unwrap();
         assert_eq!(noise.merged, 3, "{noise:?}");
         // No more than it has, and more than rough noise a tenth of its size.
+        assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
+        // Nor is it lost where what is rougher goes over to it little by little.
+        let (own, beside) = (smooth(vertices, 0.0), smooth(1.0, 0.0));
+        let both = own
+            .iter()
+            .zip(beside.iter().rev())
+            .map(|(n, m)| n + 0.3 * m);
+        let field = roof(sigma, &both.collect::<Vec<_>>());
+        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        assert_eq!(noise.merged, 3, "{noise:?}");
         assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
         // A shape that shows behind rough noise alike is none.
         let [rough, shape] = [3e-4, 0.028];

@@ -1,5 +1,5 @@
 /** What an OCR program reads, against what is printed. */
-import { writeFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { run } from '../../util/process.mjs';
 
@@ -14,19 +14,19 @@ export async function missingReader() {
 }
 
 /**
- * @param {string} folder for the image
+ * @param {string} folder for the image and its text
  * @param {Uint8Array} png
  * @param {number} dpi
  */
 export async function read(folder, png, dpi) {
-  const file = join(folder, 'read.png');
+  const [file, text] = [join(folder, 'read.png'), join(folder, 'text')];
   await writeFile(file, png);
-  // What it says of itself would come between the lines.
-  const args = [file, 'stdout', '--dpi', String(dpi), '-l', 'eng', '-c', 'debug_file=/dev/null'];
-  const { ok, output, failure } = await run(program, args, { env: { ...process.env, OMP_THREAD_LIMIT: '1' } });
+  // To a file: what it says of the image goes to the same terminal as the text, and would be counted as errors.
+  const args = [file, text, '--dpi', String(dpi), '-l', 'eng', 'txt'];
+  const { ok, failure } = await run(program, args, { env: { ...process.env, OMP_THREAD_LIMIT: '1' } });
   // A page on which it finds no text at all is one, too.
   if (!ok) return failure.startsWith('exit') ? '' : Promise.reject(new Error(failure));
-  return output;
+  return readFile(`${text}.txt`, 'utf8');
 }
 
 /** Each gap one space, and quotation marks and dashes of one kind. @param {string} text */

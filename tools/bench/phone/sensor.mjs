@@ -73,12 +73,13 @@ export function smoothNoise(width, height, deviation, next) {
  * @param {Pose} pose
  * @param {Camera} camera
  * @param {number} noise standard deviation, in millimetres
+ * @param {number} [seed] of the noise
  */
-export function sensed(page, pose, camera, noise) {
+export function sensed(page, pose, camera, noise, seed = 0) {
   const { width, height } = camera;
   const close = finer(camera, FINE);
   const [fine, behind] = [view(page, pose, close), background(page, pose, close)];
-  const next = normal(1 + Math.round(10 * noise));
+  const next = normal(1 + Math.round(10 * noise) + 100 * seed);
   const error = smoothNoise(width, height, SMOOTH, next);
   const around = FINE / 2;
   const data = new Float64Array(width * height);

@@ -96,6 +96,8 @@ export const ways = {
       now = smoothed(now, steps - done);
       done = steps;
       const { rms } = flattened(now, scene, COARSE).truth;
+      // From here on it only loses shape.
+      if (rms > 1.2 * least) break;
       if (rms < least) [best, least] = [now, rms];
     }
     return flattened(best, scene);

@@ -1,5 +1,6 @@
 /** A flat image against the page itself. */
 import msssim from '@blazediff/ssim/msssim';
+import { project, seenFrom } from './camera.mjs';
 import { anisotropy, similarity, singular } from './fitting.mjs';
 import { greyAt } from './sensor.mjs';
 
@@ -123,6 +124,26 @@ export function turned(flat, { width, height }, page, { a, b, s, t }) {
     const [x, y] = [a * u - b * v + s, b * u + a * v + t];
     const inside = x >= 0 && y >= 0 && x <= flat.width - 1 && y <= flat.height - 1;
     return inside ? Math.round(greyAt(flat, x, y)) : 255;
+  });
+  return { width, height, data };
+}
+
+/**
+ * What a photo shows of the page on the pixels of the page's own image, by the shape that it has: the most
+ * that any surface can give, with as many pixels to a letter as the photo has.
+ * @param {Grey} photo
+ * @param {Grey} original
+ * @param {import('./pages.mjs').Page} page
+ * @param {import('./camera.mjs').Pose} pose
+ * @param {import('./camera.mjs').Camera} camera
+ * @returns {Grey}
+ */
+export function byItsShape(photo, { width, height }, page, pose, camera) {
+  const pixel = page.width / width;
+  const space = seenFrom(page, pose);
+  const data = Uint8Array.from({ length: width * height }, (_, i) => {
+    const [x, y] = project(camera, space(((i % width) + 0.5) * pixel, (Math.floor(i / width) + 0.5) * pixel));
+    return Math.round(greyAt(photo, x, y));
   });
   return { width, height, data };
 }

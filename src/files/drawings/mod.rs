@@ -1,4 +1,5 @@
-//! Patterns in files: SVG, PDF and DXF of a [`Drawing`], in true size.
+//! Patterns in files: SVG, PDF and DXF of a [`Drawing`], in true size. Curves are cubic Bézier curves in SVG
+//! and PDF, arcs of circles in DXF.
 //!
 //! | | cut | mountain fold | valley fold | fold of a tab | text |
 //! |---|---|---|---|---|---|
@@ -23,11 +24,12 @@
 //! # }
 //! ```
 
+mod arcs;
 mod dxf;
 mod pdf;
 mod svg;
 
-use crate::flat::drawing::{Drawing, DrawnSheet, Line};
+use crate::flat::drawing::{Curve, Drawing, DrawnSheet, Line};
 use crate::flat::pattern::Direction;
 pub use dxf::write_dxf;
 pub use pdf::write_pdf;
@@ -81,14 +83,14 @@ impl Kind {
     }
 
     /// The lines of this kind on a sheet, and whether they are closed.
-    fn lines(self, sheet: &DrawnSheet) -> (Vec<&[[f64; 2]]>, bool) {
+    fn lines(self, sheet: &DrawnSheet) -> (Vec<&Curve>, bool) {
         let course = |line: &'_ &Line| Kind::of(line.direction) == self;
         match self {
-            Kind::Cut => (sheet.cuts.iter().map(Vec::as_slice).collect(), true),
-            Kind::Tab => (sheet.tabs.iter().map(|l| &l.points[..]).collect(), false),
+            Kind::Cut => (sheet.curves.iter().collect(), true),
+            Kind::Tab => (sheet.tabs.iter().map(|l| &l.curve).collect(), false),
             _ => {
                 let own = sheet.folds.iter().filter(course);
-                (own.map(|line| &line.points[..]).collect(), false)
+                (own.map(|line| &line.curve).collect(), false)
             }
         }
     }
@@ -103,15 +105,15 @@ const GREY: u8 = 90;
 /// From the middle of a line of text down to where its letters stand, in sizes of the font.
 const DROP: f64 = 0.35;
 
-/// A line's points, and whether it is closed.
-type Drawn<'a> = (&'a [[f64; 2]], bool);
+/// A line, and whether it is closed.
+type Drawn<'a> = (&'a Curve, bool);
 
 /// Of each kind the lines, sheet by sheet.
 fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
     Kind::ALL.into_iter().map(|kind| {
         let lines = drawing.sheets.iter().flat_map(move |sheet| {
             let (lines, closed) = kind.lines(sheet);
-            lines.into_iter().map(move |points| (points, closed))
+            lines.into_iter().map(move |curve| (curve, closed))
         });
         (kind, lines.collect())
     })

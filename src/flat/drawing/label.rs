@@ -1,7 +1,7 @@
 //! What is written on sheets, and where.
 
 use super::tabs::Tab;
-use super::{Line, distance, length};
+use super::{FLATNESS, Line, distance, length};
 use crate::flat::pattern::Direction;
 
 /// Sizes of text, in millimetres.
@@ -71,7 +71,12 @@ impl Label {
     }
 
     pub(super) fn tab(letter: &str, tab: &Tab) -> Self {
-        let label = Label::beside(LabelKind::Seam, letter.into(), &tab.base, 0.0);
+        let label = Label::beside(
+            LabelKind::Seam,
+            letter.into(),
+            &tab.base.points(FLATNESS),
+            0.0,
+        );
         let size = label.size.min(0.7 * tab.depth);
         Label {
             place: tab.middle,
@@ -128,6 +133,16 @@ impl Label {
         };
         label.turn_by(y.atan2(x).to_degrees());
         label
+    }
+
+    /// About how wide a name above a sheet is, and how high with the room around it.
+    pub(super) fn extent(&self) -> [f64; 2] {
+        let letters = self.text.chars().count() as f64;
+        [0.6 * self.size * letters, 2.0 * self.size]
+    }
+
+    pub(super) fn is_sheet(&self) -> bool {
+        self.kind == LabelKind::Sheet
     }
 
     /// Turns it with its sheet, and by half a turn more where it would be upside down.

@@ -15,9 +15,38 @@ pub(super) struct Place {
 const WORTH: f64 = 0.03;
 
 impl Place {
+    pub(super) const NONE: Place = Place {
+        turn: [1.0, 0.0],
+        shift: [0.0; 2],
+        size: [0.0; 2],
+    };
+
     pub(super) fn of(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let ([cos, sin], [dx, dy]) = (self.turn, self.shift);
         [cos * x - sin * y + dx, sin * x + cos * y + dy]
+    }
+
+    /// The same, then so many quarter turns about the origin.
+    pub(super) fn quarters(&self, count: usize) -> Place {
+        let turned = |[x, y]: [f64; 2]| match count % 4 {
+            0 => [x, y],
+            1 => [-y, x],
+            2 => [-x, -y],
+            _ => [y, -x],
+        };
+        let [w, h] = self.size;
+        Place {
+            turn: turned(self.turn),
+            shift: turned(self.shift),
+            size: if count % 2 == 0 { [w, h] } else { [h, w] },
+        }
+    }
+
+    pub(super) fn shifted(&self, by: [f64; 2]) -> Place {
+        Place {
+            shift: [0, 1].map(|k| self.shift[k] + by[k]),
+            ..*self
+        }
     }
 
     pub(super) fn degrees(&self) -> f64 {

@@ -236,6 +236,7 @@ fn drawn(net: &Net, arrangement: &Arrangement, patches: &Patches, parts: &Parts)
             folds: folds(net, layout, members, &outlines, seam),
             outlines,
             spots: members.iter().map(|p| places[*p as usize]).collect(),
+            spacing: net.spacing,
             area: members.iter().map(own).sum(),
             strain: strain.rms(),
             gap: *gap,

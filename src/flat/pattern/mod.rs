@@ -115,6 +115,8 @@ pub struct Sheet {
     pub folds: Vec<Fold>,
     /// A place well inside of each patch, in the order of the patches.
     pub spots: Vec<Spot>,
+    /// Distance of neighbours on the lattice, which says how fine these lines can be.
+    pub spacing: f64,
     /// Area of the surface that it is made of.
     pub area: f64,
     /// What strain is left in it: root of the mean square over its area. 0 for what can be unrolled.

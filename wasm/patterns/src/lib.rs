@@ -1,10 +1,11 @@
 //! Surfaces cut into sheets: drawn, and drawings to files.
 
 use js_sys::Uint8Array;
+use serde::Deserialize;
 use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::drawing::{Drawing, DrawingOptions, Paper};
+use developable::drawing::{Drawing, DrawingOptions, Stock};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, pattern};
@@ -18,10 +19,13 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut settings = Settings::default();
     let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
     let mut drawing = DrawingOptions::default();
+    let mut stock = None;
     const NUMBER: &str = "must be a number";
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
+            "smoothing" => drawing = drawing.smoothing(option("smoothing", value, NUMBER)?),
+            "paper" => stock = Some(paper(value)?),
             "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
             "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
             "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
@@ -30,8 +34,8 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
             "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "scale, tabs, gap, maxStrain, bend, fold, smallest, tolerance, \
-                             maxIterations and spacing";
+                let known = "scale, tabs, smoothing, paper, gap, maxStrain, bend, fold, smallest, \
+                             tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
         }
@@ -40,7 +44,38 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let surface = Scene::new(field, settings.spacing)?.surface;
     let patches = Patches::new(&surface, &wanted)?;
     let found = pattern(&surface, &patches, &sheets.unrolling(settings.unrolling))?;
-    Ok(to_value(&Drawing::new(&found.sheets, &drawing)?)?)
+    let drawn = Drawing::new(&found.sheets, &drawing)?;
+    let drawn = match stock {
+        Some(stock) => drawn.onto(stock)?,
+        None => drawn,
+    };
+    Ok(to_value(&drawn)?)
+}
+
+/// `Stock` of `types.d.ts`.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Paper {
+    Named(Named),
+    Plate([f64; 2]),
+    Roll([f64; 1]),
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Named {
+    A4,
+    Letter,
+}
+
+fn paper(value: JsValue) -> Result<Stock> {
+    const SIZES: &str = "must be a4, letter, [width, height] of plates or [width] of a roll";
+    Ok(match option("paper", value, SIZES)? {
+        Paper::Named(Named::A4) => Stock::A4,
+        Paper::Named(Named::Letter) => Stock::Letter,
+        Paper::Plate(sides) => Stock::Plate(sides),
+        Paper::Roll([width]) => Stock::Roll(width),
+    })
 }
 
 /// SVG file of a drawing.
@@ -49,17 +84,17 @@ pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
     Ok(write_svg(&drawn(drawing)?)?.as_slice().into())
 }
 
-/// PDF file of a drawing, on one page or on those of a paper.
+/// PDF file of a drawing, on one page or on those of a stock.
 #[wasm_bindgen(js_name = writePdf)]
 pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
-    let mut paper = None;
+    let mut stock = None;
     for (name, value) in entries(&options)? {
         match name.as_str() {
-            "paper" => paper = Some(option::<Paper>("paper", value, "must be a4 or letter")?),
+            "paper" => stock = Some(paper(value)?),
             _ => return Err(unknown(&name, "paper")),
         }
     }
-    Ok(write_pdf(&drawn(drawing)?, paper)?.as_slice().into())
+    Ok(write_pdf(&drawn(drawing)?, stock)?.as_slice().into())
 }
 
 /// DXF file of a drawing.

@@ -1,0 +1,136 @@
+//! Sheets in millimetres, with tabs and labels, before they have a place.
+
+use std::collections::BTreeMap;
+
+use super::curve::Curve;
+use super::label::Label;
+use super::pack::Place;
+use super::smooth::smoothed;
+use super::tabs::{Tab, tabbed};
+use super::{DrawingOptions, DrawnSheet, FLATNESS, Line};
+use crate::flat::pattern::{Run, Sheet};
+
+/// Letters for the creases that are cut, in their order.
+pub(super) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
+    let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
+    let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
+    creases.sort_unstable();
+    creases.dedup();
+    let name = |mut n: usize| {
+        let mut name = String::new();
+        loop {
+            name.insert(0, char::from(b'a' + (n % 26) as u8));
+            match n / 26 {
+                0 => return name,
+                more => n = more - 1,
+            }
+        }
+    };
+    let names = creases.into_iter().enumerate();
+    names.map(|(n, crease)| (crease, name(n))).collect()
+}
+
+/// The lines of a sheet, smooth and in millimetres.
+pub(super) struct Lines<'a> {
+    pub outlines: Vec<Vec<(&'a Run, Curve)>>,
+    pub folds: Vec<Line>,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
+        let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
+        let smooth = smoothed(sheet, options.smoothing);
+        let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {
+            outline.iter().zip(curves.iter().map(scaled)).collect()
+        };
+        let folds = sheet.folds.iter().zip(&smooth.folds);
+        Lines {
+            outlines: sheet
+                .outlines
+                .iter()
+                .zip(&smooth.outlines)
+                .map(runs)
+                .collect(),
+            folds: folds
+                .map(|(fold, curve)| Line::new(fold.seam, scaled(curve)))
+                .collect(),
+        }
+    }
+}
+
+impl DrawnSheet {
+    pub(super) fn new(
+        number: usize,
+        sheet: &Sheet,
+        lines: &Lines<'_>,
+        options: &DrawingOptions,
+        letters: &BTreeMap<usize, String>,
+    ) -> Self {
+        let scale = options.scale;
+        let mut labels: Vec<Label> = (sheet.spots.iter())
+            .map(|spot| Label::patch(spot.patch, spot.place.map(|v| scale * v), scale * spot.room))
+            .collect();
+        for (run, curve) in lines.outlines.iter().flatten() {
+            if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
+                labels.push(Label::seam(letter, &curve.points(FLATNESS)));
+            }
+        }
+        labels.extend(lines.folds.iter().map(Label::fold));
+        let (curves, flaps) = tabbed(&lines.outlines, options.tabs);
+        labels.extend((flaps.iter()).filter_map(|tab: &Tab| {
+            let letter = letters.get(&tab.seam.crease)?;
+            Some(Label::tab(letter, tab))
+        }));
+        DrawnSheet {
+            name: format!("Sheet {}", number + 1),
+            patches: sheet.patches.clone(),
+            bounds: [[0.0; 2]; 2],
+            cuts: Vec::new(),
+            curves,
+            folds: lines.folds.clone(),
+            tabs: (flaps.into_iter())
+                .map(|tab| Line::new(tab.seam, tab.base))
+                .collect(),
+            labels,
+        }
+        .moved(&Place::NONE)
+    }
+
+    /// This sheet at a place.
+    pub(super) fn moved(mut self, place: &Place) -> Self {
+        for line in self.folds.iter_mut().chain(&mut self.tabs) {
+            line.curve = line.curve.mapped(|p| place.of(p));
+            line.points = line.curve.points(FLATNESS);
+        }
+        for curve in &mut self.curves {
+            *curve = curve.mapped(|p| place.of(p));
+        }
+        let ring = |curve: &Curve| {
+            let mut points = curve.points(FLATNESS);
+            // The last point is joined to the first.
+            points.pop();
+            points
+        };
+        self.cuts = self.curves.iter().map(ring).collect();
+        for label in &mut self.labels {
+            label.place = place.of(label.place);
+            label.turn_by(place.degrees());
+        }
+        self.bounds = bounds(self.cuts.iter().flatten());
+        // Its name stays above it.
+        self.labels.retain(|label| !label.is_sheet());
+        self.labels.push(Label::sheet(&self.name, self.bounds));
+        self
+    }
+}
+
+/// The lower left and upper right corner of a box around points.
+pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
+    let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    points.fold(empty, |[low, high], p| {
+        [
+            [0, 1].map(|k| low[k].min(p[k])),
+            [0, 1].map(|k| high[k].max(p[k])),
+        ]
+    })
+}

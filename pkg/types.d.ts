@@ -974,6 +974,14 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
   scale?: number;
   /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. Default: no tabs. */
   tabs?: number;
+  /** Distance of marks along seams that are joined, in millimetres: the same on both sides. Default: no marks. */
+  marks?: number;
+  /** Width that a laser or a saw burns away, in millimetres: lines are cut half of it further out. Default 0. */
+  kerf?: number;
+  /** What is left outside of all edges to be sewn or bent over, in millimetres. Default 0. */
+  allowance?: number;
+  /** Whether to tell how the sheets are put together. Default false. */
+  assembly?: boolean;
   /**
    * How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they are.
    * Default 0.5.
@@ -1044,6 +1052,12 @@ export interface DrawnSheet {
   folds: FoldLine[];
   /** Where tabs are folded. */
   tabs: FoldLine[];
+  /** The edges of the surface, where there is an allowance around them: closed. */
+  edges: BezierChain[];
+  /** Short lines along seams, which lie on each other when these are joined. */
+  marks: BezierChain[];
+  /** From places that are too small to write on to what is written beside the sheet. */
+  leaders: BezierChain[];
   labels: DrawingLabel[];
 }
 
@@ -1058,6 +1072,8 @@ export interface Drawing {
   height: number;
   /** Those with the largest patches first; none lies on another. */
   sheets: DrawnSheet[];
+  /** How they are put together, where that is wanted. */
+  assembly?: Assembly;
   /** The pages that they lie on, all of one size, where there is a `paper`. */
   pages?: DrawingPages;
   summary: {
@@ -1086,6 +1102,20 @@ export interface Drawing {
     a4: number;
     letter: number;
   };
+}
+
+/** How sheets are put together. */
+export interface Assembly {
+  /**
+   * Sheet by sheet, first that with the largest patch, then the one with the longest seams to those that are there;
+   * `sheet` counts from 0. The joints are closed when it is there, to sheets before it or of its own edges; `name` is
+   * their letters on the drawing, `length` in the surface's units.
+   */
+  steps: { sheet: number, joints: { name: string, to: number, length: number }[] }[];
+  /** A GLB file in metres, +y up: flat sheets that go to their places one after the other, as the animation `Assembly`. */
+  model: Uint8Array<ArrayBuffer>;
+  /** An SVG file: the surface from above, sheets in the colours of the model, with the drawing's numbers and letters. */
+  picture: Uint8Array<ArrayBuffer>;
 }
 
 /** One way to make a pattern of an input. */

@@ -52,6 +52,7 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
  * @typedef {SheetTask & {
  *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
+ *   marks?: number, kerf?: number, allowance?: number, assembly?: string,
  *   smoothing?: number, paper?: import('../types.js').Stock, explore: boolean, sheets?: number,
  * }} PatternTask
  * @typedef {SheetTask & {
@@ -124,6 +125,10 @@ export function parse(args) {
   checkKind(kind, command, values);
   if (report !== undefined) apart({ report }, { output, input, map, ...read });
   if (map !== undefined) apart({ map }, { output, input, ...read });
+  if (values.assembly !== undefined) {
+    extension('assembly', values.assembly, ['.glb', '.svg']);
+    apart({ assembly: values.assembly }, { output, input, report, ...read });
+  }
   if (mtl !== undefined) apart({ mtl }, { output, input, report, ...read });
   if (values.output !== undefined) apart({ output }, read);
 
@@ -131,7 +136,7 @@ export function parse(args) {
   const about = {
     input,
     output,
-    written: [values.output, report, map, mtl].filter((path) => path !== undefined),
+    written: [values.output, report, map, mtl, values.assembly].filter((path) => path !== undefined),
     extension: values.output === undefined ? '.json' : extension('output', output, extensions[command]),
     array,
     mask,
@@ -348,6 +353,10 @@ function drawing(values) {
     maxStrain: number('max-strain', values),
     scale: number('scale', values),
     tabs: number('tabs', values),
+    marks: number('marks', values),
+    kerf: number('kerf', values),
+    allowance: number('allowance', values),
+    assembly: values.assembly,
     smoothing: number('smoothing', values),
     paper: values.paper === undefined || values.paper === 'none' ? undefined : stock(values.paper),
   };

@@ -210,6 +210,14 @@ export const sections = {
         help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)',
       },
       tabs: { value: 'MM', help: 'depth of tabs to glue along creases that are cut (default: none)' },
+      marks: { value: 'MM', help: 'marks along seams that are joined, so far apart, the same on both sides (default: none)' },
+      kerf: { value: 'MM', help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)' },
+      allowance: { value: 'MM', help: 'what is left outside of all edges to be sewn or bent over (default 0)' },
+      assembly: {
+        value: 'FILE',
+        help: '.glb: the sheets going from flat to built, one after the other, as an animation; or .svg: the surface from above, ' +
+          'with their numbers and the letters of seams. The order of joints is in --report',
+      },
       explore: {
         help: 'try several lambda and sizes of patches, and tell for each how many sheets, folds and cuts it takes, how far the ' +
           'surface is from the input, and what time it took: as a table, or as OUTPUT.json',

@@ -35,7 +35,13 @@ export async function pattern(task, signal) {
   if (task.explore) return tellPlans(task, (await explored(task, signal)).plans, signal);
   const { drawing, plan } = await drawnOnce(task, signal);
   const files = [{ path: task.output, bytes: await drawn(drawing, task.extension) }];
-  if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan }) });
+  const { assembly } = drawing;
+  if (task.report !== undefined) {
+    files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, assembly: assembly?.steps }) });
+  }
+  if (task.assembly !== undefined && assembly !== undefined) {
+    files.push({ path: task.assembly, bytes: task.assembly.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
+  }
   await writeWhole(files, signal);
   const { slits, slitLength, sheets, strain } = drawing.summary;
   if (plan !== undefined) {
@@ -53,8 +59,9 @@ export async function pattern(task, signal) {
 }
 
 /** @param {PatternTask} task */
-function drawingOptions({ maxStrain, scale, tabs, smoothing, paper }) {
-  return { maxStrain, scale, tabs, smoothing, paper };
+function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, report }) {
+  const told = assembly !== undefined || report !== undefined;
+  return { maxStrain, scale, tabs, marks, kerf, allowance, smoothing, paper, assembly: told };
 }
 
 /**
@@ -146,7 +153,7 @@ async function drawn(drawing, extension) {
     case '.svg': return developable.writeSvg(drawing);
     case '.pdf': return developable.writePdf(drawing);
     case '.dxf': return developable.writeDxf(drawing);
-    default: return json(drawing);
+    default: return json({ ...drawing, assembly: undefined });
   }
 }
 

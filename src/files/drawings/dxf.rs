@@ -14,11 +14,14 @@ use crate::files::buffer::Buffer;
 use crate::flat::drawing::{Drawing, Label};
 
 /// Every layer with its colour, by its number in AutoCAD's palette.
-const LAYERS: [(&str, u8); 5] = [
+const LAYERS: [(&str, u8); 8] = [
     ("CUT", 7),
     ("MOUNTAIN", 1),
     ("VALLEY", 5),
     ("TAB", 8),
+    ("EDGE", 30),
+    ("MARK", 3),
+    ("LEADER", 9),
     ("LABEL", 9),
 ];
 
@@ -29,7 +32,8 @@ const MILLIMETRES: u8 = 4;
 const CAPITALS: f64 = 0.72;
 
 /// A DXF file of a drawing (AutoCAD R12, ASCII) in millimetres, with polylines of straight pieces and arcs
-/// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`, `VALLEY`, `TAB` and `LABEL`.
+/// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`,
+/// `VALLEY`, `TAB`, `EDGE`, `MARK`, `LEADER` and `LABEL`.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite,
@@ -82,6 +86,9 @@ fn layer(kind: Kind) -> &'static str {
         Kind::Mountain => "MOUNTAIN",
         Kind::Valley => "VALLEY",
         Kind::Tab => "TAB",
+        Kind::Edge => "EDGE",
+        Kind::Mark => "MARK",
+        Kind::Leader => "LEADER",
         Kind::Cut => "CUT",
     }
 }

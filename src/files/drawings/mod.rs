@@ -1,11 +1,11 @@
 //! Patterns in files: SVG, PDF and DXF of a [`Drawing`], in true size. Curves are cubic Bézier curves in SVG
 //! and PDF, arcs of circles in DXF.
 //!
-//! | | cut | mountain fold | valley fold | fold of a tab | text |
-//! |---|---|---|---|---|---|
-//! | SVG and PDF | black | red, dash-dot | blue, dashed | as folds, thin | grey |
-//! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `label` |
-//! | layers of DXF | `CUT` | `MOUNTAIN` | `VALLEY` | `TAB` | `LABEL` |
+//! | | cut | mountain fold | valley fold | fold of a tab | edge within an allowance | mark | leader, text |
+//! |---|---|---|---|---|---|---|---|
+//! | SVG and PDF | black | red, dash-dot | blue, dashed | black, dashed | orange, dashed | green | grey |
+//! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `edge` | `mark` | `leader`, `label` |
+//! | layers of DXF, their colours | `CUT`, 7 | `MOUNTAIN`, 1 | `VALLEY`, 5 | `TAB`, 8 | `EDGE`, 30 | `MARK`, 3 | `LEADER`, `LABEL`, 9 |
 //!
 //! ```
 //! use developable::drawing::{Drawing, DrawingOptions};
@@ -41,17 +41,31 @@ enum Kind {
     Mountain,
     Valley,
     Tab,
+    Edge,
+    Mark,
+    Leader,
     Cut,
 }
 
 impl Kind {
-    const ALL: [Kind; 4] = [Kind::Mountain, Kind::Valley, Kind::Tab, Kind::Cut];
+    const ALL: [Kind; 7] = [
+        Kind::Mountain,
+        Kind::Valley,
+        Kind::Tab,
+        Kind::Edge,
+        Kind::Mark,
+        Kind::Leader,
+        Kind::Cut,
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Kind::Mountain => "mountain",
             Kind::Valley => "valley",
             Kind::Tab => "tab",
+            Kind::Edge => "edge",
+            Kind::Mark => "mark",
+            Kind::Leader => "leader",
             Kind::Cut => "cut",
         }
     }
@@ -69,6 +83,9 @@ impl Kind {
             Kind::Mountain => [200, 0, 0],
             Kind::Valley => [0, 60, 200],
             Kind::Tab | Kind::Cut => [0, 0, 0],
+            Kind::Edge => [200, 120, 0],
+            Kind::Mark => [0, 140, 0],
+            Kind::Leader => [GREY; 3],
         }
     }
 
@@ -78,7 +95,8 @@ impl Kind {
             Kind::Mountain => &[4.0, 1.2, 0.6, 1.2],
             Kind::Valley => &[2.5, 1.5],
             Kind::Tab => &[1.0, 1.0],
-            Kind::Cut => &[],
+            Kind::Edge => &[2.0, 2.0],
+            Kind::Mark | Kind::Leader | Kind::Cut => &[],
         }
     }
 
@@ -87,6 +105,9 @@ impl Kind {
         let course = |line: &'_ &Line| Kind::of(line.direction) == self;
         match self {
             Kind::Cut => (sheet.curves.iter().collect(), true),
+            Kind::Edge => (sheet.edges.iter().collect(), true),
+            Kind::Mark => (sheet.marks.iter().collect(), false),
+            Kind::Leader => (sheet.leaders.iter().collect(), false),
             Kind::Tab => (sheet.tabs.iter().map(|l| &l.curve).collect(), false),
             _ => {
                 let own = sheet.folds.iter().filter(course);

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::flat::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 
 /// An SVG file of a drawing: its unit is the millimetre, its layers are groups with the ids `cut`,
-/// `mountain`, `valley`, `tab` and `label`, and what belongs to a sheet has its number as
+/// `mountain`, `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and what belongs to a sheet has its number as
 /// `data-sheet`, what belongs to a crease the crease's as `data-crease`.
 ///
 /// # Errors
@@ -54,14 +54,15 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
                     .set("data-sheet", number + 1)
             };
             let folds = match kind {
-                Kind::Cut => {
-                    for cut in &sheet.curves {
-                        layer = layer.add(path(cut, true));
+                Kind::Tab => &sheet.tabs,
+                Kind::Mountain | Kind::Valley => &sheet.folds,
+                _ => {
+                    let (curves, closed) = kind.lines(sheet);
+                    for curve in curves {
+                        layer = layer.add(path(curve, closed));
                     }
                     continue;
                 }
-                Kind::Tab => &sheet.tabs,
-                _ => &sheet.folds,
             };
             for fold in folds {
                 if kind == Kind::Tab || Kind::of(fold.direction) == kind {

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use super::curve::Curve;
 use super::label::Label;
+use super::leader::led;
+use super::offset::outwards;
 use super::pack::Place;
 use super::smooth::smoothed;
 use super::tabs::{Tab, tabbed};
@@ -11,7 +13,7 @@ use super::{DrawingOptions, DrawnSheet, FLATNESS, Line};
 use crate::flat::pattern::{Run, Sheet};
 
 /// Letters for the creases that are cut, in their order.
-pub(super) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
+pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
     let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
     creases.sort_unstable();
@@ -28,6 +30,12 @@ pub(super) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     };
     let names = creases.into_iter().enumerate();
     names.map(|(n, crease)| (crease, name(n))).collect()
+}
+
+/// What is the same for all sheets: letters of seams, and how many marks each has.
+pub(super) struct Named {
+    pub letters: BTreeMap<usize, String>,
+    pub marks: BTreeMap<usize, usize>,
 }
 
 /// The lines of a sheet, smooth and in millimetres.
@@ -64,19 +72,39 @@ impl DrawnSheet {
         sheet: &Sheet,
         lines: &Lines<'_>,
         options: &DrawingOptions,
-        letters: &BTreeMap<usize, String>,
+        Named { letters, marks }: &Named,
     ) -> Self {
         let scale = options.scale;
-        let mut labels: Vec<Label> = (sheet.spots.iter())
-            .map(|spot| Label::patch(spot.patch, spot.place.map(|v| scale * v), scale * spot.room))
+        let (plain, flaps) = tabbed(&lines.outlines, options.tabs);
+        let out = options.allowance + 0.5 * options.kerf;
+        let curves = match out > 0.0 {
+            true => outwards(&plain, out),
+            false => plain.clone(),
+        };
+        let walls: Vec<[[f64; 2]; 2]> = (curves.iter())
+            .flat_map(|curve| {
+                let points = curve.points(FLATNESS);
+                let pairs: Vec<_> = points.windows(2).map(|p| [p[0], p[1]]).collect();
+                pairs
+            })
             .collect();
+        let (mut labels, mut leaders): (Vec<Label>, Vec<Curve>) = Default::default();
+        for spot in &sheet.spots {
+            let (place, room) = (spot.place.map(|v| scale * v), scale * spot.room);
+            let label = Label::patch(spot.patch, place, room);
+            let outside = match Label::is_cramped(room) {
+                true => led(&label, &walls, &labels),
+                false => None,
+            };
+            leaders.extend(outside.iter().map(|(_, line)| line.clone()));
+            labels.push(outside.map_or(label, |(label, _)| label));
+        }
         for (run, curve) in lines.outlines.iter().flatten() {
             if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
                 labels.push(Label::seam(letter, &curve.points(FLATNESS)));
             }
         }
         labels.extend(lines.folds.iter().map(Label::fold));
-        let (curves, flaps) = tabbed(&lines.outlines, options.tabs);
         labels.extend((flaps.iter()).filter_map(|tab: &Tab| {
             let letter = letters.get(&tab.seam.crease)?;
             Some(Label::tab(letter, tab))
@@ -91,6 +119,15 @@ impl DrawnSheet {
             tabs: (flaps.into_iter())
                 .map(|tab| Line::new(tab.seam, tab.base))
                 .collect(),
+            edges: if options.allowance > 0.0 {
+                plain
+            } else {
+                Vec::new()
+            },
+            marks: (lines.outlines.iter().flatten())
+                .flat_map(|(run, curve)| super::marks::marks(run, curve, marks))
+                .collect(),
+            leaders,
             labels,
         }
         .moved(&Place::NONE)
@@ -102,7 +139,8 @@ impl DrawnSheet {
             line.curve = line.curve.mapped(|p| place.of(p));
             line.points = line.curve.points(FLATNESS);
         }
-        for curve in &mut self.curves {
+        let others = [&mut self.edges, &mut self.marks, &mut self.leaders];
+        for curve in self.curves.iter_mut().chain(others.into_iter().flatten()) {
             *curve = curve.mapped(|p| place.of(p));
         }
         let ring = |curve: &Curve| {

@@ -21,7 +21,10 @@
 mod curve;
 mod draft;
 mod label;
+mod leader;
+mod marks;
 mod nest;
+mod offset;
 mod options;
 mod pack;
 mod pages;
@@ -33,9 +36,13 @@ mod totals;
 use super::pattern::{Direction, Seam, Sheet};
 use crate::error::{Error, Result, positive};
 pub use curve::{Curve, Piece};
-use draft::{Lines, letters};
+pub(crate) use draft::letters;
+use draft::{Lines, Named};
 pub use label::{Label, LabelKind};
+use marks::counts;
+use nest::Shape;
 pub use options::DrawingOptions;
+pub(crate) use pack::beside;
 use pack::{Place, packed};
 use pages::count;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
@@ -88,7 +95,13 @@ pub struct DrawnSheet {
     pub folds: Vec<Line>,
     /// Where tabs are folded.
     pub tabs: Vec<Line>,
-    /// What is written on it.
+    /// The edges of the surface, where there is an allowance around them: where it is sewn or bent over.
+    pub edges: Vec<Curve>,
+    /// Short lines along seams, which lie on each other when these are joined.
+    pub marks: Vec<Curve>,
+    /// From places that are too small to write on to what is written beside the sheet.
+    pub leaders: Vec<Curve>,
+    /// What is written on it, or beside it.
     pub labels: Vec<Label>,
 }
 
@@ -128,19 +141,29 @@ impl Drawing {
         if sheets.is_empty() {
             return Err(Error::Empty { what: "pattern" });
         }
-        let smoothing = options.smoothing;
-        if !(smoothing >= 0.0 && smoothing.is_finite()) {
-            return Err(Error::option("smoothing", smoothing, "must be 0 or more"));
+        options.marks.map(|d| positive("marks", d)).transpose()?;
+        for (name, value) in [
+            ("smoothing", options.smoothing),
+            ("kerf", options.kerf),
+            ("allowance", options.allowance),
+        ] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(Error::option(name, value, "must be 0 or more"));
+            }
         }
         let letters = letters(sheets);
         let options = DrawingOptions { tabs, ..*options };
         let lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, &options)).collect();
+        let marks = options.marks.map(|distance| counts(&lines, distance));
+        let named = Named {
+            letters,
+            marks: marks.unwrap_or_default(),
+        };
         let drawn: Vec<DrawnSheet> = (sheets.iter().zip(&lines).enumerate())
-            .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &letters))
+            .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
             .collect();
-        let boxes: Vec<Place> = drawn
-            .iter()
-            .map(|sheet| Place::around(&sheet.cuts))
+        let boxes: Vec<Place> = (drawn.iter())
+            .map(|sheet| Place::around(&Shape::new(sheet).lines))
             .collect();
         let (places, [width, height]) = packed(&boxes);
         if !(width <= MAX_SIZE && height <= MAX_SIZE) {
@@ -174,14 +197,19 @@ impl Drawing {
             let folds = sheet.folds.iter().chain(&sheet.tabs);
             let points = sheet.cuts.iter().chain(folds.map(|line| &line.points));
             let places = sheet.labels.iter().map(|label| label.place);
+            let others = [&sheet.edges, &sheet.marks, &sheet.leaders];
             let courses = sheet
                 .folds
                 .iter()
                 .chain(&sheet.tabs)
                 .map(|line| &line.curve);
             points.flatten().chain(&sheet.bounds).all(near)
-                && (sheet.curves.iter().chain(courses))
-                    .all(|curve| curve.is_whole() && curve.controls().iter().all(near))
+                && (sheet
+                    .curves
+                    .iter()
+                    .chain(others.into_iter().flatten())
+                    .chain(courses))
+                .all(|curve| curve.is_whole() && curve.controls().iter().all(near))
                 && sheet
                     .labels
                     .iter()
@@ -223,6 +251,23 @@ impl Line {
 fn length(points: &[[f64; 2]]) -> f64 {
     let pieces = points.windows(2);
     pieces.map(|p| distance(p[0], p[1])).sum()
+}
+
+/// The place so far along a line, and where it heads there.
+fn place_at(points: &[[f64; 2]], along: f64) -> ([f64; 2], [f64; 2]) {
+    let (mut rest, mut place, mut heading) = (along, points[0], [1.0, 0.0]);
+    for piece in points.windows(2) {
+        let step = distance(piece[0], piece[1]);
+        if step > 0.0 {
+            heading = [0, 1].map(|k| (piece[1][k] - piece[0][k]) / step);
+            place = [0, 1].map(|k| piece[0][k] + heading[k] * rest.min(step));
+        }
+        if rest <= step {
+            break;
+        }
+        rest -= step;
+    }
+    (place, heading)
 }
 
 fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {

@@ -13,7 +13,7 @@ const CELLS: f64 = 150.0;
 /// Room between sheets, in millimetres.
 const APART: f64 = 3.0;
 
-/// A sheet's closed lines, and the width and height of the name above it.
+/// A sheet's closed lines, boxes of text beside it, and the width and height of the name above it.
 pub(super) struct Shape {
     pub lines: Vec<Vec<[f64; 2]>>,
     pub name: [f64; 2],
@@ -21,8 +21,11 @@ pub(super) struct Shape {
 
 impl Shape {
     pub(super) fn new(sheet: &DrawnSheet) -> Self {
+        // Numbers beside it are as good as a part of it.
+        let outside = |label: &&Label| label.is_beside(sheet);
+        let beside = sheet.labels.iter().filter(outside).map(Label::corners);
         Shape {
-            lines: sheet.cuts.clone(),
+            lines: sheet.cuts.iter().cloned().chain(beside).collect(),
             name: Label::sheet(&sheet.name, sheet.bounds).extent(),
         }
     }

@@ -9,6 +9,14 @@ pub struct DrawingOptions {
     /// Depth of tabs along cut creases, in millimetres; they are on the side of the patch with
     /// the lower number, in short pieces where that is curved. Default: no tabs.
     pub tabs: Option<f64>,
+    /// Distance of marks along seams that are joined, in millimetres: the same on both sides. Default: no marks.
+    pub marks: Option<f64>,
+    /// Width of the line that a laser or a saw burns away, in millimetres: lines are cut half of it further out.
+    /// Default 0.
+    pub kerf: f64,
+    /// What is left outside of all edges to be sewn or bent over, in millimetres: lines are cut so much further out.
+    /// Default 0.
+    pub allowance: f64,
     /// How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they
     /// are. Default 0.5.
     pub smoothing: f64,
@@ -19,6 +27,9 @@ impl Default for DrawingOptions {
         DrawingOptions {
             scale: 1.0,
             tabs: None,
+            marks: None,
+            kerf: 0.0,
+            allowance: 0.0,
             smoothing: 0.5,
         }
     }
@@ -36,6 +47,24 @@ impl DrawingOptions {
             tabs: Some(depth),
             ..self
         }
+    }
+
+    /// These options with marks along seams.
+    pub fn marks(self, distance: f64) -> Self {
+        DrawingOptions {
+            marks: Some(distance),
+            ..self
+        }
+    }
+
+    /// These options with another kerf.
+    pub fn kerf(self, kerf: f64) -> Self {
+        DrawingOptions { kerf, ..self }
+    }
+
+    /// These options with another allowance.
+    pub fn allowance(self, allowance: f64) -> Self {
+        DrawingOptions { allowance, ..self }
     }
 
     /// These options with lines that are smooth within another tolerance.

@@ -93,6 +93,17 @@ impl Place {
     }
 }
 
+/// How sheets of closed lines in millimetres lie beside each other: of each the cosine and sine of its turn, and the
+/// shift after it.
+pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])> {
+    let boxes: Vec<Place> = sheets.iter().map(|lines| Place::around(lines)).collect();
+    let (places, _) = packed(&boxes);
+    places
+        .iter()
+        .map(|place| (place.turn, place.shift))
+        .collect()
+}
+
 /// Where boxes go, and how large the whole is.
 pub(super) fn packed(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();

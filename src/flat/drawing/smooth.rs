@@ -139,7 +139,7 @@ fn reaching(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64
 }
 
 /// The place on a straight line that is nearest to a point.
-fn foot(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> [f64; 2] {
+pub(super) fn foot(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> [f64; 2] {
     let along = [0, 1].map(|k| to[k] - from[k]);
     let square = along[0] * along[0] + along[1] * along[1];
     let dot: f64 = (0..2).map(|k| (point[k] - from[k]) * along[k]).sum();
@@ -160,7 +160,7 @@ struct Sample {
 }
 
 /// One line, smooth within a tolerance; a closed one has its first point again at the end.
-fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
+pub(super) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
     if tolerance <= 0.0 || length(points) < SHORT * spacing {
         return Curve::through(points);
     }

@@ -26,6 +26,7 @@
 
 mod assembly;
 mod check;
+mod faces;
 mod labels;
 mod layout;
 mod leaf;
@@ -42,6 +43,7 @@ use crate::error::{Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
 use assembly::{Assembly, assembled};
+pub use faces::Faces;
 use parts::Parts;
 
 /// What may stay together.
@@ -115,6 +117,8 @@ pub struct Sheet {
     pub folds: Vec<Fold>,
     /// A place well inside of each patch, in the order of the patches.
     pub spots: Vec<Spot>,
+    /// The surface that it is made of.
+    pub faces: Faces,
     /// Distance of neighbours on the lattice, which says how fine these lines can be.
     pub spacing: f64,
     /// Area of the surface that it is made of.

@@ -1,11 +1,13 @@
 //! Surfaces cut into sheets: drawn, and drawings to files.
 
-use js_sys::Uint8Array;
+use js_sys::{Reflect, Uint8Array};
 use serde::Deserialize;
 use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
+use developable::assembly::Assembly;
 use developable::drawing::{Drawing, DrawingOptions, Stock};
+use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, pattern};
@@ -19,13 +21,17 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let mut settings = Settings::default();
     let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
     let mut drawing = DrawingOptions::default();
-    let mut stock = None;
+    let (mut stock, mut assembled) = (None, false);
     const NUMBER: &str = "must be a number";
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
             "smoothing" => drawing = drawing.smoothing(option("smoothing", value, NUMBER)?),
             "paper" => stock = Some(paper(value)?),
+            "marks" => drawing = drawing.marks(option("marks", value, NUMBER)?),
+            "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
+            "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
+            "assembly" => assembled = option("assembly", value, "must be true or false")?,
             "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
             "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
             "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
@@ -34,7 +40,7 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
             "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "scale, tabs, smoothing, paper, gap, maxStrain, bend, fold, smallest, \
+                let known = "scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, gap, maxStrain, bend, fold, smallest, \
                              tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
@@ -49,7 +55,26 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
         Some(stock) => drawn.onto(stock)?,
         None => drawn,
     };
-    Ok(to_value(&drawn)?)
+    let value = to_value(&drawn)?;
+    if assembled {
+        let assembly = Assembly::new(&found.sheets);
+        let whole = to_value(&assembly)?;
+        let model = write_animation(&found.sheets, &assembly, drawing.scale)?;
+        let picture = write_assembly_svg(&found.sheets)?;
+        set(&whole, "model", &Uint8Array::from(&model[..]))?;
+        set(&whole, "picture", &Uint8Array::from(&picture[..]))?;
+        set(&value, "assembly", &whole)?;
+    }
+    Ok(value)
+}
+
+fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {
+    // A plain object takes what it is given.
+    Reflect::set(object, &name.into(), value).map_err(|error| Failure {
+        code: "INPUT",
+        message: format!("{error:?}"),
+    })?;
+    Ok(())
 }
 
 /// `Stock` of `types.d.ts`.

@@ -10,6 +10,7 @@ use super::pack::Place;
 use super::smooth::smoothed;
 use super::tabs::{Tab, tabbed};
 use super::{DrawingOptions, DrawnSheet, FLATNESS, Line};
+use crate::error::{Error, Result};
 use crate::flat::pattern::{Run, Sheet};
 
 /// Letters for the creases that are cut, in their order.
@@ -73,12 +74,18 @@ impl DrawnSheet {
         lines: &Lines<'_>,
         options: &DrawingOptions,
         Named { letters, marks }: &Named,
-    ) -> Self {
+    ) -> Result<Self> {
         let scale = options.scale;
         let (plain, flaps) = tabbed(&lines.outlines, options.tabs);
         let out = options.allowance + 0.5 * options.kerf;
+        let name = format!("Sheet {}", number + 1);
         let curves = match out > 0.0 {
-            true => outwards(&plain, out),
+            true => outwards(&plain, out).ok_or_else(|| Error::Unsupported {
+                format: "pattern",
+                reason: format!(
+                    "the outline of {name} would cross itself {out} mm further out; choose a smaller kerf and allowance"
+                ),
+            })?,
             false => plain.clone(),
         };
         let walls: Vec<[[f64; 2]; 2]> = (curves.iter())
@@ -109,8 +116,8 @@ impl DrawnSheet {
             let letter = letters.get(&tab.seam.crease)?;
             Some(Label::tab(letter, tab))
         }));
-        DrawnSheet {
-            name: format!("Sheet {}", number + 1),
+        let sheet = DrawnSheet {
+            name,
             patches: sheet.patches.clone(),
             bounds: [[0.0; 2]; 2],
             cuts: Vec::new(),
@@ -129,8 +136,8 @@ impl DrawnSheet {
                 .collect(),
             leaders,
             labels,
-        }
-        .moved(&Place::NONE)
+        };
+        Ok(sheet.moved(&Place::NONE))
     }
 
     /// This sheet at a place.

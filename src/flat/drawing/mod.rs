@@ -133,8 +133,9 @@ impl Drawing {
     /// Costs `O(points)` without tabs; each tab is compared with its whole sheet.
     ///
     /// # Errors
-    /// [`Error::Empty`] without a sheet, [`Error::Option`] for a scale or tabs that are not
-    /// positive and finite, or if the drawing is larger than [`MAX_SIZE`].
+    /// [`Error::Empty`] without a sheet, [`Error::Option`] for lengths that are negative or not finite, or if the
+    /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for a kerf or an allowance at which an outline
+    /// would cross itself.
     pub fn new(sheets: &[Sheet], options: &DrawingOptions) -> Result<Self> {
         let scale = positive("scale", options.scale)?;
         let tabs = options.tabs.map(|t| positive("tabs", t)).transpose()?;
@@ -161,7 +162,7 @@ impl Drawing {
         };
         let drawn: Vec<DrawnSheet> = (sheets.iter().zip(&lines).enumerate())
             .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
-            .collect();
+            .collect::<Result<_>>()?;
         let boxes: Vec<Place> = (drawn.iter())
             .map(|sheet| Place::around(&Shape::new(sheet).lines))
             .collect();

@@ -45,6 +45,7 @@ use crate::shape::patches::Patches;
 use assembly::{Assembly, assembled};
 pub use faces::Faces;
 use parts::Parts;
+pub(crate) use simple::without_loops;
 
 /// What may stay together.
 #[derive(Debug, Clone, Copy, PartialEq)]

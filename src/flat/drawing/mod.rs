@@ -142,16 +142,7 @@ impl Drawing {
         if sheets.is_empty() {
             return Err(Error::Empty { what: "pattern" });
         }
-        options.marks.map(|d| positive("marks", d)).transpose()?;
-        for (name, value) in [
-            ("smoothing", options.smoothing),
-            ("kerf", options.kerf),
-            ("allowance", options.allowance),
-        ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(Error::option(name, value, "must be 0 or more"));
-            }
-        }
+        options.check()?;
         let letters = letters(sheets);
         let options = DrawingOptions { tabs, ..*options };
         let lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, &options)).collect();

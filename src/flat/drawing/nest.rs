@@ -10,6 +10,9 @@ use super::{DrawnSheet, Label};
 /// Cells along the shorter side of a page.
 const CELLS: f64 = 150.0;
 
+/// And along the longer one at most.
+const MOST: f64 = 5000.0;
+
 /// Room between sheets, in millimetres.
 const APART: f64 = 3.0;
 
@@ -60,8 +63,9 @@ impl Nested {
 
 /// Lays shapes on pages of a size, the largest first. Nothing for those that are too large for a page.
 pub(super) fn nested(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
-    let cell = page[0].min(page[1]) / CELLS;
-    let [columns, rows] = page.map(|side| (side / cell + 1e-9).floor() as usize);
+    let [short, long] = [page[0].min(page[1]), page[0].max(page[1])];
+    let cell = (short / CELLS).max(long / MOST);
+    let [columns, rows] = page.map(|side| cells_along(side, cell));
     let options: Vec<Vec<(Place, Mask)>> = (shapes.iter())
         .map(|shape| turned(shape, cell, page))
         .collect();
@@ -112,6 +116,10 @@ pub(super) fn nested(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
     out
 }
 
+fn cells_along(side: f64, cell: f64) -> usize {
+    ((side / cell + 1e-9) as usize).max(1)
+}
+
 /// A shape turned those of four ways in which it fits on a page, its lower left corner at the origin, and the
 /// cells that it touches.
 fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
@@ -128,8 +136,8 @@ fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
             let place = place.shifted(low.map(|v| -v));
             // What fits by less than a cell ends with the page.
             let size = [0, 1].map(|k| {
-                let most = (page[k] / cell + 1e-9).floor();
-                ((high[k] - low[k]) / cell + 1.0).min(most) as usize
+                let own = ((high[k] - low[k]) / cell) as usize + 1;
+                own.min(cells_along(page[k], cell))
             });
             let mut mask = Mask::empty(size[0], size[1]);
             let cells = |p: [f64; 2]| [0, 1].map(|k| p[k] / cell);

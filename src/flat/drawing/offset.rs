@@ -30,8 +30,14 @@ pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
         let mut ring: Vec<Point> = (curve.points(NEAR).into_iter())
             .map(|[x, y]| Point::new(x, y))
             .collect();
-        ring.pop();
-        ring.dedup();
+        // Without its last point, which is the first, and what is as good as one point.
+        ring.dedup_by(|p, q| (*p - *q).norm() < 1e-6);
+        if ring.len() > 1 && (ring[0] - ring[ring.len() - 1]).norm() < 1e-6 {
+            ring.pop();
+        }
+        if ring.len() < 3 {
+            continue;
+        }
         let raw = beside(&ring, distance);
         let closed: Vec<Point> = raw.iter().chain(raw.first()).copied().collect();
         let runs = without_loops(vec![(None, closed)], LOOP * distance.max(FINE));

@@ -1,5 +1,8 @@
 //! How a pattern is drawn.
 
+use super::MAX_SIZE;
+use crate::error::{Error, Result};
+
 /// How a pattern is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -35,7 +38,33 @@ impl Default for DrawingOptions {
     }
 }
 
+/// Marks are no nearer to each other, in millimetres.
+const NEAREST: f64 = 1.0;
+
+/// Nothing is cut further out, in millimetres.
+const FARTHEST: f64 = 1000.0;
+
 impl DrawingOptions {
+    /// Whether all but scale and tabs can be.
+    pub(super) fn check(&self) -> Result<()> {
+        if let Some(marks) = self.marks.filter(|d| !(NEAREST..=MAX_SIZE).contains(d)) {
+            return Err(Error::option("marks", marks, "must be from 1 to 50000"));
+        }
+        for (name, value) in [("kerf", self.kerf), ("allowance", self.allowance)] {
+            if !(0.0..=FARTHEST).contains(&value) {
+                return Err(Error::option(name, value, "must be from 0 to 1000"));
+            }
+        }
+        match self.smoothing >= 0.0 && self.smoothing.is_finite() {
+            true => Ok(()),
+            false => Err(Error::option(
+                "smoothing",
+                self.smoothing,
+                "must be 0 or more",
+            )),
+        }
+    }
+
     /// These options with another scale.
     pub fn scale(self, scale: f64) -> Self {
         DrawingOptions { scale, ..self }

@@ -2,7 +2,7 @@
 
 use super::nest::{Shape, nested};
 use super::pack::{Place, packed};
-use super::{Drawing, DrawnSheet};
+use super::{Drawing, DrawnSheet, MAX_SIZE};
 use crate::error::{Error, Result, positive};
 
 /// Most pages that a drawing takes.
@@ -35,7 +35,10 @@ pub enum Stock {
 impl Stock {
     /// Its sides, the shorter one first for paper; a roll is as long as it takes.
     fn size(self, sheets: &[DrawnSheet]) -> Result<[f64; 2]> {
-        let side = |name, value| positive(name, value).map(|_| ());
+        let side = |name, value| match positive(name, value)? <= MAX_SIZE {
+            true => Ok(()),
+            false => Err(Error::option(name, value, "must be 50000 at most")),
+        };
         match self {
             Stock::A4 => Ok([210.0, 297.0]),
             Stock::Letter => Ok([215.9, 279.4]),

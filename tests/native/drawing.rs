@@ -190,6 +190,41 @@ fn tabs_are_added_outside_and_touch_nothing() {
 }
 
 #[test]
+fn a_curved_edge_has_a_comb_of_short_tabs() {
+    let options = DrawingOptions::default().scale(200.0);
+    let (plain, tabbed) = (
+        drawn(&vaults(), options),
+        drawn(&vaults(), options.tabs(6.0)),
+    );
+    let tabs: Vec<_> = tabbed.sheets.iter().flat_map(|sheet| &sheet.tabs).collect();
+    // Along all of one side of each seam, and none of them turns by much.
+    let long: f64 = tabs.iter().map(|tab| tab.length).sum();
+    assert!(
+        long > 0.9 * plain.summary.seam_length,
+        "{long} {:?}",
+        plain.summary
+    );
+    assert!(tabs.len() > 2 * plain.summary.seams, "{}", tabs.len());
+    for tab in tabs {
+        let points = &tab.points;
+        let heading = |i: usize| {
+            let [p, q] = [points[i], points[i + 1]];
+            (q[1] - p[1]).atan2(q[0] - p[0])
+        };
+        let turn = heading(points.len() - 2) - heading(0);
+        assert!(turn.sin().abs() < 0.5, "{points:?}");
+    }
+    // The other side has none.
+    let without = plain.sheets.iter().zip(&tabbed.sheets);
+    assert!(
+        without
+            .filter(|(a, b)| area_of(b) > 1.001 * area_of(a))
+            .count()
+            < plain.sheets.len()
+    );
+}
+
+#[test]
 fn both_sides_of_each_cut_have_the_same_letter() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(150.0));
     let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);

@@ -8,7 +8,7 @@ use ::svg::node::element::{Group, Path, Text, Title};
 
 use super::colour;
 use crate::error::{Error, Result};
-use crate::flat::drawing::letters;
+use crate::flat::drawing::{letters, smooth};
 use crate::flat::pattern::{Faces, Sheet};
 
 /// Longer side of the picture, and the room around it, in its units.
@@ -74,8 +74,17 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         let [r, g, b] = colour(number);
         let mut data = String::new();
         for ring in borders(&sheet.faces) {
-            for (i, vertex) in ring.iter().enumerate() {
-                let [x, y] = place(sheet.faces.built[*vertex as usize]);
+            // The lattice's zigzag is within a cell.
+            let closed = ring.iter().chain(ring.first());
+            let points: Vec<[f64; 2]> = closed
+                .map(|vertex| {
+                    let [x, y, _] = sheet.faces.built[*vertex as usize];
+                    [x, y]
+                })
+                .collect();
+            let line = smooth(&points, sheet.spacing, sheet.spacing).points(0.1 / scale);
+            for (i, [x, y]) in line.into_iter().enumerate() {
+                let [x, y] = place([x, y, 0.0]);
                 // Writing into a string cannot fail.
                 let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
             }

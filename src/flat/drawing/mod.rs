@@ -46,6 +46,7 @@ pub(crate) use pack::beside;
 use pack::{Place, packed};
 use pages::count;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
+pub(crate) use smooth::smooth;
 pub use totals::Totals;
 use totals::summary;
 

@@ -15,7 +15,7 @@ const TURN: f64 = 0.44;
 const ARM: f64 = 4.0;
 
 /// ... and by this share of it within half of that, where a bend turns by half as much.
-const SHARP: f64 = 0.72;
+const SHARP: f64 = 0.62;
 
 /// A line that is shorter, in spacings, stays as it is.
 const SHORT: f64 = 3.0;
@@ -160,7 +160,7 @@ struct Sample {
 }
 
 /// One line, smooth within a tolerance; a closed one has its first point again at the end.
-pub(super) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
+pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
     if tolerance <= 0.0 || length(points) < SHORT * spacing {
         return Curve::through(points);
     }

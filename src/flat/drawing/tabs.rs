@@ -37,24 +37,34 @@ type Outline<'a> = Vec<(&'a Run, Curve)>;
 /// The lines to cut, with tabs where there is room for them, and these.
 pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
+    // Of the two sides of a crease that of the patch with the lower number has the tabs.
+    let tabbed = |run: &Run| {
+        let own = run.seam.filter(|seam| run.patch == Some(seam.patches[0]));
+        depth.zip(own)
+    };
+    let parts = |(run, curve): &(&Run, Curve)| match tabbed(run) {
+        Some(_) => bases(curve),
+        None => vec![curve.clone()],
+    };
+    let pieces: Vec<Vec<Vec<Curve>>> = (outlines.iter())
+        .map(|outline| outline.iter().map(parts).collect())
+        .collect();
     // What tabs must not touch: all outlines, and the tabs there are.
     let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
     if depth.is_some() {
-        for (_, curve) in outlines.iter().flatten() {
-            walls.extend(curve.points(FLATNESS).windows(2).map(|p| [p[0], p[1]]));
+        for piece in pieces.iter().flatten().flatten() {
+            walls.extend(piece.points(FLATNESS).windows(2).map(|p| [p[0], p[1]]));
         }
     }
     let mut cuts = Vec::new();
-    for outline in outlines {
+    for (outline, pieces) in outlines.iter().zip(pieces) {
         let mut cut = Curve::of(Vec::new());
-        for (run, curve) in outline {
-            // Of the two sides of a crease that of the patch with the lower number has the tabs.
-            let own = run.seam.filter(|seam| run.patch == Some(seam.patches[0]));
-            let (Some(depth), Some(seam)) = (depth, own) else {
+        for ((run, curve), bases) in outline.iter().zip(pieces) {
+            let Some((depth, seam)) = tabbed(run) else {
                 cut.append(curve);
                 continue;
             };
-            for base in bases(curve) {
+            for base in bases {
                 let points = base.points(FLATNESS);
                 let tab =
                     (0..=HALVINGS).find_map(|k| flap(&points, depth / f64::from(1 << k), &walls));

@@ -297,7 +297,8 @@ fn pages_overlap_and_cover_what_is_too_large_for_one() {
 #[test]
 fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
     // Four times the vaults' sheets: twelve of them.
-    let sheets: Vec<Sheet> = (0..4).flat_map(|_| vaults()).collect();
+    let one = vaults();
+    let sheets: Vec<Sheet> = (0..4).flat_map(|_| one.clone()).collect();
     let drawing = drawn(&sheets, DrawingOptions::default().scale(120.0));
     let area = drawing.summary.area;
     for stock in [Stock::A4, Stock::Plate([400.0, 300.0]), Stock::Roll(300.0)] {

@@ -330,10 +330,10 @@ fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
                 assert_eq!(near, None, "{} {}", one.name, other.name);
             }
         }
-        // Half of the pages are covered, which boxes in rows would not do on so few.
+        // Few enough pages: an even larger part of a roll, or of two plates, would be empty.
         let whole = owners.len() as f64 * pages.part[0] * pages.part[1];
         assert!(
-            area > 0.4 * whole,
+            area > 0.2 * whole,
             "{stock:?}: {} pages, {}",
             owners.len(),
             area / whole

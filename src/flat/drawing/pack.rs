@@ -38,7 +38,11 @@ impl Place {
         Place {
             turn: turned(self.turn),
             shift: turned(self.shift),
-            size: if count % 2 == 0 { [w, h] } else { [h, w] },
+            size: if count.is_multiple_of(2) {
+                [w, h]
+            } else {
+                [h, w]
+            },
         }
     }
 

@@ -4,6 +4,7 @@ import { Connection } from './connection.js';
 import { controlOf } from './control.js';
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError, messageOf } from './errors.js';
+import { explored } from './explore.js';
 import { asBytes, asField, asImage, asInput, asLattice, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
@@ -299,6 +300,14 @@ export class DevelopableWorker {
     const options = optionsOf('pattern', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.pattern(transfer(field, buffers), options));
+  }
+
+  /**
+   * @param {HeightImage | Heightfield} input
+   * @param {import('./index.js').ExplorePatternOptions} [given]
+   */
+  explorePattern(input, given) {
+    return explored(/** @type {import('./index.js').DevelopableWorker} */ (/** @type {unknown} */ (this)), input, given);
   }
 
   /** @param {import('./types.js').Drawing} drawing */

@@ -2,7 +2,7 @@
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
-  OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
+  ExploredPatterns, OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
   SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
@@ -72,6 +72,22 @@ export interface FitMeshOptions extends MeshSolverOptions {
 }
 
 export interface FitOptions extends OpenFitOptions, HandOver {}
+
+export interface ExplorePatternOptions {
+  /** λ to try. Default: 1e7, 3e6, 1e6, 3e5, 1e5 and 3e4. */
+  lambdas?: readonly number[];
+  /** Sizes that patches have at least to try, as shares of all vertices. Default: 0.005, 0.02 and 0.08. */
+  smallest?: readonly number[];
+  /** End with the first plan of at most so many sheets: the one nearest to the input. Default: try all. */
+  sheets?: number;
+  /** Of the solves, but for λ. */
+  solver?: Omit<SolverOptions, 'lambda'>;
+  /** Of the patterns, but for the smallest patch. */
+  pattern?: Omit<PatternOptions, 'smallest'>;
+  signal?: AbortSignal;
+  /** Called with each plan as it is found. */
+  onPlan?: (plan: PatternPlan) => void;
+}
 
 /**
  * An input that stays in the worker with its solver, to be solved again and again: with other
@@ -150,6 +166,12 @@ export function rulings(input: HeightImage | Heightfield, options?: RulingOption
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
 /** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+/**
+ * Patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest. Takes one solve
+ * for each λ, which start from each other, and one `pattern` for each plan. Surfaces that cannot be laid flat are plans
+ * with a `problem`; whatever else `fit` and `pattern` have to say rejects.
+ */
+export function explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
 export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
@@ -207,6 +229,7 @@ export class DevelopableWorker {
   rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
   unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
   pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+  explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
   writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
   writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;

@@ -73,6 +73,8 @@ export const rulings = (input, options) => worker().rulings(input, options);
 export const unroll = (input, options) => worker().unroll(input, options);
 /** @type {typeof import('./index.js').pattern} */
 export const pattern = (input, options) => worker().pattern(input, options);
+/** @type {typeof import('./index.js').explorePattern} */
+export const explorePattern = (input, options) => worker().explorePattern(input, options);
 /** @type {typeof import('./index.js').writeSvg} */
 export const writeSvg = (drawing) => worker().writeSvg(drawing);
 /** @type {typeof import('./index.js').writePdf} */

@@ -90,6 +90,21 @@ const corners = {
 };
 
 /** @type {Kind} */
+const several = {
+  must: 'must be a list of numbers',
+  take: (value) => {
+    const list = Array.isArray(value) || ArrayBuffer.isView(value) ? Array.from(/** @type {ArrayLike<unknown>} */ (value)) : [];
+    return list.length > 0 && list.every(Number.isFinite) ? list : undefined;
+  },
+};
+
+/** The options of another call. @type {(call: 'solver' | 'pattern') => Kind} */
+const optionsFor = (call) => ({
+  must: 'must be an object of options',
+  take: (value) => (isRecord(value) ? optionsOf(call, /** @type {object} */ (value)) : undefined),
+});
+
+/** @type {Kind} */
 const flags = {
   must: 'must be a list of true and false (or 1 and 0), one for each vertex',
   take: (value) => {
@@ -144,6 +159,11 @@ const meshFit = {
   held: flags,
 };
 
+const stock = either(
+  choice('a4', 'letter'),
+  either(numbers(2, '[width, height] of plates'), numbers(1, '[width] of a roll, in millimetres')),
+);
+
 const directions = ['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'];
 
 /** What each call takes. @satisfies {Record<string, Record<string, Kind>>} */
@@ -186,7 +206,24 @@ export const OPTIONS = {
   },
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
-  pattern: { ...resampled, ...patching, ...unrolling, scale: number, tabs: number, gap: number, maxStrain: number },
+  pattern: {
+    ...resampled,
+    ...patching,
+    ...unrolling,
+    scale: number,
+    tabs: number,
+    marks: number,
+    kerf: number,
+    allowance: number,
+    smoothing: number,
+    paper: stock,
+    assembly: flag,
+    gap: number,
+    maxStrain: number,
+  },
+  explorePattern: {
+    lambdas: several, smallest: several, sheets: whole, solver: optionsFor('solver'), pattern: optionsFor('pattern'), signal, onPlan: callback,
+  },
   dewarp: { ...resampled, ...unrolling, ...mapping, ...handOver, trim: flag, deskew: flag, crop: corners, extent, camera: photoCamera },
   dewarpPage: {
     focalLength: number,
@@ -201,7 +238,7 @@ export const OPTIONS = {
   },
   writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: whole, dotsPerMillimetre: number, ...handOver },
   writeObj: { materials: text },
-  writePdf: { paper: choice('a4', 'letter') },
+  writePdf: { paper: stock },
   writeGlb: { texture: anything },
   example: { size: whole, noise: number, seed: whole },
   worker: {

@@ -963,11 +963,35 @@ export interface Unrolling {
   report: UnrollReport;
 }
 
+/**
+ * What a pattern is made from, in millimetres: paper, of whose edges a printer leaves ten millimetres blank, plates
+ * or sheets of a width and a height, or a roll of a width, five millimetres of whose edges stay free.
+ */
+export type Stock = 'a4' | 'letter' | readonly [width: number, height: number] | readonly [width: number];
+
 export interface PatternOptions extends PatchOptions, UnrollOptions {
   /** Millimetres for each unit of length. Default 1. */
   scale?: number;
-  /** Depth of tabs along cut creases, in millimetres. Default: no tabs. */
+  /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. Default: no tabs. */
   tabs?: number;
+  /** Distance of marks along seams that are joined, in millimetres: the same on both sides. Default: no marks. */
+  marks?: number;
+  /** Width that a laser or a saw burns away, in millimetres: lines are cut half of it further out. Default 0. */
+  kerf?: number;
+  /** What is left outside of all edges to be sewn or bent over, in millimetres. Default 0. */
+  allowance?: number;
+  /** Whether to tell how the sheets are put together. Default false. */
+  assembly?: boolean;
+  /**
+   * How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they are.
+   * Default 0.5.
+   */
+  smoothing?: number;
+  /**
+   * Pages to lay the sheets on, each whole on one where it fits, turned if it fits better so; paper that it is too
+   * large for is put together. Default: no pages, the sheets beside each other.
+   */
+  paper?: Stock;
   /**
    * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
    * length; a quarter of the lattice's spacing is always allowed. Default 0.005.
@@ -989,8 +1013,16 @@ export interface FoldLine {
   /** By how much, in degrees: 0 is flat. */
   angle: number;
   length: number;
+  /** Within 0.02 mm of the curve. */
   points: [number, number][];
+  curve: BezierChain;
 }
+
+/**
+ * Straight pieces and cubic Bézier curves that follow each other, as control points: 4 of them, 7, 10 and so on. The
+ * control points of a straight piece lie at its thirds.
+ */
+export type BezierChain = [number, number][];
 
 /** A text on a sheet. */
 export interface DrawingLabel {
@@ -1013,11 +1045,19 @@ export interface DrawnSheet {
   patches: number[];
   /** Lower left and upper right corner. */
   bounds: [[number, number], [number, number]];
-  /** Closed lines to cut, around tabs, too; the last point is joined to the first. */
+  /** Closed lines to cut, around tabs, too; the last point is joined to the first. Within 0.02 mm of the curves. */
   cuts: [number, number][][];
+  /** The same lines as curves, which end where they begin. */
+  curves: BezierChain[];
   folds: FoldLine[];
   /** Where tabs are folded. */
   tabs: FoldLine[];
+  /** The edges of the surface, where there is an allowance around them: closed. */
+  edges: BezierChain[];
+  /** Short lines along seams, which lie on each other when these are joined. */
+  marks: BezierChain[];
+  /** From places that are too small to write on to what is written beside the sheet. */
+  leaders: BezierChain[];
   labels: DrawingLabel[];
 }
 
@@ -1032,6 +1072,10 @@ export interface Drawing {
   height: number;
   /** Those with the largest patches first; none lies on another. */
   sheets: DrawnSheet[];
+  /** How they are put together, where that is wanted. */
+  assembly?: Assembly;
+  /** The pages that they lie on, all of one size, where there is a `paper`. */
+  pages?: DrawingPages;
   summary: {
     sheets: number;
     /** Creases that are cut, those that are folds, and tabs. */
@@ -1054,15 +1098,66 @@ export interface Drawing {
     strain: number;
     /** Most that the two sides of a fold are apart (root of the mean square). */
     gap: number;
-    /** Pages it takes. */
+    /** Pages of paper that it takes. */
     a4: number;
     letter: number;
   };
 }
 
+/** How sheets are put together. */
+export interface Assembly {
+  /**
+   * Sheet by sheet, first that with the largest patch, then the one with the longest seams to those that are there;
+   * `sheet` counts from 0. The joints are closed when it is there, to sheets before it or of its own edges; `name` is
+   * their letters on the drawing, `length` in the surface's units.
+   */
+  steps: { sheet: number, joints: { name: string, to: number, length: number }[] }[];
+  /** A GLB file in metres, +y up: flat sheets that go to their places one after the other, as the animation `Assembly`. */
+  model: Uint8Array<ArrayBuffer>;
+  /** An SVG file: the surface from above, sheets in the colours of the model, with the drawing's numbers and letters. */
+  picture: Uint8Array<ArrayBuffer>;
+}
+
+/** One way to make a pattern of an input. */
+export interface PatternPlan {
+  /** The surface's λ. */
+  lambda: number;
+  /** The size that patches have at least, as a share of all vertices. */
+  smallest: number;
+  /** Of the surface from the input: root of the mean square, in the input's units. */
+  distance: number;
+  /** What solve and pattern took, in seconds; the solve counts for each plan of its λ. */
+  seconds: number;
+  /** The pattern; its `summary` has sheets, folds, lengths of cuts and strain. */
+  drawing?: Drawing;
+  /** Why there is none: a part that no cut lays flat within the limits, and where it is. */
+  problem?: string;
+}
+
+export interface ExploredPatterns {
+  /** Those that were tried: with smaller λ, and with larger patches, later. */
+  plans: PatternPlan[];
+  /** The first one with at most as many sheets as were wanted, if that was said and there is one. */
+  chosen?: PatternPlan;
+}
+
+/** Pages beside each other, those that are to be put together overlapping. */
+export interface DrawingPages {
+  /** Width and height of a page. */
+  paper: [number, number];
+  /** How far the part that it shows is from its edges. */
+  blank: number;
+  /** Width and height of that part. */
+  part: [number, number];
+  /** Of each its name, numbered, or with a column's letter where pages are put together, and its part's lower left corner. */
+  pages: { name: string, corner: [number, number] }[];
+  /** Where pages that are to be put together have crosses. */
+  marks: [number, number][];
+}
+
 export interface WritePdfOptions {
-  /** Spread it over pages of this size. Default: one page as large as the drawing. */
-  paper?: 'a4' | 'letter';
+  /** Lay it on pages of this size first. Default: the drawing's own pages, or one as large as it is. */
+  paper?: Stock;
 }
 
 export interface DewarpOptions extends UnrollOptions {

@@ -36,7 +36,8 @@
 //! [`Lattice`]) → [`fit`], or a [`Solver`] that runs in steps → [`Surface`] with its [`Report`] →
 //! [`Heightfield::to_image`], or [`files`]; [`analysis`], [`patches`] and
 //! [`rulings`] for what it is like and [`picture`] for what it looks like, [`unroll`](mod@unroll) and [`dewarp`] for the surface and photos
-//! laid flat ([`page`] without any heights, by a page's edges), and [`pattern`] and [`drawing`] for sheets to cut out and fold.
+//! laid flat ([`page`] without any heights, by a page's edges), and [`pattern`], [`drawing`] and
+//! [`assembly`] for sheets to cut out, fold and put together.
 //!
 //! What is no heightfield yet, a [`Mesh`], a point cloud or what a depth camera has seen
 //! ([`Intrinsics::back_project`]), is looked at along a [`View`] by [`sample`], which gives a
@@ -98,7 +99,7 @@ pub use fit::report::{
 };
 pub use fit::solver::{Solver, fit, fit_with};
 pub use fit::surface::Surface;
-pub use flat::{dewarp, drawing, page, pattern, unroll};
+pub use flat::{assembly, dewarp, drawing, page, pattern, unroll};
 pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;

@@ -52,7 +52,8 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
  * @typedef {SheetTask & {
  *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
- *   paper?: 'a4' | 'letter',
+ *   marks?: number, kerf?: number, allowance?: number, assembly?: string,
+ *   smoothing?: number, paper?: import('../types.js').Stock, explore: boolean, sheets?: number,
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, deskew: boolean, map?: string,
@@ -72,7 +73,6 @@ import { split, usage } from './flags.js';
 
 const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb']);
 const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
-const papers = /** @type {const} */ (['a4', 'letter', 'none']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const units = /** @type {const} */ (['mm', 'm']);
 
@@ -113,7 +113,7 @@ export function parse(args) {
   if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`, command);
   const { output = '', report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
-  if (values.output === undefined && !telling.includes(command)) throw usage('the output is missing: -o FILE', command);
+  if (values.output === undefined && !telling.includes(command) && !values.explore) throw usage('the output is missing: -o FILE', command);
   if (command === 'dewarp') {
     if (values.edges !== undefined) return page(input, output, values.edges, values);
     const stray = pageFlags.find((flag) => values[flag] !== undefined);
@@ -125,6 +125,10 @@ export function parse(args) {
   checkKind(kind, command, values);
   if (report !== undefined) apart({ report }, { output, input, map, ...read });
   if (map !== undefined) apart({ map }, { output, input, ...read });
+  if (values.assembly !== undefined) {
+    extension('assembly', values.assembly, ['.glb', '.svg']);
+    apart({ assembly: values.assembly }, { output, input, report, ...read });
+  }
   if (mtl !== undefined) apart({ mtl }, { output, input, report, ...read });
   if (values.output !== undefined) apart({ output }, read);
 
@@ -132,7 +136,7 @@ export function parse(args) {
   const about = {
     input,
     output,
-    written: [values.output, report, map, mtl].filter((path) => path !== undefined),
+    written: [values.output, report, map, mtl, values.assembly].filter((path) => path !== undefined),
     extension: values.output === undefined ? '.json' : extension('output', output, extensions[command]),
     array,
     mask,
@@ -217,7 +221,7 @@ export function parse(args) {
     case 'unroll':
       return { command, ...fitting, asIs };
     case 'pattern':
-      return { command, ...fitting, asIs, patching: patching(values), ...drawing(values, about.extension) };
+      return { command, ...fitting, asIs, patching: patching(values), ...drawing(values), ...exploring(values, about.extension) };
     case 'dewarp':
       if (texture === undefined && kind !== 'mesh') {
         throw usage("the photo is missing: --texture PHOTO; or INPUT is the photo, then the page's edges: --edges FILE");
@@ -343,17 +347,50 @@ function patching(values) {
 /**
  * How a pattern is drawn.
  * @param {Values} values
- * @param {Extension} extension
  */
-function drawing(values, extension) {
-  const paper = choice('paper', values.paper ?? 'none', papers);
-  if (values.paper !== undefined && extension !== '.pdf') throw usage('--paper is for outputs that end in .pdf');
+function drawing(values) {
   return {
     maxStrain: number('max-strain', values),
     scale: number('scale', values),
     tabs: number('tabs', values),
-    paper: paper === 'none' ? undefined : paper,
+    marks: number('marks', values),
+    kerf: number('kerf', values),
+    allowance: number('allowance', values),
+    assembly: values.assembly,
+    smoothing: number('smoothing', values),
+    paper: values.paper === undefined || values.paper === 'none' ? undefined : stock(values.paper),
   };
+}
+
+/**
+ * What is tried instead of one pattern.
+ * @param {Values} values
+ * @param {Extension} extension
+ */
+function exploring(values, extension) {
+  const { explore = false } = values;
+  const sheets = number('sheets', values);
+  const flag = explore ? '--explore' : '--sheets';
+  if (explore && sheets !== undefined) throw usage('--explore tells all plans, and --sheets writes one: give one of them', 'pattern');
+  if (!explore && sheets === undefined) return { explore };
+  const stray = /** @type {const} */ (['as-is', 'lambda', 'smallest']).find((name) => values[name] !== undefined);
+  if (stray !== undefined) throw usage(`${flag} tries several lambda and sizes of patches: leave --${stray} out`, 'pattern');
+  if (explore && extension !== '.json') throw usage('--explore writes a table: -o FILE.json, or nothing for standard output', 'pattern');
+  return { explore, sheets };
+}
+
+/**
+ * What a pattern is made from.
+ * @param {string} text
+ * @returns {import('../types.js').Stock}
+ */
+function stock(text) {
+  if (text === 'a4' || text === 'letter') return text;
+  const [, width, height] = /^(\d*\.?\d+)x(\d*\.?\d+)?$/i.exec(text) ?? [];
+  if (width === undefined) {
+    throw usage(`--paper must be a4, letter, none, WIDTHxHEIGHT or, for a roll, WIDTHx in millimetres, but is "${text}"`, 'pattern');
+  }
+  return height === undefined ? [Number(width)] : [Number(width), Number(height)];
 }
 
 /**

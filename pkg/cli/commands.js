@@ -129,13 +129,13 @@ export const commands = {
     examples: ['unroll scan.png -o sheet.obj --report sheet.json'],
   },
   pattern: {
-    usage: 'INPUT -o PATTERN [options]',
+    usage: 'INPUT [-o PATTERN] [options]',
     summary: 'cut it into sheets of paper or metal',
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
     terms: { INPUT, PATTERN: '.svg, .pdf or .dxf in true size, or .json' },
-    flags: [...shaped, 'report', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'paper'],
+    flags: [...shaped, 'report', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'smoothing', 'paper', 'assembly', 'explore', 'sheets'],
     words: { report: 'JSON file for the figures of the pattern' },
-    examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4'],
+    examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8'],
   },
   dewarp: {
     usage: 'INPUT [--texture PHOTO] -o IMAGE [options]',

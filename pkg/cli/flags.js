@@ -210,9 +210,28 @@ export const sections = {
         help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)',
       },
       tabs: { value: 'MM', help: 'depth of tabs to glue along creases that are cut (default: none)' },
+      marks: { value: 'MM', help: 'marks along seams that are joined, so far apart, the same on both sides (default: none)' },
+      kerf: { value: 'MM', help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)' },
+      allowance: { value: 'MM', help: 'what is left outside of all edges to be sewn or bent over (default 0)' },
+      assembly: {
+        value: 'FILE',
+        help: '.glb: the sheets going from flat to built, one after the other, as an animation; or .svg: the surface from above, ' +
+          'with their numbers and the letters of seams. The order of joints is in --report',
+      },
+      explore: {
+        help: 'try several lambda and sizes of patches, and tell for each how many sheets, folds and cuts it takes, how far the ' +
+          'surface is from the input, and what time it took: as a table, or as OUTPUT.json',
+      },
+      sheets: { value: 'N', help: 'the same, to write the pattern nearest to the input that has at most N sheets' },
+      smoothing: {
+        value: 'CELLS',
+        help: 'how far smooth lines may be from those that were found, in cells of the lattice; 0 takes these (default 0.5)',
+      },
       paper: {
         value: 'P',
-        help: 'a4 or letter: a .pdf on pages that are put together by the crosses on them; none (the default): on one page',
+        help: 'a4, letter, WIDTHxHEIGHT of plates or WIDTHx of a roll, in millimetres: lay the sheets on pages of that size, each ' +
+          'whole on one where it fits; on a4 and letter larger ones on pages that are put together by the crosses on them ' +
+          '(default: none, all beside each other)',
       },
       dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
       quality: { value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
@@ -263,7 +282,7 @@ export const sections = {
 
 /**
  * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections]} Flag
- * @typedef {'no-normalize' | 'surface' | 'ray' | 'as-is' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
 

@@ -5,10 +5,11 @@ import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { about, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { percent } from './terminal.js';
+import { percent, print, statusLine } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
+ * @typedef {import('./arguments.js').PatternTask} PatternTask
  * @typedef {import('./inputs.js').Input} Input
  * @typedef {import('../types.js').Unrolling} Unrolling
  */
@@ -31,13 +32,24 @@ export async function unroll(task, signal) {
  */
 export async function pattern(task, signal) {
   await checkPlaces(...task.written);
-  const { surface, options } = await flattened(task, signal);
-  const { maxStrain, scale, tabs, paper } = task;
-  const drawing = await developable.pattern(surface, { ...options, ...task.patching, maxStrain, scale, tabs });
-  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, paper) }];
-  if (task.report !== undefined) files.push({ path: task.report, bytes: json(drawing.summary) });
+  if (task.explore) return tellPlans(task, (await explored(task, signal)).plans, signal);
+  const { drawing, plan } = await drawnOnce(task, signal);
+  const files = [{ path: task.output, bytes: await drawn(drawing, task.extension) }];
+  const { assembly } = drawing;
+  if (task.report !== undefined) {
+    files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, assembly: assembly?.steps }) });
+  }
+  if (task.assembly !== undefined && assembly !== undefined) {
+    files.push({ path: task.assembly, bytes: task.assembly.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
+  }
   await writeWhole(files, signal);
   const { slits, slitLength, sheets, strain } = drawing.summary;
+  if (plan !== undefined) {
+    process.stderr.write(
+      `developable: ${counted(sheets, 'sheet')} with --lambda ${plan.lambda} and --smallest ${plan.smallest}, ` +
+        `${Number(plan.distance.toPrecision(3))} from the input (root mean square)\n`,
+    );
+  }
   if (slits > 0) {
     process.stderr.write(
       `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
@@ -46,20 +58,102 @@ export async function pattern(task, signal) {
   }
 }
 
+/** @param {PatternTask} task */
+function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, report }) {
+  const told = assembly !== undefined || report !== undefined;
+  return { maxStrain, scale, tabs, marks, kerf, allowance, smoothing, paper, assembly: told };
+}
+
+/**
+ * The pattern that is asked for, and how it came about where several were tried.
+ * @param {PatternTask} task
+ * @param {AbortSignal} signal
+ */
+async function drawnOnce(task, signal) {
+  if (task.sheets === undefined) {
+    const { surface, options } = await flattened(task, signal);
+    return { drawing: await developable.pattern(surface, { ...options, ...task.patching, ...drawingOptions(task) }) };
+  }
+  const { plans, chosen } = await explored(task, signal);
+  if (chosen?.drawing === undefined) {
+    const fewest = Math.min(...plans.map(({ drawing }) => drawing?.sheets.length ?? Infinity));
+    throw new Problem(
+      status.input,
+      fewest === Infinity
+        ? `no plan lays it flat: ${plans.at(-1)?.problem}`
+        : `no plan has as few sheets as ${task.sheets}: the fewest are ${fewest}; --max-strain allows more, --explore shows all`,
+    );
+  }
+  const { lambda, smallest, distance } = chosen;
+  return { drawing: chosen.drawing, plan: { lambda, smallest, distance } };
+}
+
+/**
+ * @param {PatternTask} task
+ * @param {AbortSignal} signal
+ */
+async function explored(task, signal) {
+  const input = await readInput(task);
+  const { lambda, ...solver } = { ...task.options, ...spacing(task) };
+  const { smallest, ...patching } = task.patching;
+  const line = statusLine();
+  try {
+    return await developable.explorePattern(input, {
+      solver,
+      pattern: { ...patching, ...drawingOptions(task) },
+      sheets: task.sheets,
+      signal,
+      onPlan: line.shown ? (plan) => line.show(row(plan).join('  ')) : undefined,
+    });
+  } finally {
+    line.clear();
+  }
+}
+
+const COLUMNS = ['lambda', 'smallest', 'sheets', 'folds', 'slits', 'cuts (mm)', 'strain', 'distance', 'time (s)'];
+
+/** @param {import('../types.js').PatternPlan} plan */
+function row({ lambda, smallest, distance, seconds, drawing }) {
+  const figures = drawing === undefined ? ['cannot be laid flat', '', '', '', ''] : told(drawing.summary);
+  return [lambda.toExponential(0), String(smallest), ...figures, String(Number(distance.toPrecision(3))), seconds.toFixed(1)];
+}
+
+/** @param {import('../types.js').Drawing['summary']} summary */
+function told({ sheets, folds, slits, cutLength, strain }) {
+  return [String(sheets), String(folds), String(slits), cutLength.toFixed(0), percent(strain, 2)];
+}
+
+/**
+ * All plans, as a table or as JSON.
+ * @param {PatternTask} task
+ * @param {import('../types.js').PatternPlan[]} plans
+ * @param {AbortSignal} signal
+ */
+async function tellPlans({ output }, plans, signal) {
+  if (output !== '') {
+    const figures = plans.map(({ drawing, ...plan }) => ({ ...plan, summary: drawing?.summary }));
+    await writeWhole([{ path: output, bytes: json(figures) }], signal);
+    return;
+  }
+  const rows = [COLUMNS, ...plans.map(row)];
+  const widths = COLUMNS.map((_, i) => Math.max(...rows.map((cells) => (i === 2 && cells[3] === '' ? 0 : cells[i].length))));
+  const lines = rows.map((cells) => cells.map((cell, i) => (cells[3] === '' && i === 2 ? cell : cell.padStart(widths[i]))).join('  '));
+  await print(`${lines.join('\n')}\n`);
+}
+
 /** @param {number} count @param {string} what */
 const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
 
 /**
  * @param {import('../types.js').Drawing} drawing
  * @param {import('./arguments.js').Extension} extension
- * @param {'a4' | 'letter'} [paper]
  */
-async function drawn(drawing, extension, paper) {
+async function drawn(drawing, extension) {
   switch (extension) {
     case '.svg': return developable.writeSvg(drawing);
-    case '.pdf': return developable.writePdf(drawing, { paper });
+    case '.pdf': return developable.writePdf(drawing);
     case '.dxf': return developable.writeDxf(drawing);
-    default: return json(drawing);
+    default: return json({ ...drawing, assembly: undefined });
   }
 }
 

@@ -21,17 +21,27 @@ export function print(text) {
 }
 
 /** One line that is written over and over. */
-export function progressLine() {
+export function statusLine() {
   const shown = terminal.isTTY === true;
   return {
     shown,
+    /** @param {string} text */
+    show: (text) => terminal.write(`\r\x1b[K${text}`),
+    clear() {
+      if (shown) terminal.write('\r\x1b[K');
+    },
+  };
+}
+
+/** How a solve goes on, in one line. */
+export function progressLine() {
+  const line = statusLine();
+  return {
+    ...line,
     /** @param {import('../types.js').Progress} progress */
     show({ level, iteration, gap, elapsed }) {
       const state = level > 0 ? `coarse lattice, ${level} finer to come` : gap === undefined ? 'gap unknown' : `gap ${percent(gap)}`;
-      terminal.write(`\r\x1b[Kiteration ${iteration}, ${state}, ${elapsed.toFixed(1)} s`);
-    },
-    clear() {
-      if (shown) terminal.write('\r\x1b[K');
+      line.show(`iteration ${iteration}, ${state}, ${elapsed.toFixed(1)} s`);
     },
   };
 }

@@ -1,5 +1,7 @@
 //! Files as bytes in memory: height images and photos, meshes, drawings to cut out.
 
+#[cfg(feature = "patterns")]
+pub mod assembly;
 #[cfg(any(feature = "formats", feature = "meshes", feature = "patterns"))]
 mod buffer;
 #[cfg(feature = "patterns")]

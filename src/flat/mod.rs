@@ -1,5 +1,6 @@
 //! The surface laid flat: unrolled, with its photo, or cut along its creases into sheets.
 
+pub mod assembly;
 pub mod dewarp;
 pub mod drawing;
 pub mod page;

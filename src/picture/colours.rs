@@ -55,7 +55,7 @@ pub(super) fn steel(tone: f64) -> [u8; 3] {
     [1.0 - tint, 1.0, 1.0 + 1.3 * tint].map(|share| (255.0 * tone * share).round() as u8)
 }
 
-pub(super) fn patch(label: u32) -> [u8; 3] {
+pub(crate) fn patch(label: u32) -> [u8; 3] {
     PATCHES[label as usize % PATCHES.len()]
 }
 

@@ -12,7 +12,7 @@
 //! # }
 //! ```
 
-mod colours;
+pub(crate) mod colours;
 
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::flat::dewarp::Extent;

@@ -3,6 +3,10 @@ import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+// @ts-expect-error three.js has no types of its own
+import { AnimationMixer, LoopOnce, Mesh, Vector3 } from 'three';
+// @ts-expect-error
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { launch, skip } from './support/browser.mjs';
@@ -253,13 +257,171 @@ test('what is wrong is said', async () => {
   const drawing = direct.pattern(card, { scale: 100 });
   assert.throws(() => direct.writePdf(drawing, { paper: 'a4' }), error('UNSUPPORTED', /pages/));
   assert.throws(() => direct.writePdf(drawing), error('UNSUPPORTED', /5\.08/));
-  assert.throws(() => direct.writePdf(drawing, /** @type {any} */ ({ paper: 'a5' })), error('OPTION', /a4 or letter/));
+  assert.throws(() => direct.writePdf(drawing, /** @type {any} */ ({ paper: 'a5' })), error('OPTION', /a4, letter/));
   for (const nothing of [undefined, {}, { ...drawing, sheets: 3 }]) {
     assert.throws(() => direct.writeSvg(/** @type {any} */ (nothing)), error('INPUT', /drawing/));
   }
   const broken = { ...drawing, width: NaN };
   assert.throws(() => direct.writeSvg(broken), error('UNSUPPORTED', /finite/));
   await assert.rejects(developable.pattern(card, { scale: 0 }), error('OPTION', /scale/));
+});
+
+/** A barrel vault through a lower one: three sheets with curved edges. */
+const vaults = lattice(94, 81, height);
+
+/** @param {number} x @param {number} y */
+function height(x, y) {
+  const arc = (/** @type {number} */ v) => Math.sqrt(3136 - v ** 2);
+  return Math.max(arc(x - 40) - 4, arc(y + 40));
+}
+
+test('curved edges are curves in each format', { skip }, async () => {
+  const drawing = direct.pattern(vaults, { paper: 'a4' });
+  const plain = direct.pattern(vaults, { paper: 'a4', smoothing: 0 });
+  const count = (/** @type {typeof drawing} */ { sheets }) => sheets.flatMap((sheet) => sheet.curves).flat().length / 3;
+  assert.ok(5 * count(drawing) < count(plain), `${count(drawing)} ${count(plain)}`);
+  assert.ok(drawing.summary.mismatch < 0.004, `${drawing.summary.mismatch}`);
+  const cuts = drawing.sheets.flatMap((sheet) => sheet.cuts);
+  const around = cuts.map((cut) => length(cut, true));
+  near(around.reduce((sum, one) => sum + one, 0), plain.summary.cutLength, 0.01);
+  // As many pages as its sheets take, all of them whole, in Inkscape's words as well.
+  assert.equal(drawing.pages?.pages.length, drawing.summary.a4);
+  const svg = new TextDecoder().decode(direct.writeSvg(drawing));
+  assert.equal(svg.match(/<inkscape:page /g)?.length, drawing.summary.a4);
+  const paths = [...svg.matchAll(/<path d="([^"]*)"/g)].map(([, data]) => data);
+  assert.ok(paths.some((data) => /C/.test(data)) && paths.some((data) => /L/.test(data)));
+  const browser = await launch();
+  try {
+    const page = await browser.newPage();
+    await page.setContent(`<body style="margin:0">${svg}</body>`);
+    const found = await page.evaluate("[...document.querySelectorAll('#cut path')].map((path) => path.getTotalLength())");
+    found.forEach((/** @type {number} */ own, /** @type {number} */ i) => near(own, around[i], 1e-3));
+  } finally {
+    await browser.close();
+  }
+  const pages = await readPdf(direct.writePdf(drawing));
+  assert.equal(pages.length, drawing.summary.a4);
+  const [{ lines }] = pages;
+  const drawn = lines.filter(({ closed }) => closed);
+  drawn.forEach((line, i) => near(length(line.points, true), around[i], 1e-3));
+  assert.ok(drawn.some(({ corners, points }) => corners < points.length / 4));
+  const { layers } = readDxf(direct.writeDxf(drawing));
+  layers.CUT.forEach(({ points }, i) => near(length(points, true), around[i], 1e-3));
+  assert.ok(layers.CUT.some(({ corners, points }) => corners < points.length / 4));
+});
+
+test('kerf, allowance, marks and numbers beside small pieces', () => {
+  const plain = direct.pattern(card, { scale });
+  /** @param {typeof plain} drawing */
+  const box = ({ sheets: [{ bounds: [low, high] }] }) => [0, 1].map((k) => high[k] - low[k]);
+  for (const [options, grown] of /** @type {const} */ ([[{ kerf: 0.4 }, 0.4], [{ allowance: 8 }, 16], [{ allowance: 8, kerf: 0.4 }, 16.4]])) {
+    const drawing = direct.pattern(card, { scale, ...options });
+    box(drawing).forEach((side, k) => assert.ok(Math.abs(side - box(plain)[k] - grown) < 0.02, `${side} ${box(plain)[k]}`));
+    const edges = drawing.sheets[0].edges.length;
+    assert.equal(edges, 'allowance' in options ? 1 : 0);
+    const { layers } = readDxf(direct.writeDxf(drawing));
+    if (edges > 0) near(length(layers.EDGE[0].points, true), plain.summary.cutLength);
+  }
+  const marked = direct.pattern(vaults, { scale: 4, marks: 30 });
+  // Half of them on each side; each begins on the outline and runs 3 mm inwards.
+  const marks = marked.sheets.flatMap((sheet) => sheet.marks.map((line) => ({ sheet, ends: [line[0], line[3]] })));
+  const { seamLength, seams } = marked.summary;
+  assert.ok(marks.length % 2 === 0 && Math.abs(marks.length / 2 - seamLength / 30 + seams) <= seams, `${marks.length} ${seamLength}`);
+  for (const { sheet, ends: [foot, tip] } of marks) {
+    near(Math.hypot(tip[0] - foot[0], tip[1] - foot[1]), 3, 1e-6);
+    assert.ok(Math.min(...sheet.cuts.flat().map(([x, y]) => Math.hypot(x - foot[0], y - foot[1]))) < 15);
+    assert.ok(inside(tip, sheet.cuts[0]) && !inside([2 * foot[0] - tip[0], 2 * foot[1] - tip[1]], sheet.cuts[0]));
+  }
+  const small = direct.pattern(pyramid, { scale: 0.08 });
+  const [{ leaders, labels, cuts }] = small.sheets;
+  const numbers = labels.filter(({ kind }) => kind === 'patch');
+  assert.ok(leaders.length > 0 && numbers.length === 4);
+  assert.equal(numbers.filter(({ place }) => !inside(place, cuts[0])).length, leaders.length);
+  for (const line of leaders) assert.ok(inside(line[0], cuts[0]) && !inside(line[3], cuts[0]));
+});
+
+/** @param {readonly number[]} point @param {readonly (readonly [number, number])[]} ring */
+function inside([x, y], ring) {
+  return ring.filter(([ax, ay], i) => {
+    const [bx, by] = ring[(i + 1) % ring.length];
+    return (ay > y) !== (by > y) && x < ax + ((bx - ax) * (y - ay)) / (by - ay);
+  }).length % 2 === 1;
+}
+
+test('sheets go from flat to built, as three.js has it', async () => {
+  const { assembly, sheets } = direct.pattern(vaults, { scale: 2, assembly: true });
+  assert.ok(assembly);
+  const { steps, model, picture } = assembly;
+  assert.deepEqual(steps.map(({ sheet }) => sheet).sort(), sheets.map((_, i) => i));
+  assert.deepEqual(steps[0].joints, []);
+  for (const { joints } of steps.slice(1)) assert.ok(joints.length > 0);
+  const { scene, animations: [clip] } = await new GLTFLoader().parseAsync(/** @type {ArrayBuffer} */ (model.buffer), '');
+  assert.equal(clip.name, 'Assembly');
+  const mixer = new AnimationMixer(scene);
+  const action = mixer.clipAction(clip).setLoop(LoopOnce, 1);
+  action.clampWhenFinished = true;
+  action.play();
+  const places = (/** @type {number} */ time) => {
+    mixer.setTime(time);
+    scene.updateMatrixWorld(true);
+    /** @type {any[]} three's vectors */
+    const found = [];
+    scene.traverse((/** @type {any} */ part) => {
+      if (!(part instanceof Mesh)) return;
+      for (let i = 0; i < part.geometry.attributes.position.count; i += 1) {
+        found.push(part.localToWorld(part.getVertexPosition(i, new Vector3())).multiplyScalar(500));
+      }
+    });
+    return found;
+  };
+  const start = places(0);
+  const level = start.map(({ y }) => y);
+  assert.ok(Math.max(...level) - Math.min(...level) < 1e-3, 'flat');
+  const end = places(clip.duration);
+  assert.ok(end.length > 5000);
+  // +y is up, and the rows of the lattice go down.
+  for (const { x, y, z } of end) assert.ok(Math.abs(y - height(x, -z)) < 1e-2, `${x} ${y} ${z}`);
+  // Corners of a triangle are as far from each other when they lie flat, but on creases, where a sheet ends within it.
+  let first = 0;
+  const [edges, kept] = [[], []].map(() => /** @type {number[]} */ ([]));
+  scene.traverse((/** @type {any} */ part) => {
+    if (!(part instanceof Mesh)) return;
+    const { index, attributes: { position } } = part.geometry;
+    for (let i = 0; i < index.count; i += 3) {
+      const [a, b] = [0, 1].map((k) => first + index.getX(i + k));
+      edges.push(a);
+      if (Math.abs(start[a].distanceTo(start[b]) / end[a].distanceTo(end[b]) - 1) < 0.02) kept.push(a);
+    }
+    first += position.count;
+  });
+  assert.ok(kept.length > 0.95 * edges.length, `${kept.length} of ${edges.length}`);
+  const svg = new TextDecoder().decode(picture);
+  assert.equal(svg.match(/<path /g)?.length, sheets.length);
+  assert.ok(/class="patch"[^>]*>\s*3\s*</.test(svg) && /class="seam"[^>]*>\s*a\s*</.test(svg), svg.slice(-900));
+  assert.equal(direct.pattern(vaults).assembly, undefined);
+});
+
+test('plans at several λ', async () => {
+  const wavy = lattice(26, 22, (x, y) => -0.6 * Math.abs(x - 10.3) + 0.2 * Math.sin(1.9 * x) * Math.sin(2.3 * y));
+  const told = [];
+  const { plans, chosen } = await developable.explorePattern(wavy, {
+    lambdas: [3e3, 3e6], smallest: [0.3, 0.02], pattern: { scale: 2, maxStrain: 0.2 }, onPlan: (plan) => told.push(plan),
+  });
+  assert.equal(chosen, undefined);
+  assert.equal(told.length, 4);
+  assert.deepEqual(plans.map(({ lambda, smallest }) => [lambda, smallest]), [[3e6, 0.02], [3e6, 0.3], [3e3, 0.02], [3e3, 0.3]]);
+  assert.ok(plans[0].distance < plans[2].distance && plans[0].distance === plans[1].distance);
+  for (const { drawing, problem } of plans) assert.ok((drawing === undefined) !== (problem === undefined));
+  const counts = plans.map(({ drawing }) => drawing?.sheets.length ?? Infinity);
+  const least = Math.min(...counts);
+  const few = await developable.explorePattern(wavy, {
+    lambdas: [3e3, 3e6], smallest: [0.02, 0.3], sheets: least, pattern: { scale: 2, maxStrain: 0.2 },
+  });
+  assert.equal(few.plans.length, counts.indexOf(least) + 1);
+  assert.equal(few.chosen, few.plans.at(-1));
+  await assert.rejects(developable.explorePattern(wavy, /** @type {any} */ ({ lambdas: 3 })), error('OPTION', /lambdas/));
+  await assert.rejects(developable.explorePattern(wavy, { pattern: { scale: -1 } }), error('OPTION', /scale/));
+  await assert.rejects(developable.explorePattern(wavy, { signal: AbortSignal.abort() }), { name: 'AbortError' });
 });
 
 test('the command', async () => {
@@ -272,7 +434,8 @@ test('the command', async () => {
   assert.deepEqual(await command(`${from} -o card.svg --scale ${scale} --report card.json`), silent);
   const drawing = direct.pattern(card, { scale });
   assert.deepEqual(new Uint8Array(await readFile(join(folder, 'card.svg'))), direct.writeSvg(drawing));
-  assert.deepEqual(JSON.parse(await readFile(join(folder, 'card.json'), 'utf8')), drawing.summary);
+  const report = JSON.parse(await readFile(join(folder, 'card.json'), 'utf8'));
+  assert.deepEqual(report, { ...drawing.summary, assembly: [{ sheet: 0, joints: [] }] });
   assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --paper letter`), silent);
   assert.equal((await readPdf(await readFile(join(folder, 'card.pdf')))).length, drawing.summary.letter);
   assert.deepEqual(await command(`${from} -o card.dxf --tabs 5`), silent);
@@ -280,10 +443,24 @@ test('the command', async () => {
   assert.deepEqual(await command('pattern card.npy --lattice hex --no-data 1e9 -o fitted.json --lambda big'), silent);
   const fitted = JSON.parse(await readFile(join(folder, 'fitted.json'), 'utf8'));
   near(fitted.sheets[0].folds[0].length, flat.height / scale, 0.01);
+  assert.deepEqual(await command(`${from} -o made.svg --assembly made.glb --marks 20 --kerf 0.2`), silent);
+  assert.equal(String(await readFile(join(folder, 'made.glb'))).slice(0, 4), 'glTF');
+  await writeFile(join(folder, 'small.npy'), direct.writeNpy(lattice(24, 20, (x) => -0.6 * Math.abs(x - 9.3))));
+  const small = 'pattern small.npy --lattice hex --no-data 1e9';
+  const table = await command(`${small} --explore`);
+  assert.equal(table.status, 0, table.stderr);
+  assert.match(table.stdout, /^lambda +smallest +sheets .*\n(.*\n){18}$/);
+  const one = await command(`${small} -o one.json --sheets 1 --report one-report.json`);
+  assert.deepEqual([one.status, one.stdout], [0, '']);
+  assert.match(one.stderr, /1 sheet with --lambda \d/);
+  assert.equal(JSON.parse(await readFile(join(folder, 'one-report.json'), 'utf8')).sheets, 1);
   for (const [args, status, message] of /** @type {const} */ ([
+    [`${small} --explore -o plans.svg`, 2, /--explore writes a table/],
+    [`${small} -o few.svg --sheets 2 --lambda big`, 2, /leave --lambda out/],
+    [`${small} -o few.svg --assembly few.obj`, 2, /\.glb or \.svg/],
     [`${from} -o card.png`, 2, /\.svg, \.pdf, \.dxf or \.json/],
-    [`${from} -o card.svg --paper a4`, 2, /--paper is for outputs that end in \.pdf/],
-    [`${from} -o card.pdf --paper a5`, 2, /--paper must be a4 or letter or none/],
+    [`${from} -o card.svg --paper 40x`, 3, /Sheet 1 takes/],
+    [`${from} -o card.pdf --paper a5`, 2, /--paper must be a4, letter, none/],
     [`${from} -o card.svg --scale -2`, 2, /--scale is -2/],
     [`${from} -o card.svg --tabs none`, 2, /--tabs must be a number/],
     [`${from} -o card.pdf --scale 100 --paper a4`, 3, /pages/],

@@ -1,12 +1,12 @@
 //! Patterns drawn in millimetres, and written to files. (What other programs measure in these is in
 //! `tests/js/patterns.test.mjs`.)
 
-use crate::common::unit_square;
-use developable::Heightfield;
-use developable::drawing::{Drawing, DrawingOptions, LabelKind, Pages, Paper};
+use crate::common::{noisy, unit_square};
+use developable::drawing::{Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, Sheet, pattern};
+use developable::{Heightfield, Options, fit};
 
 fn sheets(surface: &Heightfield) -> Vec<Sheet> {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
@@ -53,6 +53,10 @@ fn area(cuts: &[Vec<[f64; 2]>]) -> f64 {
     cuts.iter().map(ring).sum()
 }
 
+fn area_of(sheet: &DrawnSheet) -> f64 {
+    area(&sheet.cuts)
+}
+
 #[test]
 fn sheets_keep_their_size_and_lie_apart() {
     for sheets in [vaults(), pyramid()] {
@@ -88,14 +92,80 @@ fn sheets_keep_their_size_and_lie_apart() {
 }
 
 #[test]
+fn lines_of_a_noisy_surface_are_straight_or_smooth() {
+    // A barrel vault through a lower one, measured with noise, and cut at its border by a circle: the lattice's
+    // border is a staircase.
+    let arc = |v: f64| (0.49 - (v - 0.5).powi(2)).sqrt();
+    let vault = noisy(
+        &unit_square(80, move |x, y| (arc(x) - 0.05).max(arc(y))),
+        2e-4,
+        7,
+    );
+    let lattice = *vault.lattice();
+    let heights = (0..lattice.rows() * lattice.cols()).map(|i| {
+        let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+        let out = (x - 0.5).hypot(y - 0.5) > 0.45;
+        if out { f64::NAN } else { vault.heights()[i] }
+    });
+    let round = Heightfield::new(lattice, heights.collect()).unwrap();
+    let scan = fit(&round, &Options::default()).unwrap();
+    let found = sheets(scan.heightfield());
+    let scale = 200.0;
+    let cell = scale / 80.0;
+    let raw = drawn(
+        &found,
+        DrawingOptions::default().scale(scale).smoothing(0.0),
+    );
+    let drawing = drawn(&found, DrawingOptions::default().scale(scale));
+    let pieces = |drawing: &Drawing| -> usize {
+        let curves = drawing.sheets.iter().flat_map(|sheet| &sheet.curves);
+        curves.map(|curve| curve.pieces().count()).sum()
+    };
+    assert!(
+        8 * pieces(&drawing) < pieces(&raw),
+        "{} {}",
+        pieces(&drawing),
+        pieces(&raw)
+    );
+    let bends = drawing
+        .sheets
+        .iter()
+        .flat_map(|s| s.curves.iter().flat_map(|c| c.pieces()));
+    assert!(bends.filter(|p| matches!(p, Piece::Bezier(_))).count() > 3);
+    for (before, after) in raw.sheets.iter().zip(&drawing.sheets) {
+        assert!((area_of(before) / area_of(after) - 1.0).abs() < 0.01);
+        // Within half a cell, before the sheets were turned to lie in a small box: as far around.
+        let around =
+            |sheet: &DrawnSheet| -> f64 { sheet.cuts.iter().map(|cut| perimeter(cut)).sum() };
+        assert!(around(after) < around(before) * 1.001 && around(after) > 0.9 * around(before));
+        let [low, high] = after.bounds;
+        assert!((high[0] - low[0]).max(high[1] - low[1]) < scale * 1.3 + cell);
+    }
+    // Both sides of each seam keep their length.
+    assert!(
+        drawing.summary.mismatch < raw.summary.mismatch + 0.005,
+        "{:?}",
+        drawing.summary
+    );
+}
+
+fn perimeter(cut: &[[f64; 2]]) -> f64 {
+    let next = cut.iter().cycle().skip(1);
+    cut.iter()
+        .zip(next)
+        .map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1]))
+        .sum()
+}
+
+#[test]
 fn tabs_are_added_outside_and_touch_nothing() {
     let plain = drawn(&pyramid(), DrawingOptions::default().scale(150.0));
     let tabbed = drawn(&pyramid(), DrawingOptions::default().scale(150.0).tabs(8.0));
     assert!(tabbed.summary.tabs >= 1);
     let [before, after] = [&plain, &tabbed].map(|d| area(&d.sheets[0].cuts));
-    // A trapezoid of 45° over each base.
+    // A trapezoid over each base, cut at 45° where that is long enough.
     let expected: f64 = (tabbed.sheets[0].tabs.iter())
-        .map(|tab| 8.0 * (tab.length - 8.0))
+        .map(|tab| 8.0 * (tab.length - f64::min(8.0, 0.3 * tab.length)))
         .sum();
     assert!(
         (after - before - expected).abs() < 0.02 * expected,
@@ -120,6 +190,41 @@ fn tabs_are_added_outside_and_touch_nothing() {
 }
 
 #[test]
+fn a_curved_edge_has_a_comb_of_short_tabs() {
+    let options = DrawingOptions::default().scale(200.0);
+    let (plain, tabbed) = (
+        drawn(&vaults(), options),
+        drawn(&vaults(), options.tabs(6.0)),
+    );
+    let tabs: Vec<_> = tabbed.sheets.iter().flat_map(|sheet| &sheet.tabs).collect();
+    // Along all of one side of each seam, and none of them turns by much.
+    let long: f64 = tabs.iter().map(|tab| tab.length).sum();
+    assert!(
+        long > 0.9 * plain.summary.seam_length,
+        "{long} {:?}",
+        plain.summary
+    );
+    assert!(tabs.len() > 2 * plain.summary.seams, "{}", tabs.len());
+    for tab in tabs {
+        let points = &tab.points;
+        let heading = |i: usize| {
+            let [p, q] = [points[i], points[i + 1]];
+            (q[1] - p[1]).atan2(q[0] - p[0])
+        };
+        let turn = heading(points.len() - 2) - heading(0);
+        assert!(turn.sin().abs() < 0.5, "{points:?}");
+    }
+    // The other side has none.
+    let without = plain.sheets.iter().zip(&tabbed.sheets);
+    assert!(
+        without
+            .filter(|(a, b)| area_of(b) > 1.001 * area_of(a))
+            .count()
+            < plain.sheets.len()
+    );
+}
+
+#[test]
 fn both_sides_of_each_cut_have_the_same_letter() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(150.0));
     let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
@@ -137,45 +242,118 @@ fn both_sides_of_each_cut_have_the_same_letter() {
 }
 
 #[test]
-fn pages_overlap_and_cover_the_sheets() {
+fn pages_overlap_and_cover_what_is_too_large_for_one() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(300.0));
-    for paper in [Paper::A4, Paper::Letter] {
-        let pages = Pages::new(&drawing, paper).unwrap();
-        assert_eq!(pages.pages.len(), Pages::count(&drawing, paper));
+    for (stock, size) in [(Stock::A4, [210.0, 297.0]), (Stock::Letter, [215.9, 279.4])] {
+        let laid = drawing.clone().onto(stock).unwrap();
+        let pages = laid.pages.as_ref().unwrap();
+        let count = pages.pages.len();
+        match stock {
+            Stock::A4 => assert_eq!(count, drawing.summary.a4),
+            _ => assert_eq!(count, drawing.summary.letter),
+        }
         let mut sides = pages.paper;
         sides.sort_by(f64::total_cmp);
-        assert_eq!(sides, paper.size());
-        for point in drawing
-            .sheets
-            .iter()
-            .flat_map(|sheet| sheet.cuts.iter().flatten())
-        {
-            let on = |corner: [f64; 2]| {
-                [0, 1]
-                    .iter()
-                    .all(|k| (corner[*k]..=corner[*k] + pages.part[*k]).contains(&point[*k]))
-            };
-            assert!(pages.pages.iter().any(|page| on(page.corner)), "{point:?}");
+        assert_eq!(sides, size);
+        let on = |point: &[f64; 2], corner: [f64; 2]| {
+            [0, 1]
+                .iter()
+                .all(|k| (corner[*k]..=corner[*k] + pages.part[*k]).contains(&point[*k]))
+        };
+        for sheet in &laid.sheets {
+            let showing = |p: &&[f64; 2]| !pages.pages.iter().any(|page| on(p, page.corner));
+            let lost = sheet.cuts.iter().flatten().find(showing);
+            assert_eq!(lost, None, "{}", sheet.name);
+            // A sheet that fits on a page is on one.
+            let [low, high] = sheet.bounds;
+            let fits =
+                |turn: [usize; 2]| (0..2).all(|k| high[k] - low[k] < pages.part[turn[k]] - 7.0);
+            let whole = pages
+                .pages
+                .iter()
+                .any(|p| on(&low, p.corner) && on(&high, p.corner));
+            assert!(
+                whole || !(fits([0, 1]) || fits([1, 0])),
+                "{:?}",
+                sheet.bounds
+            );
         }
-        // Each page has crosses at all four corners, and so has something of all its neighbours.
-        for page in &pages.pages {
-            let on = |mark: &&[f64; 2]| {
-                [0, 1].iter().all(|k| {
-                    let along = mark[*k] - page.corner[*k];
-                    (0.0..=pages.part[*k]).contains(&along)
+        // Each page that is put together with others has crosses at all four corners, and so has something of
+        // all its neighbours.
+        let together = pages
+            .pages
+            .iter()
+            .filter(|page| page.name.starts_with(char::is_alphabetic));
+        let mut some = 0;
+        for page in together {
+            let crosses = pages.marks.iter().filter(|mark| on(mark, page.corner));
+            assert_eq!(crosses.count(), 4);
+            some += 1;
+        }
+        assert!(some >= 2);
+    }
+}
+
+#[test]
+fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
+    // Four times the vaults' sheets: twelve of them.
+    let one = vaults();
+    let sheets: Vec<Sheet> = (0..4).flat_map(|_| one.clone()).collect();
+    let drawing = drawn(&sheets, DrawingOptions::default().scale(120.0));
+    let area = drawing.summary.area;
+    for stock in [Stock::A4, Stock::Plate([400.0, 300.0]), Stock::Roll(300.0)] {
+        let laid = drawing.clone().onto(stock).unwrap();
+        let pages = laid.pages.as_ref().unwrap();
+        let mut owners = vec![0; pages.pages.len()];
+        for sheet in &laid.sheets {
+            let within = |corner: [f64; 2]| {
+                let points = sheet.cuts.iter().flatten();
+                points.into_iter().all(|p| {
+                    (0..2).all(|k| {
+                        let along = p[k] - corner[k];
+                        (-1e-6..=pages.part[k] + 1e-6).contains(&along)
+                    })
                 })
             };
-            assert_eq!(pages.marks.iter().filter(on).count(), 4);
+            let page = pages.pages.iter().position(|page| within(page.corner));
+            owners[page.expect("a page for each sheet")] += 1;
+        }
+        assert!(owners.iter().all(|count| *count > 0), "{owners:?}");
+        // Never on each other: no corner of one is within another, nor near it.
+        for (i, one) in laid.sheets.iter().enumerate() {
+            for other in &laid.sheets[..i] {
+                let near = one.cuts.iter().flatten().step_by(3).find(|p| {
+                    inside(**p, &other.cuts)
+                        || (other.cuts.iter().flatten())
+                            .any(|q| (p[0] - q[0]).hypot(p[1] - q[1]) < 2.5)
+                });
+                assert_eq!(near, None, "{} {}", one.name, other.name);
+            }
+        }
+        // Few enough pages: an even larger part of a roll, or of two plates, would be empty.
+        let whole = owners.len() as f64 * pages.part[0] * pages.part[1];
+        assert!(
+            area > 0.2 * whole,
+            "{stock:?}: {} pages, {}",
+            owners.len(),
+            area / whole
+        );
+        let turned = drawing.sheets.iter().zip(&laid.sheets);
+        for (before, after) in turned {
+            assert!((area_of(before) / area_of(after) - 1.0).abs() < 1e-6);
         }
     }
-    assert_eq!(drawing.summary.a4, Pages::count(&drawing, Paper::A4));
+    let code = |stock| drawing.clone().onto(stock).unwrap_err().to_string();
+    assert!(code(Stock::Plate([100.0, 60.0])).contains("Sheet"));
+    assert!(code(Stock::Roll(-3.0)).contains("paper"));
+    assert!(code(Stock::Plate([8.0, f64::NAN])).contains("paper"));
 }
 
 #[test]
 fn files_are_the_same_each_time() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(100.0).tabs(5.0));
     for write in [write_svg, write_dxf, |d: &Drawing| {
-        write_pdf(d, Some(Paper::A4))
+        write_pdf(d, Some(Stock::A4))
     }] {
         let file = write(&drawing).unwrap();
         assert!(file.len() > 1000);
@@ -205,7 +383,7 @@ fn nonsense_is_refused() {
     let large = drawn(&sheets, DrawingOptions::default().scale(20_000.0));
     assert_eq!(write_pdf(&large, None).unwrap_err().code(), "UNSUPPORTED");
     assert_eq!(
-        write_pdf(&large, Some(Paper::A4)).unwrap_err().code(),
+        write_pdf(&large, Some(Stock::A4)).unwrap_err().code(),
         "UNSUPPORTED"
     );
     let mut broken = drawn(&sheets, DrawingOptions::default());

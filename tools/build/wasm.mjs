@@ -22,7 +22,7 @@ const files = [
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 120_000 },
   { name: 'unroll', limit: 255_000 },
-  { name: 'patterns', limit: 275_000 },
+  { name: 'patterns', limit: 345_000 },
 ];
 
 /**

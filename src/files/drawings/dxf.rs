@@ -1,23 +1,27 @@
 //! Drawing Exchange Format, for cutters.
 //!
 //! A DXF file is pairs of lines: a group code, which says what is meant, and its value. Written is
-//! the format of AutoCAD release 12, which knows plain polylines and texts, needs no object handles
-//! and is read by every program for cutters. (Autodesk, DXF Reference, "ENTITIES Section".)
+//! the format of AutoCAD release 12, which knows polylines with arcs and texts, needs no object handles
+//! and is read by every program for cutters. (It has no splines, and many cutters run no more than arcs.) (Autodesk, DXF Reference, "ENTITIES Section".)
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
+use super::arcs::{Corner, arcs};
 use super::{Kind, layers};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::flat::drawing::{Drawing, Label};
 
 /// Every layer with its colour, by its number in AutoCAD's palette.
-const LAYERS: [(&str, u8); 5] = [
+const LAYERS: [(&str, u8); 8] = [
     ("CUT", 7),
     ("MOUNTAIN", 1),
     ("VALLEY", 5),
     ("TAB", 8),
+    ("EDGE", 30),
+    ("MARK", 3),
+    ("LEADER", 9),
     ("LABEL", 9),
 ];
 
@@ -27,8 +31,9 @@ const MILLIMETRES: u8 = 4;
 /// Height of capitals, in sizes of the font.
 const CAPITALS: f64 = 0.72;
 
-/// A DXF file of a drawing (AutoCAD R12, ASCII) in millimetres, with polylines and texts on the
-/// layers `CUT`, `MOUNTAIN`, `VALLEY`, `TAB` and `LABEL`.
+/// A DXF file of a drawing (AutoCAD R12, ASCII) in millimetres, with polylines of straight pieces and arcs
+/// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`,
+/// `VALLEY`, `TAB`, `EDGE`, `MARK`, `LEADER` and `LABEL`.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite,
@@ -66,8 +71,8 @@ fn write(file: &mut Pairs, drawing: &Drawing) -> io::Result<()> {
     })?;
     file.section("ENTITIES", |file| {
         for (kind, lines) in layers(drawing) {
-            for (points, closed) in lines {
-                file.polyline(layer(kind), points, closed)?;
+            for (curve, closed) in lines {
+                file.polyline(layer(kind), &arcs(curve), closed)?;
             }
         }
         let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
@@ -81,6 +86,9 @@ fn layer(kind: Kind) -> &'static str {
         Kind::Mountain => "MOUNTAIN",
         Kind::Valley => "VALLEY",
         Kind::Tab => "TAB",
+        Kind::Edge => "EDGE",
+        Kind::Mark => "MARK",
+        Kind::Leader => "LEADER",
         Kind::Cut => "CUT",
     }
 }
@@ -111,17 +119,25 @@ impl Pairs {
         self.pair(0, "ENDSEC")
     }
 
-    fn polyline(&mut self, layer: &str, points: &[[f64; 2]], closed: bool) -> io::Result<()> {
+    /// A closed one ends where it begins, which is not written twice.
+    fn polyline(&mut self, layer: &str, line: &[Corner], closed: bool) -> io::Result<()> {
+        let line = match line {
+            [all @ .., _] if closed => all,
+            all => all,
+        };
         self.pair(0, "POLYLINE")?;
         self.pair(8, layer)?;
         // Its vertices follow.
         self.pair(66, 1)?;
         self.point(10, [0.0, 0.0])?;
         self.pair(70, u8::from(closed))?;
-        for point in points {
+        for Corner { place, bulge } in line {
             self.pair(0, "VERTEX")?;
             self.pair(8, layer)?;
-            self.point(10, *point)?;
+            self.point(10, *place)?;
+            if *bulge != 0.0 {
+                self.pair(42, bulge)?;
+            }
         }
         self.pair(0, "SEQEND")?;
         self.pair(8, layer)

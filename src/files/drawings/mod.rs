@@ -1,10 +1,11 @@
-//! Patterns in files: SVG, PDF and DXF of a [`Drawing`], in true size.
+//! Patterns in files: SVG, PDF and DXF of a [`Drawing`], in true size. Curves are cubic Bézier curves in SVG
+//! and PDF, arcs of circles in DXF.
 //!
-//! | | cut | mountain fold | valley fold | fold of a tab | text |
-//! |---|---|---|---|---|---|
-//! | SVG and PDF | black | red, dash-dot | blue, dashed | as folds, thin | grey |
-//! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `label` |
-//! | layers of DXF | `CUT` | `MOUNTAIN` | `VALLEY` | `TAB` | `LABEL` |
+//! | | cut | mountain fold | valley fold | fold of a tab | edge within an allowance | mark | leader, text |
+//! |---|---|---|---|---|---|---|---|
+//! | SVG and PDF | black | red, dash-dot | blue, dashed | black, dashed | orange, dashed | green | grey |
+//! | layers of SVG | `cut` | `mountain` | `valley` | `tab` | `edge` | `mark` | `leader`, `label` |
+//! | layers of DXF, their colours | `CUT`, 7 | `MOUNTAIN`, 1 | `VALLEY`, 5 | `TAB`, 8 | `EDGE`, 30 | `MARK`, 3 | `LEADER`, `LABEL`, 9 |
 //!
 //! ```
 //! use developable::drawing::{Drawing, DrawingOptions};
@@ -23,11 +24,12 @@
 //! # }
 //! ```
 
+mod arcs;
 mod dxf;
 mod pdf;
 mod svg;
 
-use crate::flat::drawing::{Drawing, DrawnSheet, Line};
+use crate::flat::drawing::{Curve, Drawing, DrawnSheet, Line};
 use crate::flat::pattern::Direction;
 pub use dxf::write_dxf;
 pub use pdf::write_pdf;
@@ -39,17 +41,31 @@ enum Kind {
     Mountain,
     Valley,
     Tab,
+    Edge,
+    Mark,
+    Leader,
     Cut,
 }
 
 impl Kind {
-    const ALL: [Kind; 4] = [Kind::Mountain, Kind::Valley, Kind::Tab, Kind::Cut];
+    const ALL: [Kind; 7] = [
+        Kind::Mountain,
+        Kind::Valley,
+        Kind::Tab,
+        Kind::Edge,
+        Kind::Mark,
+        Kind::Leader,
+        Kind::Cut,
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Kind::Mountain => "mountain",
             Kind::Valley => "valley",
             Kind::Tab => "tab",
+            Kind::Edge => "edge",
+            Kind::Mark => "mark",
+            Kind::Leader => "leader",
             Kind::Cut => "cut",
         }
     }
@@ -67,6 +83,9 @@ impl Kind {
             Kind::Mountain => [200, 0, 0],
             Kind::Valley => [0, 60, 200],
             Kind::Tab | Kind::Cut => [0, 0, 0],
+            Kind::Edge => [200, 120, 0],
+            Kind::Mark => [0, 140, 0],
+            Kind::Leader => [GREY; 3],
         }
     }
 
@@ -76,19 +95,23 @@ impl Kind {
             Kind::Mountain => &[4.0, 1.2, 0.6, 1.2],
             Kind::Valley => &[2.5, 1.5],
             Kind::Tab => &[1.0, 1.0],
-            Kind::Cut => &[],
+            Kind::Edge => &[2.0, 2.0],
+            Kind::Mark | Kind::Leader | Kind::Cut => &[],
         }
     }
 
     /// The lines of this kind on a sheet, and whether they are closed.
-    fn lines(self, sheet: &DrawnSheet) -> (Vec<&[[f64; 2]]>, bool) {
+    fn lines(self, sheet: &DrawnSheet) -> (Vec<&Curve>, bool) {
         let course = |line: &'_ &Line| Kind::of(line.direction) == self;
         match self {
-            Kind::Cut => (sheet.cuts.iter().map(Vec::as_slice).collect(), true),
-            Kind::Tab => (sheet.tabs.iter().map(|l| &l.points[..]).collect(), false),
+            Kind::Cut => (sheet.curves.iter().collect(), true),
+            Kind::Edge => (sheet.edges.iter().collect(), true),
+            Kind::Mark => (sheet.marks.iter().collect(), false),
+            Kind::Leader => (sheet.leaders.iter().collect(), false),
+            Kind::Tab => (sheet.tabs.iter().map(|l| &l.curve).collect(), false),
             _ => {
                 let own = sheet.folds.iter().filter(course);
-                (own.map(|line| &line.points[..]).collect(), false)
+                (own.map(|line| &line.curve).collect(), false)
             }
         }
     }
@@ -103,15 +126,15 @@ const GREY: u8 = 90;
 /// From the middle of a line of text down to where its letters stand, in sizes of the font.
 const DROP: f64 = 0.35;
 
-/// A line's points, and whether it is closed.
-type Drawn<'a> = (&'a [[f64; 2]], bool);
+/// A line, and whether it is closed.
+type Drawn<'a> = (&'a Curve, bool);
 
 /// Of each kind the lines, sheet by sheet.
 fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
     Kind::ALL.into_iter().map(|kind| {
         let lines = drawing.sheets.iter().flat_map(move |sheet| {
             let (lines, closed) = kind.lines(sheet);
-            lines.into_iter().map(move |points| (points, closed))
+            lines.into_iter().map(move |curve| (curve, closed))
         });
         (kind, lines.collect())
     })

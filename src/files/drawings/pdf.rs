@@ -6,7 +6,7 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 use super::{DROP, GREY, WIDTH, layers};
 use crate::error::{Error, Result};
 use crate::files::points::{LARGEST, POINTS, points};
-use crate::flat::drawing::{Drawing, Label, Pages, Paper};
+use crate::flat::drawing::{Drawing, Label, Pages, Piece, Stock};
 
 /// Length of each arm of a registration mark, in millimetres.
 const ARM: f64 = 4.0;
@@ -14,22 +14,23 @@ const ARM: f64 = 4.0;
 const FONT: Name = Name(b"F");
 const DRAWING: Name = Name(b"D");
 
-/// A PDF file of a drawing in true size, on one page as large as it is or on pages of paper
-/// ([`Pages`]), each with its name, and with crosses where it is laid on its neighbours. To be
-/// printed at 100 %.
+/// A PDF file of a drawing in true size: with its pages, each with its name, and with crosses where it is laid
+/// on its neighbours, or on one page as large as it is. `stock` lays it out on pages first ([`Drawing::onto`]).
+/// To be printed at 100 %.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for a drawing that is not finite, one of more than
-/// [`MAX_PAGES`](crate::flat::drawing::MAX_PAGES) pages, or one of more than 5.08 m, the format's limit,
-/// without a paper.
-pub fn write_pdf(drawing: &Drawing, paper: Option<Paper>) -> Result<Vec<u8>> {
+/// [`Error::Unsupported`] for a drawing that is not finite, for a page of more than 5.08 m, the format's
+/// limit, and what [`Drawing::onto`] has to say.
+pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
     drawing.check()?;
+    let laid = stock.map(|stock| drawing.clone().onto(stock)).transpose()?;
+    let drawing = laid.as_ref().unwrap_or(drawing);
     // Numbers of the objects: the first pages and their contents come after these.
     let [catalog, tree, font, form, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let page = |i: usize| Ref::new(6 + 2 * i as i32);
     let content = |i: usize| Ref::new(7 + 2 * i as i32);
-    let sheets = match paper {
-        Some(paper) => spread(drawing, paper)?,
+    let sheets = match &drawing.pages {
+        Some(pages) => spread(pages)?,
         None => vec![whole(drawing)?],
     };
     let mut pdf = Pdf::new();
@@ -66,19 +67,24 @@ type Sheet = ([f64; 2], Vec<u8>);
 
 fn whole(drawing: &Drawing) -> Result<Sheet> {
     let size = [drawing.width, drawing.height];
-    if size.iter().any(|side| side * POINTS > LARGEST) {
-        return Err(Error::Unsupported {
-            format: "PDF",
-            reason: "a page has at most 5.08 metres; choose a smaller scale, or a paper".into(),
-        });
-    }
+    check_page(size)?;
     let mut page = Content::new();
     page.x_object(DRAWING);
     Ok((size, page.finish().into_vec()))
 }
 
-fn spread(drawing: &Drawing, paper: Paper) -> Result<Vec<Sheet>> {
-    let pages = Pages::new(drawing, paper)?;
+fn check_page(size: [f64; 2]) -> Result<()> {
+    match size.iter().any(|side| side * POINTS > LARGEST) {
+        true => Err(Error::Unsupported {
+            format: "PDF",
+            reason: "a page has at most 5.08 metres; choose a smaller scale, or a paper".into(),
+        }),
+        false => Ok(()),
+    }
+}
+
+fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
+    check_page(pages.paper)?;
     let [width, height] = pages.part;
     let sheet = |page: &crate::flat::drawing::Page| {
         let [x, y] = page.corner;
@@ -119,10 +125,16 @@ fn figure(drawing: &Drawing) -> Vec<u8> {
         let dashes = kind.dashes().iter().map(|d| d * POINTS as f32);
         out.set_dash_pattern(dashes, 0.0);
         for (line, closed) in lines {
-            for (i, [x, y]) in line.iter().enumerate() {
-                match i {
-                    0 => out.move_to(points(*x), points(*y)),
-                    _ => out.line_to(points(*x), points(*y)),
+            if let Some([x, y]) = line.controls().first() {
+                out.move_to(points(*x), points(*y));
+            }
+            for piece in line.pieces() {
+                match piece {
+                    Piece::Line([_, [x, y]]) => out.line_to(points(x), points(y)),
+                    Piece::Bezier([_, a, b, to]) => {
+                        let [a, b, to] = [a, b, to].map(|p| p.map(points));
+                        out.cubic_to(a[0], a[1], b[0], b[1], to[0], to[1])
+                    }
                 };
             }
             match closed {

@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use ::svg::node::element::{Group, Path, Text, Title};
+use ::svg::node::element::{Element, Group, Path, Text, Title};
 use ::svg::{Document, Node};
 
 use super::{DROP, GREY, Kind, WIDTH};
 use crate::error::Result;
-use crate::flat::drawing::{Drawing, LabelKind};
+use crate::flat::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 
 /// An SVG file of a drawing: its unit is the millimetre, its layers are groups with the ids `cut`,
-/// `mountain`, `valley`, `tab` and `label`, and what belongs to a sheet has its number as
+/// `mountain`, `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and what belongs to a sheet has its number as
 /// `data-sheet`, what belongs to a crease the crease's as `data-crease`.
 ///
 /// # Errors
@@ -28,6 +28,14 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
             "http://www.inkscape.org/namespaces/inkscape",
         )
         .add(Title::new("Pattern"));
+    if let Some(pages) = &drawing.pages {
+        document = document
+            .set(
+                "xmlns:sodipodi",
+                "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd",
+            )
+            .add(paged(pages, drawing.height));
+    }
     // Rows count down in SVG.
     let place = |[x, y]: [f64; 2]| [number(x), number(drawing.height - y)];
     for kind in Kind::ALL {
@@ -40,31 +48,25 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
             layer = layer.set("stroke-dasharray", dashes.join(" "));
         }
         for (number, sheet) in drawing.sheets.iter().enumerate() {
-            let path = |points: &[[f64; 2]], closed: bool| {
-                let mut data = String::new();
-                for (i, point) in points.iter().enumerate() {
-                    let [x, y] = place(*point);
-                    // Writing into a string cannot fail.
-                    let _ = write!(data, "{}{x} {y}", if i == 0 { "M" } else { "L" });
-                }
-                if closed {
-                    data.push('Z');
-                }
-                Path::new().set("d", data).set("data-sheet", number + 1)
+            let path = |curve: &Curve, closed: bool| {
+                Path::new()
+                    .set("d", data(curve, closed, place))
+                    .set("data-sheet", number + 1)
             };
             let folds = match kind {
-                Kind::Cut => {
-                    for cut in &sheet.cuts {
-                        layer = layer.add(path(cut, true));
+                Kind::Tab => &sheet.tabs,
+                Kind::Mountain | Kind::Valley => &sheet.folds,
+                _ => {
+                    let (curves, closed) = kind.lines(sheet);
+                    for curve in curves {
+                        layer = layer.add(path(curve, closed));
                     }
                     continue;
                 }
-                Kind::Tab => &sheet.tabs,
-                _ => &sheet.folds,
             };
             for fold in folds {
                 if kind == Kind::Tab || Kind::of(fold.direction) == kind {
-                    let path = path(&fold.points, false)
+                    let path = path(&fold.curve, false)
                         .set("data-crease", fold.crease)
                         .set("data-angle", self::number(fold.angle));
                     layer = layer.add(match kind {
@@ -104,6 +106,48 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
         }
     }
     Ok(document.add(texts).to_string().into_bytes())
+}
+
+/// The pages as Inkscape has them: no lines, which a cutter would follow.
+fn paged(pages: &Pages, height: f64) -> Element {
+    let mut view = Element::new("sodipodi:namedview");
+    let [width, tall] = pages.paper;
+    for page in &pages.pages {
+        let [x, y] = page.corner.map(|v| v - pages.blank);
+        let mut element = Element::new("inkscape:page");
+        let sizes = [
+            ("x", x),
+            ("y", height - y - tall),
+            ("width", width),
+            ("height", tall),
+        ];
+        for (name, value) in sizes {
+            element.assign(name, number(value));
+        }
+        element.assign("inkscape:label", page.name.as_str());
+        view.append(element);
+    }
+    view
+}
+
+/// The course of a path.
+fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) -> String {
+    let at = |point: &[f64; 2]| place(*point).join(" ");
+    let mut data = String::new();
+    for point in curve.controls().iter().take(1) {
+        data = format!("M{}", at(point));
+    }
+    for piece in curve.pieces() {
+        // Writing into a string cannot fail.
+        let _ = match &piece {
+            Piece::Line([_, to]) => write!(data, "L{}", at(to)),
+            Piece::Bezier([_, a, b, to]) => write!(data, "C{} {} {}", at(a), at(b), at(to)),
+        };
+    }
+    if closed {
+        data.push('Z');
+    }
+    data
 }
 
 /// A group that editors know as a layer.

@@ -1,7 +1,7 @@
 //! What is written on sheets, and where.
 
 use super::tabs::Tab;
-use super::{Line, distance, length};
+use super::{DrawnSheet, FLATNESS, Line, distance, length, place_at};
 use crate::flat::pattern::Direction;
 
 /// Sizes of text, in millimetres.
@@ -56,6 +56,37 @@ impl Label {
         }
     }
 
+    /// Whether there is no room for the number of a patch on it.
+    pub(super) fn is_cramped(room: f64) -> bool {
+        0.8 * room < SMALLEST
+    }
+
+    /// The number of a patch beside its sheet.
+    pub(super) fn outside(self, place: [f64; 2]) -> Self {
+        Label {
+            place,
+            size: SMALL,
+            ..self
+        }
+    }
+
+    /// Whether a leader from its sheet ends at it.
+    pub(super) fn is_beside(&self, sheet: &DrawnSheet) -> bool {
+        self.kind == LabelKind::Patch
+            && (sheet.leaders.iter().flat_map(|line| line.controls().last()))
+                .any(|end| distance(*end, self.place) < 1.5 * SMALL)
+    }
+
+    /// The box that it takes, about.
+    pub(super) fn corners(&self) -> Vec<[f64; 2]> {
+        let half = [
+            0.3 * self.size * self.text.chars().count() as f64,
+            0.6 * self.size,
+        ];
+        let at = |x: f64, y: f64| [self.place[0] + x * half[0], self.place[1] + y * half[1]];
+        vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
+    }
+
     /// Beside the middle of a run, on its left.
     pub(super) fn seam(letter: &str, points: &[[f64; 2]]) -> Self {
         Label::beside(LabelKind::Seam, letter.into(), points, 1.0)
@@ -71,7 +102,12 @@ impl Label {
     }
 
     pub(super) fn tab(letter: &str, tab: &Tab) -> Self {
-        let label = Label::beside(LabelKind::Seam, letter.into(), &tab.base, 0.0);
+        let label = Label::beside(
+            LabelKind::Seam,
+            letter.into(),
+            &tab.base.points(FLATNESS),
+            0.0,
+        );
         let size = label.size.min(0.7 * tab.depth);
         Label {
             place: tab.middle,
@@ -106,18 +142,7 @@ impl Label {
     fn beside(kind: LabelKind, text: String, points: &[[f64; 2]], away: f64) -> Self {
         let long = length(points);
         let size = (0.2 * long).clamp(SMALLEST, SMALL);
-        let (mut rest, mut place, mut along) = (0.5 * long, points[0], [1.0, 0.0]);
-        for piece in points.windows(2) {
-            let step = distance(piece[0], piece[1]);
-            if step > 0.0 {
-                along = [0, 1].map(|k| (piece[1][k] - piece[0][k]) / step);
-                place = [0, 1].map(|k| piece[0][k] + along[k] * rest.min(step));
-            }
-            if rest <= step {
-                break;
-            }
-            rest -= step;
-        }
+        let (place, along) = place_at(points, 0.5 * long);
         let [x, y] = along;
         let mut label = Label {
             kind,
@@ -128,6 +153,16 @@ impl Label {
         };
         label.turn_by(y.atan2(x).to_degrees());
         label
+    }
+
+    /// About how wide a name above a sheet is, and how high with the room around it.
+    pub(super) fn extent(&self) -> [f64; 2] {
+        let letters = self.text.chars().count() as f64;
+        [0.6 * self.size * letters, 2.0 * self.size]
+    }
+
+    pub(super) fn is_sheet(&self) -> bool {
+        self.kind == LabelKind::Sheet
     }
 
     /// Turns it with its sheet, and by half a turn more where it would be upside down.

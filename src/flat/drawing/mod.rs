@@ -18,60 +18,46 @@
 //! # }
 //! ```
 
+mod curve;
+mod draft;
 mod label;
+mod leader;
+mod marks;
+mod nest;
+mod offset;
+mod options;
 mod pack;
 mod pages;
+mod smooth;
+mod spline;
 mod tabs;
-
-use std::collections::BTreeMap;
+mod totals;
 
 use super::pattern::{Direction, Seam, Sheet};
 use crate::error::{Error, Result, positive};
+pub use curve::{Curve, Piece};
+pub(crate) use draft::letters;
+use draft::{Lines, Named};
 pub use label::{Label, LabelKind};
+use marks::counts;
+use nest::Shape;
+pub use options::DrawingOptions;
+pub(crate) use pack::beside;
 use pack::{Place, packed};
-pub use pages::{MAX_PAGES, Page, Pages, Paper};
-use tabs::{Tab, tabbed};
+use pages::count;
+pub use pages::{MAX_PAGES, Page, Pages, Stock};
+pub(crate) use smooth::smooth;
+pub use totals::Totals;
+use totals::summary;
 
 /// Room around sheets, in millimetres.
 pub(crate) const MARGIN: f64 = 10.0;
 
+/// How near to curves the points are that are given for them, in millimetres.
+const FLATNESS: f64 = 0.02;
+
 /// Longest side of a drawing, in millimetres.
 pub const MAX_SIZE: f64 = 50_000.0;
-
-/// How a pattern is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct DrawingOptions {
-    /// Millimetres for each unit of the surface. Default 1.
-    pub scale: f64,
-    /// Depth of tabs along cut creases, in millimetres; they are on the side of the patch with
-    /// the lower number. Default: no tabs.
-    pub tabs: Option<f64>,
-}
-
-impl Default for DrawingOptions {
-    fn default() -> Self {
-        DrawingOptions {
-            scale: 1.0,
-            tabs: None,
-        }
-    }
-}
-
-impl DrawingOptions {
-    /// These options with another scale.
-    pub fn scale(self, scale: f64) -> Self {
-        DrawingOptions { scale, ..self }
-    }
-
-    /// These options with tabs.
-    pub fn tabs(self, depth: f64) -> Self {
-        DrawingOptions {
-            tabs: Some(depth),
-            ..self
-        }
-    }
-}
 
 /// A drawing, its lower left corner at `0, 0`; `x` to the right, `y` up, in millimetres.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +70,8 @@ pub struct Drawing {
     pub height: f64,
     /// The sheets, in their order; none lies on another.
     pub sheets: Vec<DrawnSheet>,
+    /// The pages that they lie on, if there are any ([`Drawing::onto`]).
+    pub pages: Option<Pages>,
     /// What it comes to.
     pub summary: Totals,
 }
@@ -99,13 +87,22 @@ pub struct DrawnSheet {
     pub patches: Vec<u32>,
     /// Its lower left and upper right corner.
     pub bounds: [[f64; 2]; 2],
-    /// Closed lines, the last point joined to the first; around tabs, too.
+    /// Closed lines, the last point joined to the first; around tabs, too. Points within a fiftieth of a
+    /// millimetre of [`DrawnSheet::curves`].
     pub cuts: Vec<Vec<[f64; 2]>>,
+    /// The same lines as curves.
+    pub curves: Vec<Curve>,
     /// Where it is folded.
     pub folds: Vec<Line>,
     /// Where tabs are folded.
     pub tabs: Vec<Line>,
-    /// What is written on it.
+    /// The edges of the surface, where there is an allowance around them: where it is sewn or bent over.
+    pub edges: Vec<Curve>,
+    /// Short lines along seams, which lie on each other when these are joined.
+    pub marks: Vec<Curve>,
+    /// From places that are too small to write on to what is written beside the sheet.
+    pub leaders: Vec<Curve>,
+    /// What is written on it, or beside it.
     pub labels: Vec<Label>,
 }
 
@@ -122,52 +119,10 @@ pub struct Line {
     pub angle: f64,
     /// Its length in millimetres.
     pub length: f64,
-    /// Its course.
+    /// Its course, within a fiftieth of a millimetre of [`Line::curve`].
     pub points: Vec<[f64; 2]>,
-}
-
-/// What a drawing comes to, lengths in millimetres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "camelCase")
-)]
-#[non_exhaustive]
-pub struct Totals {
-    /// Number of sheets.
-    pub sheets: usize,
-    /// Creases that are cut, at least in part.
-    pub seams: usize,
-    /// Cuts through what was one patch, because it cannot be laid flat in one piece.
-    pub slits: usize,
-    /// Length of the creases that are cut, as far as they are, each counted once.
-    pub seam_length: f64,
-    /// Length of the slits likewise.
-    pub slit_length: f64,
-    /// The most that both sides of one of these differ in length, as a share of it; lines shorter than
-    /// a tenth of the side of a square as large as all sheets do not count.
-    pub mismatch: f64,
-    /// Creases that are folds.
-    pub folds: usize,
-    /// Number of tabs.
-    pub tabs: usize,
-    /// Length of all cuts.
-    pub cut_length: f64,
-    /// Length of all mountain folds, without those of tabs.
-    pub mountain_length: f64,
-    /// Length of all valley folds likewise.
-    pub valley_length: f64,
-    /// Area of the sheets without tabs, in square millimetres.
-    pub area: f64,
-    /// Largest strain of a sheet (root of the mean square): 0 for what can be unrolled.
-    pub strain: f64,
-    /// Most that the two sides of a fold are apart (root of the mean square).
-    pub gap: f64,
-    /// Pages it takes of A4.
-    pub a4: usize,
-    /// Pages it takes of Letter.
-    pub letter: usize,
+    /// Its course.
+    pub curve: Curve,
 }
 
 impl Drawing {
@@ -179,21 +134,29 @@ impl Drawing {
     /// Costs `O(points)` without tabs; each tab is compared with its whole sheet.
     ///
     /// # Errors
-    /// [`Error::Empty`] without a sheet, [`Error::Option`] for a scale or tabs that are not
-    /// positive and finite, or if the drawing is larger than [`MAX_SIZE`].
+    /// [`Error::Empty`] without a sheet, [`Error::Option`] for lengths that are negative or not finite, or if the
+    /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for a kerf or an allowance at which an outline
+    /// would cross itself.
     pub fn new(sheets: &[Sheet], options: &DrawingOptions) -> Result<Self> {
         let scale = positive("scale", options.scale)?;
         let tabs = options.tabs.map(|t| positive("tabs", t)).transpose()?;
         if sheets.is_empty() {
             return Err(Error::Empty { what: "pattern" });
         }
+        options.check()?;
         let letters = letters(sheets);
-        let mut drafts: Vec<Draft> = (sheets.iter().enumerate())
-            .map(|(number, sheet)| Draft::new(number, sheet, scale, tabs, &letters))
-            .collect();
-        let boxes: Vec<Place> = drafts
-            .iter()
-            .map(|draft| Place::around(&draft.cuts))
+        let options = DrawingOptions { tabs, ..*options };
+        let lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, &options)).collect();
+        let marks = options.marks.map(|distance| counts(&lines, distance));
+        let named = Named {
+            letters,
+            marks: marks.unwrap_or_default(),
+        };
+        let drawn: Vec<DrawnSheet> = (sheets.iter().zip(&lines).enumerate())
+            .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
+            .collect::<Result<_>>()?;
+        let boxes: Vec<Place> = (drawn.iter())
+            .map(|sheet| Place::around(&Shape::new(sheet).lines))
             .collect();
         let (places, [width, height]) = packed(&boxes);
         if !(width <= MAX_SIZE && height <= MAX_SIZE) {
@@ -203,19 +166,19 @@ impl Drawing {
                 "must not make the pattern larger than 50 metres",
             ));
         }
-        for (draft, place) in drafts.iter_mut().zip(&places) {
-            draft.move_to(place);
-        }
-        let sheets_drawn: Vec<DrawnSheet> = drafts.into_iter().map(Draft::finish).collect();
-        let mut drawing = Drawing {
+        let drawn: Vec<DrawnSheet> = (drawn.into_iter().zip(&places))
+            .map(|(sheet, place)| sheet.moved(place))
+            .collect();
+        let mut summary = summary(&drawn, sheets, &lines, scale);
+        summary.a4 = count(&drawn, Stock::A4);
+        summary.letter = count(&drawn, Stock::Letter);
+        Ok(Drawing {
             width,
             height,
-            summary: summary(&sheets_drawn, sheets, scale),
-            sheets: sheets_drawn,
-        };
-        drawing.summary.a4 = Pages::count(&drawing, Paper::A4);
-        drawing.summary.letter = Pages::count(&drawing, Paper::Letter);
-        Ok(drawing)
+            sheets: drawn,
+            pages: None,
+            summary,
+        })
     }
 
     /// Whether it is one that can be written: what comes from elsewhere need not be.
@@ -227,14 +190,34 @@ impl Drawing {
             let folds = sheet.folds.iter().chain(&sheet.tabs);
             let points = sheet.cuts.iter().chain(folds.map(|line| &line.points));
             let places = sheet.labels.iter().map(|label| label.place);
+            let others = [&sheet.edges, &sheet.marks, &sheet.leaders];
+            let courses = sheet
+                .folds
+                .iter()
+                .chain(&sheet.tabs)
+                .map(|line| &line.curve);
             points.flatten().chain(&sheet.bounds).all(near)
+                && (sheet
+                    .curves
+                    .iter()
+                    .chain(others.into_iter().flatten())
+                    .chain(courses))
+                .all(|curve| curve.is_whole() && curve.controls().iter().all(near))
                 && sheet
                     .labels
                     .iter()
                     .all(|l| size(l.size) && l.turn.is_finite())
                 && places.into_iter().all(|place| near(&place))
         };
-        match size(self.width) && size(self.height) && self.sheets.iter().all(lines) {
+        let pages = self.pages.iter().all(|pages| {
+            let corners = pages.pages.iter().map(|page| &page.corner);
+            let sides = pages.paper.iter().chain(&pages.part);
+            pages.pages.len() <= MAX_PAGES
+                && corners.chain(&pages.marks).all(near)
+                && sides.chain([&pages.blank]).all(|side| size(*side))
+        });
+        let whole = size(self.width) && size(self.height);
+        match whole && pages && self.sheets.iter().all(lines) {
             true => Ok(()),
             false => Err(Error::Unsupported {
                 format: "drawing",
@@ -244,203 +227,40 @@ impl Drawing {
     }
 }
 
-/// Letters for the creases that are cut, in their order.
-fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
-    let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
-    let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
-    creases.sort_unstable();
-    creases.dedup();
-    let name = |mut n: usize| {
-        let mut name = String::new();
-        loop {
-            name.insert(0, char::from(b'a' + (n % 26) as u8));
-            match n / 26 {
-                0 => return name,
-                more => n = more - 1,
-            }
-        }
-    };
-    let names = creases.into_iter().enumerate();
-    names.map(|(n, crease)| (crease, name(n))).collect()
-}
-
-/// A sheet in millimetres that has no place yet.
-struct Draft {
-    name: String,
-    patches: Vec<u32>,
-    cuts: Vec<Vec<[f64; 2]>>,
-    folds: Vec<Line>,
-    tabs: Vec<Line>,
-    labels: Vec<Label>,
-}
-
-impl Draft {
-    fn new(
-        number: usize,
-        sheet: &Sheet,
-        scale: f64,
-        tabs: Option<f64>,
-        letters: &BTreeMap<usize, String>,
-    ) -> Self {
-        let scaled = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            points.iter().map(|p| p.map(|v| scale * v)).collect()
-        };
-        let mut labels: Vec<Label> = (sheet.spots.iter())
-            .map(|spot| Label::patch(spot.patch, scaled(&[spot.place])[0], scale * spot.room))
-            .collect();
-        let mut plain = Vec::new();
-        for outline in &sheet.outlines {
-            for run in outline {
-                if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
-                    labels.push(Label::seam(letter, &scaled(&run.points)));
-                }
-            }
-            let runs = outline.iter().map(|run| (run, scaled(&run.points)));
-            plain.push(runs.collect::<Vec<_>>());
-        }
-        let folds: Vec<Line> = (sheet.folds.iter())
-            .map(|fold| Line::new(fold.seam, scaled(&fold.points)))
-            .collect();
-        labels.extend(folds.iter().map(Label::fold));
-        let (cuts, flaps) = tabbed(&plain, tabs);
-        labels.extend((flaps.iter()).filter_map(|tab: &Tab| {
-            let letter = letters.get(&tab.seam.crease)?;
-            Some(Label::tab(letter, tab))
-        }));
-        Draft {
-            name: format!("Sheet {}", number + 1),
-            patches: sheet.patches.clone(),
-            cuts,
-            folds,
-            tabs: (flaps.into_iter())
-                .map(|tab| Line::new(tab.seam, tab.base))
-                .collect(),
-            labels,
-        }
-    }
-
-    fn move_to(&mut self, place: &Place) {
-        let lines = self.folds.iter_mut().chain(&mut self.tabs);
-        let points = self
-            .cuts
-            .iter_mut()
-            .chain(lines.map(|line| &mut line.points));
-        for point in points.flatten() {
-            *point = place.of(*point);
-        }
-        for label in &mut self.labels {
-            label.place = place.of(label.place);
-            label.turn_by(place.degrees());
-        }
-    }
-
-    fn finish(mut self) -> DrawnSheet {
-        let points = || self.cuts.iter().flatten();
-        let limit =
-            |k: usize, start: f64, f: fn(f64, f64) -> f64| points().map(|p| p[k]).fold(start, f);
-        let bounds = [
-            [0, 1].map(|k| limit(k, f64::INFINITY, f64::min)),
-            [0, 1].map(|k| limit(k, f64::NEG_INFINITY, f64::max)),
-        ];
-        self.labels.push(Label::sheet(&self.name, bounds));
-        DrawnSheet {
-            name: self.name,
-            patches: self.patches,
-            bounds,
-            cuts: self.cuts,
-            folds: self.folds,
-            tabs: self.tabs,
-            labels: self.labels,
-        }
-    }
-}
-
 impl Line {
-    fn new(seam: Seam, points: Vec<[f64; 2]>) -> Self {
+    fn new(seam: Seam, curve: Curve) -> Self {
+        let points = curve.points(FLATNESS);
         Line {
             crease: seam.crease,
             direction: seam.direction,
             angle: seam.angle.to_degrees(),
             length: length(&points),
             points,
+            curve,
         }
-    }
-}
-
-/// A line that is cut: how long it is on either patch, in the surface's units.
-struct Joint {
-    slit: bool,
-    sides: [f64; 2],
-}
-
-fn joints(sheets: &[Sheet]) -> Vec<Joint> {
-    let mut joints: BTreeMap<usize, Joint> = BTreeMap::new();
-    for run in sheets
-        .iter()
-        .flat_map(|sheet| sheet.outlines.iter().flatten())
-    {
-        if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
-            let joint = joints.entry(seam.crease).or_insert(Joint {
-                slit: seam.slit,
-                sides: [0.0; 2],
-            });
-            joint.sides[usize::from(patch == seam.patches[1])] += length(&run.points);
-        }
-    }
-    joints.into_values().collect()
-}
-
-fn summary(drawn: &[DrawnSheet], sheets: &[Sheet], scale: f64) -> Totals {
-    let joints = joints(sheets);
-    let folds = |direction: Direction| -> f64 {
-        let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
-        let own = lines.filter(|line| line.direction == direction);
-        // Not `sum`, which is −0 of nothing.
-        own.map(|line| line.length).fold(0.0, |a, b| a + b)
-    };
-    let around = |cut: &Vec<[f64; 2]>| -> f64 {
-        let closing = match (cut.last(), cut.first()) {
-            (Some(last), Some(first)) => distance(*last, *first),
-            _ => 0.0,
-        };
-        length(cut) + closing
-    };
-    let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
-    let long = |joints: &[&Joint]| -> f64 {
-        joints
-            .iter()
-            .map(|j| 0.5 * scale * (j.sides[0] + j.sides[1]))
-            .fold(0.0, |a, b| a + b)
-    };
-    let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
-    Totals {
-        sheets: drawn.len(),
-        seams: creases.len(),
-        slits: slits.len(),
-        seam_length: long(&creases),
-        slit_length: long(&slits),
-        mismatch: (joints.iter())
-            .filter(|joint| joint.sides[0].min(joint.sides[1]) >= 0.1 * area.sqrt())
-            .map(|joint| {
-                (joint.sides[0] - joint.sides[1]).abs() / joint.sides[0].max(joint.sides[1])
-            })
-            .fold(0.0, f64::max),
-        folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
-        tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
-        cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),
-        mountain_length: folds(Direction::Mountain),
-        valley_length: folds(Direction::Valley),
-        area: scale * scale * area,
-        strain: sheets.iter().map(|sheet| sheet.strain).fold(0.0, f64::max),
-        gap: scale * sheets.iter().map(|sheet| sheet.gap).fold(0.0, f64::max),
-        a4: 0,
-        letter: 0,
     }
 }
 
 fn length(points: &[[f64; 2]]) -> f64 {
     let pieces = points.windows(2);
     pieces.map(|p| distance(p[0], p[1])).sum()
+}
+
+/// The place so far along a line, and where it heads there.
+fn place_at(points: &[[f64; 2]], along: f64) -> ([f64; 2], [f64; 2]) {
+    let (mut rest, mut place, mut heading) = (along, points[0], [1.0, 0.0]);
+    for piece in points.windows(2) {
+        let step = distance(piece[0], piece[1]);
+        if step > 0.0 {
+            heading = [0, 1].map(|k| (piece[1][k] - piece[0][k]) / step);
+            place = [0, 1].map(|k| piece[0][k] + heading[k] * rest.min(step));
+        }
+        if rest <= step {
+            break;
+        }
+        rest -= step;
+    }
+    (place, heading)
 }
 
 fn distance([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {

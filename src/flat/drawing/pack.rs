@@ -15,9 +15,42 @@ pub(super) struct Place {
 const WORTH: f64 = 0.03;
 
 impl Place {
+    pub(super) const NONE: Place = Place {
+        turn: [1.0, 0.0],
+        shift: [0.0; 2],
+        size: [0.0; 2],
+    };
+
     pub(super) fn of(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let ([cos, sin], [dx, dy]) = (self.turn, self.shift);
         [cos * x - sin * y + dx, sin * x + cos * y + dy]
+    }
+
+    /// The same, then so many quarter turns about the origin.
+    pub(super) fn quarters(&self, count: usize) -> Place {
+        let turned = |[x, y]: [f64; 2]| match count % 4 {
+            0 => [x, y],
+            1 => [-y, x],
+            2 => [-x, -y],
+            _ => [y, -x],
+        };
+        let [w, h] = self.size;
+        Place {
+            turn: turned(self.turn),
+            shift: turned(self.shift),
+            size: if count.is_multiple_of(2) {
+                [w, h]
+            } else {
+                [h, w]
+            },
+        }
+    }
+
+    pub(super) fn shifted(&self, by: [f64; 2]) -> Place {
+        Place {
+            shift: [0, 1].map(|k| self.shift[k] + by[k]),
+            ..*self
+        }
     }
 
     pub(super) fn degrees(&self) -> f64 {
@@ -62,6 +95,17 @@ impl Place {
             false => upright,
         }
     }
+}
+
+/// How sheets of closed lines in millimetres lie beside each other: of each the cosine and sine of its turn, and the
+/// shift after it.
+pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])> {
+    let boxes: Vec<Place> = sheets.iter().map(|lines| Place::around(lines)).collect();
+    let (places, _) = packed(&boxes);
+    places
+        .iter()
+        .map(|place| (place.turn, place.shift))
+        .collect()
 }
 
 /// Where boxes go, and how large the whole is.

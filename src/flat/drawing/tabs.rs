@@ -1,67 +1,86 @@
-//! Tabs to glue along cut creases: trapezoids outside of the sheet.
+//! Tabs to glue along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
 
-use super::{distance, length};
+use super::curve::Curve;
+use super::{FLATNESS, distance, length};
 use crate::flat::pattern::{Run, Seam};
 
 /// A tab and what it is folded along.
 pub(super) struct Tab {
     pub seam: Seam,
     /// Along the crease, as the outline runs.
-    pub base: Vec<[f64; 2]>,
+    pub base: Curve,
     pub depth: f64,
     pub middle: [f64; 2],
 }
 
-/// A tab has a base this many times its depth at least.
-const ASPECT: f64 = 2.5;
-
-/// A curve that turns by more, in radians, gets another tab.
+/// The base of a tab turns by no more, in radians.
 const BEND: f64 = 0.3;
+
+/// A line that turns by more at a point has a corner there.
+const CORNER: f64 = 0.3;
+
+/// Tabs are no shorter than this, in millimetres.
+const SHORTEST: f64 = 2.0;
+
+/// The ends of a tab are cut at 45°, but by no more than this share of its base.
+const INSET: f64 = 0.3;
+
+/// A tab is at most so many times as deep as its base is long.
+const SLENDER: f64 = 1.5;
 
 /// How often a tab that does not fit is made half as deep.
 const HALVINGS: usize = 2;
 
-/// An outline's runs, and the points of each in millimetres.
-type Outline<'a> = Vec<(&'a Run, Vec<[f64; 2]>)>;
+/// An outline's runs, and the course of each in millimetres.
+type Outline<'a> = Vec<(&'a Run, Curve)>;
 
 /// The lines to cut, with tabs where there is room for them, and these.
-pub(super) fn tabbed(
-    outlines: &[Outline<'_>],
-    depth: Option<f64>,
-) -> (Vec<Vec<[f64; 2]>>, Vec<Tab>) {
+pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
-    // What tabs must not touch: all outlines, and the tabs there are.
-    let mut walls: Vec<[[f64; 2]; 2]> = (outlines.iter().flatten())
-        .flat_map(|(_, points)| points.windows(2).map(|p| [p[0], p[1]]))
+    // Of the two sides of a crease that of the patch with the lower number has the tabs.
+    let tabbed = |run: &Run| {
+        let own = run.seam.filter(|seam| run.patch == Some(seam.patches[0]));
+        depth.zip(own)
+    };
+    let parts = |(run, curve): &(&Run, Curve)| match tabbed(run) {
+        Some(_) => bases(curve),
+        None => vec![curve.clone()],
+    };
+    let pieces: Vec<Vec<Vec<Curve>>> = (outlines.iter())
+        .map(|outline| outline.iter().map(parts).collect())
         .collect();
+    // What tabs must not touch: all outlines, and the tabs there are.
+    let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
+    if depth.is_some() {
+        for piece in pieces.iter().flatten().flatten() {
+            walls.extend(piece.points(FLATNESS).windows(2).map(|p| [p[0], p[1]]));
+        }
+    }
     let mut cuts = Vec::new();
-    for outline in outlines {
-        let mut cut = Vec::new();
-        for (run, points) in outline {
-            // Of the two sides of a crease that of the patch with the lower number has the tabs.
-            let own = run.seam.filter(|seam| run.patch == Some(seam.patches[0]));
-            let (Some(depth), Some(seam)) = (depth, own) else {
-                cut.extend(&points[..points.len() - 1]);
+    for (outline, pieces) in outlines.iter().zip(pieces) {
+        let mut cut = Curve::of(Vec::new());
+        for ((run, curve), bases) in outline.iter().zip(pieces) {
+            let Some((depth, seam)) = tabbed(run) else {
+                cut.append(curve);
                 continue;
             };
-            for base in straight_pieces(points) {
+            for base in bases {
+                let points = base.points(FLATNESS);
                 let tab =
-                    (0..=HALVINGS).find_map(|k| flap(base, depth / f64::from(1 << k), &walls));
-                cut.push(base[0]);
-                if let Some((depth, flap)) = tab {
-                    let line = [&base[..1], &flap, &base[base.len() - 1..]].concat();
-                    walls.extend(line.windows(2).map(|p| [p[0], p[1]]));
-                    let corners = [base[0], base[base.len() - 1], flap[0], flap[flap.len() - 1]];
-                    tabs.push(Tab {
-                        seam,
-                        base: base.to_vec(),
-                        depth,
-                        middle: [0, 1].map(|k| corners.iter().map(|c| c[k]).sum::<f64>() / 4.0),
-                    });
-                    cut.extend(flap);
-                } else {
-                    cut.extend(&base[1..base.len() - 1]);
-                }
+                    (0..=HALVINGS).find_map(|k| flap(&points, depth / f64::from(1 << k), &walls));
+                let Some((depth, flap)) = tab else {
+                    cut.append(&base);
+                    continue;
+                };
+                let line = [points[0], flap[0], flap[1], points[points.len() - 1]];
+                walls.extend(line.windows(2).map(|p| [p[0], p[1]]));
+                tabs.push(Tab {
+                    seam,
+                    base,
+                    depth,
+                    middle: [0, 1].map(|k| line.iter().map(|c| c[k]).sum::<f64>() / 4.0),
+                });
+                cut.append(&Curve::through(&line));
             }
         }
         cuts.push(cut);
@@ -69,68 +88,59 @@ pub(super) fn tabbed(
     (cuts, tabs)
 }
 
-/// A line in pieces that turn by little each.
-fn straight_pieces(points: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
+/// A line in pieces that turn by little each, of no less than the shortest length where they are to be had.
+fn bases(curve: &Curve) -> Vec<Curve> {
+    let points = curve.points(FLATNESS);
     let heading = |i: usize| {
         let [x, y] = [0, 1].map(|k| points[i + 1][k] - points[i][k]);
         y.atan2(x)
     };
-    let mut pieces = Vec::new();
-    let mut start = 0;
+    let whole = length(&points);
+    let mut ends = vec![0.0];
+    let (mut gone, mut turned) = (0.0, 0.0);
     for i in 1..points.len() - 1 {
-        let turn = heading(i) - heading(start);
-        if turn.sin().atan2(turn.cos()).abs() > BEND {
-            pieces.push(&points[start..=i]);
-            start = i;
+        gone += distance(points[i - 1], points[i]);
+        let turn = heading(i) - heading(i - 1);
+        let turn = turn.sin().atan2(turn.cos());
+        turned += turn;
+        let room = gone - ends[ends.len() - 1] >= SHORTEST && whole - gone >= SHORTEST;
+        if turn.abs() > CORNER || (turned.abs() > BEND && room) {
+            ends.push(gone);
+            turned = 0.0;
         }
     }
-    pieces.push(&points[start..]);
-    pieces
+    let shares: Vec<f64> = ends[1..].iter().map(|end| end / whole).collect();
+    curve.split(&shares)
 }
 
-/// The outer line of a tab to the right of its base, if the base is long enough and nothing is in
-/// the way.
-fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, Vec<[f64; 2]>)> {
-    let long = length(base);
-    if long < ASPECT * depth {
+/// The outer corners of a tab to the right of its base, if the base is long enough and nothing is in the way.
+fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, [[f64; 2]; 2])> {
+    let (from, to) = (base[0], base[base.len() - 1]);
+    let long = distance(from, to);
+    if long * SLENDER < depth || long == 0.0 {
         return None;
     }
-    let mut out = Vec::new();
-    let mut gone = 0.0;
-    let last = base.len() - 2;
-    for (i, piece) in base.windows(2).enumerate() {
-        let step = distance(piece[0], piece[1]);
-        if step == 0.0 {
-            continue;
-        }
-        let [x, y] = [0, 1].map(|k| (piece[1][k] - piece[0][k]) / step);
-        let beside = |along: f64| {
-            let [px, py] = piece[0];
-            [px + x * along + depth * y, py + y * along - depth * x]
-        };
-        // Both ends are cut at 45°.
-        if gone <= depth && depth <= gone + step {
-            out.push(beside(depth - gone));
-        } else if gone > depth && gone < long - depth {
-            out.push(beside(0.0));
-        }
-        let end = long - depth;
-        if gone <= end && end <= gone + step || i == last && out.len() < 2 {
-            out.push(beside(end - gone));
-        }
-        gone += step;
-    }
-    let line = [&base[..1], &out, &base[base.len() - 1..]].concat();
+    let inset = depth.min(INSET * long);
+    let along = [0, 1].map(|k| (to[k] - from[k]) / long);
+    let beside = |s: f64| {
+        [
+            from[0] + along[0] * s + along[1] * depth,
+            from[1] + along[1] * s - along[0] * depth,
+        ]
+    };
+    let corners = [beside(inset), beside(long - inset)];
+    let line = [from, corners[0], corners[1], to];
     let free = line.windows(2).all(|p| {
         let piece = [p[0], p[1]];
         walls.iter().all(|wall| !crosses(piece, *wall))
     });
-    (free && out.len() > 1).then_some((depth, out))
+    free.then_some((depth, corners))
 }
 
 /// Whether two lines cross or touch elsewhere than at common ends.
 fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
-    if [c, d].contains(&a) || [c, d].contains(&b) {
+    let same = |p: [f64; 2], q: [f64; 2]| distance(p, q) < 1e-6;
+    if [a, b].iter().any(|p| same(*p, c) || same(*p, d)) {
         return false;
     }
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::check::{crossing, join, strains};
+use super::faces::faces;
 use super::layout::{Arrangement, apart, arranged};
 use super::leaf::Strain;
 use super::net::Net;
@@ -236,6 +237,8 @@ fn drawn(net: &Net, arrangement: &Arrangement, patches: &Patches, parts: &Parts)
             folds: folds(net, layout, members, &outlines, seam),
             outlines,
             spots: members.iter().map(|p| places[*p as usize]).collect(),
+            faces: faces(parts.surface, net, layout, members),
+            spacing: net.spacing,
             area: members.iter().map(own).sum(),
             strain: strain.rms(),
             gap: *gap,

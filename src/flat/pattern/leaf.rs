@@ -220,6 +220,18 @@ impl Leaf {
         all.filter(|(_, own)| **own).map(|(pair, _)| pair).collect()
     }
 
+    /// Row and column in the whole lattice of one of its vertices.
+    pub(super) fn vertex(&self, number: usize) -> [usize; 2] {
+        let (index, cols) = (
+            self.flat.mesh().vertices()[number] as usize,
+            self.flat.mesh().lattice().cols(),
+        );
+        [
+            self.window.top + index / cols,
+            self.window.left + index % cols,
+        ]
+    }
+
     /// Which of the leaf's vertices a vertex of the whole lattice is.
     pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;

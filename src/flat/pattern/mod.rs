@@ -26,6 +26,7 @@
 
 mod assembly;
 mod check;
+mod faces;
 mod labels;
 mod layout;
 mod leaf;
@@ -42,7 +43,9 @@ use crate::error::{Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
 use assembly::{Assembly, assembled};
+pub use faces::Faces;
 use parts::Parts;
+pub(crate) use simple::without_loops;
 
 /// What may stay together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +118,10 @@ pub struct Sheet {
     pub folds: Vec<Fold>,
     /// A place well inside of each patch, in the order of the patches.
     pub spots: Vec<Spot>,
+    /// The surface that it is made of.
+    pub faces: Faces,
+    /// Distance of neighbours on the lattice, which says how fine these lines can be.
+    pub spacing: f64,
     /// Area of the surface that it is made of.
     pub area: f64,
     /// What strain is left in it: root of the mean square over its area. 0 for what can be unrolled.

@@ -21,7 +21,7 @@ const SPECK: f64 = 3.0;
 const BACK: usize = 6;
 
 /// A seam, and the one of its patches that is beside it.
-pub(super) type Side = (usize, u32);
+pub(crate) type Side = (usize, u32);
 
 /// The outlines of a sheet, the longest first.
 pub(super) fn outlines(

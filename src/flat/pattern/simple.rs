@@ -11,11 +11,11 @@ const LENGTH: f64 = 60.0;
 /// How often lines are looked at.
 const PASSES: usize = 8;
 
-pub(super) type Runs = Vec<(Option<Side>, Vec<Point>)>;
+pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
 /// A closed line of runs, each of which begins where the one before ends, with its small loops cut off
 /// where they cross.
-pub(super) fn without_loops(runs: Runs, spacing: f64) -> Runs {
+pub(crate) fn without_loops(runs: Runs, spacing: f64) -> Runs {
     // Each point with the run that the piece from it on belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();
     for (number, (_, points)) in runs.iter().enumerate() {

@@ -3,7 +3,7 @@ import DxfParser from 'dxf-parser';
 import { OPS, getDocument } from 'pdfjs-dist/legacy/build/pdf.mjs';
 
 /** @typedef {[number, number]} Point */
-/** @typedef {{ points: Point[], closed: boolean }} Line */
+/** @typedef {{ points: Point[], closed: boolean, corners: number }} Line points also along arcs and curves, corners as in the file */
 /** @typedef {Line & { dashes: number }} Drawn how many lengths its dashes have */
 
 /** @param {readonly Point[]} points @param {boolean} [closed] */
@@ -31,11 +31,38 @@ export function readDxf(file) {
   for (const entity of /** @type {any[]} */ (dxf.entities)) {
     if (entity.type === 'TEXT') texts.push(entity.text);
     else {
-      const points = entity.vertices.map((/** @type {{ x: number, y: number }} */ { x, y }) => [x, y]);
-      (layers[entity.layer] ??= []).push({ points, closed: Boolean(entity.shape) });
+      const closed = Boolean(entity.shape);
+      (layers[entity.layer] ??= []).push({ points: traced(entity.vertices, closed), closed, corners: entity.vertices.length });
     }
   }
   return { layers, texts, unit: dxf.header.$INSUNITS };
+}
+
+/** How many points there are along an arc or a curve. */
+const FINE = 24;
+
+/**
+ * The points of a polyline, also along its arcs: `bulge` is the tangent of a quarter of the angle of one.
+ * @param {{ x: number, y: number, bulge?: number }[]} vertices
+ * @param {boolean} closed
+ */
+function traced(vertices, closed) {
+  /** @type {Point[]} */
+  const points = [];
+  vertices.forEach(({ x, y, bulge = 0 }, i) => {
+    points.push([x, y]);
+    const next = vertices[(i + 1) % vertices.length];
+    if (bulge === 0 || (i === vertices.length - 1 && !closed)) return;
+    const [dx, dy] = [next.x - x, next.y - y];
+    const angle = 4 * Math.atan(bulge);
+    const rise = (1 / bulge - bulge) / 4;
+    const [cx, cy] = [(x + next.x) / 2 - rise * dy, (y + next.y) / 2 + rise * dx];
+    for (let k = 1; k < FINE; k += 1) {
+      const [sin, cos] = [Math.sin((angle * k) / FINE), Math.cos((angle * k) / FINE)];
+      points.push([cx + cos * (x - cx) - sin * (y - cy), cy + sin * (x - cx) + cos * (y - cy)]);
+    }
+  });
+  return points;
 }
 
 /** Millimetres in a point. */
@@ -54,7 +81,7 @@ export async function readPdf(file) {
     const { fnArray, argsArray } = await page.getOperatorList();
     const { items } = await page.getTextContent();
     const texts = items.flatMap((item) => ('str' in item && item.str !== '' ? [item.str] : []));
-    pages.push({ size: page.view.slice(2).map((side) => side * MM), texts, ...traced(fnArray, argsArray) });
+    pages.push({ size: page.view.slice(2).map((side) => side * MM), texts, ...followed(fnArray, argsArray) });
   }
   await task.destroy();
   return pages;
@@ -78,12 +105,23 @@ export async function readPdfPicture(file) {
   return found;
 }
 
+/** Points along a cubic Bézier curve, but its first. @param {Point[]} controls */
+function along([p, q, r, s]) {
+  return Array.from({ length: FINE }, (_, i) => {
+    const t = (i + 1) / FINE;
+    const weights = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t ** 2 * (1 - t), t ** 3];
+    /** @param {0 | 1} k */
+    const sum = (k) => [p, q, r, s].reduce((total, point, j) => total + weights[j] * point[k], 0);
+    return /** @type {Point} */ ([sum(0), sum(1)]);
+  });
+}
+
 /**
  * Follows the operators of a page.
  * @param {number[]} operators
  * @param {any[][]} operands
  */
-function traced(operators, operands) {
+function followed(operators, operands) {
   let state = { matrix: [1, 0, 0, 1, 0, 0], dashes: 0 };
   /** @type {(typeof state)[]} */
   const saved = [];
@@ -126,14 +164,21 @@ function traced(operators, operands) {
             k += 1;
             continue;
           }
-          const [x, y] = [data[k + 1], data[k + 2]];
-          k += 3;
-          /** @type {Point} */
-          const point = [(a * x + c * y + e) * MM, (b * x + d * y + f) * MM];
+          /** @type {(at: number) => Point} */
+          const point = (at) => {
+            const [x, y] = [data[at], data[at + 1]];
+            return [(a * x + c * y + e) * MM, (b * x + d * y + f) * MM];
+          };
           if (kind === 0) {
-            line = { points: [point], closed: false, dashes: state.dashes };
+            line = { points: [point(k + 1)], closed: false, corners: 1, dashes: state.dashes };
             if (paint === OPS.stroke || paint === OPS.closeStroke) lines.push(line);
-          } else line?.points.push(point);
+          } else if (line) {
+            line.corners += 1;
+            const [from] = line.points.slice(-1);
+            const controls = [from, ...(kind === 2 ? [point(k + 1), point(k + 3)] : []), point(k + (kind === 2 ? 5 : 1))];
+            line.points.push(...(kind === 2 ? along(controls) : controls.slice(1)));
+          }
+          k += kind === 2 ? 7 : 3;
         }
         if (clipping && paint === OPS.endPath) clip = line?.points;
         clipping = false;

@@ -1,0 +1,290 @@
+//! glTF 2.0 as one binary file: a node for each sheet, which moves to its place while a morph target bends it.
+//!
+//! What is written is so little of the format that its text is put together here. (Khronos Group, glTF 2.0
+//! Specification, "Animations", "Morph Targets", "GLB File Format".)
+
+use std::fmt::Write as _;
+
+use super::colour;
+use crate::error::{Error, Result, positive};
+use crate::flat::assembly::{Assembly, Pose};
+use crate::flat::drawing::beside;
+use crate::flat::pattern::Sheet;
+
+/// Seconds that each step takes, and that pass between two.
+const STEP: f64 = 1.5;
+const PAUSE: f64 = 0.5;
+
+/// A GLB file of sheets that lie flat beside the surface and go to their places one after the other, bending as they
+/// do, in the order of an assembly. In metres, `scale` being the millimetres of a unit; +y is up, as viewers have
+/// it. The animation is called `Assembly`; at its end the surface is built.
+///
+/// Half way a sheet is between its two shapes, and not quite its size: the bending is linear.
+///
+/// # Errors
+/// [`Error::Empty`] without a sheet, [`Error::Option`] for a scale that is not positive and finite,
+/// [`Error::Unsupported`] for vertices that are not finite and from 4 GiB.
+pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Result<Vec<u8>> {
+    let scale = positive("scale", scale)?;
+    if sheets.is_empty() {
+        return Err(Error::Empty { what: "pattern" });
+    }
+    let finite = |sheet: &Sheet| {
+        let built = sheet.faces.built.iter().flatten();
+        (built.chain(sheet.faces.flat.iter().flatten())).all(|v| (scale * v).abs() < 1e30)
+    };
+    if let Some(number) = sheets.iter().position(|sheet| !finite(sheet)) {
+        return Err(Error::Unsupported {
+            format: "pattern",
+            reason: format!("a vertex of sheet {} is not finite", number + 1),
+        });
+    }
+    let mut file = File::default();
+    let places = beside(&in_millimetres(sheets, scale));
+    let ground = Ground::under(sheets);
+    let sizes = scale / 1000.0;
+    for (step, part) in assembly.steps.iter().enumerate() {
+        let Some(sheet) = sheets.get(part.sheet) else {
+            continue;
+        };
+        let (turn, shift) = places[part.sheet];
+        let moved = Moved::new(sheet, turn, shift.map(|v| v / scale), &ground);
+        file.sheet(
+            part.sheet,
+            sheet,
+            &moved,
+            step as f64 * (STEP + PAUSE),
+            sizes,
+        );
+    }
+    file.finish()
+}
+
+fn in_millimetres(sheets: &[Sheet], scale: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
+    let lines = |sheet: &Sheet| {
+        let outlines = sheet.outlines.iter().map(|runs| {
+            let points = runs.iter().flat_map(|run| &run.points);
+            points.map(|p| p.map(|v| scale * v)).collect()
+        });
+        outlines.collect()
+    };
+    sheets.iter().map(lines).collect()
+}
+
+/// Where flat sheets lie: to the left of the surface, as high as its lowest point.
+struct Ground {
+    corner: [f64; 2],
+    height: f64,
+    width: f64,
+}
+
+impl Ground {
+    fn under(sheets: &[Sheet]) -> Self {
+        let built = || sheets.iter().flat_map(|sheet| &sheet.faces.built);
+        let low = |k: usize| built().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        let high = built().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
+        Ground {
+            corner: [low(0), low(1)],
+            height: low(2),
+            width: high - low(0),
+        }
+    }
+}
+
+/// A sheet around its middle, and where that is before and after.
+struct Moved {
+    middle: [f64; 2],
+    start: Pose,
+    end: Pose,
+}
+
+impl Moved {
+    fn new(sheet: &Sheet, [cos, sin]: [f64; 2], shift: [f64; 2], ground: &Ground) -> Self {
+        let flat = &sheet.faces.flat;
+        let count = flat.len().max(1) as f64;
+        let middle = [0, 1].map(|k| flat.iter().map(|p| p[k]).sum::<f64>() / count);
+        let [x, y] = middle;
+        let laid = [cos * x - sin * y + shift[0], sin * x + cos * y + shift[1]];
+        let half = 0.5 * sin.atan2(cos);
+        Moved {
+            middle,
+            start: Pose {
+                turn: [0.0, 0.0, half.sin(), half.cos()],
+                shift: [
+                    ground.corner[0] + 1.1 * ground.width + laid[0],
+                    ground.corner[1] + laid[1],
+                    ground.height,
+                ],
+            },
+            end: Pose::of(&sheet.faces, middle),
+        }
+    }
+}
+
+/// The two parts of the file, and lists of the text part.
+#[derive(Default)]
+struct File {
+    bin: Vec<u8>,
+    views: Vec<String>,
+    accessors: Vec<String>,
+    meshes: Vec<String>,
+    nodes: Vec<String>,
+    materials: Vec<String>,
+    samplers: Vec<String>,
+    channels: Vec<String>,
+}
+
+const FLOAT: u32 = 5126;
+const UNSIGNED: u32 = 5125;
+
+impl File {
+    fn sheet(&mut self, number: usize, sheet: &Sheet, moved: &Moved, time: f64, scale: f64) {
+        let index = self.meshes.len();
+        let faces = &sheet.faces;
+        let place = |p: [f64; 3]| p.map(|v| (scale * v) as f32);
+        let flat: Vec<[f32; 3]> = (faces.flat.iter())
+            .map(|p| place([p[0] - moved.middle[0], p[1] - moved.middle[1], 0.0]))
+            .collect();
+        let bent = faces.built.iter().map(|p| place(moved.end.back(*p)));
+        let bends: Vec<[f32; 3]> = (bent.zip(&flat))
+            .map(|(p, q)| std::array::from_fn(|k| p[k] - q[k]))
+            .collect();
+        let position = self.floats(&flat, "VEC3", true);
+        let target = self.floats(&bends, "VEC3", true);
+        let corners: Vec<u8> = (faces.triangles.iter().flatten())
+            .flat_map(|corner| corner.to_le_bytes())
+            .collect();
+        let view = self.view(&corners);
+        let count = 3 * faces.triangles.len();
+        let indices = self.accessor(view, UNSIGNED, count, "SCALAR", "");
+        let [r, g, b] = colour(number).map(|v| linear(f64::from(v) / 255.0));
+        self.materials.push(format!(
+            r#"{{"doubleSided":true,"pbrMetallicRoughness":{{"baseColorFactor":[{r:.4},{g:.4},{b:.4},1],"metallicFactor":0,"roughnessFactor":0.8}}}}"#
+        ));
+        self.meshes.push(format!(
+            r#"{{"name":"Sheet {0}","weights":[0],"primitives":[{{"attributes":{{"POSITION":{position}}},"indices":{indices},"material":{index},"targets":[{{"POSITION":{target}}}]}}]}}"#,
+            number + 1
+        ));
+        let [start, end] = [&moved.start, &moved.end].map(|pose| place(pose.shift));
+        let turns = [&moved.start, &moved.end].map(|pose| pose.turn.map(|v| v as f32));
+        self.nodes.push(format!(
+            r#"{{"name":"Sheet {}","mesh":{index},"translation":{},"rotation":{}}}"#,
+            number + 1,
+            list(&start),
+            list(&turns[0])
+        ));
+        let times = [[time as f32], [(time + STEP) as f32]];
+        let input = self.floats(&times, "SCALAR", true);
+        for (path, output) in [
+            ("translation", self.floats(&[start, end], "VEC3", false)),
+            ("rotation", self.floats(&turns, "VEC4", false)),
+            ("weights", self.floats(&[[0.0], [1.0]], "SCALAR", false)),
+        ] {
+            // The root is the first node.
+            let (sampler, node) = (self.samplers.len(), index + 1);
+            self.samplers
+                .push(format!(r#"{{"input":{input},"output":{output}}}"#));
+            self.channels.push(format!(
+                r#"{{"sampler":{sampler},"target":{{"node":{node},"path":"{path}"}}}}"#
+            ));
+        }
+    }
+
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        let (from, long) = (self.bin.len(), bytes.len());
+        self.bin.extend_from_slice(bytes);
+        self.views.push(format!(
+            r#"{{"buffer":0,"byteOffset":{from},"byteLength":{long}}}"#
+        ));
+        self.views.len() - 1
+    }
+
+    fn accessor(&mut self, view: usize, kind: u32, count: usize, shape: &str, more: &str) -> usize {
+        self.accessors.push(format!(
+            r#"{{"bufferView":{view},"componentType":{kind},"count":{count},"type":"{shape}"{more}}}"#
+        ));
+        self.accessors.len() - 1
+    }
+
+    fn floats<const N: usize>(&mut self, rows: &[[f32; N]], shape: &str, bounded: bool) -> usize {
+        let bytes: Vec<u8> = rows
+            .iter()
+            .flatten()
+            .flat_map(|v| v.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes);
+        let mut more = String::new();
+        if bounded {
+            let limit = |start: f32, f: fn(f32, f32) -> f32| -> [f32; N] {
+                std::array::from_fn(|k| rows.iter().map(|row| row[k]).fold(start, f))
+            };
+            let (low, high) = (
+                limit(f32::INFINITY, f32::min),
+                limit(f32::NEG_INFINITY, f32::max),
+            );
+            // Writing into a string cannot fail.
+            let _ = write!(more, r#","min":{},"max":{}"#, list(&low), list(&high));
+        }
+        self.accessor(view, FLOAT, rows.len(), shape, &more)
+    }
+
+    fn finish(self) -> Result<Vec<u8>> {
+        let join = |parts: &[String]| parts.join(",");
+        let sheets: Vec<String> = (1..=self.meshes.len()).map(|n| n.to_string()).collect();
+        // Heights point along +z here.
+        let mut text = format!(
+            r#"{{"asset":{{"version":"2.0","generator":"developable"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"Pattern","rotation":[-0.70710677,0,0,0.70710677],"children":[{}]}},{}],"meshes":[{}],"materials":[{}],"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}],"animations":[{{"name":"Assembly","samplers":[{}],"channels":[{}]}}]}}"#,
+            join(&sheets),
+            join(&self.nodes),
+            join(&self.meshes),
+            join(&self.materials),
+            join(&self.accessors),
+            join(&self.views),
+            self.bin.len(),
+            join(&self.samplers),
+            join(&self.channels),
+        )
+        .into_bytes();
+        // Every part begins at a multiple of four bytes; all that is binary here has one.
+        while text.len() % 4 > 0 {
+            text.push(b' ');
+        }
+        let total = 28 + text.len() + self.bin.len();
+        let Ok(length) = u32::try_from(total) else {
+            return Err(Error::Unsupported {
+                format: "GLB",
+                reason: "a file has less than 4 GiB".into(),
+            });
+        };
+        let mut out = Vec::new();
+        if out.try_reserve_exact(total).is_err() {
+            return Err(Error::OutOfMemory {
+                what: "GLB file",
+                bytes: total,
+            });
+        }
+        out.extend_from_slice(b"glTF");
+        for word in [2, length, text.len() as u32] {
+            out.extend_from_slice(&word.to_le_bytes());
+        }
+        out.extend_from_slice(b"JSON");
+        out.extend_from_slice(&text);
+        out.extend_from_slice(&(self.bin.len() as u32).to_le_bytes());
+        out.extend_from_slice(b"BIN\0");
+        out.extend_from_slice(&self.bin);
+        Ok(out)
+    }
+}
+
+fn list(values: &[f32]) -> String {
+    let values: Vec<String> = values.iter().map(f32::to_string).collect();
+    format!("[{}]", values.join(","))
+}
+
+/// Light of a value of sRGB.
+fn linear(value: f64) -> f64 {
+    match value <= 0.04045 {
+        true => value / 12.92,
+        false => ((value + 0.055) / 1.055).powf(2.4),
+    }
+}

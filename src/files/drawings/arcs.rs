@@ -1,0 +1,194 @@
+//! Curves as arcs of circles, for files that have no others.
+
+use crate::flat::drawing::{Curve, Piece};
+
+/// How far arcs may be from a curve, in millimetres.
+const TOLERANCE: f64 = 0.01;
+
+/// How often a curve is halved at most.
+const HALVINGS: u32 = 8;
+
+/// A corner of a polyline, and what comes after it: the tangent of a quarter of the angle of an arc, positive if
+/// it runs counter-clockwise, 0 for a straight piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    pub place: [f64; 2],
+    pub bulge: f64,
+}
+
+/// A curve as straight pieces and arcs; the last corner is its end.
+pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
+    let mut out = Vec::new();
+    for piece in curve.pieces() {
+        match piece {
+            Piece::Line([from, _]) => out.push(Corner {
+                place: from,
+                bulge: 0.0,
+            }),
+            Piece::Bezier(_) => halved(&piece, [0.0, 1.0], HALVINGS, &mut out),
+        }
+    }
+    out.extend(curve.controls().last().map(|place| Corner {
+        place: *place,
+        bulge: 0.0,
+    }));
+    out
+}
+
+/// A part of a curve by two arcs that have its tangents at its ends and one of their own where they meet, or its
+/// halves likewise.
+fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>) {
+    let ends = [from, to].map(|t| (piece.at(t), tangent(piece, t)));
+    let middle = 0.5 * (from + to);
+    let two = biarc(ends);
+    let near = |pair: &[Corner; 2]| {
+        let arcs = [(pair[0], pair[1].place), (pair[1], ends[1].0)];
+        (1..8).all(|i| {
+            let place = piece.at(from + (to - from) * f64::from(i) / 8.0);
+            let away = arcs.map(|(corner, end)| from_arc(place, corner, end));
+            away[0].min(away[1]) <= TOLERANCE
+        })
+    };
+    match two.filter(|pair| left == 0 || near(pair)) {
+        Some(pair) => out.extend(pair),
+        None if left == 0 => out.push(Corner {
+            place: ends[0].0,
+            bulge: 0.0,
+        }),
+        None => {
+            halved(piece, [from, middle], left - 1, out);
+            halved(piece, [middle, to], left - 1, out);
+        }
+    }
+}
+
+fn tangent(piece: &Piece, t: f64) -> [f64; 2] {
+    const STEP: f64 = 1e-4;
+    let (a, b) = ((t - STEP).max(0.0), (t + STEP).min(1.0));
+    // At an end the difference is that of the place beside it: taken twice as far out, it is not.
+    let slope = |a: f64, b: f64| {
+        let (p, q) = (piece.at(a), piece.at(b));
+        [0, 1].map(|k| (q[k] - p[k]) / (b - a))
+    };
+    let near = slope(a, b);
+    let out = match (t - STEP < 0.0, t + STEP > 1.0) {
+        (true, _) => extrapolated(near, slope(b, b + STEP)),
+        (_, true) => extrapolated(near, slope(a - STEP, a)),
+        _ => near,
+    };
+    let long = out[0].hypot(out[1]).max(f64::MIN_POSITIVE);
+    out.map(|v| v / long)
+}
+
+fn extrapolated(near: [f64; 2], far: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|k| 1.5 * near[k] - 0.5 * far[k])
+}
+
+fn dot(u: [f64; 2], v: [f64; 2]) -> f64 {
+    u[0] * v[0] + u[1] * v[1]
+}
+
+fn less(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [p[0] - q[0], p[1] - q[1]]
+}
+
+/// Two arcs between places with tangents, as long tangents on either side of where they meet. (Bolton 1975.)
+fn biarc([(p, u), (q, v)]: [([f64; 2], [f64; 2]); 2]) -> Option<[Corner; 2]> {
+    let chord = less(q, p);
+    let sum = [u[0] + v[0], u[1] + v[1]];
+    // d² (2 − 2 u·v) + 2 d c·(u + v) − c·c = 0.
+    let (a, b, c) = (
+        2.0 - 2.0 * dot(u, v),
+        2.0 * dot(chord, sum),
+        -dot(chord, chord),
+    );
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let d = -2.0 * c / (b + root);
+    if !(d > 0.0 && d.is_finite()) {
+        return None;
+    }
+    let joint = [0, 1].map(|k| 0.5 * (p[k] + q[k] + d * (u[k] - v[k])));
+    let corner = |from: [f64; 2], to: [f64; 2], heading: [f64; 2], way: f64| {
+        let chord = less(to, from);
+        let cross = heading[0] * chord[1] - heading[1] * chord[0];
+        // Half of the arc's angle lies between tangent and chord.
+        let half = way * cross.atan2(dot(heading, chord));
+        Corner {
+            place: from,
+            bulge: (0.5 * half).tan(),
+        }
+    };
+    let second = Corner {
+        place: joint,
+        ..corner(q, joint, v.map(|x| -x), -1.0)
+    };
+    Some([corner(p, joint, u, 1.0), second])
+}
+
+/// How far a place is from the circle of an arc, or from the line of a straight piece.
+fn from_arc(place: [f64; 2], Corner { place: from, bulge }: Corner, to: [f64; 2]) -> f64 {
+    let chord = less(to, from);
+    let long = chord[0].hypot(chord[1]);
+    if long == 0.0 {
+        return f64::INFINITY;
+    }
+    let normal = [-chord[1] / long, chord[0] / long];
+    if bulge.abs() < 1e-9 {
+        return dot(less(place, from), normal).abs();
+    }
+    let radius = 0.25 * long * (bulge + 1.0 / bulge);
+    let rise = 0.25 * long * (1.0 / bulge - bulge);
+    let centre = [0, 1].map(|k| 0.5 * (from[k] + to[k]) + rise * normal[k]);
+    let [x, y] = less(place, centre);
+    (x.hypot(y) - radius.abs()).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a polyline with arcs, as its format defines them.
+    fn traced(corners: &[Corner]) -> Vec<[f64; 2]> {
+        let mut out = Vec::new();
+        for pair in corners.windows(2) {
+            let (from, to, bulge) = (pair[0].place, pair[1].place, pair[0].bulge);
+            if bulge == 0.0 {
+                out.push(from);
+                continue;
+            }
+            let chord = less(to, from);
+            let angle = 4.0 * bulge.atan();
+            let radius = 0.5 * chord[0].hypot(chord[1]) / (0.5 * angle).sin();
+            let start = chord[1].atan2(chord[0]) - 0.5 * angle;
+            let centre = [
+                from[0] - radius * start.sin(),
+                from[1] + radius * start.cos(),
+            ];
+            for i in 0..20 {
+                let at = start + angle * f64::from(i) / 20.0;
+                out.push([centre[0] + radius * at.sin(), centre[1] - radius * at.cos()]);
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn arcs_follow_a_curve_both_ways() {
+        let json = "[[0,0],[40,60],[80,-60],[120,10],[140,45],[100,90],[90,20]]";
+        let curve: Curve = serde_json::from_str(json).unwrap();
+        let fine = curve.points(1e-4);
+        let corners = arcs(&curve);
+        assert!(corners.len() < 60, "{}", corners.len());
+        assert_eq!(corners[corners.len() - 1].place, [90.0, 20.0]);
+        let away = |place: [f64; 2], p: &[[f64; 2]]| {
+            let (along, from) = (less(p[1], p[0]), less(place, p[0]));
+            let t = (dot(from, along) / dot(along, along)).clamp(0.0, 1.0);
+            (from[0] - t * along[0]).hypot(from[1] - t * along[1])
+        };
+        for place in traced(&corners) {
+            let nearest = fine.windows(2).map(|p| away(place, p));
+            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            assert!(nearest < 0.02, "{place:?}: {nearest}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! How a pattern is drawn.
+
+use super::MAX_SIZE;
+use crate::error::{Error, Result};
+
+/// How a pattern is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct DrawingOptions {
+    /// Millimetres for each unit of the surface. Default 1.
+    pub scale: f64,
+    /// Depth of tabs along cut creases, in millimetres; they are on the side of the patch with
+    /// the lower number, in short pieces where that is curved. Default: no tabs.
+    pub tabs: Option<f64>,
+    /// Distance of marks along seams that are joined, in millimetres: the same on both sides. Default: no marks.
+    pub marks: Option<f64>,
+    /// Width of the line that a laser or a saw burns away, in millimetres: lines are cut half of it further out.
+    /// Default 0.
+    pub kerf: f64,
+    /// What is left outside of all edges to be sewn or bent over, in millimetres: lines are cut so much further out.
+    /// Default 0.
+    pub allowance: f64,
+    /// How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they
+    /// are. Default 0.5.
+    pub smoothing: f64,
+}
+
+impl Default for DrawingOptions {
+    fn default() -> Self {
+        DrawingOptions {
+            scale: 1.0,
+            tabs: None,
+            marks: None,
+            kerf: 0.0,
+            allowance: 0.0,
+            smoothing: 0.5,
+        }
+    }
+}
+
+/// Marks are no nearer to each other, in millimetres.
+const NEAREST: f64 = 1.0;
+
+/// Nothing is cut further out, in millimetres.
+const FARTHEST: f64 = 1000.0;
+
+impl DrawingOptions {
+    /// Whether all but scale and tabs can be.
+    pub(super) fn check(&self) -> Result<()> {
+        if let Some(marks) = self.marks.filter(|d| !(NEAREST..=MAX_SIZE).contains(d)) {
+            return Err(Error::option("marks", marks, "must be from 1 to 50000"));
+        }
+        for (name, value) in [("kerf", self.kerf), ("allowance", self.allowance)] {
+            if !(0.0..=FARTHEST).contains(&value) {
+                return Err(Error::option(name, value, "must be from 0 to 1000"));
+            }
+        }
+        match self.smoothing >= 0.0 && self.smoothing.is_finite() {
+            true => Ok(()),
+            false => Err(Error::option(
+                "smoothing",
+                self.smoothing,
+                "must be 0 or more",
+            )),
+        }
+    }
+
+    /// These options with another scale.
+    pub fn scale(self, scale: f64) -> Self {
+        DrawingOptions { scale, ..self }
+    }
+
+    /// These options with tabs.
+    pub fn tabs(self, depth: f64) -> Self {
+        DrawingOptions {
+            tabs: Some(depth),
+            ..self
+        }
+    }
+
+    /// These options with marks along seams.
+    pub fn marks(self, distance: f64) -> Self {
+        DrawingOptions {
+            marks: Some(distance),
+            ..self
+        }
+    }
+
+    /// These options with another kerf.
+    pub fn kerf(self, kerf: f64) -> Self {
+        DrawingOptions { kerf, ..self }
+    }
+
+    /// These options with another allowance.
+    pub fn allowance(self, allowance: f64) -> Self {
+        DrawingOptions { allowance, ..self }
+    }
+
+    /// These options with lines that are smooth within another tolerance.
+    pub fn smoothing(self, smoothing: f64) -> Self {
+        DrawingOptions { smoothing, ..self }
+    }
+}

@@ -1,0 +1,124 @@
+//! What a drawing comes to.
+
+use std::collections::BTreeMap;
+
+use super::draft::Lines;
+use super::{DrawnSheet, FLATNESS, distance, length};
+use crate::flat::pattern::{Direction, Sheet};
+
+/// What a drawing comes to, lengths in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct Totals {
+    /// Number of sheets.
+    pub sheets: usize,
+    /// Creases that are cut, at least in part.
+    pub seams: usize,
+    /// Cuts through what was one patch, because it cannot be laid flat in one piece.
+    pub slits: usize,
+    /// Length of the creases that are cut, as far as they are, each counted once.
+    pub seam_length: f64,
+    /// Length of the slits likewise.
+    pub slit_length: f64,
+    /// The most that both sides of one of these differ in length, as a share of it; lines shorter than
+    /// a tenth of the side of a square as large as all sheets do not count.
+    pub mismatch: f64,
+    /// Creases that are folds.
+    pub folds: usize,
+    /// Number of tabs.
+    pub tabs: usize,
+    /// Length of all cuts.
+    pub cut_length: f64,
+    /// Length of all mountain folds, without those of tabs.
+    pub mountain_length: f64,
+    /// Length of all valley folds likewise.
+    pub valley_length: f64,
+    /// Area of the sheets without tabs, in square millimetres.
+    pub area: f64,
+    /// Largest strain of a sheet (root of the mean square): 0 for what can be unrolled.
+    pub strain: f64,
+    /// Most that the two sides of a fold are apart (root of the mean square).
+    pub gap: f64,
+    /// Pages it takes of A4.
+    pub a4: usize,
+    /// Pages it takes of Letter.
+    pub letter: usize,
+}
+
+/// A line that is cut: how long it is on either patch.
+struct Joint {
+    slit: bool,
+    sides: [f64; 2],
+}
+
+fn joints(lines: &[Lines<'_>]) -> Vec<Joint> {
+    let mut joints: BTreeMap<usize, Joint> = BTreeMap::new();
+    for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
+        if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
+            let joint = joints.entry(seam.crease).or_insert(Joint {
+                slit: seam.slit,
+                sides: [0.0; 2],
+            });
+            joint.sides[usize::from(patch == seam.patches[1])] += length(&curve.points(FLATNESS));
+        }
+    }
+    joints.into_values().collect()
+}
+
+pub(super) fn summary(
+    drawn: &[DrawnSheet],
+    sheets: &[Sheet],
+    lines: &[Lines<'_>],
+    scale: f64,
+) -> Totals {
+    let joints = joints(lines);
+    let folds = |direction: Direction| -> f64 {
+        let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
+        let own = lines.filter(|line| line.direction == direction);
+        // Not `sum`, which is −0 of nothing.
+        own.map(|line| line.length).fold(0.0, |a, b| a + b)
+    };
+    let around = |cut: &Vec<[f64; 2]>| -> f64 {
+        let closing = match (cut.last(), cut.first()) {
+            (Some(last), Some(first)) => distance(*last, *first),
+            _ => 0.0,
+        };
+        length(cut) + closing
+    };
+    let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
+    let long = |joints: &[&Joint]| -> f64 {
+        joints
+            .iter()
+            .map(|j| 0.5 * (j.sides[0] + j.sides[1]))
+            .fold(0.0, |a, b| a + b)
+    };
+    let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
+    Totals {
+        sheets: drawn.len(),
+        seams: creases.len(),
+        slits: slits.len(),
+        seam_length: long(&creases),
+        slit_length: long(&slits),
+        mismatch: (joints.iter())
+            .filter(|joint| joint.sides[0].min(joint.sides[1]) >= 0.1 * scale * area.sqrt())
+            .map(|joint| {
+                (joint.sides[0] - joint.sides[1]).abs() / joint.sides[0].max(joint.sides[1])
+            })
+            .fold(0.0, f64::max),
+        folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
+        tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
+        cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),
+        mountain_length: folds(Direction::Mountain),
+        valley_length: folds(Direction::Valley),
+        area: scale * scale * area,
+        strain: sheets.iter().map(|sheet| sheet.strain).fold(0.0, f64::max),
+        gap: scale * sheets.iter().map(|sheet| sheet.gap).fold(0.0, f64::max),
+        a4: 0,
+        letter: 0,
+    }
+}

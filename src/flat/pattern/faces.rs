@@ -1,0 +1,51 @@
+//! The triangles of a sheet, as it is built and as it lies flat.
+
+use super::net::Net;
+use super::outline::Layout;
+use crate::heights::heightfield::Heightfield;
+
+/// The surface that a sheet is made of. Each triangle of the lattice belongs to the patch that most of it lies
+/// in, so that sheets meet along creases without a gap.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Faces {
+    /// Where each vertex is on the surface.
+    pub built: Vec<[f64; 3]>,
+    /// Where it lies on the flat sheet.
+    pub flat: Vec<[f64; 2]>,
+    /// Three vertices each, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+pub(super) fn faces(surface: &Heightfield, net: &Net, layout: &Layout, patches: &[u32]) -> Faces {
+    let mut faces = Faces::default();
+    let lattice = surface.lattice();
+    for patch in patches {
+        let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+            continue;
+        };
+        let mut numbers = vec![u32::MAX; leaf.places().len()];
+        for (_, corners) in leaf.pieces() {
+            let corners = corners.map(|corner| {
+                let number = &mut numbers[corner as usize];
+                if *number == u32::MAX {
+                    *number = faces.flat.len() as u32;
+                    let [row, col] = leaf.vertex(corner as usize);
+                    let [x, y] = lattice.position(row, col);
+                    let z = surface.height(row, col);
+                    let z = if z.is_nan() {
+                        leaf.height([row, col])
+                    } else {
+                        z
+                    };
+                    let place = layout.motions[*patch as usize].of(leaf.places()[corner as usize]);
+                    faces.built.push([x, y, z]);
+                    faces.flat.push([place.re, place.im]);
+                }
+                *number
+            });
+            faces.triangles.push(corners);
+        }
+    }
+    faces
+}

@@ -90,11 +90,14 @@ mod tests {
         let flat: Vec<[f64; 2]> = (0..30)
             .map(|i| [f64::from(i % 6) * 1.5, f64::from(i / 6)])
             .collect();
-        let mut faces = Faces::default();
-        faces.built = (flat.iter())
+        let built = (flat.iter())
             .map(|p| (turn * Vector3::new(p[0], p[1], 0.0) + shift).into())
             .collect();
-        faces.flat = flat;
+        let faces = Faces {
+            built,
+            flat,
+            triangles: Vec::new(),
+        };
         let pose = Pose::of(&faces, [2.0, 1.0]);
         for (p, q) in faces.flat.iter().zip(&faces.built) {
             let found = pose.of_place([p[0] - 2.0, p[1] - 1.0, 0.0]);

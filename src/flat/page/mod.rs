@@ -53,10 +53,12 @@ mod find;
 mod known;
 mod misfit;
 mod output;
+mod photo;
 mod prior;
 mod report;
 mod solve;
 mod start;
+mod text;
 mod trace;
 
 pub use find::CurledPage;

@@ -61,8 +61,14 @@ pub struct PageReport {
     /// next, which is no scatter of a hand: by how much they disagree, in % of a page's width as it is
     /// seen.
     pub disagreement: f64,
-    /// Lines of text that it was found by besides the edges.
+    /// Lines of text that it was found by besides the edges, given and found.
     pub lines: usize,
+    /// Lines of text that were found in the photo by themselves. If they contradict the edges, the page is found
+    /// without them, and only the verdict is theirs.
+    pub lines_found: usize,
+    /// By how much lines of text disagree with the page, in % of its width as it is seen: what neighbouring ones
+    /// have in common of it.
+    pub lines_disagreement: f64,
     /// Height over width of a page as it is seen, without use of a format that was given.
     pub ratio: f64,
 }
@@ -72,9 +78,9 @@ pub(super) struct Findings {
     pub estimate: Estimate,
     /// How the residuals are spread along each of the edges.
     pub edges: Vec<Misfit>,
-    /// Likewise along lines of text.
+    /// Likewise along lines of text that were given.
     pub text: Vec<Misfit>,
-    /// What these have in common, as a mean square in pixels².
+    /// What lines of text, found ones too, have in common, as a mean square in pixels².
     pub common: f64,
     /// Standard deviation that was assumed.
     pub accuracy: f64,

@@ -1324,11 +1324,10 @@ export interface PageReport {
   disagreement: number;
   /** Lines of text that it was found by besides the edges, given and found. */
   lines: number;
-  /**
-   * Lines of text that were found in the photo by themselves. If they contradict the edges, the page is found without
-   * them, and only the verdict is theirs.
-   */
+  /** Lines of text that were found in the photo by themselves. */
   linesFound: number;
+  /** Those of them that it was found by, all or none: if they contradict the edges, only the verdict is theirs. */
+  linesUsed: number;
   /** By how much lines of text disagree with the page: what neighbouring ones have in common of it, in % of its width as it is seen. */
   linesDisagreement: number;
   /** Height over width as it is seen, without use of a format that was given. */

@@ -443,6 +443,7 @@ fn report(
         disagreement: 100.0 * smooth / seen,
         lines: traces.text(),
         lines_found,
+        lines_used: lines_found,
         lines_disagreement: 100.0 * common.sqrt() / seen,
         ratio: cylinder.length,
     }

@@ -63,9 +63,11 @@ pub struct PageReport {
     pub disagreement: f64,
     /// Lines of text that it was found by besides the edges, given and found.
     pub lines: usize,
-    /// Lines of text that were found in the photo by themselves. If they contradict the edges, the page is found
-    /// without them, and only the verdict is theirs.
+    /// Lines of text that were found in the photo by themselves.
     pub lines_found: usize,
+    /// Those of them that it was found by, all or none: if they contradict the edges, the page is that of the edges,
+    /// and only the verdict is theirs.
+    pub lines_used: usize,
     /// By how much lines of text disagree with the page, in % of its width as it is seen: what neighbouring ones
     /// have in common of it.
     pub lines_disagreement: f64,

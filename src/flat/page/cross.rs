@@ -311,7 +311,9 @@ impl Crosses {
     /// The mean product of the distances of neighbouring lines of text at the same places, in pixels²,
     /// and over how many: what lines have in common is no error of tracing them.
     pub fn common(&self, off: &[Off]) -> (f64, f64) {
-        let (mut sum, mut count) = (0.0, 0.0);
+        /// So many lines may stand between, in columns beside.
+        const COLUMNS: usize = 6;
+        let (mut sum, mut points, mut count) = (0.0, 0.0, 0.0);
         let mut order: Vec<usize> = (0..off.len())
             .filter(|i| self.list[*i].level.is_none())
             .collect();
@@ -320,20 +322,24 @@ impl Crosses {
             let ((p, x), (q, y)) = (key(*i), key(*j));
             p.cmp(&q).then(x.total_cmp(&y))
         });
-        for pair in order.windows(2) {
-            let [one, other] = [pair[0], pair[1]];
-            if self.list[one].page != self.list[other].page {
-                continue;
-            }
-            for point in &off[one].points {
-                if let Some(beside) = off[other].at(point.along) {
-                    sum += point.pixels * beside;
-                    count += self.list[one].weight;
-                }
+        for (i, one) in order.iter().enumerate() {
+            // The next one below in the same column.
+            let below = (order[i + 1..].iter().take(COLUMNS))
+                .filter(|other| self.list[**other].page == self.list[*one].page)
+                .map(|other| -> Vec<f64> {
+                    let own = off[*one].points.iter();
+                    own.filter_map(|p| Some(p.pixels * off[*other].at(p.along)?))
+                        .collect()
+                })
+                .find(|products| !products.is_empty());
+            if let Some(products) = below {
+                sum += products.iter().sum::<f64>();
+                points += products.len() as f64;
+                count += self.list[*one].weight * products.len() as f64;
             }
         }
         if count > 0.0 {
-            (sum / count, count)
+            (sum / points, count)
         } else {
             (0.0, 0.0)
         }

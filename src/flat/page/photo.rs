@@ -36,6 +36,7 @@ impl CurledPage {
         if count == 0 {
             return Ok(by_edges);
         }
+        let by_itself = *by_edges.report();
         let both = Self::solved(edges, [given, &found], size, options);
         let mut page = match &both {
             Ok(page)
@@ -47,6 +48,16 @@ impl CurledPage {
         };
         let report = &mut page.report;
         report.lines_found = count;
+        // The edges' own errors show against lines that are more exact, and the page is the better for it.
+        let calm = report.verdict == PageVerdict::Doubtful && report.lines_disagreement == 0.0;
+        if calm && report.error <= by_itself.error {
+            report.verdict = by_itself.verdict;
+        }
+        let doubtful = |verdict: &mut PageVerdict| {
+            if *verdict != PageVerdict::NotThisKind {
+                *verdict = PageVerdict::Doubtful;
+            }
+        };
         match both {
             // Neighbouring lines have in common what they are off.
             Ok(both) if both.report.verdict == PageVerdict::NotThisKind => {
@@ -55,9 +66,8 @@ impl CurledPage {
                 report.disagreement = report.disagreement.max(both.report.disagreement);
                 report.lines_disagreement = both.report.lines_disagreement;
             }
-            Ok(_) => {}
-            Err(_) if report.verdict == PageVerdict::NotThisKind => {}
-            Err(_) => report.verdict = PageVerdict::Doubtful,
+            Ok(both) if both.found_off < SURE => {}
+            _ => doubtful(&mut report.verdict),
         }
         page.found = found;
         Ok(page)

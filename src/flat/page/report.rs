@@ -102,7 +102,7 @@ impl Findings {
         /// Share of the page's width.
         const DOUBTFUL: f64 = 0.01;
         /// What lines have in common is free of errors of tracing them, so that less of it tells.
-        const LINES: f64 = 0.4;
+        const LINES: f64 = 0.27;
         // No lens is true to less than this share of the width.
         let least = self.accuracy.max(0.0007 * self.seen);
         // What that many points come to by chance, and a little more.

@@ -89,13 +89,13 @@ export const LAYOUTS = /** @type {const} */ ({
 
 /**
  * Each of these layouts as it is photographed.
- * @param {readonly Layout[]} names
- * @returns {Promise<Record<string, Grey>>}
+ * @template {Layout} L
+ * @param {readonly L[]} names
+ * @returns {Promise<Record<L, Grey>>}
  */
 export function layouts(names) {
   return withBrowser(async (browser) => {
-    /** @type {Record<string, Grey>} */
-    const found = {};
+    const found = /** @type {Record<L, Grey>} */ ({});
     for (const name of names) {
       const { style, body } = LAYOUTS[name];
       const page = await browser.newPage({ viewport: { width: WIDE, height: HIGH } });

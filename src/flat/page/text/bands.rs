@@ -1,6 +1,7 @@
 //! Bands of ink that go on from strip to strip of a page.
 
 use super::ink::Ink;
+use super::ranked;
 
 /// How much ink each row has, by upright strips of the page.
 pub(super) struct Strips {
@@ -128,10 +129,11 @@ impl Smoothed {
                     pairs.push(((y - ahead).abs() * gone, i, j));
                 }
             }
-            pairs.sort_by(|p, q| p.0.total_cmp(&q.0));
+            let gaps: Vec<f64> = pairs.iter().map(|pair| pair.0).collect();
             let mut taken = vec![false; peaks.len()];
             let mut continued = vec![false; open.len()];
-            for (_, i, j) in pairs {
+            for k in ranked(&gaps) {
+                let (_, i, j) = pairs[k];
                 if taken[j] || continued[i] {
                     continue;
                 }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::bands::{Band, LEAST, Smoothed};
+use super::ranked;
 use crate::flat::page::cylinder::legendre;
 
 /// A line that letters stand on, in pixels of the ink.
@@ -93,14 +94,14 @@ impl Baseline {
     }
 
     fn agrees(&self, lines: &[Baseline], own: usize) -> bool {
-        let mut near: Vec<(f64, f64)> = (lines.iter().enumerate())
+        let (away, apart): (Vec<f64>, Vec<f64>) = (lines.iter().enumerate())
             .filter(|(i, other)| *i != own && (other.level - self.level).abs() < AWAY * self.sigma)
             .filter_map(|(_, other)| Some(((other.level - self.level).abs(), self.apart(other)?)))
-            .collect();
-        near.sort_by(|p, q| p.0.total_cmp(&q.0));
+            .unzip();
+        let mut near = ranked(&away);
         near.truncate(AROUND);
         let limit = PARALLEL[0] + PARALLEL[1] * self.sigma;
-        let alike = near.iter().filter(|(_, apart)| *apart < limit).count();
+        let alike = near.iter().filter(|k| apart[**k] < limit).count();
         2 * alike >= near.len().max(AROUND)
     }
 }

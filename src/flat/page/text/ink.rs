@@ -150,14 +150,24 @@ impl Paper {
         let mut levels = Vec::with_capacity(cols * rows);
         for block in 0..cols * rows {
             let [x, y] = [block % cols * side, block / cols * side];
-            let mut own: Vec<f32> = (y..(y + side).min(height))
-                .flat_map(|row| &data[row * width + x..row * width + (x + side).min(width)])
-                .copied()
-                .filter(|v| v.is_finite())
-                .collect();
-            own.sort_by(f32::total_cmp);
-            let at = (PAPER * own.len() as f64) as usize;
-            levels.push(own.get(at).copied().unwrap_or(f32::NAN));
+            let mut counts = [0u32; 256];
+            for row in y..(y + side).min(height) {
+                for value in &data[row * width + x..row * width + (x + side).min(width)] {
+                    if value.is_finite() {
+                        counts[*value as usize] += 1;
+                    }
+                }
+            }
+            let all: u32 = counts.iter().sum();
+            let mut rest = f64::from(all) * (1.0 - PAPER);
+            let level = (0..256).rev().find(|level| {
+                rest -= f64::from(counts[*level]);
+                rest < 0.0
+            });
+            levels.push(match level {
+                Some(level) => level as f32 + 0.5,
+                None => f32::NAN,
+            });
         }
         // Where a block has no pixels of its own, at the margins, what those beside it have.
         for _ in 0..2 {

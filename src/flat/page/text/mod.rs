@@ -42,23 +42,21 @@ fn on_page(page: &CurledPage, number: usize, photo: &Photo<'_>) -> Option<Vec<Tr
         })
         .collect();
     // The size that most of the text has comes first.
-    by_scale.sort_by_key(|lines| {
-        std::cmp::Reverse(lines.iter().map(|line| line.points.len()).sum::<usize>())
-    });
+    let points = |lines: &Vec<Baseline>| lines.iter().map(|line| line.points.len()).sum::<usize>();
+    let sizes: Vec<f64> = by_scale.iter().map(|own| -(points(own) as f64)).collect();
     let mut chosen: Vec<Baseline> = Vec::new();
-    for line in by_scale.into_iter().flatten() {
+    for line in (ranked(&sizes).into_iter()).flat_map(|k| std::mem::take(&mut by_scale[k])) {
         if !chosen.iter().any(|other| line.covers(other)) {
             chosen.push(line);
         }
     }
-    let mut lines = together(chosen);
-    lines.sort_by(|p, q| q.points.len().cmp(&p.points.len()));
-    lines.truncate(MOST);
-    lines.sort_by(|p, q| p.level.total_cmp(&q.level));
+    let lines = together(chosen);
+    let levels: Vec<f64> = lines.iter().map(|line| line.level).collect();
+    let step = lines.len().div_ceil(MOST).max(1);
     let [width, height] = [ink.width, ink.height].map(|n| n as f64);
-    lines
-        .into_iter()
-        .map(|line| {
+    (ranked(&levels).into_iter().step_by(step))
+        .map(|k| {
+            let line = &lines[k];
             let points: Option<Vec<_>> = (line.points.iter())
                 // A row's number is that of its middle.
                 .map(|[x, y]| leaf.seen([x / width, (y + 0.5) / height]))
@@ -66,4 +64,12 @@ fn on_page(page: &CurledPage, number: usize, photo: &Photo<'_>) -> Option<Vec<Tr
             points.map(Trace::Points)
         })
         .collect()
+}
+
+/// The numbers of values from the smallest to the largest. One sort for all, for each kind of sort is some
+/// kilobytes of wasm.
+fn ranked(values: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|i, j| values[*i].total_cmp(&values[*j]));
+    order
 }

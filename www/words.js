@@ -54,7 +54,7 @@ export const FLATTENED = {
 export function pageVerdict({ verdict, lines }) {
   switch (verdict) {
     case 'flat': return 'Both edges are straight: only the perspective was taken out. Folds that run along them do not show in them.';
-    case 'unrolled': return `Made flat: both edges${lines > 0 ? ' and the lines of text' : ''} agree on how the page is bent.`;
+    case 'unrolled': return `Made flat: both edges agree on how the page is bent${lines > 0 ? ', and so do lines of text' : ''}.`;
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
     case 'doubtful': return 'Doubtful: look at it closely.';
     default: return 'This is no page that is curled one way.';

@@ -18,9 +18,9 @@ pub(super) struct Baseline {
 /// Share of a band's strips that lie on its line, at least.
 const ON: f64 = 0.6;
 
-/// Scatter of those about the line, over half the height of letters, at most: letters of a print stand on a
-/// line, those of a hand do not.
-const SCATTER: f64 = 0.2;
+/// Scatter of all about the line, at most, in pixels of the ink, and over half the height of letters besides:
+/// letters of a print stand on a line, those of a hand, and round things, do not.
+const SCATTER: [f64; 2] = [0.3, 0.05];
 
 /// Lines on a page, at least: fewer prove nothing.
 const FEW: usize = 4;
@@ -57,7 +57,7 @@ impl Baseline {
             .map(|(p, _)| *p)
             .collect();
         let enough = LEAST.max((ON * band.len() as f64).ceil() as usize);
-        if scatter > SCATTER * sigma || points.len() < enough {
+        if scatter > SCATTER[0] + SCATTER[1] * sigma || points.len() < enough {
             return None;
         }
         Some(Baseline {

@@ -1345,7 +1345,10 @@ export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'uni
    * shown and written: x to the right, y up, the camera at the origin, looking along -z.
    */
   mesh: Mesh & { triangles: Uint32Array; uvs: Float32Array };
-  /** Lines of text that were found, for each page from left to right or from top to bottom: points in the photo, below the letters. */
+  /**
+   * Lines of text that were found, for each page from left to right or from top to bottom: points in the photo, below the
+   * letters. Empty where none were.
+   */
   lines: [number, number][][][];
   verdict: PageVerdict;
   report: PageReport;

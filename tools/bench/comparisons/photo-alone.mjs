@@ -43,8 +43,8 @@ export async function photoAlone({ quick }) {
   const rows = [];
   for (const page of [upright, ...pages]) {
     const ofThisKind = page === upright || page.name === 'spread';
-    for (const pose of poses) for (const by of WAYS) {
-      const seen = view(page, pose, camera);
+    const views = poses.map((pose) => ({ pose, seen: view(page, pose, camera) }));
+    for (const { pose, seen } of views) for (const by of WAYS) {
       const photo = by === 'edges' || by === 'and lines' ? blank : photoOf(seen, page, by);
       const leaves = page.name === 'spread' ? 2 : 1;
       const results = Array.from({ length: quick ? 2 : 10 }, (_, seed) => {

@@ -238,8 +238,8 @@ pageTest('lines of text are found, shown and switched off; drawn by mouse and ke
   const [[u, v], [, straight]] = [seen(0.5, 0.5), seen(0.1, 0.5)];
   assert.ok(Math.abs(straight - v) > 8 && Math.hypot(middle[0] - u, middle[1] - v) < 4, `${middle} for ${u}, ${v}`);
   // One that is none.
-  await draw(seen(0.1, 0.3), seen(0.9, 0.6));
-  assert.match(await verdict.innerText(), /no page that is curled one way/);
+  await draw(seen(0.3, 0.35), seen(0.8, 0.65));
+  assert.match(await verdict.innerText(), /no page that is curled one way|cannot be made flat/);
   await page.keyboard.press('Delete');
   await flattened(page);
   assert.equal(await ends.count(), 6);
@@ -367,9 +367,10 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   const [before, along] = [await page.evaluate(() => window.scrollY), (/** @type {number} */ k) => ({ x: begin[0] + (k / 4) * (end[0] - begin[0]), y: begin[1] + (k / 4) * (end[1] - begin[1]) })];
   await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [along(0)] });
   for (const k of [1, 2, 3, 4]) await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [along(k)] });
+  await painted(page);
+  assert.equal(await page.evaluate(() => window.scrollY), before);
   await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
   await flattened(page);
-  assert.equal(await page.evaluate(() => window.scrollY), before);
   assert.match(await told(page, 'Lines of text'), /^1 drawn/);
   // The photo stays in sight while the flat page is looked at.
   await page.locator('#flat-about').scrollIntoViewIfNeeded();

@@ -155,7 +155,7 @@ export class Handles {
       return [x + u - px, y + v - py];
     };
     holder.setPointerCapture(event.pointerId);
-    this.focus(handle);
+    this.#buttons[handle]?.focus({ preventScroll: true });
     this.#magnify(handle);
     const over = new AbortController();
     /** @param {Event} next */

@@ -74,7 +74,9 @@ export class Handles {
     });
     this.#svg.replaceChildren(...lines.flatMap(({ points, kind, pulls }) => {
       const d = `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
-      const seen = [shape('path', { d, class: 'under' }), shape('path', { d, class: kind })];
+      // What is found lies close together: no rim, or nothing is left of the photo.
+      const rims = kind === 'text' || kind === 'text against' ? [] : [shape('path', { d, class: 'under' })];
+      const seen = [...rims, shape('path', { d, class: kind })];
       return pulls === undefined ? seen : [...seen, shape('path', { d, class: 'grip', 'data-pulls': String(pulls) })];
     }));
   }

@@ -14,6 +14,8 @@ import { traced } from './snap.js';
 const POINTS = 16;
 /** How far from it letters' feet are looked for, as a share of the photo's diagonal: less than from line to line. */
 const REACH = 0.004;
+/** Pixels by which letters' feet may be off each other. */
+const ALIKE = 1.5;
 
 /**
  * @param {Grey} grey
@@ -27,8 +29,23 @@ export function lineBetween(grey, ends, flat, snapping) {
   if (!snapping) return level;
   const reach = Math.max(3, REACH * Math.hypot(grey.width, grey.height));
   const { points, seen } = traced(grey, level.map((point) => nodeAt(point, false)), { places: 2 * POINTS, reach });
-  // Its ends are where they were put, not where the letters stand.
-  return seen >= 0.5 && points.length > 4 ? points.slice(1, -1) : level;
+  // Its ends are where they were put, not where the letters stand; and what is off by more than the rest is another line.
+  const own = points.slice(1, -1).map((point) => ({ point, off: beside(level, point) }));
+  const middle = own.map(({ off }) => off).sort((a, b) => a - b)[own.length >> 1] ?? 0;
+  const near = own.filter(({ off }) => Math.abs(off - middle) < ALIKE / grey.scale);
+  return seen >= 0.5 && 2 * near.length > own.length && near.length > 4 ? near.map(({ point }) => point) : level;
+}
+
+/** How far a place is from the nearest part of a line, and on which side. @param {readonly Point[]} line @param {Point} place */
+function beside(line, [x, y]) {
+  let [best, least] = [0, Infinity];
+  line.slice(1).forEach(([u, v], i) => {
+    const [a, b] = line[i];
+    const length = Math.hypot(u - a, v - b) || 1;
+    const away = Math.hypot(x - (a + u) / 2, y - (b + v) / 2);
+    if (away < least) [best, least] = [((u - a) * (y - b) - (v - b) * (x - a)) / length, away];
+  });
+  return best;
 }
 
 /** @param {Ends} ends @returns {Point[]} */

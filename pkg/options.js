@@ -233,6 +233,7 @@ export const OPTIONS = {
     ruler: anything,
     centre: numbers(2, 'two numbers: x and y in the photo'),
     accuracy: number,
+    findLines: flag,
     ...mapping,
     ...handOver,
   },

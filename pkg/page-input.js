@@ -5,7 +5,8 @@ import { isRecord, reading, record, refuseUnknown, show } from './values.js';
 
 /**
  * @typedef {{ beziers: boolean, points: Float64Array }} TraceInput
- * @typedef {{ sideways: boolean, edges: number, traces: TraceInput[] }} EdgesInput `traces`: so many edges, then lines of text
+ * @typedef {{ sideways: boolean, edges: number, traces: TraceInput[], open: boolean }} EdgesInput `traces`: so many edges, then
+ *   lines of text; `open`: nothing is said of these
  * @typedef {import('./types.js').DewarpPageOptions} Options
  */
 
@@ -42,7 +43,7 @@ function asPair(given) {
     throw new DevelopableError('INPUT', 'the edges must be `top` and `bottom`, or `left` and `right`: the two that are bent; or all four');
   }
   const sides = told.map((side) => asTrace(`the ${side} edge`, edges[side]));
-  return { sideways: told[0] === 'left', edges: sides.length, traces: [...sides, ...(lines === undefined ? [] : asLines(lines))] };
+  return { sideways: told[0] === 'left', edges: sides.length, traces: [...sides, ...(lines === undefined ? [] : asLines(lines))], open: lines === undefined };
 }
 
 /**
@@ -104,9 +105,9 @@ export function plainEdges(pages) {
       /** @type {[number, number]} */ ([points[2 * i], points[2 * i + 1]]));
     return beziers ? { beziers: list } : list;
   };
-  return pages.map(({ sideways, edges, traces }) => {
+  return pages.map(({ sideways, edges, traces, open }) => {
     const own = traces.slice(0, edges).map((trace, i) => [SIDES[sideways ? i + 2 : i], plain(trace)]);
-    const all = { ...Object.fromEntries(own), lines: traces.slice(edges).map(plain) };
+    const all = { ...Object.fromEntries(own), ...(!open && { lines: traces.slice(edges).map(plain) }) };
     return /** @type {import('./types.js').PageEdges} */ (/** @type {unknown} */ (all));
   });
 }

@@ -1254,7 +1254,8 @@ export type PageEdges = (
 ) & {
   /**
    * Lines of text, traced likewise from where they begin to where they end (at most 500): level on the flat page, they
-   * check it, and show folds between the edges.
+   * check it, and show folds between the edges. Without this list they are looked for in the photo; an empty one says
+   * that there are none.
    */
   lines?: readonly EdgeTrace[];
 };
@@ -1277,6 +1278,11 @@ export interface DewarpPageOptions {
   centre?: readonly [number, number];
   /** How near to the edge traced points are meant to be, in pixels. Default: 1/2500 of the photo's diagonal. */
   accuracy?: number;
+  /**
+   * Whether lines of text are looked for in the photo: where print stands on lines that agree with the edges, they make
+   * the page more exact, and where they do not, the verdict says so. Default: if `lines` are given of no page.
+   */
+  findLines?: boolean;
   /** Pixels of the flat image per unit of length. Default: as many as the photo has of the page. */
   dots?: number;
   /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. Default true. */
@@ -1316,8 +1322,14 @@ export interface PageReport {
   residual: number;
   /** The part of it that goes on from point to point, or from one line of text to the next, in % of a page's width as it is seen. */
   disagreement: number;
-  /** Lines of text that it was found by besides the edges. */
+  /** Lines of text that it was found by besides the edges, given and found. */
   lines: number;
+  /** Lines of text that were found in the photo by themselves. */
+  linesFound: number;
+  /** Those of them that it was found by, all or none: if they contradict the edges, only the verdict is theirs. */
+  linesUsed: number;
+  /** By how much lines of text disagree with the page: what neighbouring ones have in common of it, in % of its width as it is seen. */
+  linesDisagreement: number;
   /** Height over width as it is seen, without use of a format that was given. */
   ratio: number;
 }
@@ -1333,6 +1345,11 @@ export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'uni
    * shown and written: x to the right, y up, the camera at the origin, looking along -z.
    */
   mesh: Mesh & { triangles: Uint32Array; uvs: Float32Array };
+  /**
+   * Lines of text that were found, for each page from left to right or from top to bottom: points in the photo, below the
+   * letters. Empty where none were.
+   */
+  lines: [number, number][][][];
   verdict: PageVerdict;
   report: PageReport;
 }

@@ -51,10 +51,10 @@ export const FLATTENED = {
  * What came of making a page flat by its edges.
  * @param {PageReport} report
  */
-export function pageVerdict({ verdict }) {
+export function pageVerdict({ verdict, lines }) {
   switch (verdict) {
     case 'flat': return 'Both edges are straight: only the perspective was taken out. Folds that run along them do not show in them.';
-    case 'unrolled': return 'Made flat: both edges agree on how the page is bent.';
+    case 'unrolled': return `Made flat: both edges agree on how the page is bent${lines > 0 ? ', and so do lines of text' : ''}.`;
     case 'unchecked': return 'Made flat, but nothing checks the bend.';
     case 'doubtful': return 'Doubtful: look at it closely.';
     default: return 'This is no page that is curled one way.';
@@ -65,14 +65,15 @@ export function pageVerdict({ verdict }) {
  * How far the flat page is to be trusted.
  * @param {PageReport} report
  */
-export function pageErrors({ verdict, error, errorBound }) {
+export function pageErrors({ verdict, error, errorBound, lines, linesFound }) {
+  const text = lines + linesFound > 0 ? ' and lines of text' : '';
   const likely = `wrong by about ${percent(error / 100)} of its width, and in 95 of 100 cases by less than ${percent(errorBound / 100)}`;
   switch (verdict) {
     case 'flat': return `If it has no such folds and the edges are traced well, places on it are ${likely}.`;
     case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;
     case 'unchecked': return `There are few points along the edges, or one of them looks straight however the page is bent. If it is curled one way, places on it are ${likely}.`;
-    case 'doubtful': return `Its edges disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;
-    default: return 'Its edges do not fit together. It is folded or crumpled, for which depth is needed, or an edge is traced wrongly: correct it, or choose the other two edges.';
+    case 'doubtful': return `Its edges${text} disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;
+    default: return `Its edges${text} do not fit together. It is folded or crumpled, for which depth is needed, or an edge is traced wrongly: correct it, or choose the other two edges.`;
   }
 }
 

@@ -28,8 +28,8 @@ export async function page(task, signal) {
 }
 
 /** @param {import('../types.js').PageReport} report */
-function words({ verdict, error, errorBound, disagreement, lines }) {
-  const text = lines > 0 ? ' and lines of text' : '';
+function words({ verdict, error, errorBound, disagreement, lines, linesFound }) {
+  const text = lines + linesFound > 0 ? ' and lines of text' : '';
   const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases)`;
   switch (verdict) {
     case 'flat':

@@ -205,6 +205,38 @@ test('the command', async () => {
   }
 });
 
+test('lines of text are found where the photo shows print', async () => {
+  const data = new Uint8ClampedArray(4 * width * height).fill(230);
+  // Lines of blocks for letters, in millimetres from the upper left corner.
+  for (let foot = 30; foot < 280; foot += 16) {
+    for (let x = 20; x < 190; x += x % 5 < 1 ? 9 : 6) {
+      for (let u = x; u < x + 4; u += 0.3) {
+        for (let v = foot - 6; v < foot; v += 0.3) {
+          const [col, row] = seen(u / 210, v / 297).map(Math.round);
+          data.fill(40, 4 * (row * width + col), 4 * (row * width + col) + 3);
+        }
+      }
+    }
+  }
+  const page = { width, height, data };
+  const known = /** @type {const} */ ({ focalLength: focal, page: 'a4', dots: 1 });
+  const flat = direct.dewarpPage(page, edges, known);
+  const { lines, linesFound, linesUsed, linesDisagreement } = flat.report;
+  assert.equal(flat.verdict, 'unrolled');
+  assert.ok(linesFound >= 12 && linesUsed === linesFound && lines === linesFound && linesDisagreement < 0.2, JSON.stringify(flat.report));
+  assert.deepEqual([flat.lines.length, flat.lines[0].length], [1, linesFound]);
+  // As points of the photo, which may be given back.
+  const again = direct.dewarpPage(page, { ...edges, lines: flat.lines[0] }, known);
+  assert.deepEqual([again.report.lines, again.report.linesFound, again.lines.flat().length], [linesFound, 0, 0]);
+  assert.deepEqual((await developable.dewarpPage(page, edges, known)).report, flat.report);
+  for (const none of [direct.dewarpPage(page, { ...edges, lines: [] }, known), direct.dewarpPage(page, edges, { ...known, findLines: false })]) {
+    assert.deepEqual([none.report.lines, none.report.linesFound, none.lines.flat().length], [0, 0, 0]);
+  }
+  assert.equal(direct.dewarpPage(page, { ...edges, lines: [] }, { ...known, findLines: true }).report.linesFound, linesFound);
+  assert.equal(direct.dewarpPage(photo, edges, known).report.linesFound, 0, 'no print');
+  assert.throws(() => direct.dewarpPage(page, edges, /** @type {any} */ ({ findLines: 'yes' })), error('OPTION', /findLines/));
+});
+
 test('lines of text, and all four edges', async () => {
   /** @param {number} t @param {number} [bent] down the page, by its middle */
   const line = (t, bent = 0) => Array.from({ length: 12 }, (_, i) => {

@@ -197,6 +197,66 @@ pageTest('an edge is pulled into a further point', async (page) => {
   assert.match(await page.locator('#flat-verdict').innerText(), /no page|Doubtful|cannot/, 'it was pulled away from the page');
 });
 
+pageTest('lines of text are found, shown and switched off; drawn by mouse and keyboard they change the verdict', async (page) => {
+  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+  await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
+  await flattened(page);
+  const lines = page.locator('#page-photo path.text:not(.under)');
+  const verdict = page.locator('#flat-verdict');
+  const count = await lines.count();
+  assert.ok(count >= 8, `${count} lines`);
+  assert.equal(await told(page, 'Lines of text'), `${count} found, as the edges`);
+  assert.match(await verdict.innerText(), /^Made flat: both edges agree .* lines of text/);
+  await page.getByLabel('Find lines of text').uncheck();
+  await flattened(page);
+  assert.equal(await lines.count(), 0);
+  assert.doesNotMatch(await verdict.innerText(), /lines of text/);
+
+  await openPhoto(page, 'letter.png', photo);
+  assert.equal(await page.locator('#flat-about dt', { hasText: 'Lines of text' }).count(), 0, 'dots are no text');
+  const button = page.getByRole('button', { name: 'Draw a line of text' });
+  const ends = page.getByRole('button', { name: /^Line of text \d, (beginning|end)/ });
+  /** @param {Place} from @param {Place} to */
+  const draw = async (from, to) => {
+    await page.mouse.move(...await onPage(page, from));
+    await page.mouse.down();
+    await page.mouse.move(...await onPage(page, to), { steps: 5 });
+    await page.mouse.up();
+    await flattened(page);
+  };
+  await button.click();
+  assert.equal(await button.getAttribute('aria-pressed'), 'true');
+  for (const t of [0.25, 0.5, 0.75]) await draw(seen(0.1, t), seen(0.9, t));
+  assert.equal(await ends.count(), 6);
+  assert.equal(await told(page, 'Lines of text'), '3 drawn, as the edges');
+  assert.match(await verdict.innerText(), /^Made flat: both edges agree .* lines of text/);
+  // Two ends say how the line runs between them: as the page is bent.
+  const middle = await lines.nth(1).evaluate((path) => {
+    const { x, y } = /** @type {SVGPathElement} */ (path).getPointAtLength(/** @type {SVGPathElement} */ (path).getTotalLength() / 2);
+    return [x, y];
+  });
+  const [[u, v], [, straight]] = [seen(0.5, 0.5), seen(0.1, 0.5)];
+  assert.ok(Math.abs(straight - v) > 8 && Math.hypot(middle[0] - u, middle[1] - v) < 4, `${middle} for ${u}, ${v}`);
+  // One that is none.
+  await draw(seen(0.3, 0.35), seen(0.8, 0.65));
+  assert.match(await verdict.innerText(), /no page that is curled one way|cannot be made flat/);
+  await page.keyboard.press('Delete');
+  await flattened(page);
+  assert.equal(await ends.count(), 6);
+  assert.match(await verdict.innerText(), /^Made flat/);
+
+  await button.press('Enter');
+  assert.equal(await ends.count(), 8);
+  const name = () => page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? '');
+  const before = await name();
+  assert.match(before, /^Line of text 4, beginning/);
+  await page.keyboard.press('Shift+ArrowUp');
+  await flattened(page);
+  assert.notEqual(await name(), before);
+  for (let left = 4; left > 0; left--) await page.getByRole('button', { name: 'Remove the line' }).press('Enter');
+  assert.equal(await ends.count(), 0);
+});
+
 pageTest('known: format, focal length, what is bent, two pages', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   // The photo does not tell its camera, but the page's perspective does.
@@ -299,6 +359,19 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   assert.ok(Math.abs(u - x - 20 * scale) < 2 * scale && Math.abs(v - y + 48 * scale) < 2 * scale, `${u - x}, ${v - y}`);
   await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
   assert.equal(await page.evaluate(() => window.scrollY), scrolled);
+  await page.getByRole('button', { name: 'Start again' }).tap();
+  await page.getByRole('button', { name: 'Draw a line of text' }).tap();
+  await flattened(page);
+  await page.locator('#page-photo').scrollIntoViewIfNeeded();
+  const [begin, end] = [await onPage(page, seen(0.15, 0.5)), await onPage(page, seen(0.85, 0.5))];
+  const [before, along] = [await page.evaluate(() => window.scrollY), (/** @type {number} */ k) => ({ x: begin[0] + (k / 4) * (end[0] - begin[0]), y: begin[1] + (k / 4) * (end[1] - begin[1]) })];
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [along(0)] });
+  for (const k of [1, 2, 3, 4]) await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [along(k)] });
+  await painted(page);
+  assert.equal(await page.evaluate(() => window.scrollY), before);
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await flattened(page);
+  assert.match(await told(page, 'Lines of text'), /^1 drawn/);
   // The photo stays in sight while the flat page is looked at.
   await page.locator('#flat-about').scrollIntoViewIfNeeded();
   const pinned = await page.locator('#page-photo').boundingBox();

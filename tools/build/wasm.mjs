@@ -21,7 +21,7 @@ const files = [
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 120_000 },
-  { name: 'unroll', limit: 255_000 },
+  { name: 'unroll', limit: 266_000 },
   { name: 'patterns', limit: 345_000 },
 ];
 

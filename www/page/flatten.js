@@ -11,7 +11,7 @@ import { rescaled } from './grey.js';
 /** @typedef {import('../../pkg/types.js').PageEdges} PageEdges */
 /** @typedef {[number, number][]} Line */
 /** @typedef {{ sideways: boolean, lines: [Line[], Line[]] }} Traces for each bent edge those of its pages */
-/** @typedef {{ photo: PagePhoto, traces: Traces, options: Options }} Wish */
+/** @typedef {{ photo: PagePhoto, traces: Traces, text: Line[][], options: Options }} Wish `text`: lines of text that are drawn, by page */
 
 export class Flattening {
   /** @type {Wish | null} */
@@ -32,10 +32,10 @@ export class Flattening {
     if (this.#busy) return;
     this.#busy = true;
     for (let now = this.#take(); now; now = this.#take()) {
-      const { photo: { small, grey: { scale }, film35 }, traces, options } = now;
+      const { photo: { small, grey: { scale }, film35 }, traces, text, options } = now;
       const { width, height, data } = small;
       try {
-        const flat = await this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, scale), atScale(options, scale));
+        const flat = await this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, text, scale), atScale(options, scale));
         tell({ wish: now, flat });
       } catch (error) {
         if (!this.#next) tell({ wish: now, error });
@@ -51,23 +51,25 @@ export class Flattening {
   }
 
   /** @param {Wish} wish */
-  whole({ photo, traces, options }) {
+  whole({ photo, traces, text, options }) {
     const { width, height, data, film35 } = photo;
-    return this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, 1), options);
+    return this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, text, 1), options);
   }
 }
 
 /**
  * @param {Traces} traces
+ * @param {Line[][]} text
  * @param {number} scale
  * @returns {PageEdges[]}
  */
-function edgesOf({ sideways, lines: [first, second] }, scale) {
+function edgesOf({ sideways, lines: [first, second] }, text, scale) {
   /** @param {Line} line */
   const scaled = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescaled(x, scale), rescaled(y, scale)]));
   return first.map((line, i) => {
     const [one, other] = [scaled(line), scaled(second[i])];
-    return sideways ? { left: one, right: other } : { top: one, bottom: other };
+    const lines = (text[i] ?? []).map(scaled);
+    return sideways ? { left: one, right: other, lines } : { top: one, bottom: other, lines };
   });
 }
 

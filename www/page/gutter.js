@@ -36,7 +36,7 @@ function middle(nodes) {
  * @returns {Point | null}
  */
 function kink(grey, nodes) {
-  const { points, seen } = traced(grey, nodes, PLACES);
+  const { points, seen } = traced(grey, nodes, { places: PLACES });
   if (seen < 0.8) return null;
   // Along the chord, and across it.
   const [from, to] = [points[0], points[points.length - 1]];

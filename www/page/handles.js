@@ -7,8 +7,8 @@ import { Magnifier } from './magnifier.js';
 
 /** @import {Pixels} from './magnifier.js' */
 /** @typedef {readonly [x: number, y: number]} Place in pixels of the photo */
-/** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend', held?: boolean }} Handle */
-/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side', pulls?: number }} Line `pulls`: what is told when it is pulled */
+/** @typedef {{ x: number, y: number, name: string, kind: 'corner' | 'bend' | 'text', held?: boolean }} Handle */
+/** @typedef {{ points: readonly Place[], kind: 'edge' | 'side' | 'text' | 'text drawn' | 'text against', pulls?: number }} Line `pulls`: what is told when it is pulled */
 /** @typedef {{ handles: readonly Handle[], lines: readonly Line[] }} Drawing */
 /**
  * @typedef {object} Doings
@@ -16,6 +16,8 @@ import { Magnifier } from './magnifier.js';
  * @property {(pulls: number, place: [number, number]) => number} [pull] makes a handle there, and tells which it is
  * @property {(handle: number) => void} [remove]
  * @property {(handle: number) => void} [choose] it has the focus now
+ * @property {(place: [number, number]) => number} [begin] makes a handle where the photo itself is dragged, and tells which it
+ *   is; none, if it says less than 0
  */
 
 /** Pixels of the page for a press of an arrow key; with Shift it is ten times as much. */
@@ -32,6 +34,8 @@ export class Handles {
   #drawing = { handles: [], lines: [] };
   /** @type {HTMLButtonElement[]} */
   #buttons = [];
+  /** Whether a drag over the photo begins something new. */
+  drawing = false;
   #svg = shape('svg', { 'aria-hidden': 'true' });
   #magnifier;
   #doings;
@@ -70,7 +74,9 @@ export class Handles {
     });
     this.#svg.replaceChildren(...lines.flatMap(({ points, kind, pulls }) => {
       const d = `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
-      const seen = [shape('path', { d, class: 'under' }), shape('path', { d, class: kind })];
+      // What is found lies close together: no rim, or nothing is left of the photo.
+      const rims = kind === 'text' || kind === 'text against' ? [] : [shape('path', { d, class: 'under' })];
+      const seen = [...rims, shape('path', { d, class: kind })];
       return pulls === undefined ? seen : [...seen, shape('path', { d, class: 'grip', 'data-pulls': String(pulls) })];
     }));
   }
@@ -151,7 +157,7 @@ export class Handles {
       return [x + u - px, y + v - py];
     };
     holder.setPointerCapture(event.pointerId);
-    this.focus(handle);
+    this.#buttons[handle]?.focus({ preventScroll: true });
     this.#magnify(handle);
     const over = new AbortController();
     /** @param {Event} next */
@@ -182,8 +188,12 @@ export class Handles {
     const svg = this.#svg;
     svg.addEventListener('pointerdown', (event) => {
       const pulls = event.target instanceof Element ? event.target.getAttribute('data-pulls') : null;
-      const { pull } = this.#doings;
-      if (event.button !== 0 || pulls === null || !pull) return;
+      const { pull, begin } = this.#doings;
+      if (event.button !== 0) return;
+      /** @param {[number, number]} place */
+      const start = (place) => begin?.(place) ?? -1;
+      const make = this.drawing ? start : pulls !== null && pull ? (/** @type {[number, number]} */ place) => pull(Number(pulls), place) : null;
+      if (!make) return;
       // The line itself is drawn anew meanwhile.
       svg.setPointerCapture(event.pointerId);
       const over = new AbortController();
@@ -191,7 +201,8 @@ export class Handles {
       svg.addEventListener('pointermove', (moved) => {
         if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < PULL) return;
         over.abort();
-        this.#drag(event, svg, pull(Number(pulls), this.place(event)));
+        const handle = make(this.place(event));
+        if (handle >= 0) this.#drag(event, svg, handle);
       }, { signal });
       for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => over.abort(), { signal });
       event.preventDefault();

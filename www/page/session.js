@@ -3,13 +3,16 @@ import { Events } from '../events.js';
 import { suggested } from './detect.js';
 import { Flattening } from './flatten.js';
 import { gutterOf } from './gutter.js';
+import { rescaled } from './grey.js';
+import { flatPlace, lineBetween } from './lines.js';
 import { Outline } from './outline.js';
 import { settle, traced } from './snap.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {DewarpedPage, Options, Traces, Wish} from './flatten.js' */
+/** @import {DewarpedPage, Line, Options, Traces, Wish} from './flatten.js' */
+/** @import {Ends} from './lines.js' */
 /** @import {PagePhoto} from './photo.js' */
-/** @import {Which} from './outline.js' */
+/** @import {Point, Which} from './outline.js' */
 
 /**
  * @typedef {object} PageEvents
@@ -17,8 +20,12 @@ import { settle, traced } from './snap.js';
  * @property {{ outline: Outline, traces: Traces }} outline
  * @property {boolean} working whether a newer flat page is to come
  * @property {DewarpedPage} flat of the reduced photo
+ * @property {null} lines of text: others are drawn, or found
  * @property {unknown} problem why there is none
  */
+
+/** Lines of text that are shorter than this share of the photo are none. */
+const SHORT = 0.02;
 
 /** @extends {Events<PageEvents>} */
 export class PageSession extends Events {
@@ -28,10 +35,20 @@ export class PageSession extends Events {
   outline = Outline.within({ width: 1, height: 1 });
   /** Whether edges are drawn to what the photo shows. */
   snapping = true;
+  /** Whether lines of text are looked for. */
+  finding = true;
+  /** Lines of text that are drawn. @type {{ ends: Ends, points: Line }[]} */
+  drawn = [];
+  /** Those that were found. @type {Line[]} */
+  found = [];
+  /** Whether the page was found by these, or against them. */
+  agreed = true;
   /** @type {Options} */
   options = {};
 
   #flattening;
+  /** The newest flat page. @type {DewarpedPage | null} */
+  #flat = null;
   /** @type {Wish | null} */
   #newest = null;
 
@@ -48,6 +65,7 @@ export class PageSession extends Events {
    */
   show(photo, pages = 1) {
     this.photo = photo;
+    [this.drawn, this.found, this.#flat] = [[], [], null];
     this.#begin(photo, pages);
     this.emit('photo', photo);
     this.#changed();
@@ -115,7 +133,48 @@ export class PageSession extends Events {
     outline.move(which, [Math.min(Math.max(x, -0.5), photo.width - 0.5), Math.min(Math.max(y, -0.5), photo.height - 0.5)]);
     node.held = held || !this.snapping;
     if (ended && this.snapping && !node.held) settle(photo.grey, outline);
+    this.#changed(!ended);
+  }
+
+  /** @param {boolean} finding */
+  find(finding) {
+    this.finding = finding;
     this.#changed();
+  }
+
+  /**
+   * A line of text, drawn from one place to another; the newest if it has no number yet.
+   * @param {Ends} ends
+   * @param {{ line?: number, ended: boolean }} how
+   */
+  drawLine(ends, { line = this.drawn.length, ended }) {
+    if (!this.photo) return line;
+    const { photo: { grey, width, height }, snapping } = this;
+    const within = ends.map(([x, y]) => [Math.min(Math.max(x, 0), width - 1), Math.min(Math.max(y, 0), height - 1)]);
+    const [from, to] = /** @type {Ends} */ (within);
+    this.drawn[line] = { ends: [from, to], points: lineBetween(grey, [from, to], this.#flat, snapping && ended) };
+    if (ended && Math.hypot(to[0] - from[0], to[1] - from[1]) < SHORT * width) this.drawn.splice(line, 1);
+    this.emit('lines', null);
+    if (ended) this.#changed();
+    return line;
+  }
+
+  /** @param {number} line */
+  removeLine(line) {
+    this.drawn.splice(line, 1);
+    this.emit('lines', null);
+    this.#changed();
+  }
+
+  /** The page that a line of text is on. @param {Ends} ends */
+  #leaf([from, to]) {
+    const { pages, sideways } = this.outline;
+    const flat = this.#flat;
+    const middle = /** @type {Point} */ ([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
+    const place = flat && this.photo && flatPlace(flat, middle, this.photo.grey.scale);
+    if (pages === 1 || !place) return 0;
+    const share = sideways ? place[1] / flat.height : place[0] / flat.width;
+    return Math.min(pages - 1, Math.floor(share * pages));
   }
 
   /**
@@ -136,8 +195,14 @@ export class PageSession extends Events {
 
   /** The wish for the whole photo made flat. @returns {Wish | null} */
   wish() {
-    const { photo, options } = this;
-    return photo && { photo, traces: this.#traces(photo), options };
+    const { photo, options, finding, drawn } = this;
+    if (!photo) return null;
+    /** @type {Line[][]} */
+    const text = Array.from({ length: this.outline.pages }, () => []);
+    for (const { ends, points } of drawn) {
+      if (Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= SHORT * photo.width) text[this.#leaf(ends)].push(points);
+    }
+    return { photo, traces: this.#traces(photo), text, options: { ...options, findLines: finding } };
   }
 
   /** @param {Wish} wish */
@@ -145,21 +210,39 @@ export class PageSession extends Events {
     return this.#flattening.whole(wish);
   }
 
+  /** @param {DewarpedPage} flat @param {Wish} wish */
+  #show(flat, { photo, options: { findLines } }) {
+    this.#flat = flat;
+    // While something is dragged, the lines stay as they were.
+    if (findLines || !this.finding) {
+      const back = (/** @type {number} */ at) => rescaled(at, 1 / photo.grey.scale);
+      this.found = flat.lines.flat().map((line) => line.map(([x, y]) => [back(x), back(y)]));
+      this.agreed = flat.report.linesUsed === flat.report.linesFound;
+    }
+    this.emit('flat', flat);
+  }
+
   #settled() {
     if (this.photo && this.snapping) settle(this.photo.grey, this.outline);
     this.#changed();
   }
 
-  #changed() {
+  /** @param {boolean} [moving] whether this goes on: then lines of text are not looked for, which takes longer */
+  #changed(moving = false) {
     const wish = this.wish();
     if (!wish) return;
+    if (moving) wish.options.findLines = false;
     this.emit('outline', { outline: this.outline, traces: wish.traces });
     this.emit('working', true);
     this.#newest = wish;
     void this.#flattening.preview(wish, (done) => {
       if (done.wish.photo !== this.photo) return;
-      if ('flat' in done) this.emit('flat', done.flat);
-      else this.emit('problem', done.error);
+      if ('flat' in done) this.#show(done.flat, done.wish);
+      else {
+        [this.found, this.#flat] = [[], null];
+        this.emit('problem', done.error);
+      }
+      this.emit('lines', null);
       if (done.wish === this.#newest) this.emit('working', false);
     });
   }

@@ -36,12 +36,11 @@ const ENOUGH = 40;
  * The edge beside a line through nodes; its ends stay.
  * @param {Grey} grey
  * @param {readonly Node[]} nodes
- * @param {number} [places] along it that are looked at, less one
+ * @param {{ places?: number, reach?: number }} [how] places along it that are looked at, less one, and how far beside it
  * @returns {Trace}
  */
-export function traced(grey, nodes, places = PLACES) {
+export function traced(grey, nodes, { places = PLACES, reach = reachOf(grey) } = {}) {
   const line = through(nodes.map(({ x, y }) => [rescaled(x, grey.scale), rescaled(y, grey.scale)]), places);
-  const reach = reachOf(grey);
   // What is held is not left, and what is beside it only little.
   const holds = nodes.flatMap(({ x, y, held, corner }) => (held || corner ? [[rescaled(x, grey.scale), rescaled(y, grey.scale)]] : []));
   const room = line.map(([x, y]) => Math.min(reach, ...holds.map(([u, v]) => 0.5 * Math.hypot(x - u, y - v))));

@@ -16,13 +16,22 @@ export function pagePhotoPanel(session) {
   const more = element('point-add', HTMLButtonElement);
   const fewer = element('point-remove', HTMLButtonElement);
   const snap = element('snap', HTMLInputElement);
+  const drawLine = element('line-draw', HTMLButtonElement);
+  const removeLine = element('line-remove', HTMLButtonElement);
+  const findLines = element('find-lines', HTMLInputElement);
   /** Which node each handle is. @type {Which[]} */
   let nodes = [];
   /** The handle that had the focus last. */
   let chosen = -1;
 
   const handles = new Handles(box, {
-    move: (handle, to, { key, ended }) => session.move(nodes[handle], to, { held: key, ended }),
+    move: (handle, to, { key, ended }) => {
+      const end = endOf(handle);
+      if (!end) return session.move(nodes[handle], to, { held: key, ended });
+      const { ends: [from, last] } = session.drawn[end.line];
+      session.drawLine(end.end === 0 ? [to, last] : [from, to], { line: end.line, ended });
+    },
+    begin: (place) => nodes.length + 2 * session.drawLine([place, place], { ended: false }) + 1,
     pull: (edge, place) => handleOf(session.add(/** @type {0 | 1} */ (edge), place)),
     remove: (handle) => remove(handle),
     choose: (handle) => {
@@ -32,14 +41,27 @@ export function pagePhotoPanel(session) {
   });
   /** @param {Which} which */
   const handleOf = ({ edge, node }) => nodes.findIndex((one) => one.edge === edge && one.node === node);
+  /** Which line of text a handle is an end of. @param {number} handle */
+  const endOf = (handle) => {
+    const [line, end] = [(handle - nodes.length) >> 1, (handle - nodes.length) & 1];
+    return line >= 0 && line < session.drawn.length ? { line, end } : null;
+  };
   const bend = () => nodes[chosen] !== undefined && !session.outline.at(nodes[chosen])?.corner;
   const tell = () => {
     // Only said to be disabled, so that the keyboard's focus is not lost.
     fewer.setAttribute('aria-disabled', String(!bend()));
-    more.setAttribute('aria-disabled', String(session.photo === null));
+    for (const button of [more, drawLine]) button.setAttribute('aria-disabled', String(session.photo === null));
+    removeLine.setAttribute('aria-disabled', String(endOf(chosen) === null));
   };
   /** @param {number} handle */
   const remove = (handle) => {
+    const end = endOf(handle);
+    if (end) {
+      session.removeLine(end.line);
+      if (session.drawn.length > 0) handles.focus(nodes.length + 2 * Math.max(0, end.line - 1));
+      else drawLine.focus();
+      return;
+    }
     if (session.outline.at(nodes[handle])?.corner !== false) return;
     session.remove(nodes[handle]);
     handles.focus(handle - 1);
@@ -50,7 +72,26 @@ export function pagePhotoPanel(session) {
     const edge = nodes[chosen]?.edge ?? 0;
     handles.focus(handleOf(session.add(edge, widest(session, edge))));
   });
-  fewer.addEventListener('click', () => remove(chosen));
+  fewer.addEventListener('click', () => bend() && remove(chosen));
+  removeLine.addEventListener('click', () => endOf(chosen) && remove(chosen));
+  /** @param {boolean} drawing */
+  const draw = (drawing) => {
+    handles.drawing = drawing;
+    box.classList.toggle('drawing', drawing);
+    drawLine.setAttribute('aria-pressed', String(drawing));
+  };
+  drawLine.addEventListener('click', (event) => {
+    if (!session.photo) return;
+    // By keyboard there is a line at once, to be moved by its ends.
+    if (event.detail !== 0) return draw(!handles.drawing);
+    const corners = session.outline.sides().flat();
+    const [x, y] = [Math.min(...corners.map((one) => one.x)), Math.min(...corners.map((one) => one.y))];
+    const [u, v] = [Math.max(...corners.map((one) => one.x)), Math.max(...corners.map((one) => one.y))];
+    /** @type {(s: number) => [number, number]} */
+    const at = (s) => [x + s * (u - x), (y + v) / 2];
+    handles.focus(nodes.length + 2 * session.drawLine([at(0.25), at(0.75)], { ended: true }));
+  });
+  findLines.addEventListener('change', () => session.find(findLines.checked));
   snap.addEventListener('change', () => session.snap(snap.checked));
   element('suggest', HTMLButtonElement).addEventListener('click', () => session.suggest());
 
@@ -64,6 +105,7 @@ export function pagePhotoPanel(session) {
 
   session.on('photo', (photo) => {
     chosen = -1;
+    draw(false);
     handles.on(photo);
     box.hidden = false;
     element('page-empty', HTMLElement).hidden = true;
@@ -71,20 +113,36 @@ export function pagePhotoPanel(session) {
     canvas.setAttribute('aria-label', `The photo ${photo.name}`);
     paint();
   });
+  /** @type {Line[]} */
+  let outlined = [];
+  const redraw = () => {
+    const { outline } = session;
+    /** @type {Line[]} */
+    const found = session.found.map((points) => ({ kind: session.agreed ? 'text' : 'text against', points }));
+    /** @type {Line[]} */
+    const drawn = session.drawn.map(({ points }) => ({ kind: 'text drawn', points }));
+    handles.draw({
+      handles: [
+        ...nodes.map((which) => {
+          const { x, y, corner, held } = outline.at(which);
+          return { x, y, name: outline.name(which), kind: /** @type {'corner' | 'bend'} */ (corner ? 'corner' : 'bend'), held };
+        }),
+        ...session.drawn.flatMap(({ ends }, line) => ends.map(([x, y], end) => (
+          { x, y, name: `Line of text ${line + 1}, ${end === 0 ? 'beginning' : 'end'}`, kind: /** @type {const} */ ('text') }))),
+      ],
+      lines: [...found, ...drawn, ...outlined],
+    });
+    tell();
+  };
+  session.on('lines', redraw);
   session.on('outline', ({ outline, traces }) => {
     nodes = outline.edges.flatMap((list, edge) => list.map((_, node) => ({ edge: /** @type {0 | 1} */ (edge), node })));
     /** @type {Line[]} */
     const sides = outline.sides().map(([p, q]) => ({ kind: 'side', points: [[p.x, p.y], [q.x, q.y]] }));
     /** @type {Line[]} */
     const edges = traces.lines.flatMap((spans, edge) => spans.map((points) => ({ kind: /** @type {const} */ ('edge'), points, pulls: edge })));
-    handles.draw({
-      handles: nodes.map((which) => {
-        const { x, y, corner, held } = outline.at(which);
-        return { x, y, name: outline.name(which), kind: corner ? 'corner' : 'bend', held };
-      }),
-      lines: [...sides, ...edges],
-    });
-    tell();
+    outlined = [...sides, ...edges];
+    redraw();
   });
   tell();
 }

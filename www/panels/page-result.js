@@ -108,18 +108,27 @@ function sizeOf({ size: [wide, high], unit }) {
  * @returns {[string, string][]}
  */
 function factsOf(flat, scale) {
-  const { verdict, error, errorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual } = flat.report;
+  const { verdict, error, errorBound, focalLength, focalDeviation, tilt, bend, disagreement, residual, lines, linesFound } = flat.report;
   const wrong = verdict === 'notThisKind';
   return [
     ['Likely error', wrong ? '–' : `${percent(error / 100)} of the width`],
     ['In 95 of 100 cases below', wrong ? '–' : percent(errorBound / 100)],
     ['Edges disagree by', `${percent(disagreement / 100)} of the width`],
+    ...(lines + linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesFacts(flat.report)])]),
     ['Points off the edges', `${number(residual / scale, 2)} pixels`],
     ['Bent by', degrees((bend * Math.PI) / 180)],
     ['Tilted by', degrees((tilt * Math.PI) / 180)],
     ['Focal length', `${number(focalLength / scale, 4)} pixels ± ${percent(focalDeviation / 100)}`],
     [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat)],
   ];
+}
+
+/** @param {DewarpedPage['report']} report */
+function linesFacts({ lines, linesFound, linesUsed, linesDisagreement }) {
+  const drawn = lines - linesUsed;
+  const count = [...(linesFound > 0 ? [`${linesFound} found`] : []), ...(drawn > 0 ? [`${drawn} drawn`] : [])].join(', ');
+  if (linesDisagreement > 0) return `${count}, off by ${percent(linesDisagreement / 100)}`;
+  return `${count}, ${linesUsed < linesFound ? 'not used' : 'as the edges'}`;
 }
 
 /** @param {unknown} error */

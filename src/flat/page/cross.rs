@@ -22,6 +22,8 @@ struct Cross {
     ruling: bool,
     /// Where it is, as a share of the page; of text that is open.
     level: Option<f64>,
+    /// Whether it is text that was found, not traced by anybody.
+    found: bool,
     points: Vec<[f64; 2]>,
     weight: f64,
 }
@@ -64,6 +66,10 @@ const MOST: usize = 500;
 const EACH: usize = 24;
 const ALL: usize = 800;
 
+/// The same of text that was found: it lies nearer to its line than what a hand traces.
+const EACH_FOUND: usize = 12;
+const ALL_FOUND: usize = 400;
+
 /// Most independent points that the errors of tracing one are taken for.
 const INDEPENDENT: f64 = 8.0;
 
@@ -82,7 +88,9 @@ impl Crosses {
                 limit: MOST,
             });
         }
+        let found: usize = pages.iter().map(|page| page.found.len()).sum();
         let each = EACH.min((ALL / text.max(1)).max(2));
+        let each_found = EACH_FOUND.min((ALL_FOUND / found.max(1)).max(3));
         let mut list = Vec::new();
         for (page, traced) in pages.iter().enumerate() {
             for (number, line) in traced.text.iter().enumerate() {
@@ -93,6 +101,13 @@ impl Crosses {
                     ..cross
                 });
             }
+            for line in &traced.found {
+                list.push(Cross {
+                    ruling: sideways,
+                    found: true,
+                    ..Cross::new(line, page, each_found)
+                });
+            }
             for (line, level) in traced.sides.iter().flatten().zip([0.0, 1.0]) {
                 list.push(Cross {
                     ruling: true,
@@ -101,7 +116,10 @@ impl Crosses {
                 });
             }
         }
-        Ok(Crosses { list, text })
+        Ok(Crosses {
+            list,
+            text: text + found,
+        })
     }
 
     /// How many distances count, by their weights.
@@ -277,13 +295,15 @@ impl Crosses {
             .sum()
     }
 
-    /// How the distances are spread along each straight edge, and along each line of text.
-    pub fn misfits(&self, off: &[Off]) -> [Vec<Misfit>; 2] {
-        let mut found = [Vec::new(), Vec::new()];
+    /// How the distances are spread along each straight edge, along each line of text that was given, and along
+    /// each that was found.
+    pub fn misfits(&self, off: &[Off]) -> [Vec<Misfit>; 3] {
+        let mut found = [const { Vec::new() }; 3];
         for (cross, own) in self.list.iter().zip(off) {
             let pixels: Vec<f64> = own.points.iter().map(|point| point.pixels).collect();
             let count = cross.weight * pixels.len() as f64;
-            found[usize::from(cross.level.is_none())].push(Misfit::new(&pixels, count));
+            let kind = usize::from(cross.level.is_none()) + usize::from(cross.found);
+            found[kind].push(Misfit::new(&pixels, count));
         }
         found
     }
@@ -291,7 +311,9 @@ impl Crosses {
     /// The mean product of the distances of neighbouring lines of text at the same places, in pixels²,
     /// and over how many: what lines have in common is no error of tracing them.
     pub fn common(&self, off: &[Off]) -> (f64, f64) {
-        let (mut sum, mut count) = (0.0, 0.0);
+        /// So many lines may stand between, in columns beside.
+        const COLUMNS: usize = 6;
+        let (mut sum, mut points, mut count) = (0.0, 0.0, 0.0);
         let mut order: Vec<usize> = (0..off.len())
             .filter(|i| self.list[*i].level.is_none())
             .collect();
@@ -300,20 +322,24 @@ impl Crosses {
             let ((p, x), (q, y)) = (key(*i), key(*j));
             p.cmp(&q).then(x.total_cmp(&y))
         });
-        for pair in order.windows(2) {
-            let [one, other] = [pair[0], pair[1]];
-            if self.list[one].page != self.list[other].page {
-                continue;
-            }
-            for point in &off[one].points {
-                if let Some(beside) = off[other].at(point.along) {
-                    sum += point.pixels * beside;
-                    count += self.list[one].weight;
-                }
+        for (i, one) in order.iter().enumerate() {
+            // The next one below in the same column.
+            let below = (order[i + 1..].iter().take(COLUMNS))
+                .filter(|other| self.list[**other].page == self.list[*one].page)
+                .map(|other| -> Vec<f64> {
+                    let own = off[*one].points.iter();
+                    own.filter_map(|p| Some(p.pixels * off[*other].at(p.along)?))
+                        .collect()
+                })
+                .find(|products| !products.is_empty());
+            if let Some(products) = below {
+                sum += products.iter().sum::<f64>();
+                points += products.len() as f64;
+                count += self.list[*one].weight * products.len() as f64;
             }
         }
         if count > 0.0 {
-            (sum / count, count)
+            (sum / points, count)
         } else {
             (0.0, 0.0)
         }
@@ -361,6 +387,7 @@ impl Cross {
             page,
             ruling: false,
             level: None,
+            found: false,
             points,
             weight,
         }

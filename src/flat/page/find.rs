@@ -21,7 +21,11 @@ pub struct CurledPage {
     /// Length of the cylinder's unit, in millimetres where these are known.
     pub(super) unit: f64,
     pub(super) millimetres: bool,
-    report: PageReport,
+    /// Lines of text that were found in the photo, by page.
+    pub(super) found: Vec<Vec<Trace>>,
+    /// How far their points are off, as a root mean square, over the accuracy of traced ones.
+    pub(super) found_off: f64,
+    pub(super) report: PageReport,
 }
 
 /// Degrees of the curve's direction that are tried, each from the one before.
@@ -67,6 +71,16 @@ impl CurledPage {
     pub fn with_lines(
         edges: &[Edges],
         text: &[Vec<Trace>],
+        photo: [usize; 2],
+        options: &PageOptions,
+    ) -> Result<Self> {
+        Self::solved(edges, [text, &[]], photo, options)
+    }
+
+    /// By lines of text that are given, and by others that were found in the photo.
+    pub(super) fn solved(
+        edges: &[Edges],
+        text: [&[Vec<Trace>]; 2],
         photo: [usize; 2],
         options: &PageOptions,
     ) -> Result<Self> {
@@ -174,6 +188,9 @@ impl CurledPage {
             sideways,
             unit: 1.0,
             millimetres: false,
+            found: Vec::new(),
+            found_off: Misfit::together(&traces.misfits(&residuals)[2])
+                .map_or(0.0, |all| all.all.sqrt() / accuracy),
             report: PageReport {
                 ratio: if sideways { 1.0 / ratio } else { ratio },
                 ..report
@@ -385,10 +402,10 @@ fn report(
     estimate: Estimate,
     accuracy: f64,
 ) -> PageReport {
-    let [edges, text] = traces.misfits(residuals);
+    let [edges, text, found] = traces.misfits(residuals);
     let common = traces.common(residuals);
     // Of the edge that fits worst, or of all lines of text.
-    let lines = Misfit::together(&text);
+    let lines = Misfit::together(&[&text[..], &found].concat());
     let worst = |of: fn(&Misfit) -> f64, of_lines: f64| {
         let squares = edges.iter().map(of);
         squares.fold(of_lines, f64::max).sqrt()
@@ -402,6 +419,7 @@ fn report(
     let fewest = lines()
         .map(|line| line.independent)
         .fold(f64::INFINITY, f64::min);
+    let lines_found = found.len();
     let findings = Findings {
         estimate,
         edges,
@@ -424,6 +442,9 @@ fn report(
         residual,
         disagreement: 100.0 * smooth / seen,
         lines: traces.text(),
+        lines_found,
+        lines_used: lines_found,
+        lines_disagreement: 100.0 * common.sqrt() / seen,
         ratio: cylinder.length,
     }
 }

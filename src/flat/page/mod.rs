@@ -42,7 +42,8 @@
 //! What two edges cannot tell: an edge whose plane passes near the camera looks straight however the
 //! page is bent, and then nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
 //! slight fold that both edges explain nearly as well by a curve is told from one by its known
-//! format, by lines of text ([`CurledPage::with_lines`]) or by its straight edges ([`Edges::All`]).
+//! format, by lines of text ([`CurledPage::in_photo`] finds them, [`CurledPage::with_lines`] is given them) or by its
+//! straight edges ([`Edges::All`]).
 //! Lenses are taken to be free of distortion.
 
 mod corners;
@@ -53,10 +54,12 @@ mod find;
 mod known;
 mod misfit;
 mod output;
+mod photo;
 mod prior;
 mod report;
 mod solve;
 mod start;
+mod text;
 mod trace;
 
 pub use find::CurledPage;

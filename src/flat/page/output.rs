@@ -46,7 +46,7 @@ impl CurledPage {
     }
 
     /// Shares along the curve, and along the rulings.
-    fn turned(&self, [from_left, from_top]: [f64; 2]) -> (f64, f64) {
+    pub(super) fn turned(&self, [from_left, from_top]: [f64; 2]) -> (f64, f64) {
         if self.sideways {
             (from_top, 1.0 - from_left)
         } else {

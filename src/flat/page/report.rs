@@ -61,8 +61,16 @@ pub struct PageReport {
     /// next, which is no scatter of a hand: by how much they disagree, in % of a page's width as it is
     /// seen.
     pub disagreement: f64,
-    /// Lines of text that it was found by besides the edges.
+    /// Lines of text that it was found by besides the edges, given and found.
     pub lines: usize,
+    /// Lines of text that were found in the photo by themselves.
+    pub lines_found: usize,
+    /// Those of them that it was found by, all or none: if they contradict the edges, the page is that of the edges,
+    /// and only the verdict is theirs.
+    pub lines_used: usize,
+    /// By how much lines of text disagree with the page, in % of its width as it is seen: what neighbouring ones
+    /// have in common of it.
+    pub lines_disagreement: f64,
     /// Height over width of a page as it is seen, without use of a format that was given.
     pub ratio: f64,
 }
@@ -72,9 +80,9 @@ pub(super) struct Findings {
     pub estimate: Estimate,
     /// How the residuals are spread along each of the edges.
     pub edges: Vec<Misfit>,
-    /// Likewise along lines of text.
+    /// Likewise along lines of text that were given.
     pub text: Vec<Misfit>,
-    /// What these have in common, as a mean square in pixels².
+    /// What lines of text, found ones too, have in common, as a mean square in pixels².
     pub common: f64,
     /// Standard deviation that was assumed.
     pub accuracy: f64,
@@ -94,7 +102,7 @@ impl Findings {
         /// Share of the page's width.
         const DOUBTFUL: f64 = 0.01;
         /// What lines have in common is free of errors of tracing them, so that less of it tells.
-        const LINES: f64 = 0.4;
+        const LINES: f64 = 0.27;
         // No lens is true to less than this share of the width.
         let least = self.accuracy.max(0.0007 * self.seen);
         // What that many points come to by chance, and a little more.

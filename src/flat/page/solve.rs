@@ -249,9 +249,9 @@ impl Traces {
         Some((best, residuals))
     }
 
-    /// How the distances are spread along each of the edges, the bent ones first, and along each line of
-    /// text.
-    pub fn misfits(&self, residuals: &Residuals) -> [Vec<Misfit>; 2] {
+    /// How the distances are spread along each of the edges, the bent ones first, along each line of text that
+    /// was given, and along each that was found.
+    pub fn misfits(&self, residuals: &Residuals) -> [Vec<Misfit>; 3] {
         let mut edges = Vec::new();
         let key = |p: &Point| (p.page, p.edge);
         let mut start = 0;
@@ -268,17 +268,17 @@ impl Traces {
             edges.push(Misfit::new(&own, weight * count as f64));
             start += count;
         }
-        let [sides, text] = self.crosses.misfits(&residuals.crosses);
+        let [sides, given, found] = self.crosses.misfits(&residuals.crosses);
         edges.extend(sides);
-        [edges, text]
+        [edges, given, found]
     }
 
     /// What neighbouring lines of text have in common of their distances, as a mean square in pixels²: that
     /// of errors of tracing them is not certain to be above 0.
     pub fn common(&self, residuals: &Residuals) -> f64 {
         let (product, count) = self.crosses.common(&residuals.crosses);
-        let [_, text] = self.misfits(residuals);
-        let Some(all) = Misfit::together(&text) else {
+        let [_, given, found] = self.misfits(residuals);
+        let Some(all) = Misfit::together(&[given, found].concat()) else {
             return 0.0;
         };
         let independent = count / all.correlation();

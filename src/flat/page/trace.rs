@@ -34,13 +34,16 @@ pub(super) struct Traced {
     pub sides: Option<[Line; 2]>,
     /// Lines of text.
     pub text: Vec<Line>,
+    /// Lines of text that were found in the photo.
+    pub found: Vec<Line>,
 }
 
 /// Everything that was traced, page by page from the curve's start, and whether the curve runs down
-/// the page. `text` are lines of text, by page.
+/// the page. Lines of text, by page, are those that are given, and those that were found on the pages in their
+/// order from left to right.
 pub(super) fn traced(
     pages: &[Edges],
-    text: &[Vec<Trace>],
+    [text, seen]: [&[Vec<Trace>]; 2],
     photo: [usize; 2],
 ) -> Result<(Vec<Traced>, bool)> {
     if !(1..=2).contains(&pages.len()) {
@@ -58,6 +61,11 @@ pub(super) fn traced(
         ));
     }
     let sideways = bent_sideways(pages)?;
+    let lines = |own: Option<&Vec<Trace>>| -> Result<Vec<Line>> {
+        (own.into_iter().flatten())
+            .map(|trace| line((TEXT, trace), photo))
+            .collect()
+    };
     let mut found = Vec::with_capacity(pages.len());
     for (number, page) in pages.iter().enumerate() {
         // Turned by 90°, the right edge is the top one, and the left one the bottom.
@@ -71,13 +79,19 @@ pub(super) fn traced(
         if let Some(sides) = &sides {
             at_corners(&pair, sides)?;
         }
-        let text = (text.get(number).into_iter().flatten())
-            .map(|trace| line((TEXT, trace), photo))
-            .collect::<Result<_>>()?;
-        found.push(Traced { pair, sides, text });
+        found.push(Traced {
+            pair,
+            sides,
+            text: lines(text.get(number))?,
+            found: Vec::new(),
+        });
     }
     if let [one, other] = &mut found[..] {
         neighbours(one, other)?;
+    }
+    // Found on pages that lie in their order, not as they are given.
+    for (page, own) in found.iter_mut().zip(seen) {
+        page.found = lines(Some(own))?;
     }
     Ok((found, sideways))
 }

@@ -1,5 +1,6 @@
 //! Flat pages from traced edges, against synthetic pages under a camera.
 
+mod found;
 mod lines;
 mod measure;
 mod scene;

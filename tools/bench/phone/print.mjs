@@ -10,7 +10,7 @@ import { greyOf } from './truth.mjs';
 
 /** Dots per inch of flat images and of their originals; what is photographed has twice as many. */
 export const DPI = 150;
-const FINE = 2 * DPI;
+export const FINE = 2 * DPI;
 
 const SENTENCES = [
   'A sheet of paper can be rolled and folded, but it does not stretch.',
@@ -36,7 +36,7 @@ const SENTENCES = [
  * @param {number} seed
  * @param {number} count
  */
-function paragraphs(seed, count) {
+export function paragraphs(seed, count) {
   const next = uniform(seed);
   const order = SENTENCES.map((sentence) => ({ sentence, at: next() })).sort((a, b) => a.at - b.at);
   return Array.from({ length: count }, (_, i) =>
@@ -97,7 +97,7 @@ export function jpeg(png, { width, height }) {
  * @template T
  * @param {(browser: Awaited<ReturnType<typeof launch>>) => Promise<T>} work
  */
-async function withBrowser(work) {
+export async function withBrowser(work) {
   if (skip) throw new Problem(`The pages' text is set by a browser, and there is ${skip}: DEVELOPABLE_CHROME says where one is.`);
   const browser = await launch();
   try {

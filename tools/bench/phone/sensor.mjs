@@ -144,3 +144,23 @@ export function photograph({ width, height, places }, print, page) {
   }
   return { width, height, data };
 }
+
+/**
+ * The same photo in uneven light, with the shadow of a hand across it and a small sensor's noise.
+ * @template {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} P
+ * @param {P} photo
+ * @returns {P}
+ */
+export function shaded(photo) {
+  const { width, height } = photo;
+  const next = normal(3);
+  const data = photo.data.slice();
+  for (let i = 0; i < width * height; i += 1) {
+    const [x, y] = [(i % width) / width, Math.floor(i / width) / height];
+    const across = x + 0.6 * y;
+    const light = (0.5 + 0.4 * x * (1 - 0.4 * y)) * (across > 0.75 && across < 1 ? 0.7 : 1);
+    const noise = 10 + 6 * next();
+    for (let k = 4 * i; k < 4 * i + 3; k += 1) data[k] = photo.data[k] * light + noise;
+  }
+  return { ...photo, data };
+}

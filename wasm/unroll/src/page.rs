@@ -22,6 +22,8 @@ struct EdgesInput {
     /// Two edges, or the upper, lower, left and right one; then the lines.
     traces: Vec<TraceInput>,
     edges: usize,
+    /// Whether nothing is said of lines.
+    open: bool,
 }
 
 #[derive(Deserialize)]
@@ -96,6 +98,8 @@ struct PageOutput {
     size: [f64; 2],
     unit: &'static str,
     mesh: MeshOutput,
+    /// Lines of text that were found, by page.
+    lines: Vec<Vec<Vec<[f64; 2]>>>,
     verdict: PageVerdict,
     report: PageReport,
 }
@@ -116,6 +120,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
     let mut maps = MapOptions::default();
     let mut focal = Vec::new();
+    let mut finding = None;
     for (name, value) in entries(&options)? {
         let number = "must be a number";
         match name.as_str() {
@@ -139,10 +144,11 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
                 known = known.ruler(Ruler { from, to, length });
             }
             "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
+            "findLines" => finding = Some(option("findLines", value, "must be true or false")?),
             "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
             _ if maps.take(&name, &value)? => {}
             _ => {
-                let names = "dots, map, grid, focalLength, fieldOfView, film35, page, ruler, centre and accuracy";
+                let names = "dots, map, grid, focalLength, fieldOfView, film35, page, ruler, centre, accuracy and findLines";
                 return Err(unknown(&name, names));
             }
         }
@@ -157,6 +163,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
         }
     }
     let edges: Vec<EdgesInput> = from_value(edges)?;
+    let find = finding.unwrap_or_else(|| edges.iter().all(|page| page.open));
     let (mut pages, mut lines) = (Vec::new(), Vec::new());
     for page in edges {
         let (edges, own) = page.into_edges()?;
@@ -165,7 +172,11 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     }
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
-    let page = CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)?;
+    let page = if find {
+        CurledPage::in_photo(&pages, &lines, &photo, &known)?
+    } else {
+        CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)?
+    };
     let map = page.warp_map(&wanted)?;
     let mesh = page.mesh()?;
     Ok(to_value(&PageOutput {
@@ -183,9 +194,19 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             triangles: mesh.triangles().as_flattened().into(),
             uvs: mesh.uvs().unwrap_or_default().as_flattened().into(),
         },
+        lines: (page.text().iter())
+            .map(|lines| lines.iter().map(points).collect())
+            .collect(),
         verdict: page.report().verdict,
         report: *page.report(),
     })?)
+}
+
+fn points(line: &Trace) -> Vec<[f64; 2]> {
+    match line {
+        Trace::Points(points) => points.clone(),
+        _ => Vec::new(),
+    }
 }
 
 /// The option `page`.

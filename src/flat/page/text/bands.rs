@@ -1,0 +1,186 @@
+//! Bands of ink that go on from strip to strip of a page.
+
+use super::ink::Ink;
+use super::ranked;
+
+/// How much ink each row has, by upright strips of the page.
+pub(super) struct Strips {
+    /// Of pixels.
+    pub step: f64,
+    profiles: Vec<Vec<f32>>,
+}
+
+/// The same, smoothed along the columns.
+pub(super) struct Smoothed(pub Vec<Vec<f32>>);
+
+/// The middle of a band: strips, and its row in each.
+pub(super) type Band = Vec<(usize, f64)>;
+
+/// Strips across a page: of body text on A4, each shows some two letters.
+const STRIPS: usize = 48;
+
+/// Pixels of a strip at least.
+const NARROW: usize = 6;
+
+/// Strips in a band at least.
+pub(super) const LEAST: usize = 8;
+
+/// Strips that a band may miss.
+const GAP: usize = 2;
+
+/// Share of ink by which a band differs from what is above and below it, at least.
+const FAINT: f32 = 0.03;
+
+/// How far from where a band goes on it is looked for, over its scale, and its steepest slope.
+const REACH: f64 = 1.0;
+const STEEP: f64 = 0.25;
+
+impl Strips {
+    pub fn new(ink: &Ink) -> Self {
+        let count = STRIPS.min(ink.width / NARROW).max(1);
+        let step = ink.width as f64 / count as f64;
+        let edge = |k: usize| ((k as f64 * step) as usize).min(ink.width);
+        let blocks: Vec<Vec<f32>> = (0..count)
+            .map(|k| {
+                let (from, to) = (edge(k), edge(k + 1).max(edge(k) + 1));
+                (0..ink.height)
+                    .map(|row| {
+                        let own = &ink.data[row * ink.width..][from..to];
+                        own.iter().sum::<f32>() / (to - from) as f32
+                    })
+                    .collect()
+            })
+            .collect();
+        // With half of both neighbours.
+        let profiles = (0..count)
+            .map(|k| {
+                let [before, after] = [k.saturating_sub(1), (k + 1).min(count - 1)];
+                (0..ink.height)
+                    .map(|row| {
+                        0.25 * (blocks[before][row] + 2.0 * blocks[k][row] + blocks[after][row])
+                    })
+                    .collect()
+            })
+            .collect();
+        Strips { step, profiles }
+    }
+
+    pub fn smoothed(&self, sigma: f64) -> Smoothed {
+        let reach = (3.0 * sigma).ceil() as usize;
+        let kernel: Vec<f32> = (0..=2 * reach)
+            .map(|i| (-0.5 * ((i as f64 - reach as f64) / sigma).powi(2)).exp() as f32)
+            .collect();
+        let norm: f32 = kernel.iter().sum();
+        let smooth = |profile: &Vec<f32>| -> Vec<f32> {
+            let last = profile.len() as isize - 1;
+            (0..=last)
+                .map(|row| {
+                    let near = |i: usize| {
+                        profile[(row + i as isize - reach as isize).clamp(0, last) as usize]
+                    };
+                    kernel
+                        .iter()
+                        .enumerate()
+                        .map(|(i, k)| k * near(i))
+                        .sum::<f32>()
+                        / norm
+                })
+                .collect()
+        };
+        Smoothed(self.profiles.iter().map(smooth).collect())
+    }
+}
+
+impl Smoothed {
+    /// Where the profile of a strip is brightest against both sides: largest second derivatives.
+    fn peaks(&self, strip: usize, sigma: f64) -> Vec<f64> {
+        let p = &self.0[strip];
+        let scale = (sigma * sigma) as f32;
+        let bent = |row: usize| scale * (2.0 * p[row] - p[row - 1] - p[row + 1]);
+        (2..p.len().saturating_sub(2))
+            .filter_map(|row| {
+                let [a, b, c] = [bent(row - 1), bent(row), bent(row + 1)];
+                (b > FAINT && b >= a && b > c).then(|| row as f64 + vertex([a, b, c]))
+            })
+            .collect()
+    }
+
+    /// Bands of about that scale.
+    pub fn bands(&self, sigma: f64, step: f64) -> Vec<Band> {
+        struct Open {
+            band: Band,
+            slope: f64,
+        }
+        let mut open: Vec<Open> = Vec::new();
+        let mut found = Vec::new();
+        for strip in 0..self.0.len() {
+            let peaks = self.peaks(strip, sigma);
+            let mut pairs = Vec::new();
+            for (i, one) in open.iter().enumerate() {
+                let (last, row) = one.band[one.band.len() - 1];
+                let gone = (strip - last) as f64;
+                let ahead = row + one.slope * gone * step;
+                let reach = (REACH * sigma).max(1.0) * gone.sqrt();
+                let from = peaks.partition_point(|y| *y < ahead - reach);
+                for (j, y) in peaks.iter().enumerate().skip(from) {
+                    if *y > ahead + reach {
+                        break;
+                    }
+                    pairs.push(((y - ahead).abs() * gone, i, j));
+                }
+            }
+            let gaps: Vec<f64> = pairs.iter().map(|pair| pair.0).collect();
+            let mut taken = vec![false; peaks.len()];
+            let mut continued = vec![false; open.len()];
+            for k in ranked(&gaps) {
+                let (_, i, j) = pairs[k];
+                if taken[j] || continued[i] {
+                    continue;
+                }
+                (taken[j], continued[i]) = (true, true);
+                let one = &mut open[i];
+                let (last, row) = one.band[one.band.len() - 1];
+                let slope = (peaks[j] - row) / ((strip - last) as f64 * step);
+                one.slope = (0.75 * one.slope + 0.25 * slope).clamp(-STEEP, STEEP);
+                one.band.push((strip, peaks[j]));
+            }
+            let (on, ended): (Vec<_>, Vec<_>) = open
+                .into_iter()
+                .partition(|one| strip - one.band[one.band.len() - 1].0 <= GAP);
+            found.extend(ended.into_iter().map(|one| one.band));
+            open = on;
+            for (row, _) in peaks.iter().zip(&taken).filter(|(_, taken)| !**taken) {
+                open.push(Open {
+                    band: vec![(strip, *row)],
+                    slope: 0.0,
+                });
+            }
+        }
+        found.extend(open.into_iter().map(|one| one.band));
+        found.retain(|band| band.len() >= LEAST);
+        found
+    }
+
+    /// The lower edge of a band: where ink ends most steeply.
+    pub fn baseline(&self, strip: usize, row: f64, sigma: f64) -> Option<f64> {
+        let p = &self.0[strip];
+        let [from, to] = [0.1, 2.4].map(|k| (row + k * sigma).round());
+        let [from, to] = [
+            from.max(2.0) as usize,
+            to.min(p.len() as f64 - 3.0) as usize,
+        ];
+        let drop = |row: usize| p[row - 1] - p[row + 1];
+        let best = (from..=to).max_by(|i, j| drop(*i).total_cmp(&drop(*j)))?;
+        let [a, b, c] = [drop(best - 1), drop(best), drop(best + 1)];
+        (b > 0.0 && b >= a && b >= c).then(|| best as f64 + vertex([a, b, c]))
+    }
+}
+
+/// Where the parabola through three values has its vertex, from the middle one.
+fn vertex([a, b, c]: [f32; 3]) -> f64 {
+    let bend = f64::from(a - 2.0 * b + c);
+    if bend == 0.0 {
+        return 0.0;
+    }
+    (0.5 * f64::from(a - c) / bend).clamp(-0.5, 0.5)
+}

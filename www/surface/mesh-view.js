@@ -20,21 +20,25 @@ export class MeshView {
   #controls;
   /** @type {any} */
   #shown = null;
+  /** The direction that was told last, or was set. */
+  #told = '';
 
   /**
    * @param {HTMLCanvasElement} canvas
+   * @param {(view: MeshView) => void} [turned] by hand or by keys
    * @throws where there is no WebGL
    */
-  static async on(canvas) {
+  static async on(canvas, turned = () => {}) {
     const three = await import(new URL('../vendor/three.js', import.meta.url).href);
-    return new MeshView(canvas, three);
+    return new MeshView(canvas, three, turned);
   }
 
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {any} three the library, which has no types
+   * @param {(view: MeshView) => void} turned
    */
-  constructor(canvas, three) {
+  constructor(canvas, three, turned) {
     this.canvas = canvas;
     this.#three = three;
     this.#renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -47,7 +51,12 @@ export class MeshView {
     this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0x8a94a0, 0.7));
     this.#controls = new three.OrbitControls(this.#camera, canvas);
     this.#controls.enablePan = false;
-    this.#controls.addEventListener('change', () => this.#draw());
+    this.#controls.addEventListener('change', () => {
+      this.#draw();
+      if (this.#told === String(this.direction)) return;
+      this.#told = String(this.direction);
+      turned(this);
+    });
     new ResizeObserver(() => this.#draw()).observe(canvas);
     canvas.addEventListener('keydown', (event) => {
       const arrow = ARROWS[event.key];
@@ -95,7 +104,11 @@ export class MeshView {
     this.#camera.zoom = 1;
     this.#camera.updateProjectionMatrix();
     this.#camera.position.set(-x, -y, -z).normalize().multiplyScalar(DISTANCE);
+    this.#camera.lookAt(0, 0, 0);
+    this.#told = String(this.direction);
     this.#controls.update();
+    // The controls keep a little off the poles.
+    this.#told = String(this.direction);
     this.#draw();
   }
 

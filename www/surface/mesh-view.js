@@ -20,8 +20,10 @@ export class MeshView {
   #controls;
   /** @type {any} */
   #shown = null;
-  /** The direction that was told last, or was set. */
-  #told = '';
+  /** It is not turned by hand now. */
+  #looking = false;
+  /** The direction at the last change. */
+  #last = '';
 
   /**
    * @param {HTMLCanvasElement} canvas
@@ -53,9 +55,10 @@ export class MeshView {
     this.#controls.enablePan = false;
     this.#controls.addEventListener('change', () => {
       this.#draw();
-      if (this.#told === String(this.direction)) return;
-      this.#told = String(this.direction);
-      turned(this);
+      const now = String(this.direction);
+      // Zooming turns nothing.
+      if (!this.#looking && now !== this.#last) turned(this);
+      this.#last = now;
     });
     new ResizeObserver(() => this.#draw()).observe(canvas);
     canvas.addEventListener('keydown', (event) => {
@@ -104,11 +107,9 @@ export class MeshView {
     this.#camera.zoom = 1;
     this.#camera.updateProjectionMatrix();
     this.#camera.position.set(-x, -y, -z).normalize().multiplyScalar(DISTANCE);
-    this.#camera.lookAt(0, 0, 0);
-    this.#told = String(this.direction);
+    this.#looking = true;
     this.#controls.update();
-    // The controls keep a little off the poles.
-    this.#told = String(this.direction);
+    this.#looking = false;
     this.#draw();
   }
 

@@ -60,7 +60,8 @@ export async function inputOf(api, file, wanted, { photo: picture, ...others } =
   const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
   const stored = guessed({ ...read, data }, depths !== undefined);
   const { pixelSize, heightScale, design } = stored;
-  return understood({ name, kind, dataType, depths, photo, beside, width, height, data, pixelSize, heightScale, unit: unit ?? undefined, array: several, stored, design }, {});
+  const first = { ...stored, zeros: false, hexagonal: false };
+  return understood({ name, kind, dataType, depths, photo, beside, width, height, data, pixelSize, heightScale, unit: unit ?? undefined, array: several, stored: first, design }, stored);
 }
 
 /**
@@ -99,7 +100,9 @@ export function understood(input, change) {
   if (!input.stored) return input;
   const stored = { ...input.stored, ...change };
   const { width, height, pixelSize, heightScale, zeros, hexagonal } = stored;
-  const data = zeros ? withoutZeros(stored.data) : stored.data;
+  // What was changed by hand stays, where only the scale is another.
+  const kept = zeros === input.stored.zeros && !hexagonal && !input.stored.hexagonal;
+  const data = kept ? input.data : zeros ? withoutZeros(stored.data) : stored.data;
   if (!data.some(Number.isFinite)) throw new Error('nothing else would be left');
   if (!hexagonal) return { ...input, stored, width, height, data, pixelSize, heightScale, lattice: undefined };
   const lattice = { rows: height, cols: width, spacing: pixelSize, heights: data.map((step) => step * heightScale), unit: /** @type {'mm' | 'm' | undefined} */ (input.unit) };

@@ -124,6 +124,7 @@ for (const width of [360, 768, 1280, 1920]) {
 
 for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
   pageTest(`every view fits on a phone, ${colorScheme}`, async (page) => {
+    if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
     for (const radio of await page.locator('input[name="view"]').all()) {
       await radio.check({ force: true });
       await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });

@@ -86,7 +86,10 @@ export function isHexagonal({ width, height, data }) {
 export function depthsIn(name, { width, height, data, dataType = '' }) {
   const whole = /^u16|^i32|^u32/.test(dataType);
   if (!whole && !/^f/.test(dataType)) return null;
-  let [valid, metres, millimetres, nothing, pairs, jumps] = [0, 0, 0, 0, 0, 0];
+  let [valid, metres, millimetres, nothing] = [0, 0, 0, 0];
+  /** How much larger than usual a jump is, too: a ramp that begins at 0 has none. */
+  const usual = typicalStep(data, width);
+  let [pairs, jumps] = [0, 0];
   for (let i = 0; i < data.length; i++) {
     const depth = data[i];
     if (isNoDepth(depth)) {
@@ -99,7 +102,7 @@ export function depthsIn(name, { width, height, data, dataType = '' }) {
     const beside = i % width < width - 1 ? data[i + 1] : NaN;
     if (isNoDepth(beside)) continue;
     pairs++;
-    if (Math.abs(beside - depth) > JUMP * Math.min(beside, depth)) jumps++;
+    if (Math.abs(beside - depth) > Math.max(JUMP * Math.min(beside, depth), 5 * usual)) jumps++;
   }
   const named = /depth|tiefe|kinect|lidar|tof(?![a-z])/i.test(name);
   // An edge in front of something crosses about as many pixels as the image is wide; noise is everywhere.
@@ -108,6 +111,17 @@ export function depthsIn(name, { width, height, data, dataType = '' }) {
   if (valid === 0 || !(named || (edges && (holes || !whole)))) return null;
   if (!whole && metres > 0.98 * valid) return 'm';
   return (whole || named) && millimetres > 0.98 * valid ? 'mm' : null;
+}
+
+/** Mean difference of neighbours along rows. @param {Float64Array} data @param {number} width */
+function typicalStep(data, width) {
+  let [sum, pairs] = [0, 0];
+  for (let i = 0; i + 1 < data.length; i++) {
+    if (i % width === width - 1 || isNoDepth(data[i]) || isNoDepth(data[i + 1])) continue;
+    sum += Math.abs(data[i + 1] - data[i]);
+    pairs++;
+  }
+  return pairs > 0 ? sum / pairs : 0;
 }
 
 /** What a camera stores where it has seen nothing, or the sky. @param {number} depth */

@@ -38,19 +38,19 @@ test('the gallery has a card for each figure of the paper that it tells, with an
 });
 
 pageTest('settings stand in the address, Back undoes them, and a file is there after a reload', async (page) => {
-  await page.waitForFunction(() => location.hash.includes('example=roof'));
+  await page.waitForURL(/example=roof/);
   await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
-  await page.waitForFunction(() => location.hash.includes('lambda=1e5'));
+  await page.waitForURL(/lambda=1e5/);
   await runBy(page, () => page.goBack().then(() => {}));
   assert.equal(parsed(await reported(page, 'λ')), 1e6);
   assert.equal(await page.getByLabel('λ as a number').inputValue(), '1e6');
 
-  await open(page, 'slope.npy', npy(48, grid(48, 36, (col, row) => 3 * col + 5 * row)));
-  await page.waitForFunction(() => /file=\d/.test(location.hash));
+  await open(page, 'slope.npy', npy(48, grid(48, 36, (col, row) => 0.1 * col + 0.15 * row)));
+  await page.waitForURL(/file=\d/);
   await runBy(page, () => page.getByRole('button', { name: 'Steeper' }).click());
-  await page.waitForFunction(() => location.hash.includes('pixelSize=0.5'));
+  await page.waitForURL(/pixelSize=0\.5/);
   await page.reload();
-  await page.locator('#input-caption', { hasText: 'slope' }).waitFor();
+  await page.locator('#file-name', { hasText: 'slope' }).waitFor();
   await settled(page);
   assert.equal(await page.getByLabel('Pixel size').inputValue(), '0.5');
   assert.match(await page.locator('#recent').innerText(), /slope\.npy/);
@@ -66,11 +66,11 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await page.getByRole('button', { name: /^Gallery/ }).click();
   assert.equal(await page.locator('.card').count(), CARDS.length);
   await runBy(page, () => page.getByRole('button', { name: /Fig\. 11/ }).click());
-  await page.waitForFunction(() => location.hash === '#fig-11');
+  await page.waitForURL(/#fig-11$/);
   assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases; \d/);
   // Whatever else is opened ends its story.
   await drop(page, 'other.npy', npy(48, grid(48, 36, (col) => 3 * col)));
-  await page.locator('#input-caption', { hasText: 'other' }).waitFor();
+  await page.locator('#file-name', { hasText: 'other' }).waitFor();
   await settled(page);
   assert.equal(await page.locator('#story').isVisible(), false);
 });

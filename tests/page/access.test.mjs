@@ -116,8 +116,8 @@ for (const width of [360, 768, 1280, 1920]) {
     assert.ok(excess <= 0, `${excess} pixels`);
     const [input, result] = await Promise.all(VIEWS.map((view) => page.locator(view).boundingBox()));
     assert.ok(input && result);
-    const beside = result.x >= input.x + input.width;
-    assert.equal(beside, width > 600, 'side by side where there is room');
+    // On a phone both are pinned above, and have half of it each.
+    assert.ok(result.x >= input.x + input.width, 'side by side');
     for (const view of VIEWS) assert.ok((await look(page, view)).covered > 0.1, view);
   }, { viewport: { width, height: 800 }, deviceScaleFactor: width < 600 ? 3 : 1 });
 }

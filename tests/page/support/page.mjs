@@ -113,7 +113,10 @@ function watch(page) {
     if (message.type() !== 'log') incidents.push(`${message.type()}: ${message.text()}`);
   });
   page.on('pageerror', (error) => incidents.push(`uncaught: ${error.message}`));
-  page.on('requestfailed', (request) => incidents.push(`failed: ${request.url()}`));
+  page.on('requestfailed', (request) => {
+    // A reload gives up what was still on its way.
+    if (!(request.url().endsWith('icon.svg') && request.failure()?.errorText === 'net::ERR_ABORTED')) incidents.push(`failed: ${request.url()}`);
+  });
   page.on('request', (request) => {
     const { origin } = new URL(request.url());
     if (origin !== home) incidents.push(`request to ${request.url()}`);

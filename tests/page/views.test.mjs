@@ -228,7 +228,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await side.fill(String(2 * Number(await side.inputValue())));
   await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor();
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
-  await page.getByLabel('Paper', { exact: true }).selectOption('a4');
+  await page.locator('.sheets select').selectOption('a4');
   const pdf = await saveAs(page, 'PDF');
   assert.equal(pdf.bytes.toString('latin1', 0, 5), '%PDF-');
   await page.locator('#end-sheets').click();

@@ -9,13 +9,16 @@ import { coarse } from './surface/coarse.js';
 import { magnitude } from './surface/colours.js';
 import { resultImage } from './surface/known.js';
 import { gridOf } from './surface/lattice.js';
+import { CREASED, roundness } from './surface/roundness.js';
 import { handOver, work } from './surface/work.js';
 
-/** @import {Api} from './api.js' */
+/** @import {Api, Surface} from './api.js' */
 /** @import {Input, Result} from './session.js' */
 
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
 /** @typedef {ReturnType<typeof shownOf>} Curvatures */
+/** @typedef {import('../pkg/types.js').Drawing} Drawing */
+/** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 /**
@@ -106,14 +109,29 @@ export class Analyses {
     const [before, after] = await Promise.all([
       input.design ? null : this.#once(input, `curvatures ${spacing}`, (worker) =>
         worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shownOf)),
-      this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownOf)),
+      this.curvature(surface),
     ]);
     return { before, after };
+  }
+
+  /** @param {Surface} surface */
+  curvature(surface) {
+    return this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownOf));
   }
 
   /** @param {Result} result */
   patches({ surface }) {
     return this.#once(surface, 'patches', (worker) => worker.patches(surface));
+  }
+
+  /**
+   * How many smooth pieces there are, and creases between them: without end where they are too small to be told apart.
+   * @param {Result} result
+   */
+  async pieces(result) {
+    const [map, analysis] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
+    const count = roundness(map, analysis) < CREASED ? map.patches.length : Infinity;
+    return { count, creases: map.creases.length };
   }
 
   /** @param {Result} result */
@@ -147,6 +165,30 @@ export class Analyses {
       const { left, top } = gridOf(result.input);
       return work('unfolding', sheet, most, [left, top - small.height * size]);
     });
+  }
+
+  /**
+   * The surface cut into sheets.
+   * @param {Result} result
+   * @param {PatternOptions} options
+   */
+  pattern({ surface }, options) {
+    return this.#once(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(surface, options));
+  }
+
+  /** @param {Drawing} drawing */
+  svg(drawing) {
+    return this.#once(drawing, 'svg', (worker) => worker.writeSvg(drawing));
+  }
+
+  /** @param {Drawing} drawing */
+  dxf(drawing) {
+    return this.#once(drawing, 'dxf', (worker) => worker.writeDxf(drawing));
+  }
+
+  /** @param {Drawing} drawing @param {'a4' | 'letter'} [paper] */
+  pdf(drawing, paper) {
+    return this.#once(drawing, `pdf ${paper}`, (worker) => worker.writePdf(drawing, { paper }));
   }
 
   /**

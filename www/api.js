@@ -4,6 +4,7 @@
 /** @typedef {import('../pkg/types.js').DepthOptions} DepthOptions */
 /** @typedef {import('../pkg/types.js').Energy} Energy */
 /** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
+/** @typedef {import('../pkg/types.js').Heightfield} Heightfield */
 /** @typedef {import('../pkg/index.js').OpenSolver} OpenSolver */
 /** @typedef {import('../pkg/types.js').DetectedOcclusions} Occlusions */
 /** @typedef {import('../pkg/types.js').Progress} Progress */

@@ -86,3 +86,9 @@ export function shortest(lambda) {
 export function readingOf(height, unit = 'units', value = '') {
   return Number.isNaN(height) ? '' : [`height ${number(height)} ${unit}`, value].filter(Boolean).join(' · ');
 }
+
+/** @param {number} bytes */
+export function fileSize(bytes) {
+  if (bytes < 1e3) return `${count(bytes)}${BREAKLESS}bytes`;
+  return bytes < 1e6 ? `${number(bytes / 1e3, 2)}${BREAKLESS}kB` : `${number(bytes / 1e6, 2)}${BREAKLESS}MB`;
+}

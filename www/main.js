@@ -1,4 +1,5 @@
 /** Puts the page together. */
+import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
 import { analysisPanel } from './panels/analysis.js';
@@ -7,7 +8,9 @@ import { curvePanel } from './panels/curve.js';
 import { designPanel } from './panels/design.js';
 import { watchDrops } from './panels/drop.js';
 import { editPanel } from './panels/edit.js';
+import { galleryPanel } from './panels/gallery.js';
 import { headline } from './panels/headline.js';
+import { keepPanel } from './panels/keep.js';
 import { modePanel } from './panels/mode.js';
 import { hideNotice, showNotice } from './panels/notice.js';
 import { pagePanel } from './panels/page.js';
@@ -16,24 +19,27 @@ import { runPanel } from './panels/run.js';
 import { savePanel } from './panels/save.js';
 import { settingsPanel } from './panels/settings.js';
 import { sourcePanel } from './panels/source.js';
+import { stripPanel } from './panels/strip.js';
 import { viewsPanel } from './panels/views.js';
 import { Session } from './session.js';
 import { complaint } from './words.js';
 
 async function start() {
   const session = new Session(await connect());
-  headline(session);
+  const analyses = new Analyses(session.api);
   const { show, space } = viewsPanel(session);
   designPanel(session, space);
   editPanel(session, space);
-  settingsPanel(session);
+  const { adopt } = settingsPanel(session);
+  const strip = stripPanel(session, adopt);
   besidePanel(session);
   runPanel(session);
   curvePanel(session);
   reportPanel(session);
-  savePanel(session);
-  const { choose } = analysisPanel(session, show);
-  const { openExample, openFiles, takeMesh } = sourcePanel(session, choose);
+  const views = analysisPanel(session, analyses, show);
+  headline(session, analyses);
+  savePanel(session, analyses, views.choose);
+  const { openNamed, openFiles, understand, takeMesh } = sourcePanel(session, views, (files) => void keep.remember(files));
   const page = pagePanel(session.api, ({ mesh }, name) => {
     mode.enter('heights');
     takeMesh({ name, kind: 'photo' }, async () => mesh, 'The page could not be taken as a surface');
@@ -41,6 +47,7 @@ async function start() {
   const mode = modePanel((entered) => {
     if (entered === 'photo') page.begin();
   });
+  const gallery = galleryPanel(session, { adopt, choose: views.choose, strip: strip.show, enter: () => mode.enter('heights') });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((files) => {
     if (mode.now === 'photo' && files.length === 1) return void page.open(files[0]);
@@ -48,8 +55,8 @@ async function start() {
     mode.enter('heights');
     void openFiles(files);
   });
-  // Something to see at once.
-  await openExample();
+  const keep = keepPanel(session, { adopt, choose: views.choose, openExample: openNamed, openFiles, understand, gallery });
+  await keep.begin();
 }
 
 start().catch((error) => {

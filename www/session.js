@@ -13,7 +13,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 
 /** @import {Design} from './design.js' */
 /** @import {Preview} from './live.js' */
-/** @import {Api, DepthOptions, Energy, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
+/** @import {Api, DepthOptions, Energy, Heightfield, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
  * @typedef {object} Input
@@ -27,13 +27,15 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {string} [unit] of lengths, where it is known
- * @property {SampledMesh} [lattice] what is solved in the place of the pixels, which show it
+ * @property {Heightfield & Partial<SampledMesh> & { heights: Float64Array }} [lattice] what is solved in the place of the pixels, which show it
  * @property {{ file: File, names: readonly string[], name: string }} [array] of a file with several
  * @property {{ mesh: Mesh, options: SampleMeshOptions, whole?: Mesh }} [seen] the mesh, what it is a part of, and how the
  *   lattice was taken from it
  * @property {Float64Array} [truth] the surface without noise, where it is known
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`
+ * @property {'mm' | 'm'} [depths] that a camera has seen, and what they seem to be counted in
+ * @property {import('./opened.js').Stored} [stored] what the file holds, and how it is understood
  * @property {{ name: string, image: ImageData }} [photo] that came with it
  * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
@@ -81,8 +83,10 @@ const MANY = 150 ** 2;
 
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
+  /** @type {Readonly<Settings>} */
+  defaults = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined };
   /** @type {Settings} */
-  settings = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0 };
+  settings = { ...this.defaults };
   /** @type {Input | null} */
   input = null;
   /** @type {Result | null} */
@@ -165,7 +169,7 @@ export class Session extends Events {
 
   /**
    * The same input, understood otherwise.
-   * @param {Partial<Pick<Input, 'data' | 'pixelSize' | 'heightScale' | 'design' | 'confidence' | 'constraints'>>} change
+   * @param {Partial<Omit<Input, 'name'>>} change
    */
   async amend(change) {
     if (!this.input) return;

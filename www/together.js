@@ -33,6 +33,16 @@ export async function together(files) {
     if (kind && !found[kind]) found[kind] = file;
     else found.others.push(file);
   }
+  // A grey picture beside one in colour is what that shows.
+  if (!found.depths && !found.mesh) {
+    const pictures = files.filter((file) => file === found.photo || (found.others.includes(file) && PICTURE.test(file.name)));
+    const grey = pictures.length > 1 ? await firstOf(pictures, isGrey) : undefined;
+    if (grey) {
+      found.depths = grey;
+      if (grey === found.photo) found.photo = pictures.find((file) => file !== grey);
+      found.others = files.filter((file) => !Object.values(found).includes(file));
+    }
+  }
   return found;
 }
 
@@ -55,6 +65,27 @@ async function kindOf(file) {
 
 /** Whether it is a PNG of 16 bits of grey, as depth cameras write it. @param {File} file */
 async function isGrey16(file) {
+  const { bits, colour } = await headOf(file);
+  return bits === 16 && colour === 0;
+}
+
+/** Whether it is a PNG without colours. @param {File} file */
+async function isGrey(file) {
+  const { colour } = await headOf(file);
+  return /\.png$/i.test(file.name) && (colour === 0 || colour === 4);
+}
+
+/** What a PNG's header says. @param {File} file */
+async function headOf(file) {
   const head = new Uint8Array(await file.slice(0, 26).arrayBuffer());
-  return head[24] === 16 && head[25] === 0;
+  return { bits: head[24], colour: head[25] };
+}
+
+/**
+ * @param {readonly File[]} files
+ * @param {(file: File) => Promise<boolean>} is
+ */
+async function firstOf(files, is) {
+  for (const file of files) if (await is(file)) return file;
+  return undefined;
 }

@@ -1,5 +1,6 @@
 /** What happened, in plain words. */
 import { count, number, percent, percentAtMost, seconds, shortest } from './format.js';
+import { plainly } from './plain.js';
 
 /** @import {Energy, PageReport, Report, StopReason, Verdict} from './api.js' */
 
@@ -11,6 +12,17 @@ export const STOP_REASONS = {
   maxIterations: 'the most iterations allowed',
   cancelled: 'cancelled; this is the best surface so far',
   diverged: 'the iterations diverged; this is the best surface before',
+};
+
+/** What each view shows, in one sentence. @type {Record<string, string>} */
+export const VIEWS = {
+  shaded: 'Both surfaces in the same light: smooth pieces shine evenly, creases are sharp lines.',
+  gaussian: 'How much each place bends both ways at once: grey is none, so that it can be laid flat.',
+  kappa2: 'The smaller of both curvatures: 0 where the surface bends one way only.',
+  rulings: 'Straight lines that lie on the surface: paper bends across them, and never along.',
+  patches: 'The smooth pieces, each in a colour, and the creases where they meet.',
+  sheet: 'The surface laid flat to scale: what one would cut from paper.',
+  dewarped: 'A photo of the surface, and what is printed on it as if it lay flat.',
 };
 
 /** What is marked on the input, by how many there are. */
@@ -96,14 +108,28 @@ export function verdict({ gap, seconds: { total }, stopReason }) {
 
 /**
  * How much closer to the truth the result is than the input was.
- * @param {number} before
- * @param {number} after
+ * @param {number | undefined} factor undefined where the truth is not known
  */
-export function improvement(before, after) {
-  if (!(after > 0) || !(before > 0)) return '';
-  const factor = before / after;
-  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)} times closer to the true surface than the input.`;
-  return 'No closer to the true surface than the input was: try a smaller λ for much noise, a bigger one for little.';
+export function closer(factor) {
+  if (factor === undefined) return '';
+  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)} times closer to the truth than the input.`;
+  return 'No closer to the truth than the input.';
+}
+
+/**
+ * What has come of it, in one sentence.
+ * @param {number} pieces smooth ones; infinite where they are too small to be told apart
+ * @param {number} creases
+ * @param {number} [factor] of closeness to the truth, where it is known
+ */
+export function outcome(pieces, creases, factor) {
+  const smooth = pieces === 1 ? 'One smooth piece' : `${count(pieces)} smooth pieces`;
+  const meet = creases === 0
+    ? `${smooth}${pieces === 1 ? ' without a crease' : ', apart from each other'}`
+    : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
+  const better = closer(factor);
+  if (!Number.isFinite(pieces)) return `Creased all over, too finely for its pieces to be counted${better ? `; ${better[0].toLowerCase()}${better.slice(1)}` : '.'}`;
+  return better ? `${meet}; ${better[0].toLowerCase()}${better.slice(1)}` : `${meet}.`;
 }
 
 /**
@@ -147,6 +173,5 @@ export const NO_FIDELITY = 'A design has no input to stay close to: λ has no sa
  * @param {unknown} error
  */
 export function complaint(doing, error) {
-  const reason = error instanceof Error ? error.message : String(error);
-  return `${doing}: ${reason.replace(/\.$/, '')}.`;
+  return `${doing}: ${plainly(error instanceof Error ? error.message : String(error))}.`;
 }

@@ -1,7 +1,7 @@
 /** Meshes and point clouds, seen from a direction of one's choice; files with several arrays. */
 import assert from 'node:assert/strict';
 import { grid, npy, npz, obj, parseNpy, ply } from './support/files.mjs';
-import { drop, look, open, pageTest, painted, runBy, save } from './support/page.mjs';
+import { drop, look, open, pageTest, painted, save, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').Mesh} Mesh */
@@ -28,7 +28,7 @@ const wedge = {
  * @param {Page} page
  */
 async function solved(page) {
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await settled(page);
   const { rows, cols, values } = parseNpy((await save(page, 'NPY')).bytes);
   return { rows, cols, points: values.map((z, i) => ({ x: (i % cols) / (cols - 1), y: 1 - Math.floor(i / cols) / (rows - 1), z })) };
 }
@@ -60,7 +60,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
     assert.match(await page.locator('#mesh-span').innerText(), /12 triangles; x, y and z span 3, 2, 2\.9\./);
     assert.equal(await page.locator('#mesh-missing').isVisible(), false);
-    assert.equal(await page.locator('#result-empty').isVisible(), true, 'waits for Run');
+    assert.equal(await page.locator('#result-empty').isVisible(), false, 'solved at once');
 
     await from(page, '+z');
     const above = await solved(page);
@@ -69,7 +69,6 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
 
     // From the right one sees z to the left and y up, and the side there, which is upright.
     await from(page, '+x');
-    assert.equal(await page.locator('#result-empty').isVisible(), true, 'another view is another input');
     const right = await solved(page);
     assert.ok(Math.abs(right.cols / right.rows - top(3, 2) / 2) < 0.05, `${right.cols} × ${right.rows}`);
     const seen = right.points.filter(({ z }) => Number.isFinite(z));
@@ -81,10 +80,14 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
 pageTest('a mesh is seen as it is turned, and as finely as is wished', async (page) => {
   await open(page, 'wedge.obj', obj(wedge));
   await from(page, '+z');
+  await settled(page);
+  const before = (await look(page, '#input-canvas')).hash;
   await page.locator('#mesh-canvas').focus();
   for (let press = 0; press < 6; press++) await page.keyboard.press('ArrowDown');
-  const before = (await look(page, '#input-canvas')).hash;
-  await from(page, 'As turned');
+  // It follows by itself.
+  await page.getByRole('button', { name: 'As turned', pressed: true }).waitFor();
+  await settled(page);
+  assert.equal(await page.locator('#result-empty').isVisible(), false, 'solved from there');
   assert.notEqual((await look(page, '#input-canvas')).hash, before);
   const caption = await page.locator('#input-caption').innerText();
   await page.getByLabel('Vertices along the longer side').fill('60');
@@ -100,7 +103,7 @@ pageTest('a point cloud is solved as well, and its result is written as a mesh',
   await open(page, 'cloud.ply', ply({ points, triangles: [] }));
   assert.match(await page.locator('#mesh-span').innerText(), /2.400 points/);
   await from(page, '+z');
-  await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
+  await settled(page);
   const lines = (await save(page, 'OBJ')).bytes.toString().split('\n').filter((line) => line.startsWith('v '));
   assert.ok(lines.length > 300);
   for (const line of lines) {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { meets } from '../js/support/phone.mjs';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { downloaded, drop, dropAll, open, pageTest, painted, runBy } from './support/page.mjs';
+import { drop, dropAll, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
 import { camera, dots, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -31,7 +31,8 @@ async function flattened(page) {
 /** @param {Page} page */
 async function flatPng(page) {
   await flattened(page);
-  return parsePng((await downloaded(page, () => page.getByRole('button', { name: 'Flat PNG' }).click())).bytes);
+  await page.locator('#flat-save').click();
+  return parsePng((await saveAs(page, 'PNG')).bytes);
 }
 
 /** From pixels of the photo to those of the page. @param {Page} page @param {Place} place @returns {Promise<Place>} */
@@ -189,22 +190,36 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
 });
 
 pageTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
-  const doubt = page.locator('#scale-doubt');
-  await open(page, 'metres.npy', npy(60, grid(60, 40, (col) => 0.02 * Math.sin(col / 20))));
-  assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
-  await page.getByLabel('Pixel size').fill('0.001');
-  await page.getByLabel('Pixel size').press('Tab');
-  assert.equal(await doubt.isVisible(), false);
-  await open(page, 'levels.png', png16(60, grid(60, 40, (col) => 20000 + 100 * col)));
-  assert.match(await doubt.innerText(), /does not say how high/);
-  // A photo among heights.
+  // A photo before what it shows.
   await drop(page, 'holiday.png', coloured);
   await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'A photo of a page' }).waitFor();
+  const doubt = page.locator('#scale-doubt');
+  await open(page, 'metres.npy', npy(60, grid(60, 40, (col) => 0.08 * Math.sin(col / 20))));
+  assert.match(await page.locator('#guessed').innerText(), /differ by 0\.0\d.*slab.*longer side is taken to be 1/s);
+  const side = Number(await page.getByLabel('Pixel size').inputValue());
+  assert.ok(Math.abs(side * 60 - 1) < 1e-4);
+  assert.equal(await doubt.isVisible(), false);
+  await runBy(page, () => page.getByRole('button', { name: 'Steeper' }).click());
+  assert.ok(Math.abs(Number(await page.getByLabel('Pixel size').inputValue()) / side - 0.5) < 1e-9);
+  await page.getByLabel('Pixel size').fill('10');
+  await runBy(page, () => page.getByLabel('Pixel size').press('Tab'));
+  assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
+  await page.getByRole('radio', { name: 'Dewarped', exact: true }).check({ force: true });
+  await flattened(page);
+  assert.equal(await page.locator('#photo-name').innerText(), 'holiday.png');
+
+  await open(page, 'levels.png', png16(60, grid(60, 40, (col) => 20000 + 100 * col)));
+  assert.match(await doubt.innerText(), /does not say how high/);
+  // And after it, from another file.
+  await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
+  await drop(page, 'later.png', coloured);
+  await page.locator('#photo-name', { hasText: 'later.png' }).waitFor();
+  await flattened(page);
 });
 
 pageTest('what does not belong together gets a message', async (page) => {
   await dropAll(page, { 'a.jpg': photo, 'b.jpg': photo });
-  await page.getByRole('alert').filter({ hasText: 'neither a mesh nor depths' }).waitFor();
+  await page.getByRole('alert').filter({ hasText: 'neither a mesh nor heights' }).waitFor();
 });
 
 /** The flat page itself. @param {number} wide @param {number} high */

@@ -1,30 +1,32 @@
 /** The switch between views of the result, and what stands below them. */
-import { Analyses } from '../analyses.js';
 import { element, elements, make } from '../dom.js';
 import { gaussian, kappa2 } from '../views/curvature.js';
 import { dewarped, photoPicture } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
+import { flat as laidFlat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
-import { sheet } from '../views/sheet.js';
+import { VIEWS as VIEWS_SAY } from '../words.js';
 import { photoPanel } from './photo.js';
 import { waitingPanel } from './waiting.js';
 
+/** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 /** @import {Shown} from '../views/shown.js' */
 /** @typedef {(analyses: Analyses, result: Result) => Promise<Shown>} View */
 
 /** @type {Record<string, View>} */
-const VIEWS = { gaussian, kappa2, rulings, patches, sheet };
+const VIEWS = { gaussian, kappa2, rulings, patches, sheet: laidFlat };
 
 /**
  * @param {Session} session
+ * @param {Analyses} analyses
  * @param {(shown: Partial<Shown>) => void} show
  */
-export function analysisPanel(session, show) {
-  const analyses = new Analyses(session.api);
+export function analysisPanel(session, analyses, show) {
   const radios = elements('input[name="view"]', HTMLInputElement);
   const panel = element('analysis', HTMLElement);
   const about = element('about-view', HTMLElement);
+  const says = element('view-says', HTMLElement);
   /** Counts what was asked for, to tell the newest. */
   let asked = 0;
 
@@ -47,6 +49,7 @@ export function analysisPanel(session, show) {
     const turn = ++asked;
     const { result } = session;
     const name = chosen();
+    says.textContent = VIEWS_SAY[name] ?? '';
     const anew = present === name && presentOf === result;
     [present, presentOf] = [name, result];
     photo.made(null);
@@ -109,11 +112,17 @@ export function analysisPanel(session, show) {
   for (const radio of radios) radio.addEventListener('change', renew);
   session.on('result', renew);
   session.on('cleared', renew);
+  /** @param {string} view */
+  const choose = (view) => {
+    for (const radio of radios) radio.checked = radio.value === view;
+    renew();
+  };
   return {
-    /** @param {string} view */
-    choose(view) {
-      for (const radio of radios) radio.checked = radio.value === view;
-      renew();
+    choose,
+    /** Makes a photo of the result flat. @param {string} name @param {ImageData} image */
+    usePhoto(name, image) {
+      photo.use(name, image);
+      choose('dewarped');
     },
   };
 }

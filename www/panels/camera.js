@@ -34,14 +34,20 @@ export function cameraPanel(session, take) {
     const [near, far] = rangeOf(input.data).map((depth) => depth * scale.valueAsNumber);
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
+  /** Focal lengths of the angle that is set. @param {number} width @param {number} height */
+  const widen = (width, height) => {
+    fx.value = fy.value = String(Number((Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360)).toPrecision(6)));
+  };
   /** Most cameras look through the middle. @param {Input} input */
-  const begin = ({ width, height, data, dataType = '' }) => {
+  const begin = ({ width, height, data, dataType = '', depths }) => {
     further = {};
     cx.value = String((width - 1) / 2);
     cy.value = String((height - 1) / 2);
-    angle.value = '';
+    // About a phone's.
+    angle.value = '60';
+    widen(width, height);
     // Whole numbers are millimetres, and what is small is metres.
-    scale.value = dataType.startsWith('f') && rangeOf(data)[1] < FAR ? '1' : '0.001';
+    scale.value = depths === 'm' || (dataType.startsWith('f') && rangeOf(data)[1] < FAR) ? '1' : '0.001';
     tell();
   };
   const ask = () => {
@@ -52,6 +58,7 @@ export function cameraPanel(session, take) {
   /** @param {PhotoCamera} camera */
   const fill = ({ fx: x, fy: y, cx: across, cy: down, depthScale, rotation, translation, ...rest }) => {
     further = rest;
+    angle.value = '';
     [x, y, across, down, depthScale ?? scale.valueAsNumber].forEach((value, i) => (fields[i].value = String(value)));
     tell();
   };
@@ -63,8 +70,7 @@ export function cameraPanel(session, take) {
     const sound = angle.valueAsNumber > 0 && angle.valueAsNumber < 180;
     angle.setCustomValidity(sound || angle.value === '' ? '' : 'It must be an angle above 0° and below 180°.');
     if (!angle.reportValidity() || !sound || !input) return;
-    const { width = input.width, height = input.height } = further;
-    fx.value = fy.value = String(Number((Math.max(width, height) / 2 / Math.tan((angle.valueAsNumber * Math.PI) / 360)).toPrecision(6)));
+    widen(further.width ?? input.width, further.height ?? input.height);
   });
   /** @param {File} file */
   const read = async (file) => {
@@ -98,7 +104,9 @@ export function cameraPanel(session, take) {
     const kind = beside ? `depths, with ${beside.names.join(' and ')}` : 'depths';
     return take({ name, kind, photo }, () => session.api.backProject({ width, height, data }, camera, known), 'The depths could not be put in space');
   };
-  element('back-project', HTMLButtonElement).addEventListener('click', project);
+  element('back-project', HTMLButtonElement).addEventListener('click', async () => {
+    if (await project()) void session.run();
+  });
   session.on('cleared', () => {
     wanted.checked = false;
     panel.hidden = true;

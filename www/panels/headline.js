@@ -1,39 +1,82 @@
-/** The outcome up front, in plain words, and messages about what went wrong. */
+/** The outcome up front, in plain words, its certificate, and messages about what went wrong. */
 import { element } from '../dom.js';
 import { count } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { improvement, verdict } from '../words.js';
+import { closer, outcome, verdict } from '../words.js';
 import { hideNotice, showFailure } from './notice.js';
 
+/** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 
-/** @param {Session} session */
-export function headline(session) {
+/** How long a result stands, in milliseconds, before its pieces are counted: while λ is dragged one follows the other. */
+const REST = 150;
+/**
+ * @param {Session} session
+ * @param {Analyses} analyses
+ */
+export function headline(session, analyses) {
   const main = element('verdict', HTMLElement);
   const detail = element('verdict-detail', HTMLElement);
   const page = element('page', HTMLElement);
+  const chip = element('certificate', HTMLButtonElement);
+  const drawer = element('drawer', HTMLElement);
+  let rest = 0;
   /** @param {string} first @param {string} second */
   const say = (first, second) => {
     main.textContent = first;
     detail.textContent = second;
   };
 
+  chip.addEventListener('click', () => {
+    drawer.hidden = !drawer.hidden;
+    chip.setAttribute('aria-expanded', String(!drawer.hidden));
+    if (!drawer.hidden) drawer.scrollIntoView({ block: 'nearest' });
+  });
+
+  /** @param {Result} result */
+  const tellPieces = async (result) => {
+    // Another question may have stopped the worker before it answered.
+    for (let turn = 0; turn < 3 && session.result === result; turn++) {
+      const pieces = await analyses.pieces(result).catch(() => null);
+      if (session.result !== result) return;
+      if (!pieces) continue;
+      main.textContent = outcome(pieces.count, pieces.creases, factorOf(result));
+      break;
+    }
+    if (session.result === result) main.setAttribute('aria-busy', 'false');
+  };
+
   session.on('input', (input) => {
     hideNotice();
-    if (input.kind) say(`Opened ${input.name}.`, `${input.seen ? 'Choose where to look from' : 'Check the pixel size and the height scale'}, choose λ, then press Run.`);
+    if (input.kind) say(`Opened ${input.name}.`, input.depths ? 'Depths from a camera: say what is known of it, then put them in space.' : '');
   });
   session.on('start', () => {
     hideNotice();
-    say('Solving…', describe(session));
+    // What stands there is replaced by what comes of the run.
+    if (!session.result) say('Solving…', describe(session));
   });
   session.on('result', (result) => {
-    say(verdict(result.surface.report), `${describe(session)} ${closeness(result)}`);
+    const { report } = result.surface;
+    chip.hidden = false;
+    chip.textContent = verdict(report);
+    chip.dataset.mark = report.stopReason === 'cancelled' || (report.gap === undefined && report.stopReason !== 'rounding') ? 'doubt' : 'sure';
+    say(closer(factorOf(result)) || 'Made of pieces that bend like paper.', describe(session));
+    main.setAttribute('aria-busy', 'true');
+    clearTimeout(rest);
+    rest = window.setTimeout(() => void tellPieces(result), REST);
+  });
+  session.on('cleared', () => {
+    chip.hidden = true;
+    main.setAttribute('aria-busy', 'false');
   });
   session.on('phase', (phase) => {
     page.dataset.phase = phase;
     if (phase === 'idle' && !session.input) say('Nothing to show yet.', 'Choose an example or open a file.');
   });
-  session.on('unsolved', () => say('Not solved.', session.result ? 'The result before it stays.' : ''));
+  session.on('unsolved', () => {
+    say('Not solved.', session.result ? 'The result before it stays.' : '');
+    main.setAttribute('aria-busy', 'false');
+  });
   session.on('failure', ({ doing, error }) => showFailure(doing, error));
 }
 
@@ -41,12 +84,11 @@ export function headline(session) {
 function describe({ input, result }) {
   if (!input) return '';
   const report = result?.input === input ? result.surface.report : null;
-  const vertices = report ? `${count(report.interior + report.boundary)} vertices.` : '';
-  return vertices || `${count(input.width * input.height)} pixels.`;
+  return report ? `${count(report.interior + report.boundary)} vertices.` : `${count(input.width * input.height)} pixels.`;
 }
 
-/** @param {Result} result */
-function closeness(result) {
-  const accuracy = accuracyOf(result);
-  return accuracy ? improvement(accuracy.heights.before, accuracy.heights.after) : '';
+/** How many times closer to the truth the result is than the input, where that is known. @param {Result} result */
+function factorOf(result) {
+  const heights = accuracyOf(result)?.heights;
+  return heights && heights.after > 0 && heights.before > 0 ? heights.before / heights.after : undefined;
 }

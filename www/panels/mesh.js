@@ -8,6 +8,9 @@ import { MeshView } from '../surface/mesh-view.js';
 /** @import {Called} from '../seen.js' */
 /** @import {Input, Session} from '../session.js' */
 
+/** How long the hand rests, in milliseconds, before what it has turned to is solved. */
+const REST = 180;
+
 const NAMES = /\.(obj|ply|stl|glb|gltf)$/i;
 
 /** @param {string} name of a file */
@@ -34,11 +37,17 @@ export function meshPanel(session) {
   const wanted = () => (resolution.value === '' ? undefined : resolution.valueAsNumber);
 
   /** @param {SampleMeshOptions} change */
-  const again = (change) => {
+  const again = async (change) => {
     const { input } = session;
     if (!input?.seen) return;
     const { mesh, options, whole } = input.seen;
-    void see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', whole);
+    if (await see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', whole)) void session.run();
+  };
+  let rest = 0;
+  /** Solved from the new side while it is turned, whenever the hand rests. @param {MeshView} view */
+  const follow = (view) => {
+    clearTimeout(rest);
+    rest = window.setTimeout(() => again({ view: view.direction }), REST);
   };
   for (const button of buttons) {
     button.addEventListener('click', () => again({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
@@ -56,13 +65,14 @@ export function meshPanel(session) {
 
   session.on('input', async ({ seen, lattice, name: called, kind }) => {
     panel.hidden = seen === undefined;
-    if (!seen || !lattice) return;
+    if (!seen || !lattice?.frame) return;
+    const { towards } = lattice.frame;
     const { mesh, options } = seen;
     name.textContent = `${called} (${kind})`;
     span.textContent = spanInWords(mesh);
     for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
     turned.setAttribute('aria-pressed', String(typeof options.view !== 'string'));
-    viewer ??= MeshView.on(canvas).catch(() => null);
+    viewer ??= MeshView.on(canvas, follow).catch(() => null);
     const view = await viewer;
     canvas.hidden = turned.hidden = view === null;
     missing.hidden = view !== null;
@@ -70,7 +80,6 @@ export function meshPanel(session) {
     try {
       if (shown !== mesh) view.show(mesh);
       shown = mesh;
-      const { towards } = lattice.frame;
       if (typeof options.view === 'string') view.look([-towards[0], -towards[1], -towards[2]]);
     } catch (error) {
       session.fail('The mesh could not be shown', error);

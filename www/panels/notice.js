@@ -2,9 +2,13 @@
 import { element } from '../dom.js';
 import { complaint } from '../words.js';
 
-/** @param {string} message */
-export function showNotice(message) {
+/**
+ * @param {string} message
+ * @param {'alert' | 'note'} [kind]
+ */
+export function showNotice(message, kind = 'alert') {
   element('notice-text', HTMLElement).textContent = message;
+  element('notice', HTMLElement).dataset.kind = kind;
   element('notice', HTMLElement).hidden = false;
 }
 

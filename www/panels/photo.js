@@ -1,9 +1,10 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
-import { choosesFile, download, element } from '../dom.js';
+import { choosesFile, element } from '../dom.js';
 import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
 import { see } from '../seen.js';
 import { cropPanel } from './crop.js';
+import { offerToSave } from './save-dialog.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
@@ -24,8 +25,7 @@ export function photoPanel(session, analyses, changed) {
   const name = element('photo-name', HTMLElement);
   const dots = element('dots', HTMLInputElement);
   const trim = element('trim', HTMLInputElement);
-  const png = element('flat-png', HTMLButtonElement);
-  const map = element('flat-map', HTMLButtonElement);
+  const save = element('flat-save', HTMLButtonElement);
   const hint = name.textContent ?? '';
   /** @type {ImageData | null} */
   let photo = null;
@@ -62,14 +62,18 @@ export function photoPanel(session, analyses, changed) {
     crop.forget();
   });
 
+  /** @param {string} called @param {ImageData} image */
+  const use = (called, image) => {
+    photo = image;
+    name.textContent = called;
+  };
   choosesFile(open, file, async (chosen) => {
     const { result } = session;
     if (!result) return;
     try {
       const read = await pixelsOf(chosen);
       if (session.input !== result.input) return;
-      photo = read;
-      name.textContent = chosen.name;
+      use(chosen.name, read);
       changed();
     } catch (error) {
       session.fail(`“${chosen.name}” could not be used`, error);
@@ -82,22 +86,28 @@ export function photoPanel(session, analyses, changed) {
   });
   trim.addEventListener('change', changed);
 
-  const stem = () => `${session.input?.name}-flat`;
-  png.addEventListener('click', async () => {
+  save.addEventListener('click', () => {
     if (!flat) return;
     const image = flat;
-    try {
-      const bytes = await session.api.writePhoto(image);
-      download(bytes, 'image/png', `${stem()}.png`);
-    } catch (error) {
-      session.fail('The flat image could not be written', error);
-    }
-  });
-  map.addEventListener('click', () => {
-    if (flat) download(mapJson(flat), 'application/json', `${stem()}-map.json`);
+    const { api } = session;
+    offerToSave({
+      title: 'Flat photo',
+      stem: `${session.input?.name}-flat`,
+      formats: [
+        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: () => api.writePhoto(image) },
+        { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: () => api.writePhoto(image, { format: 'jpeg' }) },
+        {
+          value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
+          without: image.unit ? undefined : 'no true size is known: the file has no unit',
+          write: () => api.writePhoto(image, { format: 'pdf' }),
+        },
+        { value: 'json', name: 'Warp map', words: 'for each pixel its place in the photo, as JSON', type: 'application/json', write: async () => mapJson(image) },
+      ],
+    });
   });
 
   return {
+    use,
     /** @param {boolean} wanted */
     show: (wanted) => {
       panel.hidden = !wanted;
@@ -130,7 +140,7 @@ export function photoPanel(session, analyses, changed) {
     /** @param {Dewarped | null} made what can be saved */
     made: (made) => {
       flat = made;
-      for (const button of [png, map]) button.disabled = made === null;
+      save.disabled = made === null;
     },
   };
 }

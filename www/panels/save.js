@@ -1,65 +1,61 @@
-/** The result as files. */
-import { download, element, elements } from '../dom.js';
+/** What to do with the result, one click each: a 3D file, sheets to cut out, a flat photo. */
+import { element } from '../dom.js';
 import { shortest } from '../format.js';
 import { resultImage } from '../surface/known.js';
+import { offerToSave } from './save-dialog.js';
+import { offerSheets } from './sheets.js';
 
+/** @import {Analyses} from '../analyses.js' */
 /** @import {Result, Session} from '../session.js' */
 
-/** @type {Record<string, string>} */
-const TYPES = {
-  npy: 'application/octet-stream', png: 'image/png', tiff: 'image/tiff', exr: 'image/x-exr',
-  obj: 'model/obj', ply: 'model/ply', stl: 'model/stl', glb: 'model/gltf-binary',
-};
-
-/** @param {Session} session */
-export function savePanel(session) {
-  const buttons = elements('button[data-save]', HTMLButtonElement);
-  for (const button of buttons) {
-    const format = button.dataset.save ?? '';
-    button.addEventListener('click', async () => {
-      const { result } = session;
-      if (!result) return;
-      try {
-        const bytes = await encode(session, result, format);
-        download(bytes, TYPES[format], `${fileStem(result)}.${format}`);
-      } catch (error) {
-        session.fail(`The ${format.toUpperCase()} could not be written`, error);
-      }
-    });
-  }
-  const more = element('save-more', HTMLButtonElement);
-  more.addEventListener('click', () => {
-    const open = more.getAttribute('aria-expanded') !== 'true';
-    more.setAttribute('aria-expanded', String(open));
-    element('save-others', HTMLElement).hidden = !open;
+/**
+ * @param {Session} session
+ * @param {Analyses} analyses
+ * @param {(view: string) => void} choose a view of the result
+ */
+export function savePanel(session, analyses, choose) {
+  const ends = ['file', 'sheets', 'photo'].map((name) => element(`end-${name}`, HTMLButtonElement));
+  const [file, sheets, photo] = ends;
+  file.addEventListener('click', () => {
+    if (session.result) offerFile(session, session.result);
+  });
+  sheets.addEventListener('click', () => {
+    if (session.result) offerSheets(session.result, analyses, fileStem(session.result));
+  });
+  photo.addEventListener('click', () => {
+    choose('dewarped');
+    element('views', HTMLElement).scrollIntoView({ block: 'nearest' });
   });
   /** @param {boolean} ready */
   const enable = (ready) => {
-    for (const button of buttons) button.disabled = !ready;
+    for (const end of ends) end.disabled = !ready;
   };
   session.on('result', () => enable(true));
   session.on('cleared', () => enable(false));
 }
 
 /**
- * Images at the input's pixels, the mesh on the lattice.
+ * Images at the input's pixels, meshes on the lattice.
  * @param {Session} session
  * @param {Result} result
- * @param {string} format
- * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
-async function encode({ api }, result, format) {
+function offerFile({ api }, result) {
   const { surface } = result;
-  switch (format) {
-    case 'npy': return api.writeNpy(resultImage(result));
-    case 'png': return api.writePng(resultImage(result));
-    case 'tiff': return api.writeTiff(resultImage(result));
-    case 'exr': return api.writeExr(resultImage(result));
-    case 'ply': return api.writePly(surface);
-    case 'stl': return api.writeStl(surface);
-    case 'glb': return api.writeGlb(surface);
-    default: return api.writeObj(surface);
-  }
+  const image = () => resultImage(result);
+  offerToSave({
+    title: '3D file',
+    stem: fileStem(result),
+    formats: [
+      { value: 'obj', name: 'OBJ', words: 'a mesh that nearly every program reads', type: 'model/obj', write: () => api.writeObj(surface) },
+      { value: 'stl', name: 'STL', words: 'a mesh for 3D printing', type: 'model/stl', write: () => api.writeStl(surface) },
+      { value: 'glb', name: 'GLB', words: 'a mesh for the web and for phones, with colours', type: 'model/gltf-binary', write: () => api.writeGlb(surface) },
+      { value: 'ply', name: 'PLY', words: 'a mesh in double precision', type: 'model/ply', write: () => api.writePly(surface) },
+      { value: 'png', name: 'PNG', words: 'heights as 16-bit grey, with their scale recorded', type: 'image/png', write: () => api.writePng(image()) },
+      { value: 'tiff', name: 'TIFF', words: 'heights as 32-bit floats', type: 'image/tiff', write: () => api.writeTiff(image()) },
+      { value: 'exr', name: 'EXR', words: 'heights as 32-bit floats', type: 'image/x-exr', write: () => api.writeExr(image()) },
+      { value: 'npy', name: 'NPY', words: 'heights as 64-bit floats, for NumPy', type: 'application/octet-stream', write: () => api.writeNpy(image()) },
+    ],
+  });
 }
 
 /** @param {Result} result */

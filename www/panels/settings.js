@@ -4,7 +4,7 @@ import { shortest } from '../format.js';
 import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint } from '../words.js';
 
 /** @import {Energy} from '../api.js' */
-/** @import {Session} from '../session.js' */
+/** @import {Session, Settings} from '../session.js' */
 
 /** @param {Session} session */
 export function settingsPanel(session) {
@@ -122,4 +122,25 @@ export function settingsPanel(session) {
   };
   find.addEventListener('change', tear);
   threshold.addEventListener('change', tear);
+
+  return {
+    /** Takes settings from elsewhere, into the controls, too. @param {Settings} settings */
+    adopt(settings) {
+      const { lambda, energy: wanted, occlusionThreshold } = settings;
+      if (lambda !== 'auto') display(lambda);
+      auto.setAttribute('aria-pressed', String(lambda === 'auto'));
+      gap.value = String(settings.gap);
+      schedule.value = settings.schedule;
+      coarsening.value = String(settings.coarsening);
+      energy.value = wanted;
+      energyHint.textContent = ENERGIES[wanted];
+      reweighting.value = String(settings.reweighting);
+      reweighting.disabled = wanted === 'huber';
+      find.checked = occlusionThreshold !== undefined;
+      element('threshold-field', HTMLElement).hidden = !find.checked;
+      if (occlusionThreshold !== undefined) threshold.value = shortest(occlusionThreshold);
+      session.set(settings);
+      explain();
+    },
+  };
 }

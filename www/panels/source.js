@@ -2,22 +2,25 @@
 import { designInput } from '../design.js';
 import { doubtOf } from '../doubts.js';
 import { choosesFiles, element, elements } from '../dom.js';
-import { number } from '../format.js';
+import { InColour, inputOf, spanInWords, understood } from '../opened.js';
 import { pixelsOf } from '../pixels.js';
 import { isCamera, together } from '../together.js';
 import { cameraPanel } from './camera.js';
 import { isMesh, meshPanel } from './mesh.js';
-import { showNotice } from './notice.js';
+import { hideNotice, showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
-/** @import {Beside, Input, Session} from '../session.js' */
+/** @import {Session} from '../session.js' */
 /** @import {Together} from '../together.js' */
 
 /**
  * @param {Session} session
- * @param {(view: string) => void} choose a view of the result
+ * @param {object} result
+ * @param {(view: string) => void} result.choose a view of it
+ * @param {(name: string, image: ImageData) => void} result.usePhoto lays a photo on it
+ * @param {(files: readonly File[]) => void} opened files that are the input now
  */
-export function sourcePanel(session, choose) {
+export function sourcePanel(session, { choose, usePhoto }, opened) {
   const radios = elements('input[name="example"]', HTMLInputElement);
   const size = element('size', HTMLSelectElement);
   const noise = element('noise', HTMLSelectElement);
@@ -30,6 +33,8 @@ export function sourcePanel(session, choose) {
   const span = element('scale-span', HTMLElement);
   const doubt = element('scale-doubt', HTMLElement);
   const zero = element('zero-is-nothing', HTMLInputElement);
+  const hex = element('is-hexagonal', HTMLInputElement);
+  const told = element('guessed', HTMLElement);
   const design = element('is-design', HTMLInputElement);
   const arrayField = element('array-field', HTMLElement);
   const array = element('array', HTMLSelectElement);
@@ -38,8 +43,8 @@ export function sourcePanel(session, choose) {
   const designHint = element('design-hint', HTMLElement);
   /** The file whose scale was asked about. */
   let doubted = '';
-  /** The open file's values as they are stored. @type {Float64Array} */
-  let stored = new Float64Array();
+  /** A photo that was opened before what it shows. @type {File | null} */
+  let waiting = null;
 
   /** Generates the chosen example and, as it is quick and needs no further word, solves it. */
   const openExample = async () => {
@@ -57,50 +62,92 @@ export function sourcePanel(session, choose) {
   };
 
   /**
+   * Opens a file and solves it, unless it has to be asked about first.
    * @param {File} chosen
    * @param {string} [wanted] array of it
    * @param {Pick<Together, 'photo' | 'confidence' | 'mask'>} [others] that go with it
    */
-  const openFile = async (chosen, wanted, { photo: picture, ...others } = {}) => {
-    if (isMesh(chosen.name)) return mesh.open(chosen);
+  const openFile = async (chosen, wanted, others = {}) => {
+    if (isMesh(chosen.name)) return openMesh(chosen);
     if (isCamera(chosen)) return camera.read(chosen);
-    /** @type {Float64Array} */
-    let values = stored;
+    const photo = others.photo ?? waiting ?? undefined;
+    /** @type {unknown} */
+    let coloured = null;
     const opened = await session.open(`“${chosen.name}” could not be read`, async () => {
-      const names = await arraysOf(session, chosen);
-      const several = names.length > 1 ? { file: chosen, names, name: wanted ?? names[0] } : undefined;
-      const options = several && { array: several.name };
-      const { format, dataType, width, height, data, pixelSize: side, heightScale: step, unit } = await session.api.read(chosen, options).catch(plainly);
-      const photo = picture && { name: picture.name, image: await pixelsOf(picture) };
-      const beside = await besideOf(session, others);
-      if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
-      if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
-      if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
-      values = data;
-      const name = chosen.name.replace(/\.[^.]*$/, '') || 'heights';
-      const kind = `${format.toUpperCase()}, ${typeInWords(dataType)}`;
-      return { name, kind, dataType, photo, beside, width, height, data, pixelSize: side, heightScale: step, unit: unit ?? undefined, array: several };
+      try {
+        return await inputOf(session.api, chosen, wanted, { ...others, photo });
+      } catch (error) {
+        if (error instanceof InColour && wanted === undefined) coloured = error;
+        throw error;
+      }
     });
-    if (!opened) return false;
-    stored = values;
-    zero.checked = false;
-    design.checked = false;
+    if (coloured) return takePhoto(chosen);
+    if (!opened || !session.input) return false;
+    waiting = null;
+    const { depths, stored } = session.input;
+    setCoarsening(stored?.coarsening ?? 1);
+    if (depths) camera.ask();
+    else void session.run();
     return true;
+  };
+
+  /** @param {File} file @param {readonly File[]} [beside] */
+  const openMesh = async (file, beside) => {
+    const opened = await mesh.open(file, beside);
+    if (opened) void session.run();
+    return opened;
+  };
+
+  /** A picture in colour belongs to the heights that are there, or to those that come next. @param {File} file */
+  const takePhoto = async (file) => {
+    const { input, result } = session;
+    hideNotice();
+    if (input?.kind === undefined) {
+      waiting = file;
+      showNotice(`“${file.name}” is a photo. Open the heights or depths that it shows, and it is laid on them; a photo of a page alone is made flat under “A photo of a page”.`);
+      return true;
+    }
+    try {
+      const image = await pixelsOf(file);
+      if (session.input !== input) return false;
+      if (result) usePhoto(file.name, image);
+      else session.amend({ photo: { name: file.name, image } });
+      return true;
+    } catch (error) {
+      session.fail(`“${file.name}” could not be used`, error);
+      return false;
+    }
+  };
+
+  /** @param {number} step */
+  const setCoarsening = (step) => {
+    if (step === session.settings.coarsening) return;
+    element('coarsening', HTMLSelectElement).value = String(step);
+    session.set({ coarsening: step });
   };
 
   /** What belongs together, or one file. @param {readonly File[]} files */
   const openFiles = async (files) => {
-    if (files.length === 1) return void openFile(files[0]);
+    // The camera's file alone, or a photo, is about what is there.
+    const alone = files.length === 1 && session.input?.kind !== undefined && isCamera(files[0]);
+    const before = session.input;
+    if (!(await put(files)) || alone || session.input === before || !session.input?.kind) return;
+    opened(files);
+  };
+
+  /** @param {readonly File[]} files @returns {Promise<boolean>} */
+  const put = async (files) => {
+    if (files.length === 1) return openFile(files[0]);
     const { mesh: scan, depths, camera: numbers, others, ...beside } = await together(files);
-    if (scan) return void mesh.open(scan, files.filter((file) => file !== scan));
+    if (scan) return openMesh(scan, files.filter((file) => file !== scan));
     if (!depths) {
-      session.fail('These files could not be put together', new Error('there are neither a mesh nor depths (a TIFF, EXR, PFM, NPY or 16-bit PNG) among them'));
-      return;
+      session.fail('These files could not be put together', new Error('there are neither a mesh nor heights or depths (a TIFF, EXR, PFM, NPY or grey PNG) among them'));
+      return false;
     }
-    if (!(await openFile(depths, undefined, beside))) return;
-    camera.ask();
-    if (numbers && !(await camera.read(numbers))) return;
-    if (numbers && !(await camera.project())) return;
+    if (!(await openFile(depths, undefined, beside))) return false;
+    if (numbers || beside.confidence || beside.mask) camera.ask();
+    if (numbers && !(await camera.read(numbers))) return true;
+    if (numbers && !(await camera.project())) return true;
     // All that is needed is there.
     const run = numbers && beside.photo ? session.run() : undefined;
     if (run) choose('dewarped');
@@ -110,24 +157,41 @@ export function sourcePanel(session, choose) {
       showNotice(`Not used: ${names}. With depths go one photo, the camera’s file, and images whose names tell that they are their confidence or a mask.`);
     }
     await run;
+    return true;
   };
 
-  const dropZeros = () => {
-    const data = zero.checked ? stored.map((value) => (value === 0 ? NaN : value)) : stored;
-    if (data.some(Number.isFinite)) session.amend({ data });
-    else session.fail('The zeros could not be taken as “no data”', new Error('nothing else would be left'));
+  /** @param {Parameters<typeof understood>[1]} change */
+  const understand = (change) => {
+    const { input } = session;
+    if (!input) return;
+    try {
+      session.amend(understood(input, change));
+    } catch (error) {
+      session.fail('It could not be taken so', error);
+    }
   };
 
   const rescale = () => {
     pixelSize.setCustomValidity(pixelSize.valueAsNumber > 0 ? '' : 'The pixel size must be above 0.');
     heightScale.setCustomValidity(Math.abs(heightScale.valueAsNumber) > 0 ? '' : 'The height scale must not be 0.');
     if (!pixelSize.reportValidity() || !heightScale.reportValidity()) return;
-    session.amend({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber });
+    understand({ pixelSize: pixelSize.valueAsNumber, heightScale: heightScale.valueAsNumber, told: '' });
+  };
+  /** @param {number} factor of the relief against the width */
+  const steepen = (factor) => {
+    const stored = session.input?.stored;
+    if (!stored) return;
+    // Of levels nobody knows the height; of numbers the pixels' size.
+    const { levels, heightScale: step, pixelSize: side } = stored;
+    understand(levels ? { heightScale: step * factor } : { pixelSize: side / factor });
   };
 
   for (const control of [...radios, size, noise]) control.addEventListener('change', openExample);
   for (const control of [pixelSize, heightScale]) control.addEventListener('change', rescale);
-  zero.addEventListener('change', dropZeros);
+  zero.addEventListener('change', () => understand({ zeros: zero.checked }));
+  hex.addEventListener('change', () => understand({ hexagonal: hex.checked }));
+  element('flatter', HTMLButtonElement).addEventListener('click', () => steepen(0.5));
+  element('steeper', HTMLButtonElement).addEventListener('click', () => steepen(2));
   design.addEventListener('change', () => session.amend({ design: design.checked }));
   choosesFiles(element('open', HTMLButtonElement), file, openFiles);
   array.addEventListener('change', () => {
@@ -137,7 +201,7 @@ export function sourcePanel(session, choose) {
 
   session.on('input', (input) => {
     const isFile = input.kind !== undefined;
-    exampleOptions.hidden = isFile || input.design === true;
+    exampleOptions.hidden = isFile || input.design === true || !radios.some(({ value }) => value === input.name);
     designHint.hidden = isFile || !input.design;
     fileOptions.hidden = !isFile || input.seen !== undefined;
     for (const radio of radios) radio.checked = !isFile && radio.value === input.name;
@@ -146,8 +210,14 @@ export function sourcePanel(session, choose) {
     arrayField.hidden = several === undefined;
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
     fileName.textContent = `${input.name} (${input.kind})`;
-    pixelSize.value = plain(input.pixelSize);
-    heightScale.value = plain(input.heightScale);
+    if (!input.stored) return;
+    pixelSize.value = plain(input.stored.pixelSize);
+    heightScale.value = plain(input.stored.heightScale);
+    zero.checked = input.stored.zeros;
+    design.checked = input.design === true;
+    hex.checked = input.stored.hexagonal;
+    told.textContent = input.depths ? depthsInWords(input.depths) : input.stored.told;
+    told.hidden = told.textContent === '';
     span.textContent = spanInWords(input);
     const words = doubtOf(input);
     // Its room is kept while the same file is scaled, or what is clicked next would move away.
@@ -160,68 +230,34 @@ export function sourcePanel(session, choose) {
     }
   });
 
-  return { openExample, openFiles, takeMesh: mesh.take };
-}
-
-/**
- * The names of the arrays of an NPZ that may be heights; other files have none.
- * @param {Session} session
- * @param {File} file
- */
-async function arraysOf(session, file) {
-  if (!/\.npz$/i.test(file.name)) return [];
-  const arrays = await session.api.npzArrays(file);
-  return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
-}
-
-/**
- * What is known of depths besides, as it is stored.
- * @param {Session} session
- * @param {Pick<Together, 'confidence' | 'mask'>} files
- * @returns {Promise<Beside | undefined>}
- */
-async function besideOf(session, { confidence, mask }) {
-  /** @param {File} [file] */
-  const read = async (file) => {
-    if (!file) return undefined;
-    try {
-      const { width, height, data, dataType } = await session.api.read(file);
-      // Whole numbers are levels, or shares of the largest.
-      if (dataType === 'u8') return { width, height, data: Uint8Array.from(data, (value) => value || 0) };
-      if (dataType === 'u16') return { width, height, data: Uint16Array.from(data, (value) => value || 0) };
-      return { width, height, data };
-    } catch (error) {
-      throw new Error(`its “${file.name}” could not be read: ${error instanceof Error ? error.message : error}`);
-    }
+  return {
+    /**
+     * @param {string} name
+     * @param {{ size: number, noise: number }} options the nearest that can be chosen
+     */
+    async openNamed(name, options) {
+      for (const radio of radios) radio.checked = radio.value === name;
+      if (!radios.some(({ checked }) => checked)) radios[0].checked = true;
+      chooseNearest(size, options.size);
+      chooseNearest(noise, options.noise);
+      await openExample();
+    },
+    openFiles,
+    understand,
+    takeMesh: mesh.take,
   };
-  const names = [confidence, mask].flatMap((file) => (file ? [file.name] : []));
-  return names.length === 0 ? undefined : { confidence: await read(confidence), mask: await read(mask), names };
 }
 
-/** Says what to do with a photo. @param {unknown} error @returns {never} */
-function plainly(error) {
-  if (!(error instanceof Error && /colour/.test(error.message))) throw error;
-  throw new Error('it is in colour, and no heights follow from that. A photo alone is made flat under “A photo of a page”; with its depths, open both together');
+/** @param {HTMLSelectElement} select @param {number} value */
+function chooseNearest(select, value) {
+  const values = [...select.options].map((option) => Number(option.value));
+  const nearest = values.toSorted((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
+  select.value = String(nearest);
 }
 
-/** @param {string} type such as u16 */
-function typeInWords(type) {
-  const [, letter, bits] = /^([a-z]+)(\d+)$/.exec(type) ?? [];
-  /** @type {Record<string, string>} */
-  const names = { u: 'integers', i: 'signed integers', f: 'floats' };
-  return names[letter] ? `${bits}-bit ${names[letter]}` : type;
-}
-
-/** @param {Input} input */
-function spanInWords({ data, width, height, pixelSize, heightScale }) {
-  let low = Infinity;
-  let high = -Infinity;
-  for (const value of data) {
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  const depth = (high - low) * Math.abs(heightScale);
-  return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(depth)} in height.`;
+/** @param {'mm' | 'm'} unit */
+function depthsInWords(unit) {
+  return `These look like depths from a camera, in ${unit === 'mm' ? 'millimetres' : 'metres'}: say what is known of it below, then put them in space.`;
 }
 
 /** A number as an input field takes it, without the digits that only binary fractions have. @param {number} value */

@@ -20,21 +20,27 @@ export class MeshView {
   #controls;
   /** @type {any} */
   #shown = null;
+  /** It is not turned by hand now. */
+  #looking = false;
+  /** The direction at the last change. */
+  #last = '';
 
   /**
    * @param {HTMLCanvasElement} canvas
+   * @param {(view: MeshView) => void} [turned] by hand or by keys
    * @throws where there is no WebGL
    */
-  static async on(canvas) {
+  static async on(canvas, turned = () => {}) {
     const three = await import(new URL('../vendor/three.js', import.meta.url).href);
-    return new MeshView(canvas, three);
+    return new MeshView(canvas, three, turned);
   }
 
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {any} three the library, which has no types
+   * @param {(view: MeshView) => void} turned
    */
-  constructor(canvas, three) {
+  constructor(canvas, three, turned) {
     this.canvas = canvas;
     this.#three = three;
     this.#renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -47,7 +53,13 @@ export class MeshView {
     this.#scene.add(this.#camera, new three.HemisphereLight(0xffffff, 0x8a94a0, 0.7));
     this.#controls = new three.OrbitControls(this.#camera, canvas);
     this.#controls.enablePan = false;
-    this.#controls.addEventListener('change', () => this.#draw());
+    this.#controls.addEventListener('change', () => {
+      this.#draw();
+      const now = String(this.direction);
+      // Zooming turns nothing.
+      if (!this.#looking && now !== this.#last) turned(this);
+      this.#last = now;
+    });
     new ResizeObserver(() => this.#draw()).observe(canvas);
     canvas.addEventListener('keydown', (event) => {
       const arrow = ARROWS[event.key];
@@ -95,7 +107,9 @@ export class MeshView {
     this.#camera.zoom = 1;
     this.#camera.updateProjectionMatrix();
     this.#camera.position.set(-x, -y, -z).normalize().multiplyScalar(DISTANCE);
+    this.#looking = true;
     this.#controls.update();
+    this.#looking = false;
     this.#draw();
   }
 

@@ -113,7 +113,10 @@ function watch(page) {
     if (message.type() !== 'log') incidents.push(`${message.type()}: ${message.text()}`);
   });
   page.on('pageerror', (error) => incidents.push(`uncaught: ${error.message}`));
-  page.on('requestfailed', (request) => incidents.push(`failed: ${request.url()}`));
+  page.on('requestfailed', (request) => {
+    // A reload gives up what was still on its way.
+    if (!(request.url().endsWith('icon.svg') && request.failure()?.errorText === 'net::ERR_ABORTED')) incidents.push(`failed: ${request.url()}`);
+  });
   page.on('request', (request) => {
     const { origin } = new URL(request.url());
     if (origin !== home) incidents.push(`request to ${request.url()}`);
@@ -127,6 +130,8 @@ function watch(page) {
  */
 export async function settled(page) {
   await page.locator('#page[data-phase="idle"]').waitFor();
+  // The headline counts the pieces after the run.
+  await page.locator('#verdict:not([aria-busy="true"])').waitFor();
   await painted(page);
 }
 
@@ -136,6 +141,7 @@ export async function settled(page) {
  * @param {() => Promise<unknown>} act
  */
 export async function runBy(page, act) {
+  await settled(page);
   // The watch is set before the act, in a call of its own, or a quick run is over before it is seen.
   const ended = await page.evaluateHandle(() => {
     const main = /** @type {HTMLElement} */ (document.querySelector('#page'));
@@ -152,7 +158,7 @@ export async function runBy(page, act) {
   });
   await act();
   await ended.evaluate(({ promise }) => promise);
-  await painted(page);
+  await settled(page);
 }
 
 /**
@@ -171,7 +177,7 @@ export async function painted(page) {
  * @param {string} name
  */
 export async function reported(page, name) {
-  const row = page.locator('#report-table tr').filter({ has: page.getByRole('rowheader', { name, exact: true }) });
+  const row = page.locator('#report-table tr').filter({ has: page.locator('th', { hasText: new RegExp(`^${name}$`) }) });
   return (await row.locator('td').first().innerText()).trim();
 }
 
@@ -233,7 +239,7 @@ export async function dropAll(page, files) {
 }
 
 /**
- * Drops a file that can be read, and waits until it is what a run would start from.
+ * Drops a file that can be read, and waits until it is solved, unless it has to be asked about first.
  * @param {Page} page
  * @param {string} name
  * @param {Buffer} bytes
@@ -241,15 +247,28 @@ export async function dropAll(page, files) {
 export async function open(page, name, bytes) {
   await drop(page, name, bytes);
   await page.locator('#input-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
+  await settled(page);
 }
 
 /**
- * What a click on one of the save buttons downloads.
+ * The result as a 3D file, as the dialog saves it.
  * @param {Page} page
  * @param {string} format
  */
-export function save(page, format) {
-  return downloaded(page, () => page.getByRole('button', { name: format, exact: true }).click());
+export async function save(page, format) {
+  await page.locator('#end-file').click();
+  return saveAs(page, format);
+}
+
+/**
+ * What the open dialog saves.
+ * @param {Page} page
+ * @param {string} format
+ */
+export async function saveAs(page, format) {
+  await page.locator('#save-formats').getByRole('radio', { name: new RegExp(`^${format} `) }).check();
+  await page.locator('#save-size', { hasText: new RegExp(`${format === 'JPEG' ? 'jpg' : format === 'Warp map' ? 'json' : format.toLowerCase()}, .*(bytes|kB|MB)`) }).waitFor();
+  return downloaded(page, () => page.locator('#save-now').click());
 }
 
 /**

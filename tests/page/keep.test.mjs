@@ -1,0 +1,76 @@
+/** The gallery, and what is shown as an address: shared, gone back to, and reloaded. */
+import assert from 'node:assert/strict';
+import { addressOf, stateOf } from '../../www/address.js';
+import { CARDS } from '../../www/gallery/cards.js';
+import { test } from 'node:test';
+import { grid, npy } from './support/files.mjs';
+import { parsed } from './support/numbers.mjs';
+import { drop, open, pageTest, reported, runBy, settled } from './support/page.mjs';
+
+const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined });
+
+test('an address says what it was made of, and what it does not know is left', () => {
+  const states = [
+    { card: 'fig-8', settings: { lambda: 1e5 } },
+    { example: { name: 'cone', size: 200, noise: 0 }, settings: { energy: /** @type {const} */ ('huber'), lambda: /** @type {const} */ ('auto') }, view: 'patches' },
+    { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, zeros: true, hexagonal: false }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
+  ];
+  for (const state of states) {
+    const found = stateOf(addressOf(state, defaults));
+    assert.deepEqual(JSON.parse(JSON.stringify(found)), state);
+  }
+  assert.deepEqual(stateOf('#lambda=-3&energy=none&gap=x&view=constructor&schedule=1').settings, {});
+  assert.equal(stateOf('#view=constructor').view, undefined);
+});
+
+test('the gallery has a card for each figure of the paper that it tells, with an address of its own', () => {
+  const figures = CARDS.flatMap(({ figure }) => figure.match(/\d+/g) ?? []).map(Number);
+  for (const figure of [4, 5, 6, 7, 8, 9, 10, 11, 16, 18, 19, 20, 21, 22, 23, 24, 25, 26]) assert.ok(figures.includes(figure), `Fig. ${figure}`);
+  assert.equal(new Set(CARDS.map(({ id }) => id)).size, CARDS.length);
+  for (const { id, input, sketch, words, look } of CARDS) {
+    assert.ok(words.split('. ').length >= 2 && look.length > 10, id);
+    for (const made of [input?.(60), sketch?.(60)]) {
+      if (!made) continue;
+      assert.equal(made.data.length, made.width * made.height, id);
+      assert.ok(made.data.some(Number.isFinite) && !made.data.some((z) => Math.abs(z) === Infinity), id);
+    }
+  }
+});
+
+pageTest('settings stand in the address, Back undoes them, and a file is there after a reload', async (page) => {
+  await page.waitForURL(/example=roof/);
+  await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
+  await page.waitForURL(/lambda=1e5/);
+  await runBy(page, () => page.goBack().then(() => {}));
+  assert.equal(parsed(await reported(page, 'λ')), 1e6);
+  assert.equal(await page.getByLabel('λ as a number').inputValue(), '1e6');
+
+  await open(page, 'slope.npy', npy(48, grid(48, 36, (col, row) => 0.1 * col + 0.15 * row)));
+  await page.waitForURL(/file=\d/);
+  await runBy(page, () => page.getByRole('button', { name: 'Steeper' }).click());
+  await page.waitForURL(/pixelSize=0\.5/);
+  await page.reload();
+  await page.locator('#file-name', { hasText: 'slope' }).waitFor();
+  await settled(page);
+  assert.equal(await page.getByLabel('Pixel size').inputValue(), '0.5');
+  assert.match(await page.locator('#recent').innerText(), /slope\.npy/);
+
+  // A card of the gallery by its address, and the same at five λ.
+  await page.goto(`${page.url().replace(/#.*/, '')}#fig-8&lambda=1e5`);
+  await page.locator('#story-title', { hasText: 'Fig. 8' }).waitFor();
+  await settled(page);
+  assert.equal(parsed(await reported(page, 'λ')), 1e5);
+  await page.locator('#strip[aria-busy="false"]').waitFor();
+  await runBy(page, () => page.getByRole('button', { name: 'λ = 1e7' }).click());
+  assert.equal(parsed(await reported(page, 'λ')), 1e7);
+  await page.getByRole('button', { name: /^Gallery/ }).click();
+  assert.equal(await page.locator('.card').count(), CARDS.length);
+  await runBy(page, () => page.getByRole('button', { name: /Fig\. 11/ }).click());
+  await page.waitForURL(/#fig-11$/);
+  assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases; \d/);
+  // Whatever else is opened ends its story.
+  await drop(page, 'other.npy', npy(48, grid(48, 36, (col) => 3 * col)));
+  await page.locator('#file-name', { hasText: 'other' }).waitFor();
+  await settled(page);
+  assert.equal(await page.locator('#story').isVisible(), false);
+});

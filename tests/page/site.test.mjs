@@ -1,0 +1,64 @@
+/** The page as a folder of static files: under a path of its own, with few requests, without a network, and renewed as a whole. */
+import assert from 'node:assert/strict';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { serve } from '../../tools/serve.mjs';
+import { writeSite } from '../../tools/site.mjs';
+import { pageTest, settled } from './support/page.mjs';
+
+pageTest('the site works under any path and without a network, and is renewed as a whole', async (page) => {
+  const folder = await mkdtemp(join(tmpdir(), 'developable-site-'));
+  await writeSite(folder);
+  const server = await serve({ folders: { '/some/where/': folder } });
+  try {
+    const context = await /** @type {import('playwright-core').Browser} */ (page.context().browser()).newContext();
+    const visit = await context.newPage();
+    /** @type {string[]} */
+    const asked = [];
+    // The page's own: what the service worker keeps for later comes besides.
+    visit.on('request', (request) => asked.push(request.url()));
+    await visit.goto(`${server.url}some/where/#example=cone&size=100&noise=0.02`);
+    await settled(visit);
+    const own = asked.filter((url) => !/(sw|register)\.js$|manifest/.test(url) && !url.startsWith('blob:'));
+    assert.ok(own.every((url) => url.startsWith(`${server.url}some/where/`)), String(own));
+    const first = own.slice(0, own.findIndex((url) => /solver_bg/.test(url)) + 1);
+    assert.ok(first.length > 0 && first.length <= 12, `${first.length} requests up to the solver: ${first}`);
+
+    // Everything is kept once the worker is there.
+    await visit.evaluate(async () => { await navigator.serviceWorker.ready; });
+    await context.setOffline(true);
+    await server.close();
+    await visit.reload();
+    await settled(visit);
+    assert.match(await visit.locator('#certificate').innerText(), /^Certified/);
+    // What was not loaded before, too.
+    await visit.locator('#end-file').click();
+    await visit.locator('#save-formats input[value="glb"]').check();
+    await visit.locator('#save-size', { hasText: /glb, \d/ }).waitFor();
+    await visit.keyboard.press('Escape');
+
+    // Another version: not mixed with this one, and taken when it is asked for.
+    await context.setOffline(false);
+    const again = await serve({ folders: { '/some/where/': folder }, port: Number(new URL(server.url).port) });
+    try {
+      for (const [name, before, after] of [['index.html', '<h1>developable', '<h1>developable 2'], ['sw.js', '"version":"', '"version":"2']]) {
+        const file = join(folder, name);
+        await writeFile(file, (await readFile(file, 'utf8')).replace(before, after));
+      }
+      await visit.reload();
+      await visit.evaluate(async () => { await (await navigator.serviceWorker.ready).update(); });
+      await visit.getByRole('button', { name: /new version/ }).waitFor();
+      assert.equal(await visit.locator('h1').innerText(), 'developable');
+      await visit.getByRole('button', { name: /new version/ }).click();
+      await visit.getByRole('heading', { name: 'developable 2' }).waitFor();
+      assert.match(new URL(visit.url()).hash, /cone/, 'what was shown stands in the address');
+    } finally {
+      await again.close();
+    }
+    await context.close();
+  } finally {
+    await server.close().catch(() => {});
+    await rm(folder, { recursive: true, force: true });
+  }
+});

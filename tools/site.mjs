@@ -1,0 +1,83 @@
+/**
+ * `npm run site [-- FOLDER]`: the page as one folder of static files, which works under any path of any static host, and
+ * without a network once it was visited.
+ */
+import { createHash } from 'node:crypto';
+import { copyFile, mkdir, readFile, readdir, rm, writeFile } from 'node:fs/promises';
+import { join, relative, resolve, sep } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { build } from './build.mjs';
+import { root, www } from './util/paths.mjs';
+import { Problem, main } from './util/problem.mjs';
+
+/** Imports that a server without a build step takes as they are, and a bundler has to be told of. */
+const IMPORTS = [
+  { file: 'api.js', from: "new URL('./pkg/index.js', import.meta.url).href", to: "'../pkg/index.js'" },
+  { file: join('surface', 'mesh-view.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
+];
+
+/**
+ * Writes the site from what is built.
+ * @param {string} folder is made anew
+ */
+export async function writeSite(folder) {
+  // Only now: on a fresh clone it has just been installed.
+  const { build: bundle } = await import('vite');
+  const found = new Set();
+  await bundle({
+    root: www,
+    base: './',
+    configFile: false,
+    publicDir: false,
+    logLevel: 'error',
+    worker: { format: 'es' },
+    plugins: [{
+      name: 'imports',
+      transform(code, id) {
+        const known = IMPORTS.find(({ file }) => id === join(www, file).split(sep).join('/'));
+        if (!known?.from || !code.includes(known.from)) return null;
+        found.add(known);
+        return { code: code.replace(known.from, known.to), map: null };
+      },
+    }],
+    build: {
+      outDir: folder,
+      emptyOutDir: true,
+      assetsInlineLimit: 0,
+      modulePreload: false,
+      chunkSizeWarningLimit: 2000,
+    },
+  });
+  if (found.size < IMPORTS.length) throw new Problem('An import that the site needs is no longer where tools/site.mjs looks for it.');
+
+  for (const name of ['register.js', 'manifest.webmanifest']) await copyFile(join(www, 'site', name), join(folder, name));
+  await copyFile(join(www, 'icon.svg'), join(folder, 'icon.svg'));
+  for (const name of ['LICENSE-MIT', 'LICENSE-APACHE']) await copyFile(join(root, name), join(folder, name));
+  const page = join(folder, 'index.html');
+  const html = await readFile(page, 'utf8');
+  await writeFile(page, html.replace('</head>', '  <link rel="manifest" href="./manifest.webmanifest">\n  <script type="module" src="./register.js"></script>\n</head>'));
+  await writeWorker(folder);
+}
+
+/** The service worker, with all files and a version that changes with any of them. @param {string} folder */
+async function writeWorker(folder) {
+  const entries = await readdir(folder, { recursive: true, withFileTypes: true });
+  const files = entries.filter((entry) => entry.isFile() && !entry.name.startsWith('LICENSE'))
+    .map((entry) => relative(folder, join(entry.parentPath, entry.name)).split(sep).join('/')).sort();
+  const code = await readFile(join(www, 'site', 'sw.js'), 'utf8');
+  const hash = createHash('sha256').update(code);
+  for (const file of files) hash.update(file).update(await readFile(join(folder, file)));
+  const site = { version: hash.digest('hex').slice(0, 16), files: files.map((file) => `./${file}`) };
+  await writeFile(join(folder, 'sw.js'), `globalThis.SITE = ${JSON.stringify(site)};\n${code}`);
+}
+
+if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {
+  await main(async () => {
+    const folder = resolve(process.argv[2] ?? join(root, 'site'));
+    await build();
+    await rm(folder, { recursive: true, force: true });
+    await mkdir(folder, { recursive: true });
+    await writeSite(folder);
+    console.log(`\nThe site is in ${folder}: put it on any static host, under any path.`);
+  });
+}

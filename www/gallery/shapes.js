@@ -1,0 +1,171 @@
+/** Surfaces as heights over the unit square, x to the right and y up from its middle: what the gallery shows. */
+
+/** @typedef {(x: number, y: number) => number} Heights NaN beyond the shape */
+
+/** @param {Heights} heights @param {number} degrees counter-clockwise @returns {Heights} */
+export function turned(heights, degrees) {
+  const angle = (degrees * Math.PI) / 180;
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return (x, y) => heights(cos * x + sin * y, cos * y - sin * x);
+}
+
+/** An arc over an axis, down to 0 at its sides. @param {number} off @param {number} radius @param {number} half */
+function vault(off, radius, half) {
+  return Math.abs(off) < half ? Math.sqrt(radius ** 2 - off ** 2) - Math.sqrt(radius ** 2 - half ** 2) : 0;
+}
+
+/** Sails of a concert hall: parts of cylinders that lean against each other, each a sheet of steel. @type {Heights} */
+export function hall(x, y) {
+  /** @param {number} left @param {number} low @param {number} angle @param {number} radius @param {number} lean */
+  const sail = (left, low, angle, radius, lean) => {
+    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+    const across = cos * (x - left) + sin * (y - low);
+    const along = cos * (y - low) - sin * (x - left);
+    return Math.abs(across) < 0.96 * radius ? Math.sqrt(radius ** 2 - across ** 2) - 0.55 * radius + lean * along : -1;
+  };
+  return Math.max(
+    0,
+    Math.min(sail(-0.22, -0.05, 0.5, 0.3, 0.35), 0.36 - 0.2 * y),
+    Math.min(sail(0.16, 0.1, -0.35, 0.33, -0.25), 0.4 + 0.1 * x),
+    sail(0.05, -0.3, 1.2, 0.2, 0.15),
+  );
+}
+
+/** Pleats like those of a folded fan, whose ridges run one way. @type {Heights} */
+export function pleats(x, y) {
+  const u = 5 * x + 0.6 * y;
+  return 0.09 * (1 - 2 * Math.abs(u - Math.round(u))) + 0.12 * y;
+}
+
+/** A curved bench: a sheet that bends up on one side and down on the other, with a fold between. @type {Heights} */
+export function bench(x, y) {
+  const seat = 0.16 * Math.cos(2.4 * (x + 0.15));
+  const back = 0.1 + 1.1 * (y - 0.05) + 0.05 * Math.cos(3 * x);
+  return Math.max(seat, back * 0.55);
+}
+
+/** The front of a bust, modelled by signed distances: the height where a ray from the front meets it. @type {Heights} */
+export function bust(x, y) {
+  for (let z = 0.62; z > 0.02; ) {
+    const distance = bustDistance(x, y, z);
+    if (distance < 1e-4) return z;
+    z -= Math.max(0.6 * distance, 1e-3);
+  }
+  return 0.02;
+}
+
+/** @param {number} x @param {number} y @param {number} z */
+function bustDistance(x, y, z) {
+  const side = Math.abs(x);
+  /** @param {number} u @param {number} v @param {number} w @param {readonly [number, number, number]} radii */
+  const ball = (u, v, w, [a, b, c]) => {
+    const scaled = Math.hypot(u / a, v / b, w / c);
+    const steep = Math.hypot(u / a ** 2, v / b ** 2, w / c ** 2) || 1;
+    return (scaled * (scaled - 1)) / steep;
+  };
+  const head = ball(x, y - 0.12, z - 0.12, [0.21, 0.28, 0.27]);
+  const jaw = ball(x, y + 0.06, z - 0.16, [0.13, 0.13, 0.19]);
+  const nose = ball(x, y - 0.06 + 0.3 * (z - 0.38), z - 0.38, [0.035, 0.075, 0.065]);
+  const brow = ball(side - 0.08, y - 0.155, z - 0.335, [0.075, 0.022, 0.04]);
+  const eye = ball(side - 0.08, y - 0.1, z - 0.385, [0.05, 0.035, 0.05]);
+  const cheek = ball(side - 0.1, y + 0.0, z - 0.28, [0.07, 0.08, 0.07]);
+  const lip = ball(x, y + 0.065, z - 0.345, [0.06, 0.02, 0.03]);
+  const chin = ball(x, y + 0.13, z - 0.29, [0.055, 0.045, 0.06]);
+  const ear = ball(side - 0.215, y - 0.08, z - 0.1, [0.03, 0.07, 0.05]);
+  const hair = ball(x, y - 0.27, z - 0.12, [0.24, 0.17, 0.2]);
+  const neck = Math.max(Math.hypot(x, z - 0.08) - 0.12, y - 0.1);
+  const chest = ball(x, y + 0.55, z - 0.02, [0.46, 0.27, 0.2]);
+  let face = smooth(smooth(head, jaw, 0.05), cheek, 0.04);
+  face = Math.max(face, -eye + 0.012);
+  face = smooth(smooth(smooth(smooth(face, nose, 0.02), brow, 0.02), lip, 0.015), chin, 0.03);
+  return smooth(smooth(smooth(Math.min(face, ear), hair, 0.02), neck, 0.03), chest, 0.06);
+}
+
+/** The smaller of both, rounded where they meet. @param {number} a @param {number} b @param {number} k */
+function smooth(a, b, k) {
+  const share = Math.max(k - Math.abs(a - b), 0) / k;
+  return Math.min(a, b) - (share * share * k) / 4;
+}
+
+/** A column and a leaf in front of a wall that leans: seen from the front they hide a part of it. @type {Heights} */
+export function hidden(x, y) {
+  const wall = 0.12 * y - 0.1;
+  if (Math.abs(x + 0.2) < 0.1) return 0.32 + Math.sqrt(0.1 ** 2 - (x + 0.2) ** 2) * 0.9;
+  const [u, v] = [x - 0.16, y + 0.04];
+  if (Math.abs(u) < 0.2 && Math.abs(v + 0.3 * u) < 0.22) return 0.28 + 0.5 * u ** 2 * 3 - 0.15 * u;
+  return wall;
+}
+
+/** A note that was crumpled and spread again: facets between folds in all directions. @type {Heights} */
+export function note(x, y) {
+  if (Math.abs(x) > 0.36 || Math.abs(y) > 0.46) return NaN;
+  let z = 0;
+  for (const [angle, place, fold] of FOLDS) z += fold * Math.abs(Math.cos(angle) * x + Math.sin(angle) * y - place);
+  return z;
+}
+const FOLDS = /** @type {const} */ ([
+  [0.3, 0.05, 0.16], [1.2, -0.12, -0.14], [2.1, 0.1, 0.12], [2.7, -0.2, -0.1], [0.9, 0.22, 0.11], [1.7, 0.2, -0.13], [0.05, -0.18, 0.09], [1.5, -0.3, 0.1],
+]);
+
+/** A machine part: flanks that bend one way, a flat, and a rim with sharp edges. @type {Heights} */
+export function fandisk(x, y) {
+  const r = Math.hypot(x + 0.5, y + 0.5);
+  const fan = r < 0.98 && r > 0.3 ? 0.3 - 0.55 * (r - 0.64) ** 2 * 3 : 0.05;
+  const rim = Math.abs(r - 0.98) < 0.12 ? 0.16 + 0.6 * Math.abs(r - 0.98) : 0;
+  const step = x > 0.22 && y < 0.05 ? 0.24 - 0.25 * (x - 0.22) : 0;
+  return Math.max(0.05, Math.min(fan, 0.05 + 0.8 * (r - 0.3)), rim, step);
+}
+
+/** Mountains: ridges at every scale, each half as high as the last. @type {Heights} */
+export function terrain(x, y) {
+  let [z, size, scale] = [0, 0.11, 3];
+  for (let octave = 0; octave < 6; octave++) {
+    z += size * (1 - 2 * Math.abs(valueNoise(scale * (x + 7) + 3.1 * octave, scale * (y + 5) - 1.7 * octave) - 0.5));
+    size *= 0.48;
+    scale *= 2.03;
+  }
+  return z - 0.15;
+}
+
+/** Smooth noise between 0 and 1. @param {number} x @param {number} y */
+function valueNoise(x, y) {
+  const [i, j] = [Math.floor(x), Math.floor(y)];
+  const [u, v] = [x - i, y - j].map((t) => t * t * (3 - 2 * t));
+  /** @param {number} a @param {number} b */
+  const at = (a, b) => {
+    let hash = Math.imul(a, 374761393) + Math.imul(b, 668265263);
+    hash = Math.imul(hash ^ (hash >>> 13), 1274126177);
+    return ((hash ^ (hash >>> 16)) >>> 0) / 2 ** 32;
+  };
+  return (at(i, j) * (1 - u) + at(i + 1, j) * u) * (1 - v) + (at(i, j + 1) * (1 - u) + at(i + 1, j + 1) * u) * v;
+}
+
+/** A lattice tower seen from the front: legs that are hardly wider than the noise is fine. @type {Heights} */
+export function tower(x, y) {
+  const up = y + 0.5;
+  const half = 0.34 * (1 - up) ** 1.6 + 0.02;
+  const side = Math.abs(x);
+  if (side > half + 0.02) return 0;
+  const leg = Math.abs(side - half) < 0.018 + 0.02 * (1 - up);
+  const brace = Math.abs(((up * 9) % 1) - 0.5) < 0.09 || Math.abs((side / (half + 1e-3) + up * 9) % 1 - 0.5) < 0.08;
+  const deck = Math.abs(up - 0.42) < 0.025 || Math.abs(up - 0.66) < 0.018;
+  return deck || leg ? 0.12 : brace && side < half ? 0.09 : 0;
+}
+
+/** A cathedral's crossing: pointed vaults, for constraints along their edges and ridges. @type {Heights} */
+export function cathedral(x, y) {
+  const pointed = (/** @type {number} */ off) => 0.34 - 0.55 * Math.abs(off) - 0.35 * off ** 2;
+  return Math.max(pointed(x), pointed(y));
+}
+
+/** A canopy on four masts, its edges between them sagging. @type {Heights} */
+export function canopy(x, y) {
+  return 0.3 * (Math.abs(x) + Math.abs(y)) - 0.25 * (x ** 2 + y ** 2);
+}
+
+/** Two edges that are curled differently and a point between them, joined by straight lines. @type {Heights} */
+export function tent(x, y) {
+  const front = 0.24 * Math.sin(Math.PI * (x + 0.5)) - 0.05;
+  const back = 0.1 * Math.sin(2 * Math.PI * (x + 0.5));
+  return Math.max(front + (back - front) * (y + 0.5), 0.3 - 0.6 * Math.hypot(x, 1.4 * y));
+}

@@ -1,0 +1,132 @@
+/** The gallery: cards with pictures, each of which opens an input with its settings and says what to look at. */
+import { element, make } from '../dom.js';
+import { CARDS } from '../gallery/cards.js';
+import { drawThumbnail } from '../surface/thumbnail.js';
+
+/** @import {Card} from '../gallery/cards.js' */
+/** @import {Session, Settings} from '../session.js' */
+
+/** Pixels along a side of a card's picture. */
+const PICTURE = 112;
+
+/**
+ * @param {Session} session
+ * @param {object} page
+ * @param {(settings: Settings) => void} page.adopt
+ * @param {(view: string) => void} page.choose a view
+ * @param {(wanted: boolean) => void} page.strip shows the same at five λ, or does not
+ * @param {() => void} page.enter the part of the page that shows it
+ */
+export function galleryPanel(session, { adopt, choose, strip, enter }) {
+  const dialog = element('gallery', HTMLDialogElement);
+  const list = element('gallery-cards', HTMLElement);
+  const story = element('story', HTMLElement);
+  /** @type {Card | null} */
+  let present = null;
+  /** The name of its input: what else is opened ends the story. */
+  let named = '';
+
+  const open = () => {
+    if (list.childElementCount === 0) fill(session, list, (card) => void show(card));
+    dialog.showModal();
+  };
+  element('gallery-open', HTMLButtonElement).addEventListener('click', open);
+  element('story-all', HTMLButtonElement).addEventListener('click', open);
+  dialog.addEventListener('click', (event) => {
+    if (event.target === dialog) dialog.close();
+  });
+  /** @param {number} step */
+  const go = (step) => {
+    if (present) void show(CARDS[(CARDS.indexOf(present) + step + CARDS.length) % CARDS.length]);
+  };
+  element('story-before', HTMLButtonElement).addEventListener('click', () => go(-1));
+  element('story-next', HTMLButtonElement).addEventListener('click', () => go(1));
+
+  const tell = () => {
+    story.hidden = present === null;
+    if (!present) return;
+    element('story-title', HTMLElement).textContent = `${present.figure}: ${present.title}.`;
+    element('story-words', HTMLElement).textContent = present.words;
+    element('story-look', HTMLElement).textContent = present.look;
+  };
+
+  /**
+   * @param {Card} card
+   * @param {Partial<Settings>} [settings] in the place of its own
+   * @param {string} [view]
+   */
+  const show = async (card, settings = card.settings, view = card.view) => {
+    dialog.close();
+    enter();
+    const opened = await session.open('The gallery’s input could not be made', () => inputOf(session, card, card.size));
+    if (!opened) return;
+    present = card;
+    named = session.input?.name ?? '';
+    tell();
+    adopt({ ...session.defaults, ...settings });
+    choose(view);
+    strip(card.opens === 'strip');
+    if (card.opens === 'drawer' && element('drawer', HTMLElement).hidden) element('certificate', HTMLButtonElement).click();
+    await session.run();
+  };
+
+  session.on('input', (input) => {
+    if (present && input.name === named && input.kind === undefined) return;
+    if (present) strip(false);
+    present = null;
+    tell();
+  });
+
+  return {
+    /** The card with an address. @param {string} id */
+    find: (id) => CARDS.find((card) => card.id === id || (id === 'fig-20' && card.id === 'fig-22')),
+    show,
+    open,
+    get present() {
+      return present;
+    },
+  };
+}
+
+/**
+ * @param {Session} session
+ * @param {Card} card
+ * @param {number} size
+ * @returns {Promise<import('../session.js').Input>}
+ */
+async function inputOf({ api }, { example, input }, size) {
+  if (input) return input(size);
+  if (!example) throw new Error('it has neither');
+  const { name, noise } = example;
+  const made = await api.example(name, { size, noise });
+  const { width, height, data, pixelSize = 1, heightScale = 1 } = made.input;
+  return { name, width, height, data: Float64Array.from(data), pixelSize, heightScale, truth: Float64Array.from(made.truth) };
+}
+
+/**
+ * @param {Session} session
+ * @param {HTMLElement} list
+ * @param {(card: Card) => void} take
+ */
+function fill(session, list, take) {
+  for (const card of CARDS) {
+    const canvas = make('canvas', '');
+    canvas.setAttribute('aria-hidden', 'true');
+    const button = make('button', 'card', canvas, make('span', 'muted small', card.figure), make('strong', '', card.title), make('span', 'small', card.words));
+    button.type = 'button';
+    button.addEventListener('click', () => take(card));
+    list.append(button);
+    // When it comes into sight, one after the other.
+    new IntersectionObserver((entries, observer) => {
+      if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
+      observer.disconnect();
+      void picture(session, card, canvas);
+    }).observe(canvas);
+  }
+}
+
+/** @param {Session} session @param {Card} card @param {HTMLCanvasElement} canvas */
+async function picture(session, card, canvas) {
+  const input = card.sketch?.(PICTURE) ?? await inputOf(session, card, PICTURE).catch(() => null);
+  if (input) drawThumbnail(canvas, input, input.heightScale / input.pixelSize);
+}

@@ -1,0 +1,106 @@
+/** The result as sheets to cut out: how large, on what paper, with tabs or without; looked at, then saved. */
+import { make } from '../dom.js';
+import { piecesInFigures, piecesInWords, piecesOf, handySide, previewOf } from '../pieces.js';
+import { plainly } from '../plain.js';
+import { figures } from '../views/legend.js';
+import { offerToSave } from './save-dialog.js';
+
+/** @import {Analyses} from '../analyses.js' */
+/** @import {Result} from '../session.js' */
+/** @typedef {import('../../pkg/types.js').Drawing} Drawing */
+
+/** Depth of tabs in millimetres, at first. */
+const TABS = 6;
+/** How long a number rests, in milliseconds, before the sheets are drawn anew. */
+const REST = 300;
+
+/** What was chosen last, for the next time. */
+const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS };
+
+/**
+ * @param {Result} result
+ * @param {Analyses} analyses
+ * @param {string} stem of the file's name
+ */
+export function offerSheets(result, analyses, stem) {
+  const side = numberField(handySide(result), 10, 5000);
+  const depth = numberField(chosen.depth, 1, 50);
+  const tabs = make('input', '');
+  Object.assign(tabs, { type: 'checkbox', checked: chosen.tabs });
+  const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option('one large page', ''));
+  paper.value = chosen.paper;
+  const preview = make('div', 'preview');
+  const words = make('p', 'said');
+  words.setAttribute('role', 'status');
+  const about = make('div', '');
+  /** @type {Promise<Drawing>} */
+  let drawing = Promise.reject(new Error('nothing is drawn yet'));
+  drawing.catch(() => {});
+
+  const draw = async () => {
+    const sound = [side, depth].every((field) => field.reportValidity());
+    if (!sound) return;
+    Object.assign(chosen, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber });
+    depth.disabled = !tabs.checked;
+    words.textContent = 'Cutting it into sheets…';
+    preview.setAttribute('aria-busy', 'true');
+    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
+    offer.renew();
+    try {
+      const image = await previewOf(analyses, await wanted);
+      if (wanted !== drawing) return;
+      const made = await wanted;
+      preview.replaceChildren(image);
+      words.textContent = piecesInWords(made);
+      about.replaceChildren(figures(piecesInFigures(made)));
+    } catch (error) {
+      if (wanted !== drawing) return;
+      preview.replaceChildren();
+      about.replaceChildren();
+      words.textContent = `It could not be cut into sheets: ${plainly(error instanceof Error ? error.message : String(error))}.`;
+    } finally {
+      if (wanted === drawing) preview.setAttribute('aria-busy', 'false');
+    }
+  };
+  let rest = 0;
+  for (const field of [side, depth, tabs]) {
+    field.addEventListener('input', () => {
+      clearTimeout(rest);
+      rest = window.setTimeout(() => void draw(), REST);
+    });
+  }
+  paper.addEventListener('change', () => {
+    chosen.paper = paper.value;
+    offer.renew();
+  });
+
+  const offer = offerToSave({
+    title: 'Cut-out sheets',
+    stem: `${stem}-sheets`,
+    // What is still being cut would hold up the next question.
+    closed: () => analyses.stop(),
+    extra: [make('div', 'sheets',
+      preview,
+      make('div', 'sheets-options',
+        words,
+        make('label', 'field', 'Longer side of the finished piece, in mm', side),
+        make('label', 'field', 'Paper', paper),
+        make('label', 'check', tabs, 'Tabs to glue'),
+        make('label', 'field', 'Depth of the tabs, in mm', depth),
+        about))],
+    formats: [
+      { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
+        write: async () => analyses.pdf(await drawing, paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined) },
+      { value: 'svg', name: 'SVG', words: 'for a cutting plotter or a drawing program', type: 'image/svg+xml', write: async () => analyses.svg(await drawing) },
+      { value: 'dxf', name: 'DXF', words: 'for a laser cutter or CAD', type: 'image/vnd.dxf', write: async () => analyses.dxf(await drawing) },
+    ],
+  });
+  void draw();
+}
+
+/** @param {number} value @param {number} min @param {number} max */
+function numberField(value, min, max) {
+  const field = make('input', '');
+  Object.assign(field, { type: 'number', value: String(value), min: String(min), max: String(max), step: 'any', required: true });
+  return field;
+}

@@ -1,0 +1,91 @@
+/** A surface as sheets to cut out: how large, and what they are like in words. */
+import { count, number, percent } from './format.js';
+
+/** @import {Analyses} from './analyses.js' */
+/** @import {Result} from './session.js' */
+/** @typedef {import('../pkg/types.js').Drawing} Drawing */
+
+/** Strain that a sheet may have, and what is tried where no cut makes it so flat. */
+const STRAINS = [0.01, 0.1];
+/** Millimetres along the longer side, of what has no unit or could not be held. */
+const HANDY = 180;
+
+/** Of the result's plan. @param {Result} result */
+export function longerSide({ input: { width, height, pixelSize } }) {
+  return Math.max(width, height) * pixelSize;
+}
+
+/**
+ * How long the longer side is to be in millimetres, where nobody has said: in true size, if that can be held.
+ * @param {Result} result
+ */
+export function handySide(result) {
+  const { unit } = result.input;
+  const side = longerSide(result) * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
+  return side >= 30 && side <= 1000 ? Number(side.toPrecision(4)) : HANDY;
+}
+
+/**
+ * @param {Analyses} analyses
+ * @param {Result} result
+ * @param {{ side: number, tabs?: number }} options in millimetres
+ * @returns {Promise<Drawing>} with as little strain as it can be had with
+ */
+export async function piecesOf(analyses, result, { side, tabs }) {
+  const scale = side / longerSide(result);
+  const { count: pieces } = await analyses.pieces(result);
+  // Of what is creased all over no sheet is flat: to look for them takes a minute.
+  for (const maxStrain of Number.isFinite(pieces) ? STRAINS : STRAINS.slice(-1)) {
+    try {
+      return await analyses.pattern(result, { scale, tabs, maxStrain });
+    } catch (error) {
+      const more = maxStrain !== STRAINS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
+      if (!more) throw error;
+    }
+  }
+  throw new Error('no cut lays it flat');
+}
+
+/** @param {Drawing} drawing */
+export function piecesInWords({ summary: { sheets, seams, folds, slits, strain } }) {
+  const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
+  const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
+  const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One slit lets' : `${count(slits)} slits let`} it lie flat.`;
+  const stretch = strain > STRAINS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
+  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}`;
+}
+
+/**
+ * @param {Drawing} drawing
+ * @returns {[string, string][]}
+ */
+export function piecesInFigures({ width, height, summary: { cutLength, mountainLength, valleyLength, area, strain, mismatch, a4, letter } }) {
+  return [
+    ['Drawing', `${number(width, 3)} × ${number(height, 3)} mm`],
+    ['Pages', `${count(a4)} of A4, ${count(letter)} of Letter`],
+    ['To cut', `${number(cutLength / 1000)} m`],
+    ['To fold', `${number((mountainLength + valleyLength) / 1000)} m`],
+    ['Area', `${number(area / 100)} cm²`],
+    ['Largest strain', percent(strain)],
+    ['Sides of a cut differ by', percent(mismatch)],
+  ];
+}
+
+/**
+ * A drawing to be looked at, as the SVG that is saved.
+ * @param {Analyses} analyses
+ * @param {Drawing} drawing
+ * @returns {Promise<HTMLImageElement>}
+ */
+export async function previewOf(analyses, drawing) {
+  const image = new Image();
+  image.alt = piecesInWords(drawing);
+  const address = URL.createObjectURL(new Blob([await analyses.svg(drawing)], { type: 'image/svg+xml' }));
+  try {
+    image.src = address;
+    await image.decode();
+  } finally {
+    URL.revokeObjectURL(address);
+  }
+  return image;
+}

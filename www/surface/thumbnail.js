@@ -1,0 +1,25 @@
+/** A small picture of heights, lit from the upper left. */
+import { HOLE, normalsOf, UNIT } from './normals.js';
+
+const LIGHT = [-0.5, 0.55, 0.67];
+
+/**
+ * @param {HTMLCanvasElement} canvas becomes as large as the heights
+ * @param {{ width: number, height: number, data: ArrayLike<number> }} heights
+ * @param {number} slope height of a step over the side of a pixel
+ */
+export function drawThumbnail(canvas, { width, height, data }, slope) {
+  Object.assign(canvas, { width, height });
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  const { xy } = normalsOf(Float64Array.from(data), width, height, slope);
+  const image = context.createImageData(width, height);
+  for (let i = 0; i < width * height; i++) {
+    if (xy[2 * i] === HOLE) continue;
+    const [x, y] = [xy[2 * i] / UNIT, xy[2 * i + 1] / UNIT];
+    const light = x * LIGHT[0] + y * LIGHT[1] + Math.sqrt(Math.max(0, 1 - x * x - y * y)) * LIGHT[2];
+    const grey = 40 + 205 * Math.max(0, light) ** 1.3;
+    image.data.set([grey * 0.94, grey * 0.97, grey, 255], 4 * i);
+  }
+  context.putImageData(image, 0, 0);
+}

@@ -1,0 +1,44 @@
+/** What cannot be laid flat whole, as the sheets that it can be cut into. */
+import { imagePicture } from '../surface/picture.js';
+import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf } from '../pieces.js';
+import { figures, say } from './legend.js';
+import { sheet } from './sheet.js';
+
+/** @import {Analyses} from '../analyses.js' */
+/** @import {Result} from '../session.js' */
+/** @import {Shown} from './shown.js' */
+
+/** Pixels along the drawing's longer side, so that lines stay lines. */
+const FINE = 2400;
+
+/**
+ * The surface laid flat: whole where that goes without stretch, or else in pieces.
+ * @param {Analyses} analyses
+ * @param {Result} result
+ * @returns {Promise<Shown>}
+ */
+export async function flat(analyses, result) {
+  const { verdict } = await analyses.unroll(result);
+  const whole = await sheet(analyses, result);
+  if (verdict !== 'stretched' || !Number.isFinite((await analyses.pieces(result)).count)) return whole;
+  // Where no cut helps, the whole with its strain is what there is to see.
+  const drawing = await piecesOf(analyses, result, { side: handySide(result) }).catch(() => null);
+  if (!drawing) return whole;
+  const image = await previewOf(analyses, drawing);
+  const canvas = document.createElement('canvas');
+  const scale = FINE / Math.max(image.naturalWidth, image.naturalHeight);
+  Object.assign(canvas, { width: Math.round(image.naturalWidth * scale), height: Math.round(image.naturalHeight * scale) });
+  const context = canvas.getContext('2d');
+  if (!context) return whole;
+  context.fillStyle = '#fff';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return {
+    ...whole,
+    after: imagePicture(canvas, 'Laid flat, in pieces', piecesInWords(drawing)),
+    about: [
+      say(`In one piece it would stretch; cut along its creases it lies flat. ${piecesInWords(drawing)}`),
+      figures(piecesInFigures(drawing)),
+    ],
+  };
+}

@@ -78,11 +78,13 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 const CLOSE = 1.3;
 /** Fewer pixels than this are solved in a moment. */
 const MANY = 150 ** 2;
+/** What `auto` is for a design. @type {Pick<Settings, 'lambda' | 'energy'>} */
+const OF_A_DESIGN = { lambda: 1e6, energy: 'nuclear' };
 
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Settings} */
-  settings = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0 };
+  settings = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: 'huber', reweighting: 0 };
   /** @type {Input | null} */
   input = null;
   /** @type {Result | null} */
@@ -239,7 +241,8 @@ export class Session extends Events {
     this.emit('start', settings);
     this.#enter('running');
     if (input.width * input.height > MANY && settings.lambda !== 'auto') this.#live.wish(input, settings);
-    const { coarsening, ...options } = settings;
+    // A design has no noise to go by.
+    const { coarsening, ...options } = input.design && settings.lambda === 'auto' ? { ...settings, ...OF_A_DESIGN } : settings;
     try {
       const solver = await this.#solverOf(input);
       if (this.#job !== job) return;

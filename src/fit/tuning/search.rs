@@ -56,6 +56,9 @@ const LOUD: f64 = 2.0;
 /// noise, and so predicts heights that have it, too.
 const IN_SPITE: [f64; 2] = [0.15, 0.045];
 
+/// And by how many standard errors.
+const DOUBT: f64 = 1.0;
+
 /// Bendings to be compared: the steps from the first λ to the one that suits each, and by how many standard
 /// errors it must predict better than those before it. What there is no reason to leave; for smooth bends,
 /// for creases among these, and for flat facets; for smooth bends alone, which has no cost of flat parts
@@ -216,17 +219,26 @@ impl Search {
         let Some(class) = HeldOut::of(&input, 0)? else {
             return Ok(None);
         };
-        let solves = MANY.div_ceil(class.len()).min(CLASSES);
+        // More of what is predictable anyway would only be surer of it.
+        let solves = match dependent {
+            true => 1,
+            false => MANY.div_ceil(class.len()).min(CLASSES),
+        };
         let mut held_out = vec![class];
         for class in 1..solves {
             held_out.extend(HeldOut::of(&input, class)?);
         }
         let mut bendings: Vec<Choice> = Vec::new();
         for (bending, step, hurdle) in BENDINGS {
+            let (step, hurdle) = if dependent {
+                (0, DOUBT)
+            } else {
+                (step, hurdle)
+            };
             let bending = bending.within(asked);
             let new = bendings.iter().all(|(other, ..)| *other != bending);
             if new && (asked.energy == Energy::Huber || bendings.is_empty()) {
-                bendings.push((bending, if dependent { 0 } else { step }, hurdle));
+                bendings.push((bending, step, hurdle));
             }
         }
         let now = (0, 0);

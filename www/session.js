@@ -7,6 +7,7 @@
  * runs it again, so that what is seen is what is set. Until the answer is there, and while a setting is
  * still being chosen, previews show what it is about (`live.js`).
  */
+import { settingsOf } from './design.js';
 import { Events } from './events.js';
 import { Live } from './live.js';
 import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
@@ -78,9 +79,6 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 const CLOSE = 1.3;
 /** Fewer pixels than this are solved in a moment. */
 const MANY = 150 ** 2;
-/** What `auto` is for a design. @type {Pick<Settings, 'lambda' | 'energy'>} */
-const OF_A_DESIGN = { lambda: 1e6, energy: 'nuclear' };
-
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Settings} */
@@ -241,8 +239,7 @@ export class Session extends Events {
     this.emit('start', settings);
     this.#enter('running');
     if (input.width * input.height > MANY && settings.lambda !== 'auto') this.#live.wish(input, settings);
-    // A design has no noise to go by.
-    const { coarsening, ...options } = input.design && settings.lambda === 'auto' ? { ...settings, ...OF_A_DESIGN } : settings;
+    const { coarsening, ...options } = settingsOf(input, settings);
     try {
       const solver = await this.#solverOf(input);
       if (this.#job !== job) return;

@@ -144,6 +144,8 @@ pageTest('another energy, and reweighted passes, are told of', async (page) => {
 pageTest('the slider restarts the solver while it is dragged', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
   const cold = parsed(await reported(page, 'Iterations'));
+  // To the middle of the slider.
+  await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
   const box = await page.locator('#lambda').boundingBox();
   assert.ok(box);
   const y = box.y + box.height / 2;

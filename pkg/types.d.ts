@@ -373,7 +373,7 @@ export interface SolverOptions {
    * `'auto'`, for heights with noise: from how large that is, and then the one that predicts best what
    * a part of the heights are, which are held out from some solves on a lattice of twice the spacing.
    * With the energy `'huber'` what bends cost is chosen likewise, as far as it is not given.
-   * `report.lambdaChoice` tells what was found. It costs about as much as two solves.
+   * `report.lambdaChoice` tells what was found. It costs about as much as two solves, or several where there are few heights.
    */
   lambda?: number | 'small' | 'medium' | 'big' | 'auto';
   /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
@@ -529,7 +529,7 @@ export interface LambdaChoice {
   step: number | undefined;
   /** Noise is independent from vertex to vertex on the lattice of `2 ** merged` times the spacing. */
   merged: number;
-  /** Solves that were compared. */
+  /** How many ways were compared, each by up to three solves. */
   solves: number;
   /** Their ADMM iterations, which the report's own do not count. */
   iterations: number;

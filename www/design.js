@@ -3,7 +3,7 @@
  * the paper's Figs. 18 and 19, where curves and points are given and the surface finds its folds.
  */
 
-/** @import {Input} from './session.js' */
+/** @import {Input, Settings} from './session.js' */
 
 /** @typedef {{ x: number, y: number, z: number }} Pin in sides of the square; x and y from 0 to 1, y up */
 
@@ -145,4 +145,14 @@ export function changed(design, { curve, index }, change) {
   const curves = design.curves.map((pins, i) => (i === curve ? renewed(pins) : pins));
   // One pin alone is no curve.
   return { ...design, curves: curves.filter((pins) => pins.length > 1) };
+}
+
+/**
+ * The settings as they are for an input: a design has no noise for `auto` to go by.
+ * @param {Pick<Input, 'design'>} input
+ * @param {Settings} settings
+ * @returns {Settings}
+ */
+export function settingsOf({ design }, settings) {
+  return design && settings.lambda === 'auto' ? { ...settings, lambda: 1e6, energy: 'nuclear' } : settings;
 }

@@ -5,6 +5,7 @@
  * The coarsest run always ends, so that each of many wishes in a row is followed by a picture; a finer one
  * gives way to a newer wish.
  */
+import { settingsOf } from './design.js';
 import { coarse } from './surface/coarse.js';
 
 /** @import {Api, OpenSolver} from './api.js' */
@@ -101,7 +102,8 @@ export class Live {
    * @param {AbortSignal} [signal]
    * @returns {Promise<Image>}
    */
-  async #solve(input, { lambda, energy }, side, signal) {
+  async #solve(input, settings, side, signal) {
+    const { lambda, energy } = settingsOf(input, settings);
     const { pixelSize, solver } = this.#rung(input, side);
     // Passes at creases are for the answer.
     const passes = energy === 'huber' ? { creasePasses: 0 } : {};

@@ -7,6 +7,7 @@
  * runs it again, so that what is seen is what is set. Until the answer is there, and while a setting is
  * still being chosen, previews show what it is about (`live.js`).
  */
+import { settingsOf } from './design.js';
 import { Events } from './events.js';
 import { Live } from './live.js';
 import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
@@ -80,11 +81,10 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 const CLOSE = 1.3;
 /** Fewer pixels than this are solved in a moment. */
 const MANY = 150 ** 2;
-
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
-  defaults = { lambda: 1e6, gap: 0.01, schedule: 'default', coarsening: 1, energy: 'nuclear', reweighting: 0, occlusionThreshold: undefined };
+  defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: 'huber', reweighting: 0, occlusionThreshold: undefined };
   /** @type {Settings} */
   settings = { ...this.defaults };
   /** @type {Input | null} */
@@ -243,7 +243,7 @@ export class Session extends Events {
     this.emit('start', settings);
     this.#enter('running');
     if (input.width * input.height > MANY && settings.lambda !== 'auto') this.#live.wish(input, settings);
-    const { coarsening, ...options } = settings;
+    const { coarsening, ...options } = settingsOf(input, settings);
     try {
       const solver = await this.#solverOf(input);
       if (this.#job !== job) return;

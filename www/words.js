@@ -165,7 +165,7 @@ export function lambdaFound({ lambda, lambdaChoice }) {
 }
 
 /** In the place of a hint, where there are only constraints. */
-export const NO_FIDELITY = 'A design has no input to stay close to: λ has no say in it.';
+export const NO_FIDELITY = 'A design has no input to stay close to: λ has no say in it, and auto is the nuclear norm.';
 
 /**
  * A failure as one message.

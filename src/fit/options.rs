@@ -191,6 +191,14 @@ impl Bending {
         crease_radius: *RADII.start(),
     };
 
+    pub(crate) const fn new(bend_radius: f64, flatness: f64, crease_radius: f64) -> Self {
+        Bending {
+            bend_radius,
+            flatness,
+            crease_radius,
+        }
+    }
+
     /// With what the options give in place of its own.
     pub(crate) fn within(self, options: &Options) -> Self {
         Bending {

@@ -153,7 +153,8 @@ pub struct LambdaChoice {
     pub step: Option<f64>,
     /// Noise is independent from vertex to vertex on the lattice of `2^merged` times the spacing.
     pub merged: usize,
-    /// Solves that were compared, and their ADMM iterations, which the report does not count.
+    /// How many ways were compared, each by up to three solves, and their ADMM iterations, which the
+    /// report does not count.
     pub solves: usize,
     /// See [`LambdaChoice::solves`].
     pub iterations: usize,

@@ -47,6 +47,8 @@ pageTest('a design passes through what is marked', async (page) => {
   assert.ok(held > 150);
   assert.ok(Math.abs(parsed(await reported(page, 'Free')) + held - vertices) <= 4);
   assert.equal(await page.locator('#lambda').isDisabled(), true);
+  // By the paper's energy, whatever λ was.
+  assert.ok((await names(page)).includes('Nuclear norms'));
   assert.ok((await look(page, '#result-canvas')).covered > 0.3);
   await runBy(page, () => page.locator('input[value="cone"]').check());
   assert.equal(await page.locator('#lambda').isDisabled(), false);
@@ -141,6 +143,8 @@ pageTest('another energy, and reweighted passes, are told of', async (page) => {
 pageTest('the slider restarts the solver while it is dragged', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
   const cold = parsed(await reported(page, 'Iterations'));
+  // To the middle of the slider.
+  await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
   const box = await page.locator('#lambda').boundingBox();
   assert.ok(box);
   const y = box.y + box.height / 2;
@@ -155,7 +159,7 @@ pageTest('the slider restarts the solver while it is dragged', async (page) => {
 
 pageTest('λ by the noise, and what came of it, beside the slider', async (page) => {
   const button = page.locator('#lambda-auto');
-  await runBy(page, () => button.click());
+  // By itself.
   assert.equal(await button.getAttribute('aria-pressed'), 'true');
   assert.equal(await page.locator('#energy').inputValue(), 'huber');
   const lambda = parsed(await reported(page, 'λ'));
@@ -169,4 +173,12 @@ pageTest('λ by the noise, and what came of it, beside the slider', async (page)
   await runBy(page, () => page.getByRole('button', { name: /^big/ }).click());
   assert.equal(await button.getAttribute('aria-pressed'), 'false');
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
+  await page.locator('summary').click();
+  await runBy(page, () => page.locator('#energy').selectOption('nuclear'));
+  await runBy(page, () => button.click());
+  assert.equal(await page.locator('#energy').inputValue(), 'huber');
+  assert.equal(parsed(await reported(page, 'λ')), lambda);
+  // Without noise there is nothing to go by, and the words say so.
+  await runBy(page, () => page.locator('#noise').selectOption('0'));
+  assert.match(await page.locator('#lambda-hint').innerText(), /no noise to speak of/);
 });

@@ -5,6 +5,8 @@ import { pageTest, reported, runBy, settled } from './support/page.mjs';
 
 pageTest('while λ is dragged, pictures follow, and the last wish is certified', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('400'));
+  // What makes pictures is started by the first λ that is chosen.
+  await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
   const { events, pictures, wishes } = await page.evaluate(async () => {
     const slider = /** @type {HTMLInputElement} */ (document.querySelector('#lambda'));
     const caption = /** @type {HTMLElement} */ (document.querySelector('#result-caption'));

@@ -26,7 +26,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
 
   const [objective, bound] = [parsed(await reported(page, 'Objective')), parsed(await reported(page, 'Dual bound'))];
   assert.ok(bound <= objective, `${bound} above ${objective}`);
-  const terms = parsed(await reported(page, 'Fidelity')) + parsed(await reported(page, 'Nuclear norms'));
+  const terms = parsed(await reported(page, 'Fidelity')) + parsed(await reported(page, 'Bending'));
   assert.ok(Math.abs(terms - objective) < 1e-3 * objective, `${terms} against ${objective}`);
 });
 

@@ -41,7 +41,8 @@ export function runPanel(session) {
   session.on('progress', ({ level, iteration, gap, elapsed }) => {
     if (level > 0) {
       levels = Math.max(levels, level);
-      bar.value = COARSE * (1 - level / (levels + 1));
+      // The search for λ is on coarser lattices than the solve begins with, or on finer ones.
+      bar.value = Math.max(bar.value, COARSE * (1 - level / (levels + 1)));
       text.textContent = `coarse lattice, ${count(level)} finer to come, ${seconds(elapsed)}`;
       return;
     }

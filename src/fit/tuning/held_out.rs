@@ -8,8 +8,8 @@ use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
 
-/// Share of the vertices at which one is tried, some of which are next to one held out already.
-const SHARE: f64 = 0.3;
+/// Vertices are of so many classes, none of which has two that are neighbours; one is held out at a time.
+pub(crate) const CLASSES: usize = 3;
 
 /// Fewer say nothing.
 const FEWEST: usize = 60;
@@ -29,11 +29,9 @@ pub(crate) struct HeldOut {
 }
 
 impl HeldOut {
-    /// The same vertices for the same input; nothing if there are too few.
-    pub(crate) fn of(input: &Input) -> Result<Option<Self>> {
+    /// Without one of the [`CLASSES`]; nothing if that has too few.
+    pub(crate) fn of(input: &Input, class: usize) -> Result<Option<Self>> {
         let lattice = *input.field.lattice();
-        let mut random = oorandom::Rand64::new(1);
-        let mut out = try_filled("held-out vertices", lattice.len(), false)?;
         let mut heights = try_filled("held-out heights", lattice.len(), 0.0)?;
         heights.copy_from_slice(input.field.heights());
         let mut confidence = try_filled("held-out confidence", lattice.len(), 0.0)?;
@@ -43,12 +41,11 @@ impl HeldOut {
         let largest = confidence.iter().copied().fold(0.0, f64::max);
         let mut samples = Vec::new();
         for row in 0..lattice.rows() {
-            for col in 0..lattice.cols() {
+            for col in (0..lattice.cols()).filter(|col| class_of(row, *col) == class) {
                 let vertex = lattice.index(row, col);
-                let wanted = random.rand_float() < SHARE;
-                let known = |v: usize| !out[v] && input.is_given(v) && heights[v].is_finite();
+                let known = |v: usize| input.is_given(v) && heights[v].is_finite();
                 let trusted = confidence[vertex] >= TRUSTED * largest;
-                if !wanted || !known(vertex) || !trusted || input.is_constrained(vertex) {
+                if !known(vertex) || !trusted || input.is_constrained(vertex) {
                     continue;
                 }
                 let ring = lattice.neighbours(row, col).map(|n| {
@@ -59,7 +56,6 @@ impl HeldOut {
                     continue;
                 };
                 samples.push((vertex, heights[vertex], input.weight(vertex)));
-                out[vertex] = true;
                 heights[vertex] = [a, b, c, d, e, f].map(|v| heights[v]).iter().sum::<f64>() / 6.0;
                 confidence[vertex] = MADE_UP * largest;
             }
@@ -73,6 +69,11 @@ impl HeldOut {
         Ok(Some(HeldOut { input, samples }))
     }
 
+    /// How many heights are held out.
+    pub(crate) fn len(&self) -> usize {
+        self.samples.len()
+    }
+
     /// The squares of what a surface misses them by, by confidence.
     pub(crate) fn misses(&self, surface: &Heightfield) -> Vec<f64> {
         let squares = self.samples.iter().map(|(vertex, height, weight)| {
@@ -81,6 +82,11 @@ impl HeldOut {
         });
         squares.collect()
     }
+}
+
+/// Steps to the east and to the two neighbours below go on to the next class, or the one after it.
+fn class_of(row: usize, col: usize) -> usize {
+    (row / 2 + row + col) % CLASSES
 }
 
 /// By how many standard errors of the mean difference `others` are smaller than `misses`.
@@ -94,5 +100,35 @@ pub(crate) fn advantage(misses: &[f64], others: &[f64]) -> f64 {
         0.0
     } else {
         mean / error
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::hexagonal::Lattice;
+
+    #[test]
+    fn every_inner_vertex_is_held_out_once_and_no_two_neighbours_at_a_time() {
+        let lattice = Lattice::new(30, 31, 1.0).unwrap();
+        let field = Heightfield::from_fn(lattice, |x, y| x * y).unwrap();
+        let input = Input::new(field);
+        let mut count = vec![0; lattice.len()];
+        for class in 0..CLASSES {
+            let held_out = HeldOut::of(&input, class).unwrap().unwrap();
+            let is_out = |v: usize| held_out.samples.iter().any(|sample| sample.0 == v);
+            for &(vertex, ..) in &held_out.samples {
+                count[vertex] += 1;
+                let ring = lattice.neighbours(vertex / 31, vertex % 31);
+                let mut ring = ring.into_iter().flatten();
+                assert!(!ring.any(|(row, col)| is_out(lattice.index(row, col))));
+            }
+        }
+        for row in 0..30 {
+            for col in 0..31 {
+                let inner = lattice.neighbours(row, col).iter().all(Option::is_some);
+                assert_eq!(count[lattice.index(row, col)], u8::from(inner));
+            }
+        }
     }
 }

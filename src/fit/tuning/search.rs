@@ -1,12 +1,12 @@
 //! λ by itself, and what bends of [`Energy::Huber`] cost: from the noise, then by what predicts held-out
 //! heights best.
 
-use std::cmp::Ordering;
+use std::mem;
 use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::held_out::{HeldOut, advantage};
+use super::held_out::{CLASSES, HeldOut, advantage};
 use super::merge::merge;
 use super::noise::Noise;
 use crate::error::Result;
@@ -40,9 +40,13 @@ const ITERATIONS: usize = 500;
 /// correlated on any finer one.
 const ENOUGH: [usize; 2] = [1500, 400];
 
-/// By how many standard errors predictions must be better: with another bending, a smaller λ, a larger
-/// one.
-const BETTER: [f64; 3] = [1.0, -0.5, 2.0];
+/// So many heights held out tell small differences; where there are fewer, further ones are held out in
+/// further solves.
+const MANY: usize = 1500;
+
+/// By how many standard errors predictions must be better: with a smaller λ, a larger one. Bendings have
+/// hurdles of their own.
+const BETTER: [f64; 2] = [-0.5, 2.0];
 
 /// From here on, times [`START`], noise would come back in passes at creases.
 const LOUD: f64 = 2.0;
@@ -52,20 +56,19 @@ const LOUD: f64 = 2.0;
 /// noise, and so predicts heights that have it, too.
 const IN_SPITE: [f64; 2] = [0.15, 0.045];
 
-/// What there is no reason to leave, for smooth bends, for creases among these, and for flat facets.
-const BENDINGS: [Bending; 4] = [
-    Bending::NUCLEAR,
-    Bending::SMOOTH,
-    Bending {
-        bend_radius: 0.3,
-        flatness: 0.3,
-        crease_radius: 0.3,
-    },
-    Bending {
-        bend_radius: 0.1,
-        flatness: 1.0,
-        crease_radius: 0.2,
-    },
+/// And by how many standard errors.
+const DOUBT: f64 = 1.0;
+
+/// Bendings to be compared: the steps from the first λ to the one that suits each, and by how many standard
+/// errors it must predict better than those before it. What there is no reason to leave; for smooth bends,
+/// for creases among these, and for flat facets; for smooth bends alone, which has no cost of flat parts
+/// to lean on.
+const BENDINGS: [(Bending, i32, f64); 5] = [
+    (Bending::NUCLEAR, 0, 0.0),
+    (Bending::SMOOTH, 0, 0.0),
+    (Bending::new(0.3, 0.3, 0.3), 0, 0.0),
+    (Bending::new(0.1, 1.0, 0.2), 0, 0.0),
+    (Bending::new(0.1, 0.0, 0.3), -1, 1.0),
 ];
 
 /// What is known about an input before a solve: the factor from the user's units to the energy's, and
@@ -171,10 +174,14 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
 /// What is to be tried: which of the bendings, and how many factors above the first λ.
 type Candidate = (usize, i32);
 
+/// A bending, the step that suits it, and its hurdle.
+type Choice = (Bending, i32, f64);
+
 /// A search under way.
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
-    held_out: HeldOut,
+    /// One class of vertices or several, each for a solve of its own.
+    held_out: Vec<HeldOut>,
     /// Most steps to smaller and larger λ: no larger where noise may be predictable after all.
     steps: [i32; 2],
     /// Whether noise is predictable, so that λ must not be chosen by that, and bendings with care.
@@ -182,12 +189,15 @@ pub(crate) struct Search {
     known: Known,
     /// Those that were asked for, with the first λ.
     options: Options,
-    bendings: Vec<Bending>,
+    bendings: Vec<Choice>,
     /// What has been tried, the best of it, and by how much that missed.
     tried: Vec<Candidate>,
     best: Candidate,
     misses: Vec<f64>,
     now: Candidate,
+    /// The same of the one under way, as far as its solves are done, and how many are.
+    missed: Vec<f64>,
+    solved: usize,
     solve: Box<Partwise>,
     iterations: usize,
 }
@@ -206,20 +216,34 @@ impl Search {
             return Ok(None);
         };
         let (input, dependent) = searchable(input, noise)?;
-        let Some(held_out) = HeldOut::of(&input)? else {
+        let Some(class) = HeldOut::of(&input, 0)? else {
             return Ok(None);
         };
-        let mut bendings: Vec<Bending> = Vec::new();
-        for bending in BENDINGS {
+        // More of what is predictable anyway would only be surer of it.
+        let solves = match dependent {
+            true => 1,
+            false => MANY.div_ceil(class.len()).min(CLASSES),
+        };
+        let mut held_out = vec![class];
+        for class in 1..solves {
+            held_out.extend(HeldOut::of(&input, class)?);
+        }
+        let mut bendings: Vec<Choice> = Vec::new();
+        for (bending, step, hurdle) in BENDINGS {
+            let (step, hurdle) = if dependent {
+                (0, DOUBT)
+            } else {
+                (step, hurdle)
+            };
             let bending = bending.within(asked);
-            let new = !bendings.contains(&bending);
+            let new = bendings.iter().all(|(other, ..)| *other != bending);
             if new && (asked.energy == Energy::Huber || bendings.is_empty()) {
-                bendings.push(bending);
+                bendings.push((bending, step, hurdle));
             }
         }
         let now = (0, 0);
         let options = rough(&of(first, &bendings, now));
-        let solve = trial(&held_out, &options, known, None)?;
+        let solve = trial(&held_out[0], &options, known, None)?;
         Ok(Some(Search {
             held_out,
             steps: match dependent {
@@ -237,6 +261,8 @@ impl Search {
             best: now,
             misses: Vec::new(),
             now,
+            missed: Vec::new(),
+            solved: 0,
             solve: Box::new(solve),
             iterations: 0,
         }))
@@ -255,7 +281,15 @@ impl Search {
             }
             let surface = self.solve.surface()?;
             self.iterations += surface.report().iterations;
-            let misses = self.held_out.misses(surface.heightfield());
+            let misses = self.held_out[self.solved].misses(surface.heightfield());
+            self.missed.extend(misses);
+            self.solved += 1;
+            if self.solved < self.held_out.len() {
+                self.begin()?;
+                continue;
+            }
+            self.solved = 0;
+            let misses = mem::take(&mut self.missed);
             if self.tried.is_empty() || self.is_better(&misses) {
                 (self.best, self.misses) = (self.now, misses);
             }
@@ -264,22 +298,30 @@ impl Search {
                 return Ok(true);
             };
             self.now = next;
-            let options = rough(&of(&self.options, &self.bendings, next));
-            let memory = self.solve.memory(self.held_out.input.field.lattice());
-            *self.solve = trial(&self.held_out, &options, self.known, memory)?;
+            self.begin()?;
         }
         Ok(false)
     }
 
+    /// Begins with the next solve of the present candidate.
+    fn begin(&mut self) -> Result<()> {
+        let held_out = &self.held_out[self.solved];
+        let options = rough(&of(&self.options, &self.bendings, self.now));
+        let memory = self.solve.memory(held_out.input.field.lattice());
+        *self.solve = trial(held_out, &options, self.known, memory)?;
+        Ok(())
+    }
+
     /// Whether the present candidate is better than the best so far.
     fn is_better(&self, misses: &[f64]) -> bool {
-        let [other, smaller, larger] = BETTER;
-        let hurdle = match self.now.1.cmp(&self.best.1) {
-            Ordering::Equal => other,
-            Ordering::Less => smaller,
-            Ordering::Greater => larger,
+        let [smaller, larger] = BETTER;
+        let [(new, _, other), (old, ..)] =
+            [self.now, self.best].map(|(bending, _)| self.bendings[bending]);
+        let hurdle = match (self.now.0 == self.best.0, self.now.1 < self.best.1) {
+            (false, _) => other,
+            (true, true) => smaller,
+            (true, false) => larger,
         };
-        let [new, old] = [self.now, self.best].map(|(bending, _)| self.bendings[bending]);
         let [bends, creases] = IN_SPITE;
         let least = match self.dependent {
             true if new.flatness < old.flatness => bends,
@@ -291,14 +333,18 @@ impl Search {
         (least == 0.0 || enough) && advantage(&self.misses, misses) > hurdle
     }
 
-    /// From bending to bending, then from λ to λ as long as that is better.
+    /// From bending to bending, then from λ to λ as long as that is better. Above the first λ there are
+    /// no passes at creases, nor are flat parts cheap, so that only the nuclear norm is tried there.
     fn next(&self) -> Option<Candidate> {
         let missing = |candidate: &Candidate| !self.tried.contains(candidate);
         let (bending, step) = self.best;
-        let others = (0..self.bendings.len()).map(|bending| (bending, 0));
+        let others = self.bendings.iter().enumerate();
+        let others = others.map(|(bending, (_, step, _))| (bending, *step));
+        let [least, most] = self.steps;
+        let most = if bending == 0 { most } else { 0 };
         let beside = [step - 1, step + 1]
             .into_iter()
-            .filter(|step| (self.steps[0]..=self.steps[1]).contains(step))
+            .filter(|step| (least..=most).contains(step))
             .map(|step| (bending, step));
         others.chain(beside).find(missing)
     }
@@ -320,10 +366,10 @@ impl Search {
 }
 
 /// The options of a candidate.
-fn of(first: &Options, bendings: &[Bending], (bending, step): Candidate) -> Options {
+fn of(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
     let factor = FACTOR.powi(step);
     let options = first.lambda(first.lambda.value() * factor);
-    at_loudness(&options, bendings[bending], factor)
+    at_loudness(&options, bendings[bending].0, factor)
 }
 
 /// A solve of what is not held out.
@@ -393,7 +439,7 @@ mod tests {
         assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == 0);
         assert_eq!(at(2).flatness, Some(1.0));
         let asked = first.flatness(0.1);
-        let given = of(&asked, &[BENDINGS[1].within(&asked)], (0, 2));
+        let given = of(&asked, &[(BENDINGS[1].0.within(&asked), 0, 0.0)], (0, 2));
         assert_eq!(given.flatness, Some(0.1));
     }
 

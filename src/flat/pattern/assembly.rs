@@ -23,7 +23,7 @@ use crate::shape::patches::Patches;
 pub(super) enum Assembly {
     Whole(Box<Assembled>),
     /// The parts, the numbers of those that cannot be sheets as they are, and why.
-    Cut(Parts, Vec<(u32, String)>),
+    Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
 /// All sheets, as they lie on the plane.
@@ -96,7 +96,7 @@ pub(super) fn assembled(
         }
     }
     parts.leaves = net.leaves;
-    Ok(Assembly::Cut(parts, wrong))
+    Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
 /// Lays the patches of each sheet flat together, and opens folds of those that are not as they should

@@ -320,7 +320,7 @@ fn direct(surface: &Heightfield, patches: &Patches, options: &PatternOptions) ->
         let faults = match assembled(parts, patches, options)? {
             Assembly::Whole(whole) => return Ok(*whole),
             Assembly::Cut(again, faults) => {
-                parts = again;
+                parts = *again;
                 faults
             }
         };

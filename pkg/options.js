@@ -220,6 +220,7 @@ export const OPTIONS = {
     assembly: flag,
     gap: number,
     maxStrain: number,
+    refold: flag,
   },
   explorePattern: {
     lambdas: several, smallest: several, sheets: whole, solver: optionsFor('solver'), pattern: optionsFor('pattern'), signal, onPlan: callback,

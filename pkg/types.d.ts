@@ -1002,6 +1002,11 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
    * is cut. Default 0.01.
    */
   maxStrain?: number;
+  /**
+   * Whether sheets are folded back to see how near they come to the surface (`summary.refolding`). Takes about as long
+   * as laying them flat. Default `false`.
+   */
+  refold?: boolean;
 }
 
 /** A line to fold along. */
@@ -1098,6 +1103,20 @@ export interface Drawing {
     strain: number;
     /** Most that the two sides of a fold are apart (root of the mean square). */
     gap: number;
+    /** Small loops in which outlines crossed themselves, and which were cut off. */
+    loops: number;
+    /** How far sheets that were folded back are from the surface at most (root of the mean square), with `refold`. */
+    refolding?: number;
+    /** What of the surface is on no sheet; areas in square millimetres. */
+    missing?: {
+      /** Left out because nothing around them lies flat with them: ragged steep borders, mostly; a fiftieth of all at most. */
+      vertices: number;
+      area: number;
+      /** Steps of the surface, whose sides are cut apart: what would stand between them is not there. */
+      steps: number;
+      /** About how large that would be. */
+      stepArea: number;
+    };
     /** Pages of paper that it takes. */
     a4: number;
     letter: number;

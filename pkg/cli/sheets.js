@@ -56,6 +56,7 @@ export async function pattern(task, signal) {
         `besides the creases, ${slitLength.toFixed(0)} mm long\n`,
     );
   }
+  reportMissing(drawing.summary);
 }
 
 /** @param {PatternTask} task */
@@ -72,7 +73,8 @@ function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, smooth
 async function drawnOnce(task, signal) {
   if (task.sheets === undefined) {
     const { surface, options } = await flattened(task, signal);
-    return { drawing: await developable.pattern(surface, { ...options, ...task.patching, ...drawingOptions(task) }) };
+    const refold = task.report !== undefined;
+    return { drawing: await developable.pattern(surface, { ...options, ...task.patching, ...drawingOptions(task), refold }) };
   }
   const { plans, chosen } = await explored(task, signal);
   if (chosen?.drawing === undefined) {
@@ -141,8 +143,22 @@ async function tellPlans({ output }, plans, signal) {
   await print(`${lines.join('\n')}\n`);
 }
 
-/** @param {number} count @param {string} what */
-const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
+/** What is on no sheet, and what was cut off. @param {import('../types.js').Drawing['summary']} summary */
+function reportMissing({ missing, loops }) {
+  const squares = (/** @type {number} */ area) => `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
+  const words = [];
+  if (missing !== undefined && missing.vertices > 0) {
+    words.push(`${counted(missing.vertices, 'vertex', 'vertices')} (${squares(missing.area)}) at ragged borders left out, which lie flat with nothing beside them`);
+  }
+  if (missing !== undefined && missing.steps > 0) {
+    words.push(`the walls of ${counted(missing.steps, 'step')} (about ${squares(missing.stepArea)}) on no sheet`);
+  }
+  if (loops > 0) words.push(`${counted(loops, 'small loop')} in which outlines crossed themselves cut off`);
+  if (words.length > 0) process.stderr.write(`developable: warning: ${words.join('; ')}\n`);
+}
+
+/** @param {number} count @param {string} what @param {string} [several] */
+const counted = (count, what, several = `${what}s`) => `${count} ${count === 1 ? what : several}`;
 
 /**
  * @param {import('../types.js').Drawing} drawing

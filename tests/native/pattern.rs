@@ -451,3 +451,131 @@ fn what_no_cut_makes_flat_is_refused_with_its_place() {
     assert_eq!(error.code(), "NOT_FLAT", "{error}");
     assert!(error.to_string().contains("limit of 1.00 %"), "{error}");
 }
+
+/// What is cut, as pairs of the lengths on both sides, by the crease.
+fn sides(sheets: &[Sheet]) -> std::collections::BTreeMap<usize, (bool, [f64; 2])> {
+    let mut sides = std::collections::BTreeMap::new();
+    for run in sheets.iter().flat_map(|s| s.outlines.iter().flatten()) {
+        if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
+            let entry = sides.entry(seam.crease).or_insert((seam.slit, [0.0; 2]));
+            entry.1[usize::from(patch == seam.patches[1])] += length(&run.points);
+        }
+    }
+    sides
+}
+
+/// A sphere's cap has an excess of angle everywhere; the border of this one is nearly upright and in
+/// rags.
+#[test]
+fn a_steep_ragged_border_gives_way_and_that_is_told() {
+    let mut noise = crate::common::Noise::new(3);
+    let ball = unit_square(70, |x, y| {
+        let r = (x - 0.5).hypot(y - 0.5);
+        (0.25 - r * r).max(0.0).sqrt()
+    });
+    let heights: Vec<f64> = (0..ball.lattice().len())
+        .map(|i| {
+            let lattice = ball.lattice();
+            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+            let r = (x - 0.5).hypot(y - 0.5);
+            let ragged = r > 0.45 && noise.sample() > 0.8;
+            match r > 0.485 || ragged {
+                true => f64::NAN,
+                false => ball.heights()[i],
+            }
+        })
+        .collect();
+    let ball = Heightfield::new(*ball.lattice(), heights).unwrap();
+    let patches = Patches::new(&ball, &PatchOptions::default()).unwrap();
+    let found = pattern(&ball, &patches, &PatternOptions::default()).unwrap();
+    let valid = ball.heights().iter().filter(|z| !z.is_nan()).count();
+    let labelled = found.patches.labels().iter();
+    let labelled = labelled.filter(|l| **l != developable::patches::NO_PATCH);
+    assert_eq!(labelled.count() + found.missing.vertices, valid);
+    assert!(50 * found.missing.vertices <= valid, "{:?}", found.missing);
+    assert_eq!(found.missing.vertices > 0, found.missing.area > 0.0);
+    for sheet in &found.sheets {
+        assert!(sheet.strain <= 0.01, "{}", sheet.strain);
+        assert!(!crosses(&lines(sheet)));
+    }
+}
+
+#[test]
+fn walls_of_steps_are_told() {
+    // A block on a plane: its walls are on no sheet.
+    let block = unit_square(80, |x, y| {
+        f64::from((x - 0.5).abs().max((y - 0.5).abs()) < 0.2) * 0.3
+    });
+    let patches = Patches::new(&block, &PatchOptions::default()).unwrap();
+    let found = pattern(&block, &patches, &PatternOptions::default()).unwrap();
+    assert!(found.missing.steps > 0, "{:?}", found.missing);
+    near(found.missing.step_area, 1.6 * 0.3, 0.1);
+}
+
+#[test]
+fn sheets_fold_back_to_the_surface() {
+    let cylinder = unit_square(60, |x, _| (0.5 - (x - 0.5f64).powi(2)).sqrt());
+    let card = unit_square(60, |x, _| -0.7 * (x - 0.503).abs());
+    let cone = crate::common::cut(
+        &unit_square(60, |x, y| -0.8 * (x - 0.503).hypot(y - 0.502)),
+        |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
+    );
+    // Not developable: sheets are strained, and cannot be bent to it exactly.
+    let dome = unit_square(60, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
+    for (name, surface, most) in [
+        ("cylinder", &cylinder, 2e-4),
+        ("card", &card, 2e-4),
+        ("cone", &cone, 0.004),
+        ("dome", &dome, 0.02),
+    ] {
+        let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
+        let options = PatternOptions::default();
+        let found = pattern(surface, &patches, &options.refold(true)).unwrap();
+        for sheet in &found.sheets {
+            let refolding = sheet.refolding.unwrap();
+            assert!(refolding.rms <= most, "{name}: {refolding:?}");
+            assert!(refolding.rms <= refolding.maximum, "{name}: {refolding:?}");
+            assert!(refolding.strain < 2e-3, "{name}: {refolding:?}");
+        }
+        let strained = found.sheets.iter().any(|sheet| sheet.strain > 0.002);
+        let away = found
+            .sheets
+            .iter()
+            .any(|s| s.refolding.unwrap().maximum > 1e-4);
+        assert!(!strained || away, "{name}: strain, and nothing of it shows");
+        let plain = pattern(surface, &patches, &options).unwrap();
+        assert!(plain.sheets.iter().all(|sheet| sheet.refolding.is_none()));
+    }
+}
+
+#[test]
+fn both_sides_of_a_cut_are_equally_long() {
+    let dome = unit_square(80, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
+    let saddle = unit_square(80, |x, y| 0.6 * ((x - 0.5).powi(2) - (y - 0.5).powi(2)));
+    for (name, surface) in [("dome", dome), ("saddle", saddle)] {
+        let sheets = check(name, &surface, 0.01);
+        for (crease, (_, [a, b])) in sides(&sheets) {
+            if a.min(b) > 0.1 {
+                near(a / b, 1.0, 0.004);
+                assert!(crease < 1000);
+            }
+        }
+    }
+}
+
+/// Where a surface has many vertices it is cut on fewer of them.
+#[test]
+fn a_fine_surface_is_cut_like_a_coarse_one() {
+    let cuts = |cols: usize| {
+        let dome = unit_square(cols, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
+        let sheets = check("dome", &dome, 0.01);
+        let long: f64 = sides(&sheets)
+            .values()
+            .map(|(_, [a, b])| 0.5 * (a + b))
+            .sum();
+        (sheets.len(), long)
+    };
+    let (few, many) = (cuts(80), cuts(160));
+    assert_eq!(few.0, many.0);
+    near(few.1 / many.1, 1.0, 0.3);
+}

@@ -2,6 +2,7 @@
 import { accuracy } from './comparisons/accuracy.mjs';
 import { conic } from './comparisons/conic.mjs';
 import { dewarping } from './comparisons/dewarping.mjs';
+import { flattening } from './comparisons/flattening.mjs';
 import { gaps } from './comparisons/gaps.mjs';
 import { meshes } from './comparisons/meshes.mjs';
 import { memory } from './comparisons/memory.mjs';
@@ -25,6 +26,7 @@ export const tables = {
   accuracy,
   restarts,
   dewarping,
+  flattening,
   phone,
   'photo-alone': photoAlone,
   'phone-command': phoneCommand,

@@ -33,7 +33,7 @@ mod spline;
 mod tabs;
 mod totals;
 
-use super::pattern::{Direction, Seam, Sheet};
+use super::pattern::{Direction, Missing, Seam, Sheet};
 use crate::error::{Error, Result, positive};
 pub use curve::{Curve, Piece};
 pub(crate) use draft::letters;
@@ -179,6 +179,16 @@ impl Drawing {
             pages: None,
             summary,
         })
+    }
+
+    /// The same with what of the surface is on no sheet
+    /// ([`Pattern::missing`](super::pattern::Pattern::missing)), `scale` being that of the drawing.
+    pub fn missing(mut self, missing: &Missing, scale: f64) -> Self {
+        let mut missing = *missing;
+        missing.area *= scale * scale;
+        missing.step_area *= scale * scale;
+        self.summary.missing = Some(missing);
+        self
     }
 
     /// Whether it is one that can be written: what comes from elsewhere need not be.

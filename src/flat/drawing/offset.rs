@@ -40,7 +40,7 @@ pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
         }
         let raw = beside(&ring, distance);
         let closed: Vec<Point> = raw.iter().chain(raw.first()).copied().collect();
-        let runs = without_loops(vec![(None, closed)], LOOP * distance.max(FINE));
+        let (runs, _) = without_loops(vec![(None, closed)], LOOP * distance.max(FINE));
         let clean: Vec<Point> = (runs.into_iter())
             .flat_map(|(_, mut points)| {
                 points.pop();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::draft::Lines;
 use super::{DrawnSheet, FLATNESS, distance, length};
-use crate::flat::pattern::{Direction, Sheet};
+use crate::flat::pattern::{Direction, Missing, Sheet};
 
 /// What a drawing comes to, lengths in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +44,14 @@ pub struct Totals {
     pub strain: f64,
     /// Most that the two sides of a fold are apart (root of the mean square).
     pub gap: f64,
+    /// Small loops in which outlines crossed themselves, and which were cut off.
+    pub loops: usize,
+    /// How far sheets that were folded back are from the surface at most (root of the mean square), if
+    /// that was asked for ([`PatternOptions::refold`](crate::pattern::PatternOptions::refold)).
+    pub refolding: Option<f64>,
+    /// What of the surface is on no sheet, if that is known
+    /// ([`Drawing::missing`](super::Drawing::missing)); areas in square millimetres.
+    pub missing: Option<Missing>,
     /// Pages it takes of A4.
     pub a4: usize,
     /// Pages it takes of Letter.
@@ -118,6 +126,11 @@ pub(super) fn summary(
         area: scale * scale * area,
         strain: sheets.iter().map(|sheet| sheet.strain).fold(0.0, f64::max),
         gap: scale * sheets.iter().map(|sheet| sheet.gap).fold(0.0, f64::max),
+        loops: sheets.iter().map(|sheet| sheet.loops).sum(),
+        refolding: (sheets.iter().filter_map(|sheet| sheet.refolding))
+            .map(|refolding| scale * refolding.rms)
+            .reduce(f64::max),
+        missing: None,
         a4: 0,
         letter: 0,
     }

@@ -1,29 +1,48 @@
 //! Parts joined to sheets, each of which is checked as it is drawn.
 
-use std::collections::HashMap;
-
-use super::check::{crossing, join, strains};
+use super::check::{Tied, are_close, crossing, strains};
 use super::faces::faces;
 use super::layout::{Arrangement, apart, arranged};
-use super::leaf::Strain;
+use super::leaf::{Leaf, Strain};
+use super::line::length;
 use super::net::Net;
-use super::outline::{Layout, Motion};
+use super::outline::Layout;
 use super::parts::Parts;
+use super::refold::refolded;
+use super::sew::sewn;
 use super::shape::{folds, outlines};
 use super::spots::spots;
-use super::{Direction, Pattern, PatternOptions, Run, Seam, Sheet};
+use super::{Direction, Missing, Pattern, PatternOptions, Run, Seam, Sheet};
 use crate::error::Result;
+use crate::flat::unroll::joint::Until;
 use crate::flat::unroll::pieces::Point;
+use crate::heights::heightfield::Heightfield;
+use crate::math::forest::Forest;
 use crate::shape::patches::Patches;
 
-pub(super) enum Assembly<'a> {
-    Whole(Pattern),
+pub(super) enum Assembly {
+    Whole(Box<Assembled>),
     /// The parts, the numbers of those that cannot be sheets as they are, and why.
-    Cut(Parts<'a>, Vec<(u32, String)>),
+    Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
+/// All sheets, as they lie on the plane.
+pub(super) struct Assembled {
+    pub parts: Parts,
+    pub patches: Patches,
+    pub net: Net,
+    pub arrangement: Arrangement,
+}
+
+/// How long patches of a sheet are laid flat together, at most and until it hardly changes.
+pub(super) const EFFORT: Until = Until {
+    tolerance: 1e-8,
+    hopeless: f64::INFINITY,
+    steps: 25,
+};
+
 /// What is wrong with a sheet.
-enum Fault {
+pub(super) enum Fault {
     /// How much, and the parts that are strained more than they may be.
     Strain(f64, Vec<u32>),
     /// Parts with triangles upside down.
@@ -46,105 +65,103 @@ impl Fault {
     }
 }
 
-/// A sheet that is as it should be: where its vertices lie, by patch, where they were moved.
-type Kept = HashMap<(Vec<u32>, Vec<usize>), Vec<(u32, Vec<Point>)>>;
-
 /// Joins parts as far as their sides fit, they are not strained by it, and outlines stay simple.
-pub(super) fn assembled<'a>(
-    parts: Parts<'a>,
+pub(super) fn assembled(
+    parts: Parts,
     patches: &Patches,
     options: &PatternOptions,
-) -> Result<Assembly<'a>> {
-    let surface = parts.surface;
-    let (patches, mut parts) = match parts.leaves.len() == patches.patches().len() {
-        true => (patches.clone(), parts),
-        false => {
-            let (divided, order) = patches.divided(surface, parts.labels.of.clone())?;
-            let parts = parts.renumbered(divided.labels(), &order);
-            (divided, parts)
-        }
-    };
+) -> Result<Assembly> {
+    let (mut parts, patches) = parts.numbered(patches)?;
     let leaves = std::mem::take(&mut parts.leaves);
-    let mut net = Net::new(surface, &parts.labels, leaves, options.gap)?;
-    let mut barred = vec![false; net.seams.len()];
-    let mut kept: Kept = HashMap::new();
-    let arrangement = loop {
-        let mut arrangement = arranged(&net, options.gap, &barred);
-        // What is wrong with a part by itself needs no joint unrolling to be seen.
-        let alone = arrangement
-            .sheets
-            .iter()
-            .filter(|(members, _)| members.len() == 1);
-        let single: Vec<(u32, String)> = alone
-            .filter_map(|(members, _)| {
-                let fault = fault(&net, &arrangement.layout, members, options.max_strain)?;
-                Some((members[0], fault.reason(options.max_strain)))
-            })
-            .collect();
-        if !single.is_empty() {
-            parts.leaves = net.leaves;
-            return Ok(Assembly::Cut(parts, single));
+    let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
+    net.divide_by_fit(options.gap);
+    // What is wrong with a part by itself needs no joint unrolling to be seen.
+    let limit = options.max_strain;
+    let loose = Layout::loose(&net);
+    let alone = (0..net.leaves.len() as u32).filter(|part| net.leaves[*part as usize].is_some());
+    let mut wrong: Vec<(u32, String)> = alone
+        .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
+        .collect();
+    if wrong.is_empty() {
+        let mut arrangement = arranged(&net, options.gap);
+        wrong = settle(&mut net, &mut arrangement, limit)?;
+        if wrong.is_empty() {
+            sewn(&mut net, &mut arrangement, limit)?;
+            return Ok(Assembly::Whole(Box::new(Assembled {
+                parts,
+                patches,
+                net,
+                arrangement,
+            })));
         }
-        let mut moved: Vec<(u32, Vec<Point>)> = Vec::new();
-        let mut faults = Vec::new();
-        for (members, gap) in &mut arrangement.sheets {
-            let folded = folded(&net, &arrangement.layout, members);
-            let key = (members.clone(), folded.clone());
-            let before = |net: &Net| -> Vec<(u32, Vec<Point>)> {
-                let places =
-                    |p: &u32| Some((*p, net.leaves[*p as usize].as_ref()?.places().to_vec()));
-                members.iter().filter_map(places).collect()
-            };
-            if let Some(places) = kept.get(&key) {
-                if !places.is_empty() {
-                    moved.extend(before(&net));
-                }
-                for (patch, places) in places {
-                    net.set_places(*patch, places.clone());
-                    arrangement.layout.motions[*patch as usize] = Motion::NONE;
-                }
-            } else {
-                let rest = before(&net);
-                let gap = |seam: &usize| apart(&net, &arrangement.layout, *seam);
-                let loose: Vec<f64> = folded.iter().map(gap).collect();
-                let joined = join(&mut net, &mut arrangement.layout, members, &folded)?;
-                if joined {
-                    moved.extend(rest);
-                }
-                if let Some(fault) = fault(&net, &arrangement.layout, members, options.max_strain) {
-                    let seams = worst(&net, &arrangement.layout, &loose, &folded, &fault);
-                    faults.push(seams);
-                    continue;
-                }
-                let places = if joined { before(&net) } else { Vec::new() };
-                kept.insert(key, places);
-            }
-            *gap = (folded.iter())
-                .map(|seam| apart(&net, &arrangement.layout, *seam))
-                .fold(0.0, f64::max);
-        }
-        if faults.is_empty() {
-            break arrangement;
-        }
-        for (patch, places) in moved {
-            net.set_places(patch, places);
-        }
-        for seams in faults {
-            for seam in seams {
-                barred[seam] = true;
-            }
-        }
-    };
-    let sheets = drawn(&net, &arrangement, &patches, &parts);
-    Ok(Assembly::Whole(Pattern { sheets, patches }))
+    }
+    parts.leaves = net.leaves;
+    Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
-fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> {
+/// Lays the patches of each sheet flat together, and opens folds of those that are not as they should
+/// be. Returns the patches that are not by themselves, and why.
+pub(super) fn settle(
+    net: &mut Net,
+    arrangement: &mut Arrangement,
+    limit: f64,
+) -> Result<Vec<(u32, String)>> {
+    let mut pending = std::mem::take(&mut arrangement.sheets);
+    let layout = &mut arrangement.layout;
+    let mut wrong = Vec::new();
+    while let Some(members) = pending.pop() {
+        let folded = folded(net, layout, &members);
+        let leaves = members
+            .iter()
+            .filter_map(|p| net.leaves[*p as usize].as_ref());
+        let rough = leaves.clone().any(Leaf::is_rough);
+        if rough || !are_close(net, layout, &folded) {
+            Tied::new(net, layout, &members, &folded, &[])?.relax(net, layout, EFFORT)?;
+        } else if folded.is_empty() {
+            members.iter().for_each(|patch| net.lay_alone(*patch));
+        }
+        match fault(net, layout, &members, limit) {
+            Some(fault) if !folded.is_empty() => {
+                for seam in worst(net, layout, &folded, &fault) {
+                    layout.folded[seam] = false;
+                }
+                pending.extend(connected(net, layout, &members)?);
+            }
+            other => {
+                let reason = other.map(|fault| (members[0], fault.reason(limit)));
+                wrong.extend(reason);
+                arrangement.sheets.push(members);
+            }
+        }
+    }
+    Ok(wrong)
+}
+
+/// What folds hold together.
+fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
+    let mut forest = Forest::new("pattern", members.len())?;
+    let place = |patch: u32| members.binary_search(&patch).ok();
+    for seam in folded(net, layout, members) {
+        let [one, other] = net.seams[seam].patches.map(place);
+        if let (Some(one), Some(other)) = (one, other) {
+            forest.join(one as u32, other as u32);
+        }
+    }
+    let mut groups: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
+    for (k, patch) in members.iter().enumerate() {
+        groups[forest.root(k as u32) as usize].push(*patch);
+    }
+    groups.retain(|group| !group.is_empty());
+    Ok(groups)
+}
+
+pub(super) fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> {
     let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
     (0..net.seams.len()).filter(own).collect()
 }
 
-fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
+/// What is wrong with a sheet, if anything is.
+pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
     let (sum, all) = strains(net, members);
     // Some of them at once, so that few joint unrollings are needed.
     let those = |wrong: &dyn Fn(&Strain) -> bool| -> Vec<u32> {
@@ -159,7 +176,7 @@ fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Faul
     if sum.flipped > 0 {
         return Some(Fault::Flipped(those(&|s| s.flipped > 0)));
     }
-    let lines: Vec<Vec<[f64; 2]>> = (shape_of(net, layout, members).into_iter())
+    let lines: Vec<Vec<[f64; 2]>> = (shape_of(net, layout, members).0.into_iter())
         .map(|runs| {
             let points = runs.into_iter().flat_map(|mut run| {
                 run.points.pop();
@@ -172,7 +189,7 @@ fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Faul
 }
 
 /// The outlines of a sheet, with no creases told from each other.
-fn shape_of(net: &Net, layout: &Layout, members: &[u32]) -> Vec<Vec<Run>> {
+fn shape_of(net: &Net, layout: &Layout, members: &[u32]) -> (Vec<Vec<Run>>, usize) {
     outlines(net, layout, members, |number| Seam {
         crease: number,
         patches: net.seams[number].patches,
@@ -182,9 +199,9 @@ fn shape_of(net: &Net, layout: &Layout, members: &[u32]) -> Vec<Vec<Run>> {
     })
 }
 
-/// The folds that are to be cut: of those of a strained patch, if it has any, those that fit worst
-/// where the patches lie loose; for an outline that crosses itself the nearest one.
-fn worst(net: &Net, layout: &Layout, loose: &[f64], folded: &[usize], fault: &Fault) -> Vec<usize> {
+/// The folds that are to be cut: for an outline that crosses itself the nearest one, or else of those of
+/// strained patches those whose sides pull apart most.
+fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usize> {
     match fault {
         Fault::Crossing(place) => {
             let away = |seam: &usize| {
@@ -197,25 +214,34 @@ fn worst(net: &Net, layout: &Layout, loose: &[f64], folded: &[usize], fault: &Fa
             nearest.into_iter().collect()
         }
         Fault::Strain(_, patches) | Fault::Flipped(patches) => {
-            let gaps = || folded.iter().copied().zip(loose.iter().copied());
             let largest = |patch: Option<&u32>| {
                 let beside =
-                    |seam: usize| patch.is_none_or(|p| net.seams[seam].patches.contains(p));
-                let own = gaps().filter(|(seam, _)| beside(*seam));
-                own.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(seam, _)| seam)
+                    |seam: &usize| patch.is_none_or(|p| net.seams[*seam].patches.contains(p));
+                let own = folded.iter().copied().filter(beside);
+                let pull = |seam: &usize| apart(net, layout, *seam);
+                own.max_by(|a, b| pull(a).total_cmp(&pull(b)))
             };
             let mut seams: Vec<usize> = patches.iter().filter_map(|p| largest(Some(p))).collect();
             if seams.is_empty() {
                 seams.extend(largest(None));
             }
+            seams.sort_unstable();
+            seams.dedup();
             seams
         }
     }
 }
 
-fn drawn(net: &Net, arrangement: &Arrangement, patches: &Patches, parts: &Parts) -> Vec<Sheet> {
+/// The sheets, drawn.
+pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
+    let Assembled {
+        parts,
+        patches,
+        net,
+        arrangement,
+    } = whole;
     let layout = &arrangement.layout;
-    let places = spots(parts.surface, patches.labels(), net, layout);
+    let places = spots(&parts.surface, patches.labels(), net, layout);
     let seam = |number: usize| {
         let seam = &net.seams[number];
         Seam {
@@ -229,21 +255,60 @@ fn drawn(net: &Net, arrangement: &Arrangement, patches: &Patches, parts: &Parts)
             slit: seam.smooth,
         }
     };
-    let sheets = arrangement.sheets.iter().map(|(members, gap)| {
-        let outlines = outlines(net, layout, members, seam);
+    let sheets = arrangement.sheets.iter().map(|members| {
+        let (outlines, loops) = outlines(net, layout, members, seam);
         let own = |patch: &u32| patches.patches()[*patch as usize].area;
         let (strain, _) = strains(net, members);
-        Sheet {
+        let folded = folded(net, layout, members);
+        let gaps = folded.iter().map(|seam| apart(net, layout, *seam));
+        Ok(Sheet {
             folds: folds(net, layout, members, &outlines, seam),
             outlines,
             spots: members.iter().map(|p| places[*p as usize]).collect(),
-            faces: faces(parts.surface, net, layout, members),
+            faces: faces(&parts.surface, net, layout, members),
             spacing: net.spacing,
             area: members.iter().map(own).sum(),
             strain: strain.rms(),
-            gap: *gap,
+            gap: gaps.fold(0.0, f64::max),
             patches: members.clone(),
-        }
+            loops,
+            refolding: match parts.options.refold {
+                true => Some(refolded(net, members, &folded)?),
+                false => None,
+            },
+        })
     });
-    sheets.collect()
+    let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;
+    sheets.sort_by_key(|sheet| sheet.patches[0]);
+    Ok(Pattern {
+        sheets,
+        patches: patches.clone(),
+        missing: missing(surface, whole)?,
+    })
+}
+
+/// What is left out, and what is at steps.
+fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
+    let net = &whole.net;
+    let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));
+    let high = |seam: usize| net.seams[seam].apart * length(&net.seams[seam].sides[0]);
+    let left_out = whole.parts.left_out();
+    let area = match left_out {
+        0 => 0.0,
+        _ => {
+            let all = Patches::area(surface)?;
+            all - whole
+                .patches
+                .patches()
+                .iter()
+                .map(|patch| patch.area)
+                .sum::<f64>()
+        }
+    };
+    Ok(Missing {
+        vertices: left_out,
+        area,
+        steps: torn.clone().count(),
+        step_area: torn.map(high).sum(),
+    })
 }

@@ -5,7 +5,7 @@ use super::leaf::Strain;
 use super::net::{Net, is_triangle};
 use super::outline::{Layout, Motion};
 use crate::error::Result;
-use crate::flat::unroll::joint::Joint;
+use crate::flat::unroll::joint::{Joint, Mean, Rod, Until};
 use crate::flat::unroll::overlap::crossings;
 use crate::flat::unroll::pieces::Point;
 
@@ -16,51 +16,131 @@ const CLOSE: f64 = 0.05;
 /// where they should be.
 const LOOSE: usize = 3;
 
-/// Change of the energy in one step of it that is none.
-const TOLERANCE: f64 = 1e-8;
+/// A side of a seam, by its patch, and the lengths that its pieces are to have.
+pub(super) struct Measure {
+    pub seam: usize,
+    pub side: usize,
+    /// Between each two of [`marks`].
+    pub lengths: Vec<f64>,
+}
 
-/// Lays the patches of a sheet flat together, tied along its folds, where these do not fit as they
-/// are. Returns whether that was done; the patches then lie where they are to be, and their motions are
-/// none.
-pub(super) fn join(
-    net: &mut Net,
-    layout: &mut Layout,
-    patches: &[u32],
-    folded: &[usize],
-) -> Result<bool> {
-    if folded
-        .iter()
-        .all(|seam| apart(net, layout, *seam) <= CLOSE * net.spacing)
-    {
-        return Ok(false);
+/// Nodes from one mark of a seam to the next.
+const STEP: usize = 6;
+
+/// The nodes between which a seam is measured, the first and the last one among them.
+pub(super) fn marks(count: usize) -> Vec<usize> {
+    let last = count.saturating_sub(1);
+    let pieces = (last / STEP).max(1);
+    (0..=pieces).map(|k| k * last / pieces).collect()
+}
+
+/// Whether the sides of some folds lie on each other already.
+pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
+    let mut folded = folded.iter();
+    folded.all(|seam| apart(net, layout, *seam) <= CLOSE * net.spacing)
+}
+
+/// The patches of a sheet as one mesh, tied along its folds.
+pub(super) struct Tied {
+    patches: Vec<u32>,
+    /// The number of the first vertex of each patch.
+    starts: Vec<u32>,
+    joint: Joint,
+    places: Vec<Point>,
+}
+
+impl Tied {
+    /// `measures` are the sides of seams that are to have given lengths.
+    pub(super) fn new(
+        net: &Net,
+        layout: &Layout,
+        patches: &[u32],
+        folded: &[usize],
+        measures: &[Measure],
+    ) -> Result<Tied> {
+        let (mut pieces, mut rods) = (Vec::new(), Vec::new());
+        let mut places: Vec<Point> = Vec::new();
+        let mut starts = Vec::new();
+        for patch in patches {
+            let first = places.len() as u32;
+            starts.push(first);
+            let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+                continue;
+            };
+            let motion = layout.motions[*patch as usize];
+            places.extend(leaf.places().iter().map(|place| motion.of(*place)));
+            let own = leaf.all_pieces().filter(|(piece, _)| piece.exists());
+            pieces.extend(own.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
+        }
+        let ties = ties(net, patches, &starts, folded);
+        for measure in measures {
+            let seam = &net.seams[measure.seam];
+            let patch = seam.patches[measure.side];
+            let Ok(number) = patches.binary_search(&patch) else {
+                continue;
+            };
+            for (pair, length) in marks(seam.nodes.len()).windows(2).zip(&measure.lengths) {
+                let [from, to] =
+                    [pair[0], pair[1]].map(|mark| net.around(measure.seam, mark, patch));
+                let from = from.into_iter().map(|(v, w)| (v, -w));
+                let mut terms: Vec<(u32, f64)> = Vec::new();
+                for (v, w) in to.into_iter().chain(from) {
+                    let v = v + starts[number];
+                    match terms.iter_mut().find(|(other, _)| *other == v) {
+                        Some((_, weight)) => *weight += w,
+                        None => terms.push((v, w)),
+                    }
+                }
+                let length = *length;
+                rods.push(Rod { terms, length });
+            }
+        }
+        Ok(Tied {
+            patches: patches.to_vec(),
+            starts,
+            joint: Joint::new(places.len(), pieces, ties, rods)?,
+            places,
+        })
     }
-    let mut joint = Joint {
-        pieces: Vec::new(),
-        ties: Vec::new(),
-    };
-    let mut places: Vec<Point> = Vec::new();
-    let mut starts = Vec::new();
-    for patch in patches {
-        let first = places.len() as u32;
-        starts.push(first);
-        let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
-            continue;
-        };
-        let motion = layout.motions[*patch as usize];
-        places.extend(leaf.places().iter().map(|place| motion.of(*place)));
-        let pieces = leaf.all_pieces().filter(|(piece, _)| piece.exists());
-        joint
-            .pieces
-            .extend(pieces.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
+
+    /// Asks the measured sides for other lengths, in the order in which they were given.
+    pub(super) fn ask(&mut self, measures: &[Measure]) {
+        self.joint
+            .ask(measures.iter().flat_map(|m| m.lengths.iter().copied()));
     }
+
+    /// Lays the patches to where they fit best; their motions are none then. Returns what it took:
+    /// steps times vertices.
+    pub(super) fn relax(
+        &mut self,
+        net: &mut Net,
+        layout: &mut Layout,
+        until: Until,
+    ) -> Result<usize> {
+        let steps = self.joint.relax(&mut self.places, until)?;
+        for (k, patch) in self.patches.iter().enumerate() {
+            let end = self
+                .starts
+                .get(k + 1)
+                .map_or(self.places.len(), |end| *end as usize);
+            net.set_places(*patch, self.places[self.starts[k] as usize..end].to_vec());
+            layout.motions[*patch as usize] = Motion::NONE;
+        }
+        Ok(steps * self.places.len())
+    }
+}
+
+/// The pairs of places along some folds that are one, `starts` being the number of each patch's first
+/// vertex.
+pub(super) fn ties(net: &Net, patches: &[u32], starts: &[u32], folded: &[usize]) -> Vec<[Mean; 2]> {
+    let mut ties = Vec::new();
     for seam in folded {
         let seam = &net.seams[*seam];
         let last = seam.nodes.len() - 1;
         let from = if is_triangle(seam.nodes[0]) { LOOSE } else { 0 };
-        let to = if is_triangle(seam.nodes[last]) {
-            last.saturating_sub(LOOSE)
-        } else {
-            last
+        let to = match is_triangle(seam.nodes[last]) {
+            true => last.saturating_sub(LOOSE),
+            false => last,
         };
         for node in seam.nodes.iter().take(to + 1).skip(from) {
             let mean = |side: usize| {
@@ -69,17 +149,26 @@ pub(super) fn join(
                 Some(net.mean(*node, patch)?.map(|(v, w)| (first + v, w)))
             };
             if let (Some(one), Some(other)) = (mean(0), mean(1)) {
-                joint.ties.push([one, other]);
+                ties.push([one, other]);
             }
         }
     }
-    joint.relax(&mut places, TOLERANCE)?;
-    for (k, patch) in patches.iter().enumerate() {
-        let end = starts.get(k + 1).map_or(places.len(), |end| *end as usize);
-        net.set_places(*patch, places[starts[k] as usize..end].to_vec());
-        layout.motions[*patch as usize] = Motion::NONE;
-    }
-    Ok(true)
+    ties
+}
+
+/// The strain right beside a seam, on both of its sides.
+pub(super) fn strain_along(net: &Net, seam: usize) -> f64 {
+    let seam = &net.seams[seam];
+    let sides = seam.patches.iter().filter_map(|patch| {
+        let leaf = net.leaves[*patch as usize].as_ref()?;
+        let mut beside = vec![false; leaf.places().len()];
+        let means = seam.nodes.iter().filter_map(|node| net.mean(*node, *patch));
+        for (vertex, weight) in means.flatten() {
+            beside[vertex as usize] |= weight != 0.0;
+        }
+        Some(leaf.strain_of(|vertex| beside[vertex as usize]))
+    });
+    sides.fold(Strain::default(), Strain::with).rms()
 }
 
 /// The strain of a sheet, and that of each of its patches.

@@ -2,13 +2,13 @@
 //! into.
 
 use std::cmp::Reverse;
-use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
+use crate::math::hash::NumberMap;
 
 use super::leaf::Leaf;
 
@@ -108,7 +108,7 @@ impl Labels {
         joined: impl Fn(usize, usize) -> bool,
     ) -> Option<Vec<u32>> {
         let first = self.origins.len() as u32;
-        let mut side = HashMap::with_capacity(burden.len());
+        let mut side = NumberMap::with_capacity_and_hasher(burden.len(), Default::default());
         for (i, _) in burden {
             side.insert(*i, beyond(*i));
         }
@@ -118,7 +118,7 @@ impl Labels {
             inside.map(|(row, col)| lattice.index(row, col))
         };
         // What hangs together on either side.
-        let mut numbers = HashMap::with_capacity(burden.len());
+        let mut numbers = NumberMap::with_capacity_and_hasher(burden.len(), Default::default());
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for (first, _) in burden {
             if numbers.contains_key(first) {
@@ -150,7 +150,7 @@ impl Labels {
         if large.len() < 2 {
             return None;
         }
-        let mut named = HashMap::new();
+        let mut named = NumberMap::default();
         for (k, group) in large.iter().enumerate() {
             let number = if k == 0 { part } else { first + k as u32 - 1 };
             named.insert(*group, number);

@@ -1,13 +1,13 @@
 //! Patches laid beside each other, as many as fit.
 
 use super::line::length;
-use super::net::{Net, Seam};
+use super::net::Net;
 use super::outline::{Layout, Motion};
 
 pub(super) struct Arrangement {
     pub layout: Layout,
-    /// The patches of each sheet, ascending, and its largest gap.
-    pub sheets: Vec<(Vec<u32>, f64)>,
+    /// The patches of each sheet, ascending.
+    pub sheets: Vec<Vec<u32>>,
 }
 
 /// A seam whose sides are further apart in space, in spacings, is a tear.
@@ -16,76 +16,72 @@ pub(super) const TORN: f64 = 0.5;
 /// A distance that the lattice cannot tell from none, in spacings.
 pub(super) const FINE: f64 = 0.25;
 
-/// Makes folds of the seams whose sides fit within a share of their length and that are not `barred`,
-/// the longest first.
-pub(super) fn arranged(net: &Net, gap: f64, barred: &[bool]) -> Arrangement {
-    let mut layout = Layout {
-        motions: vec![Motion::NONE; net.leaves.len()],
-        folded: vec![false; net.seams.len()],
-    };
-    let mut sheets: Vec<Option<(Vec<u32>, f64)>> = (net.leaves.iter().enumerate())
-        .map(|(patch, leaf)| leaf.as_ref().map(|_| (vec![patch as u32], 0.0)))
+/// Makes folds of the seams whose sides fit within a share of their length, the longest first.
+pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
+    let mut layout = Layout::loose(net);
+    // The sheet of each patch, and the patches of each sheet.
+    let mut of: Vec<usize> = (0..net.leaves.len()).collect();
+    let mut sheets: Vec<Vec<u32>> = (net.leaves.iter().enumerate())
+        .map(|(patch, leaf)| leaf.iter().map(|_| patch as u32).collect())
         .collect();
-    let long = |seam: &Seam| length(&seam.sides[0]);
-    let mut order: Vec<usize> = (0..net.seams.len())
-        .filter(|seam| {
-            let free = !barred[*seam];
-            let seam = &net.seams[*seam];
-            free && seam.apart <= TORN * net.spacing && long(seam) > 0.0
-        })
-        .collect();
-    order.sort_by(|a, b| long(&net.seams[*b]).total_cmp(&long(&net.seams[*a])));
-    let of = |sheets: &[Option<(Vec<u32>, f64)>], patch: u32| {
-        let holds = |sheet: &(Vec<u32>, f64)| sheet.0.contains(&patch);
-        sheets.iter().position(|s| s.as_ref().is_some_and(holds))
-    };
+    let order = longest_first(net);
     for seam in &order {
-        let [one, other] = net.seams[*seam].patches.map(|patch| of(&sheets, patch));
-        let (Some(a), Some(b)) = (one, other) else {
-            continue;
-        };
-        let (Some(fixed), Some(moved)) = (&sheets[a], &sheets[b]) else {
-            continue;
-        };
-        if a == b || net.seams[*seam].nodes.len() < 3 {
+        let [a, b] = net.seams[*seam].patches.map(|patch| of[patch as usize]);
+        if a == b || sheets[a].is_empty() || sheets[b].is_empty() {
             continue;
         }
-        let [there, here] = [0, 1].map(|side| layout.side(net, *seam, side));
-        let motion = Motion::between(&here, &there);
+        let motion = beside(net, &layout, *seam);
         let mut trial = layout.clone();
-        for patch in &moved.0 {
-            let own = &mut trial.motions[*patch as usize];
-            *own = own.then(&motion);
-        }
+        trial.carry(&sheets[b], &motion);
         if !fits(net, &trial, *seam, gap) {
             continue;
         }
         // Others may fit as well then: around a vertex with a full turn, the last one does.
-        let mut joint = [&fixed.0[..], &moved.0].concat();
+        let mut joint = [&sheets[a][..], &sheets[b]].concat();
         joint.sort_unstable();
-        let mut most = fixed.1.max(moved.1);
         for seam in order.iter().filter(|seam| !layout.folded[**seam]) {
-            let own = net.seams[*seam].patches.iter().all(|p| joint.contains(p));
+            let own = net.seams[*seam]
+                .patches
+                .iter()
+                .all(|p| [a, b].contains(&of[*p as usize]));
             if own && fits(net, &trial, *seam, gap) {
                 trial.folded[*seam] = true;
-                most = most.max(apart(net, &trial, *seam));
             }
         }
         if !trial.overlaps(net, &joint) {
             layout = trial;
-            sheets[a.max(b)] = None;
-            sheets[a.min(b)] = Some((joint, most));
+            for patch in &joint {
+                of[*patch as usize] = a.min(b);
+            }
+            sheets[a.max(b)] = Vec::new();
+            sheets[a.min(b)] = joint;
         }
     }
-    Arrangement {
-        layout,
-        sheets: sheets.into_iter().flatten().collect(),
-    }
+    sheets.retain(|members| !members.is_empty());
+    Arrangement { layout, sheets }
+}
+
+/// The seams that may be joined, by their length.
+pub(super) fn longest_first(net: &Net) -> Vec<usize> {
+    let long = |seam: &usize| length(&net.seams[*seam].sides[0]);
+    let whole = |seam: &usize| {
+        let nodes = net.seams[*seam].nodes.len();
+        nodes > 2 && !net.is_torn(*seam) && long(seam) > 0.0
+    };
+    let mut order: Vec<usize> = (0..net.seams.len()).filter(whole).collect();
+    order.sort_by(|a, b| long(b).total_cmp(&long(a)));
+    order
+}
+
+/// What brings the second side of a seam to its first.
+pub(super) fn beside(net: &Net, layout: &Layout, seam: usize) -> Motion {
+    let [there, here] = [0, 1].map(|side| layout.side(net, seam, side));
+    Motion::between(&here, &there)
 }
 
 /// Whether the sides of a seam lie on each other but for a share of its length, or as nearly as the
 /// lattice can tell.
-fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
+pub(super) fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
     let most = gap * length(&net.seams[seam].sides[0]);
     apart(net, layout, seam) <= most.max(FINE * net.spacing)
 }

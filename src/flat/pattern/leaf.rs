@@ -9,7 +9,7 @@ use super::labels::Labels;
 use super::layout::TORN;
 use crate::error::{Error, Result, try_filled};
 use crate::flat::unroll::pieces::{Piece, Point};
-use crate::flat::unroll::{UnrollOptions, Unrolling, unroll_mesh};
+use crate::flat::unroll::{UnrollOptions, unroll_mesh};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
@@ -29,22 +29,59 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Around the vertices of each patch, one cell larger.
-    pub(super) fn around(lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
-        let nothing = Window {
-            top: usize::MAX,
-            left: usize::MAX,
-            bottom: 0,
-            right: 0,
+    /// The whole lattice.
+    pub(super) fn whole(lattice: &Lattice) -> Window {
+        Window {
+            top: 0,
+            left: 0,
+            bottom: lattice.rows() - 1,
+            right: lattice.cols() - 1,
+        }
+    }
+
+    const NOTHING: Window = Window {
+        top: usize::MAX,
+        left: usize::MAX,
+        bottom: 0,
+        right: 0,
+    };
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.top > self.bottom
+    }
+
+    pub(super) fn with(&self, other: &Window) -> Window {
+        Window {
+            top: self.top.min(other.top),
+            left: self.left.min(other.left),
+            bottom: self.bottom.max(other.bottom),
+            right: self.right.max(other.right),
+        }
+    }
+
+    /// The lattice's indices in it.
+    pub(super) fn vertices(self, lattice: &Lattice) -> impl Iterator<Item = usize> {
+        let cols = lattice.cols();
+        let rows = if self.is_empty() {
+            0..0
+        } else {
+            self.top..self.bottom + 1
         };
-        let mut windows = vec![nothing; count];
-        for (i, label) in labels.iter().enumerate() {
-            if let Some(window) = windows.get_mut(*label as usize) {
+        rows.flat_map(move |row| (self.left..=self.right).map(move |col| row * cols + col))
+    }
+
+    /// Around the vertices of each of `count` patches in this one, a cell larger.
+    pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
+        let mut windows = vec![Window::NOTHING; count];
+        for i in self.vertices(lattice) {
+            if let Some(window) = windows.get_mut(labels[i] as usize) {
                 let (row, col) = (i / lattice.cols(), i % lattice.cols());
-                window.top = window.top.min(row.saturating_sub(1) & !1);
-                window.left = window.left.min(col.saturating_sub(1));
-                window.bottom = window.bottom.max((row + 1).min(lattice.rows() - 1));
-                window.right = window.right.max((col + 1).min(lattice.cols() - 1));
+                *window = window.with(&Window {
+                    top: row.saturating_sub(1) & !1,
+                    left: col.saturating_sub(1),
+                    bottom: (row + 1).min(lattice.rows() - 1),
+                    right: (col + 1).min(lattice.cols() - 1),
+                });
             }
         }
         windows
@@ -52,9 +89,12 @@ impl Window {
 }
 
 pub(super) struct Leaf {
-    flat: Unrolling,
-    /// Where its vertices lie now.
+    mesh: Triangulation,
+    /// Where its vertices lie by themselves, and where they lie now.
+    alone: Vec<Point>,
     places: Vec<Point>,
+    /// Whether it has not been laid flat on this lattice yet.
+    rough: bool,
     window: Window,
     /// Which of its vertices are the patch's own.
     own: Vec<bool>,
@@ -100,8 +140,60 @@ impl Leaf {
         options: &UnrollOptions,
         limit: f64,
     ) -> Result<Option<Leaf>> {
+        let Some((mesh, own)) = Leaf::mesh(surface, labels, patch, window)? else {
+            return Ok(None);
+        };
+        let flat = unroll_mesh(mesh, options, Some(limit))?;
+        let places = flat.places().iter();
+        let places: Vec<Point> = places.map(|[x, y]| Point::new(*x, *y)).collect();
+        Ok(Some(Leaf {
+            mesh: flat.into_mesh(),
+            alone: places.clone(),
+            places,
+            rough: false,
+            window,
+            own,
+        }))
+    }
+
+    /// The same, lying where `start` says, as far as that knows; nothing if it knows of too few.
+    pub(super) fn at(
+        surface: &Heightfield,
+        labels: &Labels,
+        patch: u32,
+        window: Window,
+        start: impl Fn([usize; 2]) -> Option<Point>,
+    ) -> Result<Option<Leaf>> {
+        let Some((mesh, own)) = Leaf::mesh(surface, labels, patch, window)? else {
+            return Ok(None);
+        };
+        let cols = mesh.lattice().cols();
+        let vertices = mesh.vertices().iter().map(|v| *v as usize);
+        let known: Vec<Option<Point>> = vertices
+            .map(|v| start([window.top + v / cols, window.left + v % cols]))
+            .collect();
+        let Some(places) = spread(&mesh, known) else {
+            return Ok(None);
+        };
+        Ok(Some(Leaf {
+            mesh,
+            alone: places.clone(),
+            places,
+            rough: true,
+            window,
+            own,
+        }))
+    }
+
+    /// Its triangles, and which of their vertices are its own.
+    fn mesh(
+        surface: &Heightfield,
+        labels: &Labels,
+        patch: u32,
+        window: Window,
+    ) -> Result<Option<(Triangulation, Vec<bool>)>> {
         let whole = surface.lattice();
-        if window.top > window.bottom {
+        if window.is_empty() {
             return Ok(None);
         }
         let (rows, cols) = (
@@ -138,33 +230,50 @@ impl Leaf {
         };
         let own = mesh.vertices().iter();
         let own = own.map(|v| of[index(*v as usize)] == patch).collect();
-        let flat = unroll_mesh(mesh, options, Some(limit))?;
-        let places = flat.places().iter();
-        Ok(Some(Leaf {
-            places: places.map(|[x, y]| Point::new(*x, *y)).collect(),
-            flat,
-            window,
-            own,
-        }))
+        Ok(Some((mesh, own)))
+    }
+
+    /// Whether it has not been laid flat on this lattice yet.
+    pub(super) fn is_rough(&self) -> bool {
+        self.rough
     }
 
     pub(super) fn places(&self) -> &[Point] {
         &self.places
     }
 
+    /// Where its vertices are on the surface.
+    pub(super) fn positions(&self) -> &[[f64; 3]] {
+        self.mesh.positions()
+    }
+
+    pub(super) fn is_own(&self, vertex: usize) -> bool {
+        self.own[vertex]
+    }
+
     pub(super) fn set_places(&mut self, places: Vec<Point>) {
         self.places = places;
     }
 
+    /// Where its vertices lay before they were moved; `None` if they were not.
+    pub(super) fn moved_from(&self) -> Option<Vec<Point>> {
+        (self.alone != self.places).then(|| self.alone.clone())
+    }
+
+    /// Number of vertices of its own.
+    pub(super) fn size(&self) -> usize {
+        self.own.iter().filter(|own| **own).count()
+    }
+
     /// Whether it is too small to be cut.
     pub(super) fn is_crumb(&self) -> bool {
-        self.own.iter().filter(|own| **own).count() < CRUMB
+        self.size() < CRUMB
     }
 
     /// Its triangles as they would lie by themselves, with the numbers of their corners. A triangle
     /// most of which is another patch's is left out where there are others.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
-        let mesh = self.flat.mesh();
+        let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
             let own = corners.iter().filter(|v| self.own[**v as usize]);
             own.count() > 1
@@ -180,7 +289,7 @@ impl Leaf {
 
     /// All of its triangles likewise.
     pub(super) fn all_pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
-        let mesh = self.flat.mesh();
+        let mesh = &self.mesh;
         mesh.triangles().iter().map(|corners| {
             let points = corners.map(|v| mesh.positions()[v as usize]);
             (Piece::between(points), *corners)
@@ -189,8 +298,16 @@ impl Leaf {
 
     /// The strain where its vertices lie now.
     pub(super) fn strain(&self) -> Strain {
+        self.strain_of(|_| true)
+    }
+
+    /// That of the triangles with a corner of some kind.
+    pub(super) fn strain_of(&self, wanted: impl Fn(u32) -> bool) -> Strain {
         let mut sum = Strain::default();
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
+            if !corners.iter().any(|corner| wanted(*corner)) {
+                continue;
+            }
             let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
             sum.area += piece.area();
             sum.squares += 0.5 * piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
@@ -210,12 +327,12 @@ impl Leaf {
                 shares[v as usize] += square;
             }
         }
-        let lattice = self.flat.mesh().lattice();
+        let lattice = self.mesh.lattice();
         let index = |v: u32| {
             let (row, col) = (v as usize / lattice.cols(), v as usize % lattice.cols());
             whole.index(self.window.top + row, self.window.left + col)
         };
-        let vertices = self.flat.mesh().vertices().iter().map(|v| index(*v));
+        let vertices = self.mesh.vertices().iter().map(|v| index(*v));
         let all = vertices.zip(shares).zip(&self.own);
         all.filter(|(_, own)| **own).map(|(pair, _)| pair).collect()
     }
@@ -223,8 +340,8 @@ impl Leaf {
     /// Row and column in the whole lattice of one of its vertices.
     pub(super) fn vertex(&self, number: usize) -> [usize; 2] {
         let (index, cols) = (
-            self.flat.mesh().vertices()[number] as usize,
-            self.flat.mesh().lattice().cols(),
+            self.mesh.vertices()[number] as usize,
+            self.mesh.lattice().cols(),
         );
         [
             self.window.top + index / cols,
@@ -235,7 +352,7 @@ impl Leaf {
     /// Which of the leaf's vertices a vertex of the whole lattice is.
     pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;
-        let lattice = self.flat.mesh().lattice();
+        let lattice = self.mesh.lattice();
         let (row, col) = (
             row.checked_sub(self.window.top)?,
             col.checked_sub(self.window.left)?,
@@ -244,14 +361,14 @@ impl Leaf {
             return None;
         }
         let index = lattice.index(row, col) as u32;
-        self.flat.mesh().vertices().binary_search(&index).ok()
+        self.mesh.vertices().binary_search(&index).ok()
     }
 
     /// Height of the extended patch at a row and column of the whole lattice; NaN where it does
     /// not reach.
     pub(super) fn height(&self, vertex: [usize; 2]) -> f64 {
         let number = self.number(vertex);
-        number.map_or(f64::NAN, |n| self.flat.mesh().positions()[n][2])
+        number.map_or(f64::NAN, |n| self.mesh.positions()[n][2])
     }
 
     /// Its place on the plane likewise.
@@ -259,4 +376,39 @@ impl Leaf {
         self.number(vertex)
             .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])
     }
+}
+
+/// Places for all vertices of a mesh from those that are known: beside these, triangles that are known
+/// go on as they lie. `None` if there is nothing to go on from.
+fn spread(mesh: &Triangulation, mut known: Vec<Option<Point>>) -> Option<Vec<Point>> {
+    let mut missing = known.iter().filter(|place| place.is_none()).count();
+    while missing > 0 {
+        let mut sums = vec![(Point::default(), 0.0); known.len()];
+        for corners in mesh.triangles() {
+            for k in 0..3 {
+                let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k] as usize);
+                let (None, Some(p), Some(q)) = (known[a], known[b], known[c]) else {
+                    continue;
+                };
+                let points = [b, c, a].map(|v| mesh.positions()[v]);
+                let piece = Piece::between(points);
+                if piece.exists() {
+                    let (sum, count) = &mut sums[a];
+                    *sum += p + (q - p) * piece.third_corner();
+                    *count += 1.0;
+                }
+            }
+        }
+        let before = missing;
+        for (place, (sum, count)) in known.iter_mut().zip(sums) {
+            if count > 0.0 && place.is_none() {
+                *place = Some(sum / count);
+                missing -= 1;
+            }
+        }
+        if missing == before {
+            return None;
+        }
+    }
+    known.into_iter().collect()
 }

@@ -26,7 +26,9 @@
 
 mod assembly;
 mod check;
+mod even;
 mod faces;
+mod fine;
 mod labels;
 mod layout;
 mod leaf;
@@ -34,16 +36,20 @@ mod line;
 mod net;
 mod outline;
 mod parts;
+mod refold;
+mod sew;
 mod shape;
 mod simple;
 mod spots;
 
 use super::unroll::UnrollOptions;
-use crate::error::{Result, positive};
+use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
-use assembly::{Assembly, assembled};
+use assembly::{Assembled, Assembly, assembled, drawn};
+use even::evened;
 pub use faces::Faces;
+use fine::{Coarse, refined};
 use parts::Parts;
 pub(crate) use simple::without_loops;
 
@@ -60,6 +66,9 @@ pub struct PatternOptions {
     pub max_strain: f64,
     /// How patches are laid flat.
     pub unrolling: UnrollOptions,
+    /// Whether sheets are folded back to see how near they come to the surface; that takes about as long
+    /// as laying them flat. Default `false`.
+    pub refold: bool,
 }
 
 impl Default for PatternOptions {
@@ -68,6 +77,7 @@ impl Default for PatternOptions {
             gap: 0.005,
             max_strain: 0.01,
             unrolling: UnrollOptions::default(),
+            refold: false,
         }
     }
 }
@@ -81,6 +91,11 @@ impl PatternOptions {
     /// These options with another limit of the strain.
     pub fn max_strain(self, max_strain: f64) -> Self {
         PatternOptions { max_strain, ..self }
+    }
+
+    /// These options with sheets folded back.
+    pub fn refold(self, refold: bool) -> Self {
+        PatternOptions { refold, ..self }
     }
 
     /// These options with another way to lay patches flat.
@@ -98,6 +113,28 @@ pub struct Pattern {
     /// The patches of the sheets and the creases between them: those that were given, if none of
     /// them was cut, or else what they were cut into, with the cuts among the creases.
     pub patches: Patches,
+    /// What of the surface is on no sheet.
+    pub missing: Missing,
+}
+
+/// What of a surface is on no sheet, in its units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct Missing {
+    /// Vertices that were left out because nothing around them lies flat with them: ragged steep
+    /// borders, mostly, and a fiftieth of all at most.
+    pub vertices: usize,
+    /// The area around them.
+    pub area: f64,
+    /// Steps of the surface, whose sides are cut apart: what would stand between them is not there.
+    pub steps: usize,
+    /// About how large these are: their lengths times how high they are.
+    pub step_area: f64,
 }
 
 /// A sheet to be cut out, as it is seen from above, from where the heights point. Lengths are in
@@ -129,6 +166,24 @@ pub struct Sheet {
     /// How far the sides of its folds were from each other at most (root of the mean square along
     /// a fold); the folds lie halfway.
     pub gap: f64,
+    /// Small loops in which its outlines crossed themselves, and which were cut off.
+    pub loops: usize,
+    /// How near it comes to the surface, if that was asked for ([`PatternOptions::refold`]).
+    pub refolding: Option<Refolding>,
+}
+
+/// How near a sheet comes to the surface where it is folded along its lines and bent until nothing of
+/// it is stretched: distances of its vertices, in the surface's units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Refolding {
+    /// Root of the mean square.
+    pub rms: f64,
+    /// The largest.
+    pub maximum: f64,
+    /// What is left of strain in it: root of the mean square.
+    pub strain: f64,
 }
 
 /// A piece of an outline: of one side of a crease, or of the surface's border.
@@ -199,13 +254,18 @@ pub struct Spot {
 
 /// Cuts a surface into sheets, that with the largest patch first.
 ///
-/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]: what cannot be laid flat so is cut. A patch that is strained by more
-/// is cut in two where it is strained most, as often as it takes, and its parts are joined again as far
-/// as their sides fit, so that a cone is slit and a dome gets darts. Where a crease's sides fit along a
-/// part of it only, it is opened along the rest.
+/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]: what
+/// cannot be laid flat so is cut. A patch that is strained by more is cut in two where it is strained
+/// most, as often as it takes, and its parts are joined again as far as their sides fit, so that a cone is
+/// slit and a dome gets darts. Where a crease's sides fit along a part of it only, it is opened along the
+/// rest. Then cuts are closed again, whole or in part, where strain and outlines allow it, and both sides of
+/// those that stay open are made equally long as far as the limit of the strain goes. What is too small to be
+/// cut and lies flat with nothing beside it is left out, a fiftieth of the vertices at most
+/// ([`Pattern::missing`]).
 ///
-/// Costs one unrolling of each patch, `O(vertices)` altogether, two or three for what is cut, and for
-/// each crease a walk around the sheets on either side.
+/// Surfaces of more than twelve thousand vertices are cut on the lattice of twice the spacing, and so on;
+/// on their own lattice that costs one unrolling. What is cut there costs an unrolling of each part, two
+/// or three for what is cut again, and up to 800 steps of `O(vertices)` for closing cuts.
 ///
 /// # Errors
 /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch) if the
@@ -221,16 +281,46 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("gap", options.gap)?;
     positive("maxStrain", options.max_strain)?;
+    let mut whole = whole(surface, patches, options)?;
+    evened(&mut whole.net, &mut whole.arrangement, options.max_strain)?;
+    drawn(surface, &whole)
+}
+
+/// What a sheet may be strained by on a coarse lattice, as shares of the limit: less where that was too
+/// much on the fine one.
+const MARGINS: [f64; 2] = [0.95, 0.75];
+
+/// Cuts and joins on a coarse lattice where there are many vertices.
+fn whole(surface: &Heightfield, patches: &Patches, options: &PatternOptions) -> Result<Assembled> {
+    if let Some(coarse) = Coarse::new(surface, patches)? {
+        for margin in MARGINS {
+            let stricter = options.max_strain(margin * options.max_strain);
+            let rough = match whole(&coarse.surface, &coarse.patches, &stricter) {
+                Err(Error::NotFlat { .. }) => break,
+                other => other?,
+            };
+            let parts = Parts::none(surface, options);
+            if let Ok(found) = refined(surface, patches, &coarse, &rough, parts)? {
+                return Ok(found);
+            }
+        }
+    }
+    direct(surface, patches, options)
+}
+
+/// Cuts and joins until every sheet is as it should be.
+fn direct(surface: &Heightfield, patches: &Patches, options: &PatternOptions) -> Result<Assembled> {
     let mut parts = Parts::new(surface, patches, options)?;
     parts.cut_strained()?;
     parts.give_away_crumbs()?;
-    // What is not as it should be is cut further, or goes to what is beside it if it is too small.
+    // What is not as it should be is cut further; what is too small goes to what is beside it, or is
+    // left out.
     let mut rounds = 0;
     loop {
         let faults = match assembled(parts, patches, options)? {
-            Assembly::Whole(pattern) => return Ok(pattern),
+            Assembly::Whole(whole) => return Ok(*whole),
             Assembly::Cut(again, faults) => {
-                parts = again;
+                parts = *again;
                 faults
             }
         };
@@ -245,7 +335,8 @@ pub fn pattern(
         // Numbers change as parts go: from the last one on.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
-            if rounds > ROUNDS || !parts.give_away(part)? {
+            let gone = rounds <= ROUNDS && (parts.give_away(part)? || parts.leave_out(part)?);
+            if !gone {
                 return Err(parts.refused(part, reason));
             }
         }

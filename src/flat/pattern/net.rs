@@ -4,8 +4,6 @@
 //! A *node* is a place where such a line may turn: a vertex of the lattice, the point of an edge
 //! between two patches where they meet, or that of a triangle where three do.
 
-use std::collections::HashMap;
-
 use super::labels::Labels;
 use super::leaf::Leaf;
 use crate::error::Result;
@@ -13,6 +11,7 @@ use crate::flat::unroll::joint::Mean;
 use crate::flat::unroll::pieces::Point;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::NEIGHBOURS;
+use crate::math::hash::NumberMap;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use crate::shape::patches::NO_PATCH;
@@ -29,6 +28,12 @@ const LEAST: f64 = 0.01;
 /// How often a cut through a patch is smoothed; it is the zigzag between the vertices on either side.
 const CUT_SMOOTHING: usize = 4;
 
+/// So many nodes on either side make a place where a seam is held.
+const BESIDE: usize = 2;
+
+/// No part of a seam has fewer nodes.
+const SHORT: usize = 4;
+
 /// Least share of a seam's length that is joined where the whole of it cannot be: of a crease, and of
 /// a cut through what was one patch.
 const PART_OF_CREASE: f64 = 0.5;
@@ -41,6 +46,8 @@ pub(super) struct Seam {
     pub crease: usize,
     /// Whether it is a cut through what was one patch.
     pub smooth: bool,
+    /// Which of the crease's nodes is its first.
+    from: usize,
     pub nodes: Vec<Node>,
     /// Where the nodes are on either patch's plane, smoothed along the crease.
     pub sides: [Vec<Point>; 2],
@@ -50,40 +57,34 @@ pub(super) struct Seam {
     pub apart: f64,
 }
 
-/// A piece of the line around a patch, which lies to the left of it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Segment {
-    pub from: Node,
-    pub to: Node,
-    /// The seam that it is a piece of.
-    pub seam: Option<usize>,
-}
+/// A piece of the line around a patch, which lies to the left of it: from one node to another.
+type Segment = [Node; 2];
 
 pub(super) struct Net {
     pub spacing: f64,
     pub leaves: Vec<Option<Leaf>>,
     pub seams: Vec<Seam>,
+    /// The seams that each crease is divided into.
+    parts: Vec<Vec<usize>>,
     /// The seam of each edge between two patches, and a second one where a crease is divided.
-    seam_of: HashMap<Node, usize>,
-    also: HashMap<Node, usize>,
+    seam_of: NumberMap<Node, usize>,
+    also: NumberMap<Node, usize>,
     /// The line around each patch, in no order.
-    pub borders: Vec<Vec<Segment>>,
+    borders: Vec<Vec<Segment>>,
     mesh: Triangulation,
     labels: Vec<u32>,
     /// Shares of the first corner on edges, or of all three, on triangles.
-    shares: HashMap<Node, [f64; 3]>,
+    shares: NumberMap<Node, [f64; 3]>,
     /// By node and patch.
-    on_seams: HashMap<(Node, u32), Point>,
+    on_seams: NumberMap<(Node, u32), Point>,
 }
 
 impl Net {
-    /// Seams that cannot be joined as a whole are divided, if by `gap` (see
-    /// [`PatternOptions`](super::PatternOptions)) a good part of them can.
+    /// Each crease is one seam.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
         leaves: Vec<Option<Leaf>>,
-        gap: f64,
     ) -> Result<Net> {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let mut net = Net {
@@ -91,31 +92,26 @@ impl Net {
             borders: vec![Vec::new(); leaves.len()],
             leaves,
             seams: Vec::new(),
-            seam_of: HashMap::new(),
-            also: HashMap::new(),
+            parts: Vec::new(),
+            seam_of: NumberMap::default(),
+            also: NumberMap::default(),
             labels: (mesh.vertices().iter())
                 .map(|v| labels.of[*v as usize])
                 .collect(),
             mesh,
-            shares: HashMap::new(),
-            on_seams: HashMap::new(),
+            shares: NumberMap::default(),
+            on_seams: NumberMap::default(),
         };
         for (crease, (patches, nodes)) in lines(&net.mesh, &labels.of).into_iter().enumerate() {
             let smooth = labels.are_one(patches[0], patches[1]);
-            net.add_seam(crease, patches, smooth, nodes, gap);
+            net.add_seam(crease, patches, smooth, nodes);
         }
+        net.index();
         net.add_borders(surface);
         Ok(net)
     }
 
-    fn add_seam(
-        &mut self,
-        crease: usize,
-        patches: [u32; 2],
-        smooth: bool,
-        nodes: Vec<Node>,
-        gap: f64,
-    ) {
+    fn add_seam(&mut self, crease: usize, patches: [u32; 2], smooth: bool, nodes: Vec<Node>) {
         let (mut rise, mut squares, mut count) = (0.0, 0.0, 0.0);
         for node in &nodes {
             if is_triangle(*node) {
@@ -139,16 +135,25 @@ impl Net {
                 self.on_seams.insert((*node, *patch), *place);
             }
         }
-        let apart = f64::sqrt(squares / f64::max(count, 1.0));
-        let least = if smooth { PART_OF_CUT } else { PART_OF_CREASE };
-        let ends = match apart <= super::layout::TORN * self.spacing {
-            true => divided(&sides, gap, super::layout::FINE * self.spacing, least),
-            false => vec![0, nodes.len() - 1],
-        };
-        for pair in ends.windows(2) {
-            let (from, to) = (pair[0], pair[1]);
-            let number = self.seams.len();
-            for node in nodes[from..=to].iter().filter(|node| !is_triangle(**node)) {
+        self.parts.push(vec![self.seams.len()]);
+        self.seams.push(Seam {
+            patches,
+            crease,
+            smooth,
+            from: 0,
+            nodes,
+            sides,
+            rise,
+            apart: f64::sqrt(squares / f64::max(count, 1.0)),
+        });
+    }
+
+    /// Finds the seams of all nodes again.
+    fn index(&mut self) {
+        self.seam_of.clear();
+        self.also.clear();
+        for (number, seam) in self.seams.iter().enumerate() {
+            for node in seam.nodes.iter().filter(|node| !is_triangle(**node)) {
                 match self.seam_of.get(node) {
                     Some(first) if *first != number => {
                         self.also.insert(*node, number);
@@ -158,16 +163,179 @@ impl Net {
                     }
                 }
             }
-            self.seams.push(Seam {
-                patches,
-                crease,
-                smooth,
-                nodes: nodes[from..=to].to_vec(),
-                sides: [0, 1].map(|k| sides[k][from..=to].to_vec()),
-                rise,
-                apart,
-            });
         }
+    }
+
+    /// The seam that a piece of a patch's line is of, by its ends; `None` on the border.
+    fn seam_along(&self, from: Node, to: Node) -> Option<usize> {
+        let on_vertex = |(p, q): Node| p == q;
+        if on_vertex(from) || on_vertex(to) {
+            return None;
+        }
+        match (is_triangle(from), is_triangle(to)) {
+            (true, true) => None,
+            (true, false) => self.seam_of.get(&to).copied(),
+            (false, true) => self.seam_of.get(&from).copied(),
+            (false, false) => self.seam_between(from, to),
+        }
+    }
+
+    /// Divides seams that cannot be joined as a whole, if by `gap` (see
+    /// [`PatternOptions`](super::PatternOptions)) a good part of them can.
+    pub(super) fn divide_by_fit(&mut self, gap: f64) {
+        for number in 0..self.seams.len() {
+            if self.is_torn(number) {
+                continue;
+            }
+            let seam = &self.seams[number];
+            let least = if seam.smooth {
+                PART_OF_CUT
+            } else {
+                PART_OF_CREASE
+            };
+            let ends = divided(&seam.sides, gap, super::layout::FINE * self.spacing, least);
+            for at in ends[1..ends.len() - 1].iter().rev() {
+                self.cut_off(number, *at);
+            }
+        }
+        self.index();
+    }
+
+    /// The line around a patch, piece by piece, with the seams that these are of.
+    pub(super) fn border(&self, patch: u32) -> impl Iterator<Item = (Segment, Option<usize>)> {
+        let pieces = self.borders[patch as usize].iter();
+        pieces.map(|[from, to]| ([*from, *to], self.seam_along(*from, *to)))
+    }
+
+    /// Divides a seam before one of its inner nodes; the number of the second part.
+    pub(super) fn divide(&mut self, seam: usize, at: usize) -> usize {
+        let number = self.cut_off(seam, at);
+        self.index();
+        number
+    }
+
+    /// Divides a seam where its nodes are of two kinds; its parts, and which kind each is. No part
+    /// is short, unless all of the seam is.
+    pub(super) fn divide_where(&mut self, seam: usize, kinds: &[bool]) -> Vec<(usize, bool)> {
+        let mut runs: Vec<(usize, bool)> = Vec::new();
+        for kind in kinds {
+            match runs.last_mut() {
+                Some((count, last)) if last == kind => *count += 1,
+                _ => runs.push((1, *kind)),
+            }
+        }
+        // What is short is of the kind before it, or after it.
+        while let Some(k) = runs.iter().position(|(count, _)| *count < SHORT) {
+            if runs.len() == 1 {
+                break;
+            }
+            let (count, _) = runs.remove(k);
+            runs[k.saturating_sub(1)].0 += count;
+            let mut merged: Vec<(usize, bool)> = Vec::new();
+            for (count, kind) in runs {
+                match merged.last_mut() {
+                    Some((all, last)) if *last == kind => *all += count,
+                    _ => merged.push((count, kind)),
+                }
+            }
+            runs = merged;
+        }
+        let mut parts = Vec::new();
+        let mut from = kinds.len();
+        for (count, kind) in runs.iter().rev() {
+            from -= count;
+            let part = if from == 0 {
+                seam
+            } else {
+                self.cut_off(seam, from)
+            };
+            parts.push((part, *kind));
+        }
+        self.index();
+        parts
+    }
+
+    /// Where a node is in plan.
+    pub(super) fn plan(&self, (p, q): Node) -> [f64; 2] {
+        let corners = match is_triangle((p, q)) {
+            true => self.mesh.triangles()[p as usize],
+            false => [p, q, q],
+        };
+        let shares = self.shares.get(&(p, q)).copied();
+        let shares = shares.unwrap_or([0.5, 0.5, 0.0]);
+        [0, 1].map(|k| {
+            let terms = corners.iter().zip(shares);
+            terms
+                .map(|(v, share)| share * self.mesh.positions()[*v as usize][k])
+                .sum()
+        })
+    }
+
+    fn cut_off(&mut self, seam: usize, at: usize) -> usize {
+        let number = self.seams.len();
+        let first = &mut self.seams[seam];
+        let rest = Seam {
+            from: first.from + at,
+            nodes: first.nodes[at..].to_vec(),
+            sides: [0, 1].map(|side| first.sides[side][at..].to_vec()),
+            ..*first
+        };
+        first.nodes.truncate(at + 1);
+        first
+            .sides
+            .iter_mut()
+            .for_each(|side| side.truncate(at + 1));
+        self.parts[rest.crease].push(number);
+        self.seams.push(rest);
+        number
+    }
+
+    /// The seams of each crease from its beginning to its end.
+    pub(super) fn parts(&self, crease: usize) -> Vec<usize> {
+        let mut parts = self.parts[crease].clone();
+        parts.sort_by_key(|seam| self.seams[*seam].from);
+        parts
+    }
+
+    /// Whether its sides are apart in space: at a step of the surface.
+    pub(super) fn is_torn(&self, seam: usize) -> bool {
+        self.seams[seam].apart > super::layout::TORN * self.spacing
+    }
+
+    /// Makes one of neighbouring seams of a crease that are both folds or both none.
+    pub(super) fn join_parts(&mut self, folded: &mut Vec<bool>) {
+        let (mut seams, mut flags): (Vec<Seam>, Vec<bool>) = (Vec::new(), Vec::new());
+        let mut old: Vec<Option<Seam>> = std::mem::take(&mut self.seams)
+            .into_iter()
+            .map(Some)
+            .collect();
+        for crease in 0..self.parts.len() {
+            let mut parts = std::mem::take(&mut self.parts[crease]);
+            parts.sort_by_key(|seam| old[*seam].as_ref().map_or(0, |seam| seam.from));
+            for number in parts {
+                let Some(seam) = old[number].take() else {
+                    continue;
+                };
+                match seams.last_mut() {
+                    Some(last)
+                        if last.crease == crease && flags.last() == Some(&folded[number]) =>
+                    {
+                        last.nodes.extend(&seam.nodes[1..]);
+                        for (side, more) in last.sides.iter_mut().zip(&seam.sides) {
+                            side.extend(&more[1..]);
+                        }
+                    }
+                    _ => {
+                        self.parts[crease].push(seams.len());
+                        seams.push(seam);
+                        flags.push(folded[number]);
+                    }
+                }
+            }
+        }
+        self.seams = seams;
+        *folded = flags;
+        self.index();
     }
 
     /// Where nodes are on a patch's plane, smoothed along their line.
@@ -185,38 +353,42 @@ impl Net {
         if let Some(leaf) = self.leaves[patch as usize].as_mut() {
             leaf.set_places(places);
         }
-        // Parts of one line are smoothed as one.
-        let mut first = 0;
-        while first < self.seams.len() {
-            let crease = self.seams[first].crease;
-            let parts = self.seams[first..]
-                .iter()
-                .take_while(|s| s.crease == crease)
-                .count();
-            let parts = first..first + parts;
-            first = parts.end;
-            let Some(side) = self.seams[parts.start]
-                .patches
-                .iter()
-                .position(|p| *p == patch)
-            else {
-                continue;
-            };
-            let smooth = self.seams[parts.start].smooth;
-            let mut nodes = self.seams[parts.start].nodes.clone();
-            for seam in &self.seams[parts.start + 1..parts.end] {
-                nodes.extend(&seam.nodes[1..]);
+        for crease in 0..self.parts.len() {
+            let seam = self.parts[crease].first().map(|seam| &self.seams[*seam]);
+            if seam.is_some_and(|seam| seam.patches.contains(&patch)) {
+                self.draw_side(crease, patch);
             }
-            let line = self.line(patch, &nodes, smooth);
-            for (node, place) in nodes.iter().zip(&line) {
-                self.on_seams.insert((*node, patch), *place);
-            }
-            let mut from = 0;
-            for seam in &mut self.seams[parts] {
-                let to = from + seam.nodes.len();
-                seam.sides[side] = line[from..to].to_vec();
-                from = to - 1;
-            }
+        }
+    }
+
+    /// Lays a patch as it lies by itself.
+    pub(super) fn lay_alone(&mut self, patch: u32) {
+        let leaf = self.leaves[patch as usize].as_ref();
+        if let Some(places) = leaf.and_then(Leaf::moved_from) {
+            self.set_places(patch, places);
+        }
+    }
+
+    /// Finds where a crease lies on one of its patches; its parts are smoothed as one.
+    fn draw_side(&mut self, crease: usize, patch: u32) {
+        let parts = self.parts(crease);
+        let Some(first) = parts.first().map(|seam| &self.seams[*seam]) else {
+            return;
+        };
+        let Some(side) = first.patches.iter().position(|p| *p == patch) else {
+            return;
+        };
+        let (smooth, mut nodes) = (first.smooth, first.nodes.clone());
+        for seam in &parts[1..] {
+            nodes.extend(&self.seams[*seam].nodes[1..]);
+        }
+        let line = self.line(patch, &nodes, smooth);
+        for (node, place) in nodes.iter().zip(&line) {
+            self.on_seams.insert((*node, patch), *place);
+        }
+        for seam in parts {
+            let seam = &mut self.seams[seam];
+            seam.sides[side] = line[seam.from..seam.from + seam.nodes.len()].to_vec();
         }
     }
 
@@ -235,6 +407,27 @@ impl Net {
             }
         }
         Some(mean)
+    }
+
+    /// The middle of a seam's nodes next to one of them, as a mean of vertices of one of its leaves.
+    pub(super) fn around(&self, seam: usize, node: usize, patch: u32) -> Vec<(u32, f64)> {
+        let nodes = &self.seams[seam].nodes;
+        let reach = BESIDE.min(node).min(nodes.len() - 1 - node);
+        let means: Vec<Mean> = (nodes[node - reach..=node + reach].iter())
+            .filter_map(|node| self.mean(*node, patch))
+            .collect();
+        let share = 1.0 / means.len().max(1) as f64;
+        let terms = means.into_iter().flatten().filter(|(_, w)| *w != 0.0);
+        terms.map(|(v, w)| (v, share * w)).collect()
+    }
+
+    /// Where that is on the patch's plane.
+    pub(super) fn held(&self, seam: usize, node: usize, patch: u32) -> Point {
+        let places = self.leaves[patch as usize].as_ref().map(Leaf::places);
+        let terms = self.around(seam, node, patch).into_iter();
+        terms
+            .map(|(v, w)| places.map_or(Point::default(), |places| places[v as usize] * w))
+            .sum()
     }
 
     /// The seams that an edge's node is on.
@@ -353,27 +546,20 @@ impl Net {
                     let to = corners[(i + 1) % 3];
                     let [ours, theirs] = [i, (i + 1) % 3].map(|k| labels[k] == patch);
                     let edge = (from.min(to), from.max(to));
-                    let ends = match (ours, theirs) {
+                    let ends: Segment = match (ours, theirs) {
                         (true, true) => [(from, from), (to, to)],
                         (true, false) => [(from, from), *exit.insert(edge)],
                         (false, true) => [*entry.insert(edge), (to, to)],
                         (false, false) => continue,
                     };
                     if is_open(surface, &self.mesh, from, to) {
-                        let [from, to] = ends;
-                        let seam = None;
-                        border.push(Segment { from, to, seam });
+                        border.push(ends);
                     }
                 }
                 if let (Some(exit), Some(entry)) = (exit, entry) {
-                    let [out, back] = [exit, entry].map(|edge| self.seam_of.get(&edge).copied());
-                    let through = self.seam_between(exit, entry);
-                    let mut add = |from, to, seam| border.push(Segment { from, to, seam });
-                    if apart {
-                        add(exit, junction, out);
-                        add(junction, entry, back);
-                    } else {
-                        add(exit, entry, through);
+                    match apart {
+                        true => border.extend([[exit, junction], [junction, entry]]),
+                        false => border.push([exit, entry]),
                     }
                 }
                 self.borders[patch as usize].extend(border);
@@ -444,8 +630,6 @@ fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usiz
     if length < least * lengths[last] {
         return whole;
     }
-    // No part is too short to be one.
-    const SHORT: usize = 4;
     if from < SHORT {
         from = 0;
     }

@@ -1,10 +1,9 @@
 //! Where patches lie on a sheet, and the lines around them all.
 
-use std::collections::HashMap;
-
 use super::net::{Net, Node, is_triangle};
 use crate::flat::unroll::overlap::crossings;
 use crate::flat::unroll::pieces::Point;
+use crate::math::hash::NumberMap;
 
 /// A turn and a shift of a patch's plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +70,22 @@ pub(super) struct Corner {
 const SLIT: usize = 8;
 
 impl Layout {
+    /// Every patch by itself.
+    pub(super) fn loose(net: &Net) -> Layout {
+        Layout {
+            motions: vec![Motion::NONE; net.leaves.len()],
+            folded: vec![false; net.seams.len()],
+        }
+    }
+
+    /// Moves some patches.
+    pub(super) fn carry(&mut self, patches: &[u32], motion: &Motion) {
+        for patch in patches {
+            let own = &mut self.motions[*patch as usize];
+            *own = own.then(motion);
+        }
+    }
+
     /// Where a seam's nodes lie, by the side of one of its patches, 0 or 1.
     pub(super) fn side(&self, net: &Net, seam: usize, side: usize) -> Vec<Point> {
         let motion = &self.motions[net.seams[seam].patches[side] as usize];
@@ -108,26 +123,27 @@ impl Layout {
     /// The closed lines around some patches, with the seams that are no folds among them.
     pub(super) fn outlines(&self, net: &Net, patches: &[u32]) -> Vec<Vec<Corner>> {
         let mut segments = Vec::new();
-        let mut starts: HashMap<(Node, u32), Vec<usize>> = HashMap::new();
+        let mut starts: NumberMap<(Node, u32), Vec<usize>> = NumberMap::default();
         for patch in patches {
-            let own = net.borders[*patch as usize].iter();
-            for segment in own.filter(|s| s.seam.is_none_or(|seam| !self.folded[seam])) {
-                let [from, to] =
-                    [segment.from, segment.to].map(|node| self.family(net, node, *patch));
+            for ([start, end], seam) in net.border(*patch) {
+                if seam.is_some_and(|seam| self.folded[seam]) {
+                    continue;
+                }
+                let [from, to] = [start, end].map(|node| self.family(net, node, *patch));
                 let place = from
                     .iter()
-                    .map(|p| self.motions[*p as usize].of(net.place(segment.from, *p)));
+                    .map(|p| self.motions[*p as usize].of(net.place(start, *p)));
                 let corner = Corner {
-                    node: segment.from,
+                    node: start,
                     place: place.sum::<Point>() / from.len() as f64,
-                    seam: segment.seam,
+                    seam,
                     patch: *patch,
                 };
                 starts
-                    .entry((segment.from, from[0]))
+                    .entry((start, from[0]))
                     .or_default()
                     .push(segments.len());
-                segments.push((corner, (segment.to, to[0])));
+                segments.push((corner, (end, to[0])));
             }
         }
         let mut used = vec![false; segments.len()];

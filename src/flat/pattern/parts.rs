@@ -1,72 +1,159 @@
 //! The patches of a surface, each laid flat, cut into parts until none is strained too much.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use super::PatternOptions;
 use super::labels::Labels;
-use super::leaf::{Leaf, Window};
+use super::leaf::{CRUMB, Leaf, Window};
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
-use crate::shape::patches::Patches;
+use crate::lattice::hexagonal::Lattice;
+use crate::shape::patches::{NO_PATCH, Patches};
 
 /// So many parts are no pattern to be built.
 const MOST: usize = 1500;
 
-pub(super) struct Parts<'a> {
-    pub surface: &'a Heightfield,
+/// So many of those beside a crumb are tried.
+const CANDIDATES: usize = 3;
+
+/// The share of the surface's vertices that may be left out.
+const LEFT_OUT: f64 = 0.02;
+
+/// What cannot be cut and has no more vertices may be left out.
+const SCRAP: usize = 4 * CRUMB;
+
+/// A part as it would be with another one: its number, and how it would lie.
+type Enlarged = (u32, Option<Leaf>);
+
+pub(super) struct Parts {
+    /// The surface without what was left out.
+    pub surface: Heightfield,
     pub labels: Labels,
     pub leaves: Vec<Option<Leaf>>,
     pub options: PatternOptions,
+    /// Around each part.
+    windows: Vec<Window>,
     /// Those that were not looked at yet.
     pending: Vec<u32>,
+    /// Vertices that were left out, and those that may be.
+    left_out: usize,
+    most_left_out: usize,
 }
 
-impl<'a> Parts<'a> {
+impl Parts {
     pub(super) fn new(
-        surface: &'a Heightfield,
+        surface: &Heightfield,
         patches: &Patches,
         options: &PatternOptions,
     ) -> Result<Self> {
         let count = patches.patches().len();
+        let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
+        let labels = Labels::new(patches.labels(), count);
+        let lattice = surface.lattice();
         let mut parts = Parts {
-            surface,
-            labels: Labels::new(patches.labels(), count),
+            windows: Window::whole(lattice).around(lattice, &labels.of, count),
+            surface: surface.clone(),
+            labels,
             leaves: (0..count).map(|_| None).collect(),
             options: *options,
             pending: Vec::new(),
+            left_out: 0,
+            most_left_out: (LEFT_OUT * valid as f64) as usize,
         };
         parts.lay_flat(&(0..count as u32).collect::<Vec<_>>())?;
         Ok(parts)
     }
 
-    /// The same with other numbers: `order` has for each what it was before.
-    pub(super) fn renumbered(mut self, labels: &[u32], order: &[usize]) -> Self {
+    /// No parts yet of a surface, with the same options.
+    pub(super) fn none(surface: &Heightfield, options: &PatternOptions) -> Parts {
+        Parts {
+            surface: surface.clone(),
+            labels: Labels::new(&[], 0),
+            leaves: Vec::new(),
+            options: *options,
+            windows: Vec::new(),
+            pending: Vec::new(),
+            left_out: 0,
+            most_left_out: 0,
+        }
+    }
+
+    /// These for given labels; what has none is left out. No part is laid flat yet.
+    pub(super) fn with_labels(mut self, surface: &Heightfield, labels: Labels) -> Result<Self> {
+        let lattice = surface.lattice();
+        let keep: Vec<u8> = labels
+            .of
+            .iter()
+            .map(|label| u8::from(*label != NO_PATCH))
+            .collect();
+        let heights = surface.heights().iter().zip(&keep);
+        self.left_out = heights
+            .filter(|(z, keep)| !z.is_nan() && **keep == 0)
+            .count();
+        self.surface = surface.clone().masked(&keep)?;
+        let count = labels.origins.len();
+        self.windows = Window::whole(lattice).around(lattice, &labels.of, count);
+        self.leaves = (0..count).map(|_| None).collect();
+        self.labels = labels;
+        Ok(self)
+    }
+
+    /// Takes the numbers of patches; `order` has for each what it was before.
+    pub(super) fn renumber(&mut self, patches: &Patches, order: &[usize]) {
         let origins = order.iter().map(|old| self.labels.origins[*old]).collect();
         self.labels = Labels {
-            of: labels.to_vec(),
+            of: patches.labels().to_vec(),
             origins,
         };
         self.leaves = order.iter().map(|old| self.leaves[*old].take()).collect();
-        self
+        self.windows = order.iter().map(|old| self.windows[*old]).collect();
+    }
+
+    /// Vertices that were left out.
+    pub(super) fn left_out(&self) -> usize {
+        self.left_out
+    }
+
+    pub(super) fn window(&self, part: u32) -> Window {
+        self.windows[part as usize]
+    }
+
+    /// The same with the numbers of patches that are sorted by their areas, and these.
+    pub(super) fn numbered(mut self, patches: &Patches) -> Result<(Self, Patches)> {
+        if self.left_out == 0 && self.leaves.len() == patches.patches().len() {
+            return Ok((self, patches.clone()));
+        }
+        let (divided, order) = patches.divided(&self.surface, self.labels.of.clone())?;
+        self.renumber(&divided, &order);
+        Ok((self, divided))
     }
 
     fn lay_flat(&mut self, parts: &[u32]) -> Result<()> {
-        let count = self.labels.origins.len();
-        self.leaves.resize_with(count, || None);
-        let windows = Window::around(self.surface.lattice(), &self.labels.of, count);
+        self.leaves.resize_with(self.labels.origins.len(), || None);
         for part in parts {
-            let leaf = Leaf::new(
-                self.surface,
-                &self.labels,
-                *part,
-                windows[*part as usize],
-                &self.options.unrolling,
-                self.options.max_strain,
-            )?;
+            let leaf = self.leaf(part)?;
             self.leaves[*part as usize] = leaf;
         }
         self.pending.extend(parts);
         Ok(())
+    }
+
+    pub(super) fn leaf(&self, part: &u32) -> Result<Option<Leaf>> {
+        Leaf::new(
+            &self.surface,
+            &self.labels,
+            *part,
+            self.windows[*part as usize],
+            &self.options.unrolling,
+            self.options.max_strain,
+        )
+    }
+
+    fn members(&self, part: u32) -> Vec<usize> {
+        let window = self.windows[part as usize];
+        let all = window.vertices(self.surface.lattice());
+        all.filter(|i| self.labels.of[*i] == part).collect()
     }
 
     /// Cuts what is strained by more than the limit, or upside down.
@@ -89,7 +176,7 @@ impl<'a> Parts<'a> {
         let Some(leaf) = self.leaves[part as usize].take() else {
             return Ok(false);
         };
-        let cut = self.labels.cut(self.surface, part, &leaf)?;
+        let cut = self.labels.cut(&self.surface, part, &leaf)?;
         let Some(parts) = cut else {
             self.leaves[part as usize] = Some(leaf);
             return Ok(false);
@@ -98,66 +185,130 @@ impl<'a> Parts<'a> {
             let reason = format!("the surface would have to be cut into more than {MOST} parts");
             return Err(self.refused(part, reason));
         }
+        let region = self.windows[part as usize];
+        let count = self.labels.origins.len();
+        let found = region.around(self.surface.lattice(), &self.labels.of, count);
+        self.windows.resize(count, region);
+        for part in &parts {
+            self.windows[*part as usize] = found[*part as usize];
+        }
         self.lay_flat(&parts)?;
         Ok(true)
     }
 
-    /// Gives away what is strained too much and too small to be cut.
+    /// Rids the pattern of what is strained too much and too small to be cut.
     pub(super) fn give_away_crumbs(&mut self) -> Result<()> {
         let limit = self.options.max_strain;
         for part in (0..self.leaves.len() as u32).rev() {
             let leaf = self.leaves[part as usize].as_ref();
             let crumb = leaf.is_some_and(|leaf| leaf.is_crumb() && leaf.strain().rms() > limit);
-            if crumb {
-                self.give_away(part)?;
+            if crumb && !self.give_away(part)? {
+                self.leave_out(part)?;
             }
         }
         Ok(())
     }
 
-    /// Gives a part to that beside it which was of the same patch and has the longest border with it;
-    /// whether there is one. Numbers of parts may change.
+    /// Gives a part to one beside it that lies flat with it, one of the same patch if there is one, or else
+    /// that with the longest border; whether there is one. Numbers of parts may change.
     pub(super) fn give_away(&mut self, part: u32) -> Result<bool> {
+        let own = self.members(part);
+        let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
+        beside.sort_by_key(|(other, count)| Reverse((self.labels.are_one(*other, part), *count)));
+        beside.truncate(CANDIDATES);
+        for (other, _) in beside {
+            if let Some((number, leaf)) = self.enlarged(other, part, &own)? {
+                self.leaves[number as usize] = leaf;
+                self.remove(part);
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Makes a part one with another, if that lies flat with it; if not, all is as it was.
+    fn enlarged(&mut self, other: u32, part: u32, own: &[usize]) -> Result<Option<Enlarged>> {
+        let before = self.windows[other as usize];
+        self.windows[other as usize] = before.with(&self.windows[part as usize]);
+        own.iter().for_each(|i| self.labels.of[*i] = other);
+        let leaf = self.leaf(&other)?;
+        let limit = self.options.max_strain;
+        let flat = leaf.as_ref().is_none_or(|leaf| {
+            let strain = leaf.strain();
+            strain.rms() <= limit && strain.flipped == 0
+        });
+        if flat {
+            return Ok(Some((other, leaf)));
+        }
+        own.iter().for_each(|i| self.labels.of[*i] = part);
+        self.windows[other as usize] = before;
+        Ok(None)
+    }
+
+    /// Leaves out a part that is too small to be cut, unless too much was left out already; whether
+    /// it was. Numbers of parts may change.
+    pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
+        let own = self.members(part);
+        if own.len() > SCRAP || self.left_out + own.len() > self.most_left_out {
+            return Ok(false);
+        }
+        self.left_out += own.len();
+        let mut beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
         let lattice = *self.surface.lattice();
+        let mut keep = vec![1u8; lattice.len()];
+        for i in own {
+            keep[i] = 0;
+            self.labels.of[i] = NO_PATCH;
+        }
+        let surface = std::mem::replace(
+            &mut self.surface,
+            Heightfield::new(Lattice::new(1, 1, 1.0)?, vec![0.0])?,
+        );
+        self.surface = surface.masked(&keep)?;
+        let last = self.labels.origins.len() as u32 - 1;
+        self.remove(part);
+        beside
+            .iter_mut()
+            .filter(|other| **other == last)
+            .for_each(|other| *other = part);
+        // Their borders are others now.
+        self.lay_flat(&beside)?;
+        Ok(true)
+    }
+
+    /// How many edges lead from a part to each other one.
+    fn borders(&self, part: u32, own: &[usize]) -> BTreeMap<u32, usize> {
+        let lattice = self.surface.lattice();
         let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
-        let own = (0..self.labels.of.len()).filter(|i| self.labels.of[*i] == part);
-        let own: Vec<usize> = own.collect();
-        for i in &own {
+        for i in own {
             let around = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
             for (row, col) in around.into_iter().flatten() {
                 let other = self.labels.of[lattice.index(row, col)];
-                if other != part && self.labels.are_one(other, part) {
+                if other != part && other != NO_PATCH {
                     *borders.entry(other).or_default() += 1;
                 }
             }
         }
-        let longest = borders.into_iter().max_by_key(|(_, count)| *count);
-        let Some((mut other, _)) = longest else {
-            return Ok(false);
-        };
-        for i in own {
-            self.labels.of[i] = other;
-        }
-        // The last part takes the number that is free.
+        borders
+    }
+
+    /// Forgets a part without vertices; the last one takes its number.
+    fn remove(&mut self, part: u32) {
         let last = self.labels.origins.len() as u32 - 1;
-        for label in self.labels.of.iter_mut().filter(|label| **label == last) {
-            *label = part;
+        if last != part {
+            for i in self.members(last) {
+                self.labels.of[i] = part;
+            }
         }
         self.labels.origins.swap_remove(part as usize);
         self.leaves.swap_remove(part as usize);
-        if other == last {
-            other = part;
-        }
-        // How it is strained now is for the sheet to say.
-        self.lay_flat(&[other])?;
+        self.windows.swap_remove(part as usize);
         self.pending.clear();
-        Ok(true)
     }
 
     pub(super) fn refused(&self, part: u32, reason: String) -> Error {
         let cols = self.surface.lattice().cols();
-        let own = (0..self.labels.of.len()).filter(|i| self.labels.of[*i] == part);
-        let members: Vec<usize> = own.collect();
+        let members = self.members(part);
         let middle = members.get(members.len() / 2).copied().unwrap_or(0);
         Error::NotFlat {
             row: middle / cols,

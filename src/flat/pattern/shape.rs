@@ -23,17 +23,19 @@ const BACK: usize = 6;
 /// A seam, and the one of its patches that is beside it.
 pub(crate) type Side = (usize, u32);
 
-/// The outlines of a sheet, the longest first.
+/// The outlines of a sheet, the longest first, and how many small loops were cut off them.
 pub(super) fn outlines(
     net: &Net,
     layout: &Layout,
     patches: &[u32],
     seam: impl Fn(usize) -> Seam,
-) -> Vec<Vec<Run>> {
+) -> (Vec<Vec<Run>>, usize) {
+    let mut loops = 0;
     let lines = layout.outlines(net, patches);
     let mut out: Vec<(f64, Vec<Run>)> = (lines.iter())
         .map(|line| {
-            let runs = without_loops(runs(net, line), net.spacing);
+            let (runs, count) = without_loops(runs(net, line), net.spacing);
+            loops += count;
             let long = runs.iter().map(|(_, p)| length(p)).sum();
             let run = |(side, points): (Option<Side>, Vec<Point>)| Run {
                 seam: side.map(|(number, _)| seam(number)),
@@ -44,7 +46,7 @@ pub(super) fn outlines(
         })
         .collect();
     out.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    out.into_iter().map(|(_, runs)| runs).collect()
+    (out.into_iter().map(|(_, runs)| runs).collect(), loops)
 }
 
 /// The folds of a sheet, but for those that only join two nodes of what is one place.

@@ -14,24 +14,24 @@ const PASSES: usize = 8;
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
 /// A closed line of runs, each of which begins where the one before ends, with its small loops cut off
-/// where they cross.
-pub(crate) fn without_loops(runs: Runs, spacing: f64) -> Runs {
+/// where they cross; and how many these were.
+pub(crate) fn without_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     // Each point with the run that the piece from it on belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();
     for (number, (_, points)) in runs.iter().enumerate() {
         let own = &points[..points.len() - 1];
         line.extend(own.iter().map(|place| (*place, number)));
     }
-    let mut changed = false;
+    let mut loops = 0;
     for _ in 0..PASSES {
-        let Some(next) = pass(&line, spacing) else {
+        let Some((next, count)) = pass(&line, spacing) else {
             break;
         };
         line = next;
-        changed = true;
+        loops += count;
     }
-    if !changed || line.len() < 3 {
-        return runs;
+    if loops == 0 || line.len() < 3 {
+        return (runs, 0);
     }
     // It begins with a run.
     let n = line.len();
@@ -51,18 +51,18 @@ pub(crate) fn without_loops(runs: Runs, spacing: f64) -> Runs {
     for (k, (_, points)) in out.iter_mut().enumerate() {
         points.push(starts[(k + 1) % count]);
     }
-    out
+    (out, loops)
 }
 
 /// The line without the loops there are; `None` where there is none to go.
-fn pass(line: &[(Point, usize)], spacing: f64) -> Option<Vec<(Point, usize)>> {
+fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, usize)> {
     let n = line.len();
     let places: Vec<Point> = line.iter().map(|(place, _)| *place).collect();
     let edges: Vec<[u32; 2]> = (0..n).map(|k| [k as u32, ((k + 1) % n) as u32]).collect();
     let mut gone = vec![false; n];
     // The point that takes the place of a loop, by the piece that it ends with.
     let mut instead: Vec<Option<Point>> = vec![None; n];
-    let mut any = false;
+    let mut count = 0;
     for [i, j] in crossings(&places, &edges) {
         let at = crossing(
             [places[i], places[(i + 1) % n]],
@@ -81,14 +81,14 @@ fn pass(line: &[(Point, usize)], spacing: f64) -> Option<Vec<(Point, usize)>> {
         if small && inner.iter().all(|k| !gone[*k]) && instead[end].is_none() {
             inner.iter().for_each(|k| gone[*k] = true);
             instead[end] = Some(at);
-            any = true;
+            count += 1;
         }
     }
     let kept = (0..n).filter(|k| !gone[*k] || instead[*k].is_some());
     let out = kept
         .map(|k| (instead[k].unwrap_or(places[k]), line[k].1))
         .collect();
-    any.then_some(out)
+    (count > 0).then_some((out, count))
 }
 
 fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Point {
@@ -129,11 +129,12 @@ mod tests {
             points.extend([at(0.0, 9.0), at(0.0, 0.0)]);
             vec![(None, points)]
         };
-        let cleaned = without_loops(square(1.0), 1.0);
+        let (cleaned, loops) = without_loops(square(1.0), 1.0);
+        assert_eq!(loops, 1);
         let corners = &cleaned[0].1;
         assert!(corners.iter().all(|p| p.im <= 10.0), "{corners:?}");
         assert!(corners.contains(&at(5.0, 10.0)), "{corners:?}");
         let kept = without_loops(square(3.0), 1.0);
-        assert_eq!(kept, square(3.0));
+        assert_eq!(kept, (square(3.0), 0));
     }
 }

@@ -1,9 +1,11 @@
 //! Meshes laid flat together, tied to each other along lines: what is cut and joined is no lattice,
 //! so that its global step is a sparse matrix's.
 //!
-//! Minimised is the energy of all pieces, as for one lattice, and for each tie the square of the
-//! distance between its two places, times [`TIE`].
+//! Minimised is the energy of all pieces, as for one lattice, for each tie the square of the
+//! distance between its two places, times [`TIE`], and for each rod that of how much longer or shorter
+//! it is than it should be, times [`ROD`].
 
+use nalgebra::Vector3;
 use sprs::{CsMat, TriMat};
 
 use super::pieces::{Piece, Point};
@@ -12,44 +14,107 @@ use crate::error::{Result, try_filled};
 /// What a tie weighs; an edge between two equilateral triangles weighs 0.58.
 const TIE: f64 = 8.0;
 
+/// What a rod weighs.
+const ROD: f64 = 20.0;
+
 /// Steps of conjugate gradients in each global step.
 const INNER: usize = 16;
 
 /// How far a global step's residual falls.
 const REDUCTION: f64 = 1e-3;
 
-/// Most local and global steps.
-const OUTER: usize = 25;
-
 /// A place as a mean of vertices with weights; a vertex without a weight stands for none.
 pub(crate) type Mean = [(u32, f64); 3];
 
-/// Pieces by the numbers of their corners, and pairs of places that are to be one.
+/// Pieces by the numbers of their corners, pairs of places that are to be one, and rods.
 pub(crate) struct Joint {
-    pub pieces: Vec<(Piece, [u32; 3])>,
-    pub ties: Vec<[Mean; 2]>,
+    pieces: Vec<(Piece, [u32; 3])>,
+    ties: Vec<[Mean; 2]>,
+    rods: Vec<Rod>,
+    matrix: CsMat<f64>,
+    /// Inverse of its diagonal.
+    inverse: Vec<f64>,
+    area: f64,
 }
 
+/// The way between two places, each a mean of vertices, that is to have a length: its end's weights less
+/// its start's.
+pub(crate) struct Rod {
+    pub terms: Vec<(u32, f64)>,
+    pub length: f64,
+}
+
+impl Rod {
+    fn way(&self, places: &[Point]) -> Point {
+        let terms = self.terms.iter();
+        terms.map(|(v, w)| places[*v as usize] * *w).sum()
+    }
+}
+
+/// When to stop.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Until {
+    /// Change of the energy in one step, over the area, that is none.
+    pub tolerance: f64,
+    /// Energy over area above which an end is made where steps hardly change it.
+    pub hopeless: f64,
+    /// Most local and global steps.
+    pub steps: usize,
+}
+
+/// A change of the energy, as a share, that is hardly one, after so many steps.
+const STALLED: f64 = 0.02;
+const PATIENCE: usize = 5;
+
 impl Joint {
-    /// Moves the vertices to where pieces and ties fit best. `tolerance` is the change of the energy
-    /// in one step, over the area, that is none.
-    pub(crate) fn relax(&self, places: &mut [Point], tolerance: f64) -> Result<()> {
-        let matrix = self.matrix(places.len());
-        let mut diagonal = try_filled("unrolling", places.len(), 0.0)?;
+    /// Of so many vertices.
+    pub(crate) fn new(
+        count: usize,
+        pieces: Vec<(Piece, [u32; 3])>,
+        ties: Vec<[Mean; 2]>,
+        rods: Vec<Rod>,
+    ) -> Result<Joint> {
+        let area = pieces.iter().map(|(piece, _)| piece.area()).sum();
+        let matrix = matrix(count, &pieces, &ties, &rods);
+        let mut inverse = try_filled("unrolling", count, 0.0)?;
         for (row, entries) in matrix.outer_iterator().enumerate() {
             let own = entries.get(row).copied().unwrap_or(0.0);
-            diagonal[row] = if own > 0.0 { 1.0 / own } else { 0.0 };
+            inverse[row] = if own > 0.0 { 1.0 / own } else { 0.0 };
         }
-        let mut gradients = Gradients::new(&matrix, diagonal)?;
-        let area: f64 = self.pieces.iter().map(|(piece, _)| piece.area()).sum();
+        Ok(Joint {
+            pieces,
+            ties,
+            rods,
+            matrix,
+            inverse,
+            area,
+        })
+    }
+
+    /// Asks each rod for a length.
+    pub(crate) fn ask(&mut self, lengths: impl Iterator<Item = f64>) {
+        for (rod, length) in self.rods.iter_mut().zip(lengths) {
+            rod.length = length;
+        }
+    }
+
+    /// Moves the vertices to where pieces, ties and rods fit best; the number of steps that took.
+    pub(crate) fn relax(&self, places: &mut [Point], until: Until) -> Result<usize> {
+        let mut gradients = Gradients::new(&self.matrix, &self.inverse)?;
+        let area = self.area;
         let mut last = places.to_vec();
         let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
-        for _ in 0..OUTER {
+        let mut steps = 0;
+        while steps < until.steps {
             let found = self.pull(places, &mut gradients.right) / area;
             if found > energy {
                 momentum = 1.0;
             }
-            calm = match (found - energy).abs() < tolerance {
+            let change = (found - energy).abs();
+            if steps > PATIENCE && change < STALLED * found && found > until.hopeless {
+                break;
+            }
+            calm = match change < until.tolerance {
                 true => calm + 1,
                 false => 0,
             };
@@ -57,12 +122,62 @@ impl Joint {
             if calm == 3 {
                 break;
             }
+            steps += 1;
             gradients.solve();
             let next = 0.5 + (0.25 + momentum * momentum).sqrt();
             let ahead = (momentum - 1.0) / next;
             momentum = next;
-            let steps = places.iter_mut().zip(&mut last).zip(&gradients.solution);
-            for ((place, last), step) in steps {
+            let moves = places.iter_mut().zip(&mut last).zip(&gradients.solution);
+            for ((place, last), step) in moves {
+                let moved = *place + step;
+                *place = moved + (moved - *last) * ahead;
+                *last = moved;
+            }
+        }
+        places.copy_from_slice(&last);
+        Ok(steps)
+    }
+
+    /// Bends what the pieces make up to where these fit best in space: from places that are near to
+    /// those.
+    pub(crate) fn bend(&self, places: &mut [Vector3<f64>], until: Until) -> Result<()> {
+        let mut gradients = Gradients::new(&self.matrix, &self.inverse)?;
+        let mut pull = try_filled("refolding", places.len(), Vector3::zeros())?;
+        let mut last = places.to_vec();
+        let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
+        for _ in 0..until.steps {
+            let found = self.pull_in_space(places, &mut pull) / self.area;
+            if found > energy {
+                momentum = 1.0;
+            }
+            calm = match (found - energy).abs() < until.tolerance {
+                true => calm + 1,
+                false => 0,
+            };
+            energy = found;
+            if calm == 3 {
+                break;
+            }
+            let next = 0.5 + (0.25 + momentum * momentum).sqrt();
+            let ahead = (momentum - 1.0) / next;
+            momentum = next;
+            // Two coordinates, then the third.
+            let mut steps = try_filled("refolding", places.len(), Vector3::zeros())?;
+            for (right, pull) in gradients.right.iter_mut().zip(&pull) {
+                *right = Point::new(pull.x, pull.y);
+            }
+            gradients.solve();
+            for (step, solved) in steps.iter_mut().zip(&gradients.solution) {
+                (step.x, step.y) = (solved.re, solved.im);
+            }
+            for (right, pull) in gradients.right.iter_mut().zip(&pull) {
+                *right = Point::new(pull.z, 0.0);
+            }
+            gradients.solve();
+            for (step, solved) in steps.iter_mut().zip(&gradients.solution) {
+                step.z = solved.re;
+            }
+            for ((place, last), step) in places.iter_mut().zip(&mut last).zip(&steps) {
                 let moved = *place + step;
                 *place = moved + (moved - *last) * ahead;
                 *last = moved;
@@ -72,29 +187,32 @@ impl Joint {
         Ok(())
     }
 
-    fn matrix(&self, count: usize) -> CsMat<f64> {
-        let room = 12 * self.pieces.len() + 36 * self.ties.len();
-        let mut entries = TriMat::with_capacity((count, count), room);
+    /// What is left of strain there: root of the mean square.
+    pub(crate) fn strain_in_space(&self, places: &[Vector3<f64>]) -> f64 {
+        let mut pull = vec![Vector3::zeros(); places.len()];
+        let energy: f64 = (self.pieces.iter())
+            .map(|(piece, corners)| {
+                piece.pull_in_space(places, &mut pull, corners.map(|corner| corner as usize))
+            })
+            .sum();
+        (0.5 * energy / self.area).sqrt()
+    }
+
+    fn pull_in_space(&self, places: &[Vector3<f64>], pull: &mut [Vector3<f64>]) -> f64 {
+        pull.fill(Vector3::zeros());
+        let mut energy = 0.0;
         for (piece, corners) in &self.pieces {
-            for (k, weight) in piece.weights.into_iter().enumerate() {
-                let [a, b] = [k, (k + 1) % 3].map(|k| corners[k] as usize);
-                entries.add_triplet(a, a, weight);
-                entries.add_triplet(b, b, weight);
-                entries.add_triplet(a, b, -weight);
-                entries.add_triplet(b, a, -weight);
-            }
+            energy += piece.pull_in_space(places, pull, corners.map(|corner| corner as usize));
         }
         for tie in &self.ties {
-            let terms = difference(tie);
-            for (a, wa) in terms {
-                for (b, wb) in terms {
-                    if wa != 0.0 && wb != 0.0 {
-                        entries.add_triplet(a as usize, b as usize, TIE * wa * wb);
-                    }
-                }
+            let terms = difference(tie).into_iter().filter(|(_, w)| *w != 0.0);
+            let apart: Vector3<f64> = terms.clone().map(|(v, w)| places[v as usize] * w).sum();
+            energy += TIE * apart.norm_squared();
+            for (v, w) in terms {
+                pull[v as usize] -= apart * (TIE * w);
             }
         }
-        entries.to_csr()
+        energy
     }
 
     /// The energy; `pull` becomes minus half its gradient.
@@ -112,8 +230,57 @@ impl Joint {
                 pull[v as usize] -= apart * (TIE * w);
             }
         }
+        for rod in &self.rods {
+            let way = rod.way(places);
+            let long = way.norm();
+            if long > 0.0 {
+                let excess = way * (1.0 - rod.length / long);
+                energy += ROD * excess.norm_sqr();
+                for (v, w) in &rod.terms {
+                    pull[*v as usize] -= excess * (ROD * w);
+                }
+            }
+        }
         energy
     }
+}
+
+fn matrix(
+    count: usize,
+    pieces: &[(Piece, [u32; 3])],
+    ties: &[[Mean; 2]],
+    rods: &[Rod],
+) -> CsMat<f64> {
+    let squares: usize = rods.iter().map(|rod| rod.terms.len().pow(2)).sum();
+    let room = 12 * pieces.len() + 36 * ties.len() + squares;
+    let mut entries = TriMat::with_capacity((count, count), room);
+    for (piece, corners) in pieces {
+        for (k, weight) in piece.weights.into_iter().enumerate() {
+            let [a, b] = [k, (k + 1) % 3].map(|k| corners[k] as usize);
+            entries.add_triplet(a, a, weight);
+            entries.add_triplet(b, b, weight);
+            entries.add_triplet(a, b, -weight);
+            entries.add_triplet(b, a, -weight);
+        }
+    }
+    for tie in ties {
+        let terms = difference(tie);
+        for (a, wa) in terms {
+            for (b, wb) in terms {
+                if wa != 0.0 && wb != 0.0 {
+                    entries.add_triplet(a as usize, b as usize, TIE * wa * wb);
+                }
+            }
+        }
+    }
+    for rod in rods {
+        for (a, wa) in &rod.terms {
+            for (b, wb) in &rod.terms {
+                entries.add_triplet(*a as usize, *b as usize, ROD * wa * wb);
+            }
+        }
+    }
+    entries.to_csr()
 }
 
 /// One place less the other.
@@ -127,8 +294,7 @@ fn difference([one, other]: &[Mean; 2]) -> [(u32, f64); 6] {
 /// of the complex numbers, and the matrix is real.
 struct Gradients<'a> {
     matrix: &'a CsMat<f64>,
-    /// Inverse of the diagonal.
-    inverse: Vec<f64>,
+    inverse: &'a [f64],
     right: Vec<Point>,
     solution: Vec<Point>,
     direction: Vec<Point>,
@@ -136,7 +302,7 @@ struct Gradients<'a> {
 }
 
 impl<'a> Gradients<'a> {
-    fn new(matrix: &'a CsMat<f64>, inverse: Vec<f64>) -> Result<Self> {
+    fn new(matrix: &'a CsMat<f64>, inverse: &'a [f64]) -> Result<Self> {
         let blank = || try_filled("unrolling", inverse.len(), Point::default());
         Ok(Gradients {
             right: blank()?,
@@ -154,7 +320,7 @@ impl<'a> Gradients<'a> {
         self.direction.fill(Point::default());
         let (mut last, mut first) = (0.0, None);
         for _ in 0..INNER {
-            let pairs = self.right.iter().zip(&self.inverse);
+            let pairs = self.right.iter().zip(self.inverse);
             let square: f64 = pairs.clone().map(|(r, d)| r.norm_sqr() * d).sum();
             let goal = *first.get_or_insert(REDUCTION * REDUCTION * square);
             if square <= goal || square <= f64::MIN_POSITIVE {

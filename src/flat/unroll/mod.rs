@@ -131,6 +131,10 @@ impl Unrolling {
         &self.mesh
     }
 
+    pub(crate) fn into_mesh(self) -> Triangulation {
+        self.mesh
+    }
+
     /// Where each vertex of the mesh lies on the plane, in the surface's units.
     pub fn places(&self) -> &[[f64; 2]] {
         &self.places

@@ -4,9 +4,8 @@
 //! number of layers changes at a border alone. So the edges of the border are compared, by way of
 //! a grid of buckets.
 
-use std::collections::HashMap;
-
 use super::pieces::Point;
+use crate::math::hash::NumberMap;
 
 /// Pairs of border edges that cross. Linear cost where edges are about equally long and few lie
 /// at one place.
@@ -26,7 +25,7 @@ pub(crate) fn crossings(places: &[Point], border: &[[u32; 2]]) -> Vec<[usize; 2]
             (place.im / size).floor() as i64,
         )
     };
-    let mut buckets: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
+    let mut buckets: NumberMap<(i64, i64), Vec<usize>> = NumberMap::default();
     for edge in 0..border.len() {
         let [a, b] = ends(edge);
         buckets.entry(bucket(0.5 * (a + b))).or_default().push(edge);

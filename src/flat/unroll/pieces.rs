@@ -2,7 +2,7 @@
 //!
 //! The plane is that of the complex numbers, where a rotation is a number of modulus 1.
 
-use nalgebra::Complex;
+use nalgebra::{Complex, Vector3};
 
 use super::grid::Grid;
 use crate::error::{Error, Result, try_filled};
@@ -63,6 +63,11 @@ impl Piece {
 
     pub(crate) fn exists(&self) -> bool {
         self.second > 0.0
+    }
+
+    /// Its third corner, where the first one is at 0 and the second one at 1.
+    pub(crate) fn third_corner(&self) -> Point {
+        self.third / self.second
     }
 
     pub(crate) fn area(&self) -> f64 {
@@ -218,6 +223,44 @@ impl Piece {
         pull[b] += pab - pbc;
         pull[c] += pac + pbc;
         wab * dab.norm_sqr() + wbc * dbc.norm_sqr() + wca * dac.norm_sqr()
+    }
+
+    /// The same for places in space. ‖J − R‖² is smallest for the polar factor of `J`'s correlation.
+    pub(super) fn pull_in_space(
+        &self,
+        places: &[Vector3<f64>],
+        pull: &mut [Vector3<f64>],
+        [a, b, c]: [usize; 3],
+    ) -> f64 {
+        let [wab, wbc, wca] = self.weights;
+        let (ab, ac) = (places[b] - places[a], places[c] - places[a]);
+        let bc = ac - ab;
+        let own_bc = self.third - self.second;
+        let first = ab * (wab * self.second) + bc * (wbc * own_bc.re) + ac * (wca * self.third.re);
+        let second = bc * (wbc * own_bc.im) + ac * (wca * self.third.im);
+        let (p, q, r) = (
+            first.norm_squared(),
+            first.dot(&second),
+            second.norm_squared(),
+        );
+        // The root of the symmetric 2×2 matrix, and its inverse.
+        let root = (p * r - q * q).max(0.0).sqrt();
+        let trace = (p + r + 2.0 * root).sqrt();
+        let (s, t, u) = ((p + root) / trace, q / trace, (r + root) / trace);
+        let determinant = s * u - t * t;
+        if !(determinant > 0.0 && determinant.is_finite()) {
+            return 0.0;
+        }
+        let right = (first * u - second * t) / determinant;
+        let up = (second * s - first * t) / determinant;
+        let dab = right * self.second - ab;
+        let dbc = right * own_bc.re + up * own_bc.im - bc;
+        let dac = right * self.third.re + up * self.third.im - ac;
+        let (pab, pbc, pac) = (dab * wab, dbc * wbc, dac * wca);
+        pull[a] -= pab + pac;
+        pull[b] += pab - pbc;
+        pull[c] += pac + pbc;
+        wab * dab.norm_squared() + wbc * dbc.norm_squared() + wca * dac.norm_squared()
     }
 
     /// Singular values of the map from the piece to three places, the second one negative where

@@ -147,8 +147,8 @@ impl Patches {
         })
     }
 
-    /// The same surface with other patches: labels from 0 to one less than `count`, each patch's number
-    /// in `labels` becoming its place among the areas; the second is what number each had.
+    /// The same for a surface with other patches, by the labels of its vertices; these are numbered anew
+    /// by their areas, and the second is what number each had.
     pub(crate) fn divided(
         &self,
         surface: &Heightfield,
@@ -158,16 +158,22 @@ impl Patches {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let (patches, order) = sorted(&mesh, &mut labels)?;
         let creases = crease::creases(surface, &mesh, &bend, &labels);
-        let bend = self.bend;
-        let lattice = self.lattice;
         let divided = Patches {
-            lattice,
+            lattice: *surface.lattice(),
             labels,
             patches,
             creases,
-            bend,
+            bend: self.bend,
         };
         Ok((divided, order))
+    }
+
+    /// The area of a surface.
+    pub(crate) fn area(surface: &Heightfield) -> Result<f64> {
+        let mesh = Triangulation::new(surface, &Frame::default())?;
+        let mut labels = vec![0; surface.heights().len()];
+        let (patches, _) = sorted(&mesh, &mut labels)?;
+        Ok(patches.iter().map(|patch| patch.area).sum())
     }
 
     /// The patch of each vertex, row by row; [`NO_PATCH`] where there is none.

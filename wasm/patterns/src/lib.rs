@@ -35,12 +35,15 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
             "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
             "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
             "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
+            "refold" => {
+                sheets = sheets.refold(option("refold", value, "must be true or false")?);
+            }
             "bend" => wanted = wanted.bend(option("bend", value, NUMBER)?),
             "fold" => wanted = wanted.fold(option("fold", value, NUMBER)?),
             "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
             _ if settings.take(&name, &value)? => {}
             _ => {
-                let known = "scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, gap, maxStrain, bend, fold, smallest, \
+                let known = "scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
                              tolerance, maxIterations and spacing";
                 return Err(unknown(&name, known));
             }
@@ -51,6 +54,7 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let patches = Patches::new(&surface, &wanted)?;
     let found = pattern(&surface, &patches, &sheets.unrolling(settings.unrolling))?;
     let drawn = Drawing::new(&found.sheets, &drawing)?;
+    let drawn = drawn.missing(&found.missing, drawing.scale);
     let drawn = match stock {
         Some(stock) => drawn.onto(stock)?,
         None => drawn,

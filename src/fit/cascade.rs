@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::admm::iteration::Best;
 use super::admm::schedule::Plan;
+use super::border_load::load_border;
 use super::energy::creases::Creases;
 use super::heightfields::{Level, Problem, State};
 use super::linear::cg::ConjugateGradients;
-use super::options::{Bending, Energy, Options};
+use super::options::{Bending, Border, Energy, Options};
 use super::prolong::prolong;
 use super::report::{LevelReport, Seconds, StopReason};
 use crate::error::Result;
@@ -36,6 +37,8 @@ pub(crate) struct Cascade {
     passes_left: usize,
     /// Those at creases: the radius, and what the last one was about.
     crease_radius: Option<f64>,
+    /// Of a border that is yet to be loaded: the radius that says how far it straightens.
+    loads_within: Option<f64>,
     creases: Creases,
     /// Whether all that is left has begun.
     ends: bool,
@@ -85,6 +88,8 @@ impl Cascade {
             passes: 0,
             passes_left,
             crease_radius,
+            loads_within: (options.border == Border::Loaded)
+                .then(|| Bending::SMOOTH.within(options).bend_radius),
             creases: Creases::default(),
             ends: false,
             seconds: Seconds::default(),
@@ -133,17 +138,24 @@ impl Cascade {
         {
             self.passes_left -= 1;
             let next = match self.crease_radius {
-                None => self.level.reweight()?,
+                None => {
+                    self.passes += 1;
+                    self.level.reweight()?
+                }
                 Some(radius) => {
-                    let (creases, next) = self.level.reweight_creases(radius)?;
+                    let loaded = self.load_border()?;
+                    let (creases, next) = self.level.reweight_creases(radius, loaded)?;
                     let Some(next) = next else {
                         break;
                     };
-                    self.creases = creases;
+                    // A pass for the border alone is none at creases.
+                    if creases.is_worth() {
+                        self.creases = creases;
+                        self.passes += 1;
+                    }
                     next
                 }
             };
-            self.passes += 1;
             match next {
                 Some(next) => reason = next,
                 None => return Ok(()),
@@ -155,6 +167,15 @@ impl Cascade {
         }
         self.reason = Some(reason);
         Ok(())
+    }
+
+    /// Loads the border, once.
+    fn load_border(&mut self) -> Result<bool> {
+        let Level { problem, state, .. } = &mut self.level;
+        match self.loads_within.take() {
+            Some(radius) => load_border(problem, state, radius),
+            None => Ok(false),
+        }
     }
 
     /// Begins with the next finer level.

@@ -2,6 +2,7 @@
 //! duality gap.
 
 mod admm;
+mod border_load;
 mod cascade;
 mod coarsen;
 mod components;

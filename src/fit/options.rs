@@ -135,8 +135,9 @@ pub enum Energy {
     /// with the slope `min(α + s/δ, 1)`: smooth where the surface bends smoothly, without the flat
     /// strips that the nuclear norm makes of it, and still creased, and developable. Bends tighter
     /// than [`Options::crease_radius`] then cost less in up to [`Options::crease_passes`] further
-    /// solves, so that they keep their angle. The figures of the report are those of the last one's
-    /// energy.
+    /// solves, so that they keep their angle. In these the border bears the bending moments of what is
+    /// inside, as if the surface went on beyond it: a free border would straighten. The figures of the
+    /// report are those of the last one's energy.
     Huber,
 }
 
@@ -159,6 +160,15 @@ impl FromStr for Energy {
             )),
         }
     }
+}
+
+/// What a surface has beyond its border, under [`Energy::Huber`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Border {
+    /// Nothing.
+    Free,
+    /// The moments inside, from a further pass on: see [`energy::load`](super::energy::load).
+    Loaded,
 }
 
 /// The three numbers of [`Energy::Huber`].
@@ -239,6 +249,7 @@ pub struct Options {
     pub(crate) flatness: Option<f64>,
     pub(crate) crease_radius: Option<f64>,
     pub(crate) crease_passes: usize,
+    pub(crate) border: Border,
 }
 
 impl Default for Options {
@@ -256,6 +267,7 @@ impl Default for Options {
             flatness: None,
             crease_radius: None,
             crease_passes: 2,
+            border: Border::Loaded,
         }
     }
 }

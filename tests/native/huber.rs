@@ -3,7 +3,9 @@
 
 use crate::common::conic::Instance;
 use crate::common::{cut, max_difference, noisy, rms_difference, unit_square};
-use developable::{Energy, Heightfield, Lambda, Normalization, Options, Report, StopReason, fit};
+use developable::{
+    Energy, Heightfield, Lambda, Lattice, Normalization, Options, Report, StopReason, fit,
+};
 
 fn bumps(x: f64, y: f64) -> f64 {
     0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.4 * (x - 0.4).abs()
@@ -162,4 +164,42 @@ fn options_of_its_own_are_checked() {
     }
     assert!(code(options().crease_passes(21)).contains("crease_passes"));
     assert!(code(options().reweighting(1)).contains("reweighting"));
+}
+
+/// A free border of a plate on a foundation, bent by the moment `M`, goes off by `2β²M/k` (Hetényi,
+/// Beams on Elastic Foundation, 1946); a loaded one does not.
+#[test]
+fn bent_sheet_keeps_its_border() {
+    let (curvature, flatness, bend_radius, lambda) = (2.0, 0.3, 0.1, 1e4);
+    let lattice = Lattice::covering([0.0, 0.0], [1.0, 1.0], 1.0 / 60.0).unwrap();
+    let places =
+        (0..lattice.len()).map(|i| lattice.position(i / lattice.cols(), i % lattice.cols()));
+    let truth: Vec<f64> = places
+        .clone()
+        .map(|[x, _]| 0.5 * curvature * x * x)
+        .collect();
+    let field = Heightfield::new(lattice, truth.clone()).unwrap();
+    let options = Options::default()
+        .energy(Energy::Huber)
+        .lambda(lambda)
+        .flatness(flatness)
+        .bend_radius(bend_radius)
+        .gap(1e-4);
+    let off = |options: &Options| {
+        let surface = fit(field.clone(), options).unwrap();
+        let heights = surface.heightfield().heights();
+        let ends = places.clone().zip(heights).zip(&truth);
+        let ends = ends.filter(|(([x, y], _), _)| *x > 0.99 && (y - 0.5).abs() < 0.3);
+        let errors: Vec<f64> = ends.map(|((_, z), truth)| (z - truth).abs()).collect();
+        errors.iter().sum::<f64>() / errors.len() as f64
+    };
+    let moment = flatness + curvature * bend_radius;
+    let beta_squared = (2.0 * lambda / (4.0 * bend_radius)).sqrt();
+    let free = 2.0 * beta_squared * moment / (2.0 * lambda);
+    let [without, with] = [off(&options.crease_passes(0)), off(&options)];
+    assert!(
+        (0.4..1.3).contains(&(without / free)),
+        "{without} for {free}"
+    );
+    assert!(with < 0.2 * free, "{with} for {free}");
 }

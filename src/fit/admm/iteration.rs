@@ -46,6 +46,9 @@ pub(crate) struct Level<O: Operator> {
     /// Objective at the last check (of a start, it says nothing), and how often it went out of hand.
     last_objective: f64,
     recoveries: usize,
+    /// Until this iteration the surface follows a load, which is next to nothing of the energy: any
+    /// iterate takes the place of the best one, and a small gap says nothing.
+    follows_until: usize,
 }
 
 /// The best iterate so far and the best bound so far; they need not belong together.
@@ -60,6 +63,9 @@ pub(crate) struct Best {
     /// Whether the iterate is the affine surface of least squares.
     pub affine: bool,
 }
+
+/// Iterations that a surface follows a load for.
+const FOLLOWING: usize = 20;
 
 /// An objective that grows by more than this from one check to the next, and is as much above the
 /// input's, is out of hand.
@@ -138,6 +144,7 @@ impl<O: Operator> Level<O> {
         best.take(&state.z, &certificate);
         let mut level = Level {
             first_rho: state.rho,
+            follows_until: 0,
             problem,
             state,
             best,
@@ -306,7 +313,7 @@ impl<O: Operator> Level<O> {
             self.cg_iterations += steps;
             certificate.dual_bound = certificate.dual_bound.max(bound);
         }
-        if self.plan.follows_normals {
+        if self.plan.follows_normals || self.iteration <= self.follows_until {
             // Another energy than at the last check.
             self.best.replace(&self.state.z, &certificate);
         } else {
@@ -355,6 +362,7 @@ impl<O: Operator> Level<O> {
             change,
             &self.best,
         );
+        let reason = reason.filter(|_| self.iteration >= self.follows_until);
         let rho = self
             .plan
             .next_rho(&self.problem, self.state.rho, certificate, change);
@@ -453,18 +461,28 @@ impl<O: Operator> Level<O> {
         self.begin_pass()
     }
 
-    /// Another pass, in which creases cost less; `None` in the place of the reason if there is
-    /// nothing to be done about them.
+    /// Another pass, in which creases cost less, if there is anything to be done about them, or for
+    /// a border that has been `loaded`; `None` in the place of the reason if neither.
     pub(crate) fn reweight_creases(
         &mut self,
         radius: f64,
+        loaded: bool,
     ) -> Result<(Creases, Option<Option<StopReason>>)> {
         let creases = self.problem.reweight_creases(&self.best.z, radius)?;
-        let next = match creases.is_worth() {
-            true => Some(self.begin_pass()?),
-            false => None,
-        };
-        Ok((creases, next))
+        if !creases.is_worth() && !loaded {
+            return Ok((creases, None));
+        }
+        let stop = self.begin_pass()?;
+        if loaded {
+            self.follow_load(FOLLOWING);
+            return Ok((creases, Some(None)));
+        }
+        Ok((creases, Some(stop)))
+    }
+
+    /// Makes the surface follow a load for so many iterations.
+    pub(crate) fn follow_load(&mut self, iterations: usize) {
+        self.follows_until = self.iteration + iterations;
     }
 
     /// Goes on with other weights.

@@ -2,4 +2,5 @@
 
 pub(crate) mod creases;
 pub(crate) mod law;
+pub(crate) mod load;
 pub(crate) mod problem;

@@ -7,6 +7,7 @@
 mod border;
 mod geometry;
 mod linear;
+mod load;
 mod noise;
 mod options;
 mod quadratic;

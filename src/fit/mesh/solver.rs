@@ -7,20 +7,23 @@ use super::geometry::{
     Frame, Point, across, areas, faces_away, normals, smooth, twice_area, unfold, volume,
 };
 use super::linear::{Given, Linearised, NONE, spacing_of};
+use super::load::load_border;
 use super::noise::noise;
 use super::options::{MeshOptions, check_confidence};
 use super::report::{MeshPass, MeshReport};
 use super::topology::Topology;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, try_filled};
 use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
 use crate::fit::admm::state::State;
 use crate::fit::energy::law::Bends;
+use crate::fit::energy::load::bearing;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
 use crate::fit::partwise::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
+use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
 
 /// Smoothing steps for the first base: of the places across the rays, and of the surface.
@@ -266,7 +269,9 @@ impl MeshSolver {
         let problem = &mut self.linear.problem;
         let mut state = State::new(problem, plan.first_rho(problem))?;
         self.creases = 0;
+        let mut loaded = false;
         if let Some((old, before)) = warm {
+            let mut moments = try_filled("moments", self.linear.centres.len(), Sym2::default())?;
             let creases = problem.reweight_creases(&start, self.options.crease_radius)?;
             self.creases = creases.vertices;
             state.rho = old.rho;
@@ -275,13 +280,24 @@ impl MeshSolver {
                 if from != NONE {
                     let (dual, hessian) = old.matrices(&before.problem, from as usize);
                     state.set_matrices(stencil, dual, hessian);
+                    moments[stencil] = bearing(dual, hessian);
                 }
             }
+            let radius = self.options.bend_radius;
+            loaded = load_border(&self.given.topology, &mut self.linear, &moments, radius)?;
         }
         state.z.copy_from_slice(&start);
         let problem = self.linear.problem.clone();
         let solver = JacobiGradients::new(&problem, state.rho)?;
-        let (level, reason) = Level::new(problem, state, solver, plan, 0, false)?;
+        let (mut level, reason) = Level::new(problem, state, solver, plan, 0, false)?;
+        // One round between checks is enough: the base is near already.
+        let reason = match loaded {
+            true => {
+                level.follow_load(1);
+                None
+            }
+            false => reason,
+        };
         self.level = Some(level);
         match reason {
             Some(reason) => self.finish(reason),

@@ -550,3 +550,24 @@ fn slivers_and_flat_triangles_leave_everything_finite() {
     );
     assert!(surface.report().area.iter().all(|area| area.is_finite()));
 }
+
+#[test]
+fn bent_strip_keeps_its_ends() {
+    let cols = 60;
+    let strip = indexed(&grid(cols, 24, |u, v| {
+        let angle = 1.5 * (u - 0.5);
+        [angle.sin(), 0.6 * v, angle.cos()]
+    }));
+    let options = MeshOptions::default().lambda(3e4).crease_radius(1e-3);
+    let off = |options: &MeshOptions| {
+        let found = fit_mesh(&strip, options).unwrap();
+        let ends = found.mesh().positions().iter().zip(strip.positions());
+        let ends =
+            ends.filter(|(_, x)| x[0].abs() > 0.999 * 0.75f64.sin() && (x[1] - 0.3).abs() < 0.2);
+        let errors: Vec<f64> = ends.map(|(x, _)| (x[0].hypot(x[2]) - 1.0).abs()).collect();
+        errors.iter().sum::<f64>() / errors.len() as f64
+    };
+    let [without, with] = [off(&options.crease_passes(0)), off(&options)];
+    assert!(without > 1e-3, "{without}");
+    assert!(with < 0.5 * without, "{with} for {without}");
+}

@@ -11,7 +11,7 @@ use super::merge::merge;
 use super::noise::Noise;
 use crate::error::Result;
 use crate::fit::input::Input;
-use crate::fit::options::{Bending, Energy, Lambda, Options};
+use crate::fit::options::{Bending, Border, Energy, Lambda, Options};
 use crate::fit::partwise::{Beginning, Partwise, Solvable, Status};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
@@ -395,7 +395,10 @@ fn trial(
 /// The options for a solve that is only to be compared with others.
 fn rough(options: &Options) -> Options {
     let iterations = options.max_iterations.min(ITERATIONS);
-    options.gap(options.gap.max(GAP)).max_iterations(iterations)
+    let mut rough = options.gap(options.gap.max(GAP)).max_iterations(iterations);
+    // What a load does is less than such a gap.
+    rough.border = Border::Free;
+    rough
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native

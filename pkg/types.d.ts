@@ -568,8 +568,8 @@ export interface Report {
   /** Value of the energy at the returned surface, in normalised coordinates; always finite. */
   objective: number;
   /**
-   * `lambda * sum (z - input)^2`, with the confidences as factors; with `'huber'` the input along the
-   * border is what the moments there make of it.
+   * `lambda * sum (z - input)^2`, with the confidences as factors; with `'huber'` less
+   * the work of the moments on the border.
    */
   fidelity: number;
   /** `sum of nuclear norms of the Hessians`, or what `energy` has in its place. */

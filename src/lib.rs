@@ -92,7 +92,7 @@ pub use fit::input::Input;
 pub use fit::mesh::{
     MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface, Repairs, fit_mesh,
 };
-pub use fit::options::{Energy, Lambda, Options, Schedule};
+pub use fit::options::{Border, Energy, Lambda, Options, Schedule};
 pub use fit::partwise::Status;
 pub use fit::report::{
     HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,

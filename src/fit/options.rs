@@ -162,12 +162,15 @@ impl FromStr for Energy {
     }
 }
 
-/// What a surface has beyond its border, under [`Energy::Huber`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Border {
-    /// Nothing.
+/// What the surface has beyond its border, under [`Energy::Huber`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Border {
+    /// Nothing. A free border bears no bending moment, so that least energy straightens a bent sheet
+    /// along it.
     Free,
-    /// The moments inside, from a further pass on: see [`energy::load`](super::energy::load).
+    /// What it has inside: in the passes after the first the border bears the moments there.
+    #[default]
     Loaded,
 }
 
@@ -267,7 +270,7 @@ impl Default for Options {
             flatness: None,
             crease_radius: None,
             crease_passes: 2,
-            border: Border::Loaded,
+            border: Border::default(),
         }
     }
 }
@@ -360,6 +363,13 @@ impl Options {
     /// input is too large for λ, which would make creases of it.
     pub fn crease_passes(mut self, passes: usize) -> Self {
         self.crease_passes = passes;
+        self
+    }
+
+    /// What is beyond the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one of
+    /// the [`Options::crease_passes`].
+    pub fn border(mut self, border: Border) -> Self {
+        self.border = border;
         self
     }
 

@@ -225,8 +225,7 @@ pub struct Report {
     pub huber: Option<HuberReport>,
     /// Energy of the returned surface; always finite.
     pub objective: f64,
-    /// Its first term, `λ Σ (z − z̃)²`; with [`Energy::Huber`] `z̃` is what the border's moments make of
-    /// the heights there.
+    /// Its first term, `λ Σ (z − z̃)²`; with [`Energy::Huber`] less the work of the border's moments.
     pub fidelity: f64,
     /// Its second term, `Σ ‖H‖_*`.
     pub nuclear_norm: f64,

@@ -16,12 +16,12 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 222_000 },
+  { name: 'solver', limit: 228_000 },
   { name: 'files', limit: 275_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 120_000 },
-  { name: 'unroll', limit: 266_000 },
+  { name: 'unroll', limit: 272_000 },
   { name: 'patterns', limit: 345_000 },
 ];
 

@@ -75,13 +75,13 @@ const OUT_OF_HAND: f64 = 10.0;
 const MOST_RECOVERIES: usize = 6;
 
 impl Best {
-    /// The input itself: its objective is finite, and 0 is a bound of every energy.
+    /// The target itself: its objective is finite, and 0 is a bound of every energy without an offset.
     pub(crate) fn of_input<O: Operator>(problem: &Problem<O>) -> Self {
         Best {
             z: problem.target.clone(),
-            fidelity: 0.0,
+            fidelity: -problem.offset,
             nuclear_norm: problem.smoothness(&problem.target),
-            dual_bound: 0.0,
+            dual_bound: -problem.offset,
             rounding: problem.rounding,
             affine: false,
         }

@@ -376,7 +376,7 @@ impl<O: Operator> State<O> {
         let [distance, inner, quadratic, dual, dual_size, cost] = vertex_sums;
         let bound = dual_bound(problem, inner, quadratic, conjugate, law.largest());
         Certificate {
-            fidelity: problem.lambda * distance,
+            fidelity: problem.lambda * distance - problem.offset,
             nuclear_norm: nuclear,
             dual_bound: bound,
             primal_residual: primal.sqrt(),
@@ -391,7 +391,7 @@ impl<O: Operator> State<O> {
 
 /// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
 /// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where that
-/// overflows, what is left is `t = 0`. Always finite, and never below 0.
+/// overflows, what is left is `t = 0`. Always finite, and never below 0 but for the problem's offset.
 pub(super) fn dual_bound<O: Operator>(
     problem: &Problem<O>,
     inner: f64,
@@ -403,9 +403,10 @@ pub(super) fn dual_bound<O: Operator>(
     // With NaN as the larger one of two, the other is taken.
     let t = (inner / (2.0 * square)).max(0.0).min(largest);
     let bound = t * inner - t * t * square;
-    if square >= 0.0 && bound > 0.0 && bound.is_finite() {
+    let bound = if square >= 0.0 && bound > 0.0 && bound.is_finite() {
         bound
     } else {
         0.0
-    }
+    };
+    bound - problem.offset
 }

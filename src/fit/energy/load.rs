@@ -48,7 +48,9 @@ impl<O: Operator> Problem<O> {
         for vertex in operator.vertices().cells() {
             if near(vertex) {
                 let inverse = self.inverse_fidelity.at(vertex);
-                self.target[vertex] += inverse * load[vertex] / (2.0 * self.lambda);
+                let shift = inverse * load[vertex] / (2.0 * self.lambda);
+                self.target[vertex] += shift;
+                self.offset += 0.5 * load[vertex] * shift;
             }
         }
         Ok(())

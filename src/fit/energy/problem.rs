@@ -32,6 +32,9 @@ pub(crate) struct Problem<O> {
     pub lambda: f64,
     /// `z̃`, zero where no vertex is.
     pub target: Vec<f64>,
+    /// What loads of the border have added to the fidelity by moving the target, and is taken off again: a
+    /// load does no work at the heights as they were given.
+    pub offset: f64,
     /// `w`, and one over it; the latter is 0 at constrained vertices.
     pub fidelity: PerCell<f64>,
     pub inverse_fidelity: PerCell<f64>,
@@ -56,6 +59,7 @@ impl<O: Operator> Problem<O> {
         Problem {
             lambda,
             target,
+            offset: 0.0,
             fidelity: ones(),
             inverse_fidelity: ones(),
             constrained: Vec::new(),
@@ -229,11 +233,11 @@ impl<O: Operator> Problem<O> {
         });
     }
 
-    /// `λ Σ w (z − z̃)²`.
+    /// `λ Σ w (z − z̃)²`, less the offset.
     pub(crate) fn distance(&self, z: &[f64]) -> f64 {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * (z[v] - self.target[v]).powi(2));
-        self.lambda * squares.sum::<f64>()
+        self.lambda * squares.sum::<f64>() - self.offset
     }
 
     /// The affine function next to `z̃`. Exactly 0 if every height is given, for then the

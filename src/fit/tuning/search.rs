@@ -395,10 +395,9 @@ fn trial(
 /// The options for a solve that is only to be compared with others.
 fn rough(options: &Options) -> Options {
     let iterations = options.max_iterations.min(ITERATIONS);
-    let mut rough = options.gap(options.gap.max(GAP)).max_iterations(iterations);
     // What a load does is less than such a gap.
-    rough.border = Border::Free;
-    rough
+    let rough = options.border(Border::Free).max_iterations(iterations);
+    rough.gap(options.gap.max(GAP))
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native

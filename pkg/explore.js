@@ -28,12 +28,12 @@ export async function explored(worker, input, given) {
   const plans = [];
   const open = await worker.open(input);
   try {
-    for (const lambda of lambdas.toSorted((a, b) => b - a)) {
+    for (const lambda of [...lambdas].sort((a, b) => b - a)) {
       const begun = performance.now();
       const surface = await open.fit({ ...solver, lambda, signal });
       const { deviation } = await worker.analyze(surface, { reference: input, ...(spacing !== undefined && { spacing }) });
       const fitting = performance.now() - begun;
-      for (const share of smallest.toSorted((a, b) => a - b)) {
+      for (const share of [...smallest].sort((a, b) => a - b)) {
         signal?.throwIfAborted();
         const started = performance.now();
         const found = await drawn(worker.pattern(surface, { ...pattern, smallest: share }));

@@ -435,7 +435,10 @@ test('the command', async () => {
   const drawing = direct.pattern(card, { scale });
   assert.deepEqual(new Uint8Array(await readFile(join(folder, 'card.svg'))), direct.writeSvg(drawing));
   const report = JSON.parse(await readFile(join(folder, 'card.json'), 'utf8'));
-  assert.deepEqual(report, { ...drawing.summary, assembly: [{ sheet: 0, joints: [] }] });
+  // A report is asked for, and so are its sheets folded back.
+  const { summary } = direct.pattern(card, { scale, refold: true });
+  assert.deepEqual(report, { ...summary, assembly: [{ sheet: 0, joints: [] }] });
+  assert.ok(/** @type {number} */ (summary.refolding) < 1e-3);
   assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --paper letter`), silent);
   assert.equal((await readPdf(await readFile(join(folder, 'card.pdf')))).length, drawing.summary.letter);
   assert.deepEqual(await command(`${from} -o card.dxf --tabs 5`), silent);

@@ -48,6 +48,7 @@ pub struct Totals {
     pub loops: usize,
     /// How far sheets that were folded back are from the surface at most (root of the mean square), if
     /// that was asked for ([`PatternOptions::refold`](crate::pattern::PatternOptions::refold)).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub refolding: Option<f64>,
     /// What of the surface is on no sheet, if that is known
     /// ([`Drawing::missing`](super::Drawing::missing)); areas in square millimetres.

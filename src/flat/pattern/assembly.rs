@@ -309,6 +309,7 @@ fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
         vertices: left_out,
         area,
         steps: torn.clone().count(),
-        step_area: torn.map(high).sum(),
+        // Not a sum, which is -0 of nothing.
+        step_area: torn.map(high).fold(0.0, |sum, area| sum + area),
     })
 }

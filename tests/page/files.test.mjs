@@ -80,10 +80,10 @@ pageTest('zeros become holes on request, and heights again', async (page) => {
   assert.ok(parseNpy((await save(page, 'NPY')).bytes).values.every(Number.isFinite));
 });
 
-pageTest('heights without any interior are refused with the reason', async (page) => {
+pageTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);
-  assert.match(await page.getByRole('alert').innerText(), /interior/);
+  assert.match(await page.getByRole('alert').innerText(), /not on a line/);
   assert.match(await page.locator('#verdict').innerText(), /Not solved/);
 });
 

@@ -37,7 +37,7 @@ pageTest('while λ is dragged, pictures follow, and the last wish is certified',
   assert.equal(await page.locator('#result-mark').isVisible(), false, 'no preview any more');
   const wished = 10 ** Number(await page.locator('#lambda').inputValue());
   assert.ok(Math.abs(parsed(await reported(page, 'λ')) / wished - 1) < 0.06);
-  assert.match(await page.locator('#verdict').innerText(), /^Certified/);
+  assert.match(await page.locator('#certificate').innerText(), /^Certified/);
 
   // Cancelled while there is only a preview, the result before it stays.
   const caption = await page.locator('#result-caption').innerText();

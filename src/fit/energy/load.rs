@@ -35,13 +35,13 @@ impl<O: Operator> Problem<O> {
             &self.target,
             &mut load,
             |_, run, _, mut to| {
-                for stencil in run.start..run.end {
-                    to.set(stencil - run.start, moments[stencil].coordinates());
+                for (i, moment) in moments[run.start..run.end].iter().enumerate() {
+                    to.set(i, moment.coordinates());
                 }
             },
             |load, run, sums| {
-                for vertex in run.start..run.end {
-                    load[vertex] = sums.at(vertex - run.start);
+                for (i, load) in load[run.start..run.end].iter_mut().enumerate() {
+                    *load = sums.at(i);
                 }
             },
         );

@@ -357,8 +357,7 @@ export interface SampledMesh extends Heightfield {
  * - `'huber'`: of a function of their nuclear norms that grows with the square of small ones, and with
  *   the size of large ones: smooth where the surface bends smoothly, without the flat strips that
  *   `'nuclear'` makes of it. What bends more tightly than `creaseRadius` then costs less in up to
- *   `creasePasses` further solves, in which the border bears the bending moments of what is inside, as
- *   if the surface went on; what is certified is the last one's energy.
+ *   `creasePasses` further solves; what is certified is the last one's energy.
  */
 export type Energy = 'nuclear' | 'frobenius' | 'squaredNuclear' | 'secondFormOfInput' | 'secondForm' | 'huber';
 
@@ -567,10 +566,7 @@ export interface Report {
   huber: HuberReport | undefined;
   /** Value of the energy at the returned surface, in normalised coordinates; always finite. */
   objective: number;
-  /**
-   * `lambda * sum (z - input)^2`, with the confidences as factors; with `'huber'` less
-   * the work of the moments on the border.
-   */
+  /** `lambda * sum (z - input)^2`, with the confidences as factors. */
   fidelity: number;
   /** `sum of nuclear norms of the Hessians`, or what `energy` has in its place. */
   nuclearNorm: number;

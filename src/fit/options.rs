@@ -135,9 +135,8 @@ pub enum Energy {
     /// with the slope `min(α + s/δ, 1)`: smooth where the surface bends smoothly, without the flat
     /// strips that the nuclear norm makes of it, and still creased, and developable. Bends tighter
     /// than [`Options::crease_radius`] then cost less in up to [`Options::crease_passes`] further
-    /// solves, so that they keep their angle. In these the border bears the bending moments of what is
-    /// inside, as if the surface went on beyond it: a free border would straighten. The figures of the
-    /// report are those of the last one's energy.
+    /// solves, so that they keep their angle. The figures of the report are those of the last one's
+    /// energy.
     Huber,
 }
 
@@ -168,9 +167,11 @@ impl FromStr for Energy {
 pub enum Border {
     /// Nothing. A free border bears no bending moment, so that least energy straightens a bent sheet
     /// along it.
-    Free,
-    /// What it has inside: in the passes after the first the border bears the moments there.
     #[default]
+    Free,
+    /// What it has inside: in the passes after the first the border bears the moments there. Closer to
+    /// the truth where the surface bends smoothly up to its border; further from it where it rises
+    /// steeply there, as an oloid does.
     Loaded,
 }
 
@@ -366,7 +367,7 @@ impl Options {
         self
     }
 
-    /// What is beyond the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one of
+    /// What is beyond the border under [`Energy::Huber`]; default [`Border::Free`]. [`Border::Loaded`] takes one of
     /// the [`Options::crease_passes`].
     pub fn border(mut self, border: Border) -> Self {
         self.border = border;

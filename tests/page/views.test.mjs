@@ -297,19 +297,6 @@ pageTest('another result takes the place of an answer that is still being worked
   assert.equal(await page.locator('#notice').isVisible(), false);
 });
 
-pageTest('a view that cannot be worked out says so, and the surface stays', async (page) => {
-  const before = (await look(page, '#result-canvas')).hash;
-  // Where the file is damaged, the copy in a module would do.
-  await page.route('**/inline/unroll.js', (route) => route.fulfill({ contentType: 'text/javascript', body: "throw new Error('damaged')" }));
-  await page.route('**/unroll_bg.wasm', (route) => route.fulfill({ contentType: 'application/wasm', body: 'nothing' }));
-  await view(page, 'Unrolled');
-  await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
-  assert.equal((await look(page, '#result-canvas')).hash, before);
-  await page.unrouteAll();
-  await view(page, 'Rulings');
-  assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');
-});
-
 pageTest('further formats are what they are called', async (page) => {
   await example(page, 'cone', { size: '100' });
   /** @type {Record<string, (bytes: Buffer) => boolean>} */

@@ -17,7 +17,11 @@ import { Skip, check } from './step.mjs';
  * @param {string} name
  * @returns {(context: Context) => Promise<void>}
  */
-export const inNode = (name) => ({ env }) => cargoTest(name, env);
+export const inNode = (name) => ({ env }) => inFolder(async (folder) => {
+  // The runner writes CommonJS below its temporary folder; a package.json above that may say otherwise.
+  await writeFile(join(folder, 'package.json'), '{ "type": "commonjs" }\n');
+  await cargoTest(name, { ...env, TMPDIR: folder, TEMP: folder, TMP: folder });
+});
 
 /**
  * @param {string} name
@@ -26,19 +30,29 @@ export const inNode = (name) => ({ env }) => cargoTest(name, env);
 export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) => {
   if (!chrome) throw new Skip('no Chromium or Chrome was found (CHROME can name one)');
   if (!driver) throw new Skip('no chromedriver was found (CHROMEDRIVER can name one)');
-  const folder = await mkdtemp(join(tmpdir(), 'developable-'));
-  try {
-    const capabilities = JSON.parse(await readFile(join(root, 'webdriver.json'), 'utf8'));
-    capabilities['goog:chromeOptions'].binary = chrome;
+  const capabilities = JSON.parse(await readFile(join(root, 'webdriver.json'), 'utf8'));
+  capabilities['goog:chromeOptions'].binary = chrome;
+  await inFolder(async (folder) => {
     const file = join(folder, 'webdriver.json');
     await writeFile(file, JSON.stringify(capabilities));
     // The runner would prefer another browser's driver, or one that is running elsewhere.
     const own = without(env, /^(GECKO|SAFARI|MSEDGE|CHROME)DRIVER/);
     await cargoTest(name, { ...own, CHROMEDRIVER: driver, WASM_BINDGEN_TEST_WEBDRIVER_JSON: file });
+  });
+};
+
+/**
+ * Does something with a temporary folder.
+ * @param {(folder: string) => Promise<void>} work
+ */
+async function inFolder(work) {
+  const folder = await mkdtemp(join(tmpdir(), 'developable-'));
+  try {
+    await work(folder);
   } finally {
     await rm(folder, { recursive: true, force: true });
   }
-};
+}
 
 /**
  * @param {string} name

@@ -106,7 +106,7 @@ pageTest('a camera that cannot belong to the image is refused', async (page) => 
   await page.getByRole('alert').filter({ hasText: 'images of another size' }).waitFor();
 });
 
-pageTest('the part of the photo that is clicked is made flat alone', async (page) => {
+pageTest('the part of the photo that is clicked, or within corners, is made flat alone', async (page) => {
   // A table behind the page, in two parts.
   const scene = depths(0).map((depth, i) => depth || (i % 256 < 60 ? 0.75 : 0));
   await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, scene), 'camera.json': numbers }));
@@ -125,6 +125,40 @@ pageTest('the part of the photo that is clicked is made flat alone', async (page
   assert.ok(Math.abs(wide / 0.21 - 1) < 0.12 && Math.abs(high / 0.297 - 1) < 0.12, `${wide} × ${high}`);
   const error = misplaced(await flatPng(page));
   assert.ok(error < 0.004, `dots are off by ${100 * error} % of the width`);
+
+  // By corners, the first of them by mouse, the others by keys.
+  await page.getByRole('button', { name: 'Crop', exact: true }).click();
+  await flattened(page);
+  const corners = /** @type {const} */ ([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]]);
+  for (const [i, [s, t]] of corners.entries()) {
+    const corner = page.getByRole('button', { name: new RegExp(`^Corner ${i + 1} of the crop`) });
+    // The mouse does not scroll to it.
+    await corner.scrollIntoViewIfNeeded();
+    const box = await corner.boundingBox();
+    assert.ok(box);
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(...await onPage(page, seen(s, t)), { steps: 3 });
+    await page.mouse.up();
+    await flattened(page);
+  }
+  const [cropWide, cropHigh] = (await told('Size')).split('×').map(parsed);
+  // Straight lines in the photo cut off some of what is between bent ones.
+  assert.ok(Math.abs(cropWide / (0.8 * 0.21) - 1) < 0.06 && Math.abs(cropHigh / (0.8 * 0.297) - 1) < 0.12, `${cropWide} × ${cropHigh}`);
+  const first = page.getByRole('button', { name: /^Corner 1 of the crop/ });
+  await first.focus();
+  await page.keyboard.press('Shift+ArrowRight');
+  await flattened(page);
+  assert.ok(await first.evaluate((button) => button === document.activeElement), 'the focus is not lost');
+  await first.press('Delete');
+  await flattened(page);
+  assert.equal(await page.getByRole('button', { name: /of the crop/ }).count(), 3);
+  await page.getByRole('button', { name: 'Crop', exact: true }).click();
+  await flattened(page);
+  assert.equal(await page.getByRole('button', { name: /of the crop/ }).count(), 0);
+  await runBy(page, () => page.getByRole('button', { name: 'All parts' }).click());
+  await flattened(page);
+  assert.match(await told('Parts'), /^2/);
 });
 
 pageTest('a scan in OBJ brings its material and texture along', async (page) => {

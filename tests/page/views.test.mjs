@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { look, open, pageTest, painted, runBy, save, saveAs } from './support/page.mjs';
+import { look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -295,6 +295,22 @@ pageTest('another result takes the place of an answer that is still being worked
   await page.locator('#analysis[aria-busy="false"]').waitFor();
   assert.match(await page.locator('#about-view .said').innerText(), /^Unrolled/);
   assert.equal(await page.locator('#notice').isVisible(), false);
+});
+
+pageTest('a view that cannot be worked out says so, and the surface stays', async (page) => {
+  // Where the file is damaged, the copy in a module would do.
+  await page.route('**/inline/unroll.js', (route) => route.fulfill({ contentType: 'text/javascript', body: "throw new Error('damaged')" }));
+  await page.route('**/unroll_bg.wasm', (route) => route.fulfill({ contentType: 'application/wasm', body: 'nothing' }));
+  // The headline has asked for the pieces, and so has loaded the sound file.
+  await page.reload();
+  await settled(page);
+  const before = (await look(page, '#result-canvas')).hash;
+  await view(page, 'Unrolled');
+  await page.getByRole('alert').filter({ hasText: 'could not be worked out' }).waitFor();
+  assert.equal((await look(page, '#result-canvas')).hash, before);
+  await page.unrouteAll();
+  await view(page, 'Rulings');
+  assert.ok(parsed(await told(page, 'Lines')) > 10, 'it can be tried again');
 });
 
 pageTest('further formats are what they are called', async (page) => {

@@ -28,8 +28,9 @@ import { handOver, work } from './surface/work.js';
  * @property {[number, number][]} [crop]
  */
 
-/** Vertices along the longer side of what is unfolded. */
+/** Pixels along the longer side of what is unfolded, and of what is cut into sheets: half a millimetre of a piece of 20 cm. */
 const UNFOLDED = 90;
+const CUT = 450;
 
 /** Milliseconds without a question after which the worker goes. */
 const REST = 2000;
@@ -158,22 +159,28 @@ export class Analyses {
    */
   unfold(result, most) {
     return this.#once(result.surface, 'unfolding', async (worker) => {
-      const { width, pixelSize, ...image } = resultImage(result);
-      const small = coarse({ width, ...image }, UNFOLDED);
-      const size = (pixelSize * width) / small.width;
-      const sheet = await worker.unroll({ ...small, pixelSize: size });
+      const small = smaller(result, UNFOLDED);
+      const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result)]);
       const { left, top } = gridOf(result.input);
-      return work('unfolding', sheet, most, [left, top - small.height * size]);
+      return work('unfolding', sheet, most, [left, top - small.height * small.pixelSize], creases.map(({ points }) => points));
     });
   }
 
   /**
-   * The surface cut into sheets.
+   * The surface cut into sheets: a large one as it is on a coarser lattice.
    * @param {Result} result
    * @param {PatternOptions} options
    */
-  pattern({ surface }, options) {
-    return this.#once(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(surface, options));
+  pattern(result, options) {
+    const { surface } = result;
+    const cut = this.cutsAsItIs(result) ? surface : smaller(result, CUT);
+    return this.#once(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(cut, options));
+  }
+
+  /** Whether sheets are those of the result's own lattice. @param {Result} result */
+  cutsAsItIs(result) {
+    const { width, height } = resultImage(result);
+    return Math.max(width, height) < 1.2 * CUT;
   }
 
   /** @param {Drawing} drawing */
@@ -226,6 +233,17 @@ function shownOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summar
     kappa2: new Float32Array(kappa2),
     medianKappa1: magnitude([kappa1], 0.5),
   };
+}
+
+/**
+ * A result's pixels on fewer of them.
+ * @param {Result} result
+ * @param {number} side most along the longer side
+ */
+function smaller(result, side) {
+  const { width, pixelSize, ...image } = resultImage(result);
+  const small = coarse({ width, ...image }, side);
+  return { ...small, pixelSize: (pixelSize * width) / small.width };
 }
 
 let photos = 0;

@@ -59,6 +59,16 @@ export function percent(share) {
   return `${number(100 * share, 2)}${BREAKLESS}%`;
 }
 
+/** @param {number} share with its sign */
+export function signed(share) {
+  return `${share > 0 ? '+' : ''}${percent(share)}`;
+}
+
+/** What is under the pointer on a sheet. @param {number} strain NaN beside it */
+export function strainInWords(strain) {
+  return Number.isNaN(strain) ? '' : `strain ${signed(strain)}`;
+}
+
 /** @param {number} angle in radians */
 export function degrees(angle) {
   return `${number((angle * 180) / Math.PI, 2)}°`;

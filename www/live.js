@@ -11,7 +11,7 @@ import { coarse } from './surface/coarse.js';
 /** @import {Api, OpenSolver} from './api.js' */
 /** @import {Input, Settings} from './session.js' */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
-/** @typedef {{ input: Input, settings: Settings, image: Image }} Preview */
+/** @typedef {{ input: Input, lambda: number, image: Image }} Preview */
 /** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} Rung */
 
 /** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
@@ -30,7 +30,7 @@ export class Live {
   #worker = null;
   /** Those that were needed so far, by the side. @type {Map<number, Rung>} */
   #rungs = new Map();
-  /** @type {{ input: Input, settings: Settings, abort: AbortController } | null} */
+  /** @type {{ input: Input, settings: Settings, lambda?: number, abort: AbortController } | null} */
   #wish = null;
   #climbing = false;
   #resting = 0;
@@ -47,11 +47,15 @@ export class Live {
     this.#events = events;
   }
 
-  /** @param {Input} input @param {Settings} settings */
-  wish(input, settings) {
+  /**
+   * @param {Input} input
+   * @param {Settings} settings
+   * @param {number} [lambda] in the place of `auto`, where one was found before
+   */
+  wish(input, settings, lambda) {
     if ([this.#wish, this.#done].some((one) => one?.input === input && one.settings === settings)) return;
     this.#wish?.abort.abort();
-    this.#wish = { input, settings, abort: new AbortController() };
+    this.#wish = { input, settings, lambda, abort: new AbortController() };
     if (!this.#climbing) void this.#climb();
   }
 
@@ -72,11 +76,15 @@ export class Live {
     clearTimeout(this.#resting);
     for (let wish = this.#wish; wish; wish = this.#wish) {
       const { input, settings, abort } = wish;
+      const wanted = settingsOf(input, settings);
+      /** The coarsest lattice tells the finer ones what it has found. @type {Settings['lambda']} */
+      let lambda = wanted.lambda === 'auto' ? wish.lambda ?? 'auto' : wanted.lambda;
       const sides = input.design ? DESIGN : SIDES.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
       for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
         try {
-          const image = await this.#solve(input, settings, sides[i], i === 0 ? undefined : abort.signal);
-          if (this.#wish?.input === input) this.#events.shown({ input, settings, image });
+          const picture = await this.#solve(input, { ...wanted, lambda }, sides[i], i === 0 ? undefined : abort.signal);
+          lambda = picture.lambda;
+          if (this.#wish?.input === input) this.#events.shown(picture);
         } catch {
           // The run that certifies says what is wrong, if anything is.
           break;
@@ -100,17 +108,16 @@ export class Live {
    * @param {Settings} settings
    * @param {number} side
    * @param {AbortSignal} [signal]
-   * @returns {Promise<Image>}
+   * @returns {Promise<Preview>}
    */
-  async #solve(input, settings, side, signal) {
-    const { lambda, energy } = settingsOf(input, settings);
+  async #solve(input, { lambda, energy }, side, signal) {
     const { pixelSize, solver } = this.#rung(input, side);
     // Passes at creases are for the answer.
     const passes = energy === 'huber' ? { creasePasses: 0 } : {};
     const surface = await (await solver).fit({ lambda, energy, ...passes, gap: GAP, signal });
-    const { image } = surface;
+    const { image, report } = surface;
     if (!image) throw new Error('it has no image');
-    return { ...image, pixelSize };
+    return { input, lambda: report.lambda, image: { ...image, pixelSize } };
   }
 
   /** The rung for an input, which goes on from its last answer where only heights have changed. @param {Input} input @param {number} side */

@@ -13,6 +13,7 @@ import { headline } from './panels/headline.js';
 import { keepPanel } from './panels/keep.js';
 import { modePanel } from './panels/mode.js';
 import { hideNotice, showNotice } from './panels/notice.js';
+import { openingPanel } from './panels/opening.js';
 import { pagePanel } from './panels/page.js';
 import { reportPanel } from './panels/report.js';
 import { runPanel } from './panels/run.js';
@@ -32,6 +33,7 @@ async function start() {
   editPanel(session, space);
   const { adopt } = settingsPanel(session);
   const strip = stripPanel(session, adopt);
+  openingPanel(session);
   besidePanel(session);
   runPanel(session);
   curvePanel(session);

@@ -36,7 +36,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`
  * @property {'mm' | 'm'} [depths] that a camera has seen, and what they seem to be counted in
- * @property {import('./opened.js').Stored} [stored] what the file holds, and how it is understood
+ * @property {import('./understood.js').Stored} [stored] what the file holds, and how it is understood
  * @property {{ name: string, image: ImageData }} [photo] that came with it
  * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
@@ -73,6 +73,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {null} cleared the last result is gone, for another input is there
  * @property {Occlusions | null} occlusions where the present input is torn, if that was asked for
  * @property {Phase} phase
+ * @property {File | null} opening a file is being read, or nothing is any more
  * @property {null} unsolved a run has ended with nothing
  * @property {{ doing: string, error: unknown }} failure
  */
@@ -81,6 +82,9 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 const CLOSE = 1.3;
 /** Fewer pixels than this are solved in a moment. */
 const MANY = 150 ** 2;
+/** From so many pixels on, a solver that rests for so many milliseconds is given up. */
+const LARGE = 500 ** 2;
+const REST = 5000;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
@@ -99,10 +103,13 @@ export class Session extends Events {
   /** Whether a setting is still being chosen. */
   #following = false;
   #live;
-  /** The solver in the worker, which remembers its last answer. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
+  /** The solver, which remembers its last answer, in a worker of its own. @type {{ input: Input, solver: Promise<OpenSolver> } | null} */
   #kept = null;
-  /** Counts what was opened, to tell the newest. */
-  #opened = 0;
+  /** @type {InstanceType<Api['DevelopableWorker']> | null} */
+  #worker = null;
+  #resting = 0;
+  /** What is being opened. @type {AbortController | null} */
+  #opening = null;
   /** Counts what was looked for in the input, likewise. */
   #looked = 0;
   /** Whether the present input has been run. */
@@ -141,15 +148,18 @@ export class Session extends Events {
   /**
    * Takes another input. If it cannot be had, what is there stays, and so does a run that is under way.
    * @param {string} doing for the message if it fails
-   * @param {() => Promise<Input>} load
+   * @param {(signal: AbortSignal) => Promise<Input>} load `signal`: it is given up
+   * @param {File} [file] that is read
    * @returns {Promise<boolean>} whether it is the input now
    */
-  async open(doing, load) {
-    const turn = ++this.#opened;
+  async open(doing, load, file) {
+    this.giveUp();
+    const opening = (this.#opening = new AbortController());
+    if (file) this.emit('opening', file);
     try {
-      const input = await load();
+      const input = await load(opening.signal);
       await lookAt(input);
-      if (turn !== this.#opened) return false;
+      if (opening.signal.aborted) return false;
       this.#stop();
       this.#forget();
       this.input = input;
@@ -160,11 +170,20 @@ export class Session extends Events {
       void this.#look();
       return true;
     } catch (error) {
-      if (turn === this.#opened) this.fail(doing, error);
+      if (!opening.signal.aborted) this.fail(doing, error);
       return false;
     } finally {
+      if (this.#opening === opening) this.giveUp();
       if (this.phase === 'starting') this.#enter('idle');
     }
+  }
+
+  /** Nothing is being opened any more; what is there stays. */
+  giveUp() {
+    if (!this.#opening) return;
+    this.#opening.abort();
+    this.#opening = null;
+    this.emit('opening', null);
   }
 
   /**
@@ -229,7 +248,12 @@ export class Session extends Events {
     this.#following = true;
     if (this.phase !== 'running') this.emit('start', this.settings);
     this.#enter('running');
-    this.#live.wish(input, this.settings);
+    this.#wish(input);
+  }
+
+  /** @param {Input} input */
+  #wish(input) {
+    this.#live.wish(input, this.settings, this.result?.surface.report.lambda);
   }
 
   /** Solves the present input, from the last answer if there is one; ends a run that is under way. */
@@ -240,9 +264,10 @@ export class Session extends Events {
     const job = (this.#job = { abort, input, settings });
     this.#tried = true;
     this.#following = false;
+    clearTimeout(this.#resting);
     this.emit('start', settings);
     this.#enter('running');
-    if (input.width * input.height > MANY && settings.lambda !== 'auto') this.#live.wish(input, settings);
+    if (input.width * input.height > MANY) this.#wish(input);
     const { coarsening, ...options } = settingsOf(input, settings);
     try {
       const solver = await this.#solverOf(input);
@@ -271,6 +296,7 @@ export class Session extends Events {
     } finally {
       if (this.#job === job) {
         this.#job = null;
+        this.#rest(input);
         if (!this.#following) this.#enter('idle');
         // What was chosen meanwhile.
         else if (!this.#live.busy) void this.run();
@@ -291,9 +317,23 @@ export class Session extends Events {
           await open.replace(heightsOf(input));
           return open;
         })
-      : this.api.open(heightsOf(input));
+      : this.#own().open(heightsOf(input));
     this.#kept = { input, solver };
     return solver;
+  }
+
+  #own() {
+    return this.#worker?.connected ? this.#worker : (this.#worker = new this.api.DevelopableWorker());
+  }
+
+  /** A solver of many vertices holds much memory: it is given back when nothing is asked of it for a while. @param {Input} input */
+  #rest({ width, height }) {
+    if (width * height < LARGE) return;
+    this.#resting = window.setTimeout(() => {
+      this.#kept = null;
+      this.#worker?.dispose();
+      this.#worker = null;
+    }, REST);
   }
 
   /** Gives the solver up: the next run starts from nothing. */

@@ -93,7 +93,7 @@ export function analysisPanel(session, analyses, show) {
     return shown;
   };
 
-  const waiting = waitingPanel(() => {
+  const waiting = waitingPanel(element('waiting', HTMLElement), 'Working it out', () => {
     asked++;
     analyses.stop();
     waiting.end();

@@ -7,7 +7,7 @@ import { showNotice } from './notice.js';
 /** @import {State} from '../address.js' */
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
-/** @import {Stored} from '../opened.js' */
+/** @import {Stored} from '../understood.js' */
 
 /** How long a result stands, in milliseconds, before it is worth going back to. */
 const REST = 400;

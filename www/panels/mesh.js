@@ -1,6 +1,7 @@
 /** Meshes and point clouds: turned, and seen as heights from a direction. */
 import { element, elements } from '../dom.js';
 import { count, number } from '../format.js';
+import { reading } from '../reading.js';
 import { see } from '../seen.js';
 import { MeshView } from '../surface/mesh-view.js';
 
@@ -41,7 +42,7 @@ export function meshPanel(session) {
     const { input } = session;
     if (!input?.seen) return;
     const { mesh, options, whole } = input.seen;
-    if (await see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', whole)) void session.run();
+    if (await see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', { whole })) void session.run();
   };
   let rest = 0;
   /** Solved from the new side while it is turned, whenever the hand rests. @param {MeshView} view */
@@ -89,10 +90,11 @@ export function meshPanel(session) {
   return {
     /**
      * @param {Called} file
-     * @param {() => Promise<Mesh>} load
+     * @param {(signal: AbortSignal) => Promise<Mesh>} load
      * @param {string} doing
+     * @param {File} [read]
      */
-    take: (file, load, doing) => see(session, file, load, { view: 'best-fit', resolution: wanted() }, doing),
+    take: (file, load, doing, read) => see(session, file, load, { view: 'best-fit', resolution: wanted() }, doing, { read }),
     /**
      * @param {File} file
      * @param {readonly File[]} [beside] what it may name: materials, textures, buffers
@@ -100,10 +102,10 @@ export function meshPanel(session) {
     open(file, beside = []) {
       const kind = NAMES.exec(file.name)?.[1].toUpperCase();
       const called = file.name.replace(NAMES, '') || 'mesh';
-      return this.take({ name: called, kind }, async () => {
+      return this.take({ name: called, kind }, async (signal) => {
         const files = new Map(await Promise.all(beside.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
-        return session.api.readMesh(file, { files });
-      }, `“${file.name}” could not be read`);
+        return reading(session.api, signal, (reader) => reader.readMesh(file, { files }));
+      }, `“${file.name}” could not be read`, file);
     },
   };
 }

@@ -48,7 +48,7 @@ export function photoPanel(session, analyses, changed) {
     const own = { name: name.textContent ?? '', image: photo };
     const taken = await see(
       session, { name: input.name, kind: input.kind, photo: own }, async () => part ?? whole, options,
-      'This part could not be taken', part ? whole : undefined,
+      'This part could not be taken', { whole: part ? whole : undefined },
     );
     if (taken) await session.run();
   };

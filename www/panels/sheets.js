@@ -4,6 +4,7 @@ import { piecesInFigures, piecesInWords, piecesOf, handySide, previewOf } from '
 import { plainly } from '../plain.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
+import { waitingPanel } from './waiting.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
@@ -11,6 +12,8 @@ import { offerToSave } from './save-dialog.js';
 
 /** Depth of tabs in millimetres, at first. */
 const TABS = 6;
+/** Milliseconds for a vertex, until that was measured. */
+const EACH = 0.02;
 /** How long a number rests, in milliseconds, before the sheets are drawn anew. */
 const REST = 300;
 
@@ -32,6 +35,16 @@ export function offerSheets(result, analyses, stem) {
   const preview = make('div', 'preview');
   const words = make('p', 'said');
   words.setAttribute('role', 'status');
+  const panel = make('div', 'waiting');
+  panel.id = 'cutting';
+  const waiting = waitingPanel(panel, 'Cutting it into sheets', () => {
+    analyses.stop();
+    again.hidden = false;
+    again.focus();
+  });
+  const again = make('button', '', 'Cut it into sheets');
+  Object.assign(again, { type: 'button', hidden: true });
+  again.addEventListener('click', () => void draw());
   const about = make('div', '');
   /** @type {Promise<Drawing>} */
   let drawing = Promise.reject(new Error('nothing is drawn yet'));
@@ -42,14 +55,20 @@ export function offerSheets(result, analyses, stem) {
     if (!sound) return;
     Object.assign(chosen, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber });
     depth.disabled = !tabs.checked;
-    words.textContent = 'Cutting it into sheets…';
+    words.textContent = '';
+    again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
-    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
+    waiting.begin('sheets', result.surface.heights.length, EACH);
+    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined })
+      .catch((error) => {
+        throw again.hidden ? error : new Error('it was cancelled');
+      }));
     offer.renew();
     try {
       const image = await previewOf(analyses, await wanted);
       if (wanted !== drawing) return;
       const made = await wanted;
+      waiting.end('sheets', result.surface.heights.length);
       preview.replaceChildren(image);
       words.textContent = piecesInWords(made);
       about.replaceChildren(figures(piecesInFigures(made)));
@@ -59,7 +78,10 @@ export function offerSheets(result, analyses, stem) {
       about.replaceChildren();
       words.textContent = `It could not be cut into sheets: ${plainly(error instanceof Error ? error.message : String(error))}.`;
     } finally {
-      if (wanted === drawing) preview.setAttribute('aria-busy', 'false');
+      if (wanted === drawing) {
+        preview.setAttribute('aria-busy', 'false');
+        waiting.end();
+      }
     }
   };
   let rest = 0;
@@ -83,6 +105,8 @@ export function offerSheets(result, analyses, stem) {
       preview,
       make('div', 'sheets-options',
         words,
+        panel,
+        again,
         make('label', 'field', 'Longer side of the finished piece, in mm', side),
         make('label', 'field', 'Paper', paper),
         make('label', 'check', tabs, 'Tabs to glue'),

@@ -2,7 +2,8 @@
 import { designInput } from '../design.js';
 import { doubtOf } from '../doubts.js';
 import { choosesFiles, element, elements } from '../dom.js';
-import { InColour, inputOf, spanInWords, understood } from '../opened.js';
+import { InColour, inputOf } from '../opened.js';
+import { spanInWords, understood } from '../understood.js';
 import { pixelsOf } from '../pixels.js';
 import { isCamera, together } from '../together.js';
 import { cameraPanel } from './camera.js';
@@ -73,14 +74,14 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
     const photo = others.photo ?? waiting ?? undefined;
     /** @type {unknown} */
     let coloured = null;
-    const opened = await session.open(`“${chosen.name}” could not be read`, async () => {
+    const opened = await session.open(`“${chosen.name}” could not be read`, async (signal) => {
       try {
-        return await inputOf(session.api, chosen, wanted, { ...others, photo });
+        return await inputOf(session.api, chosen, signal, wanted, { ...others, photo });
       } catch (error) {
         if (error instanceof InColour && wanted === undefined) coloured = error;
         throw error;
       }
-    });
+    }, chosen);
     if (coloured) return takePhoto(chosen);
     if (!opened || !session.input) return false;
     waiting = null;

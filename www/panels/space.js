@@ -1,11 +1,13 @@
 /** Input and result as surfaces in space, one on each side of a divider. */
 import { eachFrame, element, elements } from '../dom.js';
-import { number, readingOf } from '../format.js';
+import { number, readingOf, strainInWords } from '../format.js';
+import { valueOnMesh } from '../surface/anchors.js';
 import { Camera } from '../surface/camera.js';
 import { takeInHand } from '../surface/hands.js';
 import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
 import { gridOf } from '../surface/lattice.js';
 import { normalsOf } from '../surface/normals.js';
+import { boxAround, boxOf, clamp, heightOn, lengthsOf, pointsOf, reliefOf } from '../surface/relief.js';
 import { Space } from '../surface/space.js';
 
 /** @import {Pin} from '../design.js' */
@@ -15,8 +17,6 @@ import { Space } from '../surface/space.js';
 /** @import {Layer, Line} from '../surface/layer.js' */
 /** @import {Light} from '../surface/light.js' */
 /** @import {Marks} from '../surface/marks.js' */
-/** @import {Box} from '../surface/camera.js' */
-/** @import {Relief, Sheet} from '../surface/space.js' */
 /** @import {Shown} from '../views/shown.js' */
 
 /** What is remembered of the arrangement. */
@@ -26,10 +26,6 @@ const REST = 250;
 /** Milliseconds from bent to flat, and before it begins. */
 const PLAY = 2200;
 const WAIT = 500;
-/** The share of the heights that lie within the box. */
-const WITHIN = 0.998;
-/** Pixels of the page of a mark on the surface. */
-const MARK = 5;
 /** @type {Colour} */
 const TRAIL = [214, 64, 43];
 /** Of the way across, for each press of an arrow key. */
@@ -212,9 +208,13 @@ export function spacePanel(session, light) {
   });
 
   canvas.addEventListener('pointermove', (event) => {
-    if (event.buttons !== 0 || !space || panel.hidden || shown.unfolding) return;
+    if (event.buttons !== 0 || !space || panel.hidden) return;
     const ratio = canvas.width / canvas.clientWidth;
     const [x, y] = [event.offsetX * ratio, event.offsetY * ratio];
+    if (shown.unfolding) {
+      reading.textContent = strainInWords(valueOnMesh(shown.unfolding, unfold.valueAsNumber, camera.sight(x, y), shown.unfolding.strains));
+      return;
+    }
     const side = sideAt(x);
     const relief = space.relief(side);
     const point = relief && camera.hit(x, y, (px, py) => heightOn(relief, px, py));
@@ -373,21 +373,6 @@ export function spacePanel(session, light) {
   };
 }
 
-/** @param {Input} input @param {Pin} pin @returns {[number, number, number]} */
-function lengthsOf(input, { x, y, z }) {
-  const { left, top, pixelSize, width, height } = gridOf(input);
-  return [
-    left + (0.5 + x * (width - 1)) * pixelSize,
-    top - (0.5 + (1 - y) * (height - 1)) * pixelSize,
-    z * width * pixelSize,
-  ];
-}
-
-/** @param {number} value */
-function clamp(value) {
-  return Math.min(1, Math.max(0, value));
-}
-
 /** Nothing where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
 function spaceOn(canvas) {
   try {
@@ -395,84 +380,4 @@ function spaceOn(canvas) {
   } catch {
     return null;
   }
-}
-
-/**
- * @param {Input} input
- * @param {import('../surface/normals.js').Normals} normals
- * @param {ArrayLike<number>} heights
- * @param {number} heightScale
- * @returns {Relief}
- */
-function reliefOf(input, normals, heights, heightScale) {
-  const { width, height, pixelSize, left, top } = gridOf(input);
-  return { normals, heights, heightScale, extent: { left, top, width: width * pixelSize, height: height * pixelSize } };
-}
-
-/** @param {Relief} relief @param {number} x @param {number} y */
-function heightOn({ normals: { width, height }, heights, heightScale, extent }, x, y) {
-  const col = Math.floor(((x - extent.left) / extent.width) * width);
-  const row = Math.floor(((extent.top - y) / extent.height) * height);
-  if (col < 0 || row < 0 || col >= width || row >= height) return NaN;
-  return heights[row * width + col] * heightScale;
-}
-
-/**
- * Around nearly all heights: what noise has thrown far off is no reason to look at the rest from afar.
- * @param {Input} input
- */
-function boxOf(input) {
-  const { width, height, pixelSize, left, top } = gridOf(input);
-  const step = Math.max(1, Math.floor(input.data.length / 20_000));
-  const found = [];
-  for (let i = 0; i < input.data.length; i += input.design ? 1 : step) {
-    const z = input.data[i] * input.heightScale;
-    if (!Number.isNaN(z)) found.push(z);
-  }
-  const sorted = Float64Array.from(found).sort();
-  const most = sorted.length - 1;
-  const [low, high] = [sorted[Math.ceil((1 - WITHIN) * most)] ?? 0, sorted[Math.floor(WITHIN * most)] ?? 0];
-  return { left, top, width: width * pixelSize, height: height * pixelSize, low, high };
-}
-
-/**
- * Around a mesh on its whole way, too.
- * @param {Sheet} sheet
- * @param {Box} box
- * @returns {Box}
- */
-function boxAround({ forms }, { left, top, width, height, low, high }) {
-  let [right, bottom] = [left + width, top - height];
-  const flat = forms[forms.length - 1];
-  for (let i = 0; i < flat.length; i += 3) {
-    left = Math.min(left, flat[i]);
-    right = Math.max(right, flat[i]);
-    bottom = Math.min(bottom, flat[i + 1]);
-    top = Math.max(top, flat[i + 1]);
-  }
-  return { left, top, width: right - left, height: top - bottom, low, high };
-}
-
-/**
- * Marked pixels as points on the surface.
- * @param {readonly Marks[]} marks
- * @param {Input} input
- * @returns {Line[]}
- */
-function pointsOf(marks, input) {
-  const { left, top, pixelSize } = gridOf(input);
-  /** @type {Line[]} */
-  const points = [];
-  for (const { width, height, has, colour } of marks) {
-    /** @param {number} at */
-    const byte = (at) => Number.parseInt(colour.slice(at, at + 2), 16);
-    const rgb = /** @type {const} */ ([byte(1), byte(3), byte(5)]);
-    for (let i = 0; i < width * height; i++) {
-      const z = input.data[i] * input.heightScale;
-      if (!has(i) || Number.isNaN(z)) continue;
-      const place = /** @type {const} */ ([left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize, z]);
-      points.push({ points: [place], colour: rgb, width: MARK });
-    }
-  }
-  return points;
 }

@@ -54,6 +54,9 @@ export function viewsPanel(session) {
     view.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
   }
 
+  flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event) || '\u00a0'));
+  flat.canvas.addEventListener('pointerleave', () => (reading.textContent = '\u00a0'));
+
   const mark = () => {
     const { input } = session;
     const marks = input ? marksOf(input, torn, getComputedStyle(views)) : [];
@@ -84,11 +87,11 @@ export function viewsPanel(session) {
     show(null);
     caption.textContent = '';
   });
-  session.on('preview', ({ input, settings, image: { width, height, pixelSize, data } }) => {
+  session.on('preview', ({ input, lambda, image: { width, height, pixelSize, data } }) => {
     after.show(normalsOf(data, width, height, 1 / pixelSize), true, input);
     // Its colours and lines are those of the result before.
     after.cover(null);
-    caption.textContent = input.design ? '' : `λ = ${shortest(Number(settings.lambda))}`;
+    caption.textContent = input.design ? '' : `λ = ${shortest(lambda)}`;
     figure.dataset.preview = '';
     stamp.textContent = 'preview';
     stamp.hidden = false;

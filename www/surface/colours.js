@@ -9,6 +9,11 @@ const DIVERGING = [
   [253, 219, 199], [244, 165, 130], [214, 96, 77], [178, 24, 43], [103, 0, 31],
 ];
 
+/** Lines on a surface: creases, or what is cut, and folds as drawings for paper have them. @type {Colour} */
+export const CREASE = [20, 24, 28];
+/** @type {{ mountain: Colour, valley: Colour }} */
+export const FOLDS = { mountain: [178, 24, 43], valley: [33, 102, 172] };
+
 const STEPS = 512;
 const table = new Uint32Array(Array.from({ length: STEPS + 1 }, (_, i) => bytes(diverging((2 * i) / STEPS - 1))));
 

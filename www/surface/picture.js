@@ -9,6 +9,8 @@ import { zoomable } from './zoom.js';
  * @property {string} title in the place of “Input” or “Result”
  * @property {string} words what is seen
  * @property {(context: CanvasRenderingContext2D, ratio: number) => void} paint `ratio`: pixels of the screen for one of the page
+ * @property {(canvas: { width: number, height: number }, ratio: number, x: number, y: number) => string} [read] the value at
+ *   a place of the canvas, with its name and unit
  */
 
 export class PictureView {
@@ -38,6 +40,22 @@ export class PictureView {
     this.#paintSoon();
   }
 
+  /** What is under the pointer. @param {MouseEvent} event */
+  read({ offsetX, offsetY }) {
+    const { canvas } = this;
+    const ratio = canvas.width / canvas.clientWidth;
+    const { left, top, width, height } = this.#placed();
+    const [x, y] = [((offsetX * ratio - left) / width) * canvas.width, ((offsetY * ratio - top) / height) * canvas.height];
+    return this.#picture?.read?.(canvas, ratio, x, y) ?? '';
+  }
+
+  /** Where the canvas' own frame is after zooming. */
+  #placed() {
+    const { canvas: { width, height } } = this;
+    const frame = { left: 0, top: 0, width, height };
+    return this.zoom?.placed(frame, frame) ?? frame;
+  }
+
   #paint() {
     const { canvas } = this;
     const context = canvas.getContext('2d');
@@ -45,7 +63,7 @@ export class PictureView {
     context.clearRect(0, 0, canvas.width, canvas.height);
     context.save();
     if (this.zoom) {
-      const { left, top, width, height } = this.zoom.placed(canvas, { left: 0, top: 0, width: canvas.width, height: canvas.height });
+      const { left, top, width, height } = this.#placed();
       context.setTransform(width / canvas.width, 0, 0, height / canvas.height, left, top);
     }
     this.#picture.paint(context, canvas.width / canvas.clientWidth);

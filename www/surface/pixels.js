@@ -8,6 +8,8 @@ import { strainOf } from './unfolding.js';
 
 /** Pixels along the longer side of a sheet. */
 const SHEET = 1600;
+/** Of these, along both sides, for each one whose strain can be read. */
+const READ = 4;
 /** Strain below which colours would only show rounding. */
 const FAINTEST = 1e-3;
 
@@ -55,7 +57,10 @@ export function sheetPixels(triangles, places, stretches) {
   const pixels = new Uint32Array(width * height);
   const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / most));
   fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => (pixels[pixel] = colours[triangle]));
-  return { extent, most, width, height, pixels };
+  const read = { width: Math.ceil(width / READ), height: Math.ceil(height / READ), strains: new Float32Array(0) };
+  read.strains = new Float32Array(read.width * read.height).fill(NaN);
+  fillTriangles(read, triangles, onImage.map((value) => value / READ), (pixel, triangle) => (read.strains[pixel] = strains[triangle]));
+  return { extent, most, width, height, pixels, read };
 }
 
 /** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */

@@ -139,7 +139,7 @@ void main() {
   vec4 at = end ? to : from;
   vec2 offset = (end ? along : -along) * 0.5 + aside * (gl_VertexID < 2 ? 0.5 : -0.5);
   tint = colour;
-  gl_Position = vec4(at.xy + offset * width * ratio * 2.0 / canvas, at.z, 1.0);
+  gl_Position = vec4(at.xy + offset * max(width * ratio, 1.5) * 2.0 / canvas, at.z, 1.0);
 }`;
 
 export const lineFragment = `#version 300 es

@@ -1,9 +1,13 @@
 /** Surfaces in space, drawn by WebGL 2: heights and normals are textures, so that no mesh is made of them. */
+import { linesAt } from './anchors.js';
+import { Lines, Mesh, programOf, textureOf } from './gl.js';
 import { HOLE, UNIT } from './normals.js';
 import { Quality } from './quality.js';
 import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceFragment, surfaceVertex } from './shaders.js';
 
+/** @import {Anchored} from './anchors.js' */
 /** @import {Camera} from './camera.js' */
+/** @import {Program} from './gl.js' */
 /** @import {Light} from './light.js' */
 /** @import {Line} from './layer.js' */
 /** @import {Normals} from './normals.js' */
@@ -21,6 +25,9 @@ import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceF
  * @property {Uint32Array} triangles
  * @property {readonly Float32Array[]} forms positions, one after the other
  * @property {Uint8Array} colours four bytes for each vertex; transparent is steel
+ * @property {Float32Array} strains of the vertices
+ * @property {Anchored} lines that are drawn on it
+ * @property {(line: number) => Pick<Line, 'colour' | 'width'>} look of each of these
  */
 
 /** @typedef {{ relief: Relief, textures: WebGLTexture[], colours: WebGLTexture | null, lines: Lines | null }} Side */
@@ -32,8 +39,8 @@ export class Space {
   #line;
   /** @type {{ before: Side | null, after: Side | null }} */
   #sides = { before: null, after: null };
-  /** @type {Mesh | null} */
-  #sheet = null;
+  /** @type {{ sheet: Sheet, mesh: Mesh } | null} */
+  #laid = null;
   #quality = new Quality();
 
   /**
@@ -107,8 +114,8 @@ export class Space {
 
   /** A mesh in the place of the result. @param {Sheet | null} sheet */
   lay(sheet) {
-    this.#sheet?.dispose();
-    this.#sheet = sheet && new Mesh(this.#gl, this.#mesh, sheet);
+    this.#laid?.mesh.dispose();
+    this.#laid = sheet && { sheet, mesh: new Mesh(this.#gl, this.#mesh, sheet) };
   }
 
   /** Nothing moves any more: there may be time for a finer picture. */
@@ -156,9 +163,14 @@ export class Space {
       if (to <= from) continue;
       gl.scissor(from, 0, to - from, height);
       const there = this.#sides[side];
-      if (side === 'after' && this.#sheet) {
+      if (side === 'after' && this.#laid) {
+        const { mesh, sheet: { forms, lines, look } } = this.#laid;
         this.#prepare(this.#mesh, camera, light);
-        this.#sheet.draw(laid);
+        mesh.draw(laid);
+        const folds = new Lines(gl, this.#line, linesAt(lines, forms, laid, look));
+        this.#prepare(this.#line, camera, light);
+        folds.draw();
+        folds.dispose();
         continue;
       }
       if (!there) continue;
@@ -214,190 +226,5 @@ export class Space {
     const [y, z] = [light.y, Math.sqrt(1 - light.x ** 2 - light.y ** 2)];
     const [c, s] = [Math.cos(2 * camera.tip), Math.sin(2 * camera.tip)];
     gl.uniform3f(at('light'), light.x, c * y + s * z, c * z - s * y);
-  }
-}
-
-/** @typedef {{ program: WebGLProgram, at: (uniform: string) => WebGLUniformLocation | null }} Program */
-
-/**
- * @param {WebGL2RenderingContext} gl
- * @param {string} vertex
- * @param {string} fragment
- * @returns {Program}
- */
-function programOf(gl, vertex, fragment) {
-  const program = gl.createProgram();
-  for (const [type, source] of /** @type {const} */ ([[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]])) {
-    const shader = gl.createShader(type);
-    if (!shader) throw new Error('WebGL gives no shader');
-    gl.shaderSource(shader, source);
-    gl.compileShader(shader);
-    gl.attachShader(program, shader);
-    // Only where linking fails is it worth asking.
-  }
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
-    const logs = (gl.getAttachedShaders(program) ?? []).map((shader) => gl.getShaderInfoLog(shader));
-    throw new Error(`a shader could not be built: ${[gl.getProgramInfoLog(program), ...logs].join(' ')}`);
-  }
-  /** @type {Map<string, WebGLUniformLocation | null>} */
-  const places = new Map();
-  return {
-    program,
-    at: (uniform) => {
-      if (!places.has(uniform)) places.set(uniform, gl.getUniformLocation(program, uniform));
-      return places.get(uniform) ?? null;
-    },
-  };
-}
-
-/**
- * @param {WebGL2RenderingContext} gl
- * @param {number} filter
- * @param {() => void} fill
- */
-function textureOf(gl, filter, fill) {
-  const texture = gl.createTexture();
-  if (!texture) throw new Error('WebGL gives no texture');
-  gl.activeTexture(gl.TEXTURE0);
-  gl.bindTexture(gl.TEXTURE_2D, texture);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, filter);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, filter);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-  fill();
-  return texture;
-}
-
-/** Buffers of a vertex array, which go together. */
-class Arrays {
-  /** @type {WebGLBuffer[]} */
-  #buffers = [];
-  #array;
-
-  /** @param {WebGL2RenderingContext} gl @param {Program} program */
-  constructor(gl, { program }) {
-    this.gl = gl;
-    this.program = program;
-    this.#array = gl.createVertexArray();
-  }
-
-  /** @param {number} target @param {AllowSharedBufferSource} data */
-  put(target, data) {
-    const { gl } = this;
-    const buffer = gl.createBuffer();
-    if (buffer) this.#buffers.push(buffer);
-    gl.bindBuffer(target, buffer);
-    gl.bufferData(target, data, gl.STATIC_DRAW);
-    return buffer;
-  }
-
-  /**
-   * @param {string} name
-   * @param {number} count
-   * @param {number} type
-   * @param {WebGLBuffer | null} buffer
-   * @param {{ stride?: number, offset?: number, each?: boolean }} [where] `each`: one for an instance
-   */
-  point(name, count, type, buffer, { stride = 0, offset = 0, each = false } = {}) {
-    const { gl } = this;
-    const place = gl.getAttribLocation(this.program, name);
-    if (place < 0) return;
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, count, type, type === gl.UNSIGNED_BYTE, stride, offset);
-    gl.vertexAttribDivisor(place, each ? 1 : 0);
-  }
-
-  bind() {
-    this.gl.bindVertexArray(this.#array);
-  }
-
-  dispose() {
-    for (const buffer of this.#buffers) this.gl.deleteBuffer(buffer);
-    this.gl.deleteVertexArray(this.#array);
-  }
-}
-
-class Lines {
-  #arrays;
-  #count;
-
-  /**
-   * @param {WebGL2RenderingContext} gl
-   * @param {Program} program
-   * @param {readonly Line[]} lines
-   */
-  constructor(gl, program, lines) {
-    this.#count = lines.reduce((sum, { points }) => sum + Math.max(1, points.length - 1), 0);
-    const numbers = new Float32Array(7 * this.#count);
-    const colours = new Uint8Array(4 * this.#count);
-    let segment = 0;
-    for (const { points, width, colour } of lines) {
-      for (let i = 0; i < Math.max(1, points.length - 1); i++, segment++) {
-        numbers.set([...points[i], ...(points[i + 1] ?? points[i]), width], 7 * segment);
-        colours.set([...colour, 255], 4 * segment);
-      }
-    }
-    const arrays = (this.#arrays = new Arrays(gl, program));
-    arrays.bind();
-    const places = arrays.put(gl.ARRAY_BUFFER, numbers);
-    const each = /** @type {const} */ ({ stride: 28, each: true });
-    arrays.point('a', 3, gl.FLOAT, places, each);
-    arrays.point('b', 3, gl.FLOAT, places, { ...each, offset: 12 });
-    arrays.point('width', 1, gl.FLOAT, places, { ...each, offset: 24 });
-    arrays.point('colour', 4, gl.UNSIGNED_BYTE, arrays.put(gl.ARRAY_BUFFER, colours), { each: true });
-    gl.bindVertexArray(null);
-  }
-
-  draw() {
-    const { gl } = this.#arrays;
-    this.#arrays.bind();
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.#count);
-    gl.bindVertexArray(null);
-  }
-
-  dispose() {
-    this.#arrays.dispose();
-  }
-}
-
-class Mesh {
-  #arrays;
-  #program;
-  #forms;
-  #count;
-
-  /**
-   * @param {WebGL2RenderingContext} gl
-   * @param {Program} program
-   * @param {Sheet} sheet
-   */
-  constructor(gl, program, { triangles, forms, colours }) {
-    this.#program = program;
-    this.#count = triangles.length;
-    const arrays = (this.#arrays = new Arrays(gl, program));
-    arrays.bind();
-    arrays.put(gl.ELEMENT_ARRAY_BUFFER, triangles);
-    arrays.point('colour', 4, gl.UNSIGNED_BYTE, arrays.put(gl.ARRAY_BUFFER, colours));
-    this.#forms = forms.map((form) => arrays.put(gl.ARRAY_BUFFER, form));
-    gl.bindVertexArray(null);
-  }
-
-  /** @param {number} share of the way through all forms */
-  draw(share) {
-    const { gl } = this.#arrays;
-    const place = share * (this.#forms.length - 1);
-    const first = Math.min(this.#forms.length - 2, Math.floor(place));
-    this.#arrays.bind();
-    this.#arrays.point('from', 3, gl.FLOAT, this.#forms[first]);
-    this.#arrays.point('to', 3, gl.FLOAT, this.#forms[first + 1]);
-    gl.uniform1f(this.#program.at('share'), place - first);
-    gl.drawElements(gl.TRIANGLES, this.#count, gl.UNSIGNED_INT, 0);
-    gl.bindVertexArray(null);
-  }
-
-  dispose() {
-    this.#arrays.dispose();
   }
 }

@@ -4,6 +4,7 @@
  * Each triangle's map from the sheet to space is a rotation times a stretch, and is interpolated as such; the
  * vertices follow by least squares over the edges (as-rigid-as-possible interpolation, Alexa et al. 2000).
  */
+import { anchored } from './anchors.js';
 import { divergingPixel } from './colours.js';
 
 /** Steps from bent to flat. */
@@ -19,8 +20,9 @@ const TOLERANCE = 2e-4;
  * @param {Float64Array} unrolling.stretches
  * @param {number} most strain at the end of the colours
  * @param {readonly [number, number]} offset of the plane that the surface is over
+ * @param {Parameters<typeof anchored>[0]} [lines] on the surface
  */
-export function unfolding({ positions, places, triangles, stretches }, most, [left, bottom]) {
+export function unfolding({ positions, places, triangles, stretches }, most, [left, bottom], lines = []) {
   const n = places.length / 2;
   const bent = positions.map((value, i) => value + [left, bottom, 0][i % 3]);
   const flat = new Float64Array(3 * n);
@@ -37,7 +39,9 @@ export function unfolding({ positions, places, triangles, stretches }, most, [le
     solve(graph, rightSide(maps, flat, triangles, share), form);
     return Float32Array.from(form);
   });
-  return { triangles, forms, colours: coloursOf(triangles, stretches, n, most) };
+  const strains = strainsOf(triangles, stretches, n);
+  const colours = new Uint8Array(Uint32Array.from(strains, (strain) => divergingPixel(strain / most)).buffer);
+  return { triangles, forms, strains, colours, lines: anchored(lines, bent, triangles) };
 }
 
 /** @param {Float64Array} values @param {number} size of each */
@@ -184,18 +188,18 @@ function solve({ from, to, weight, degree }, right, x) {
 }
 
 /**
+ * Of each vertex the mean of its triangles'.
  * @param {Uint32Array} triangles
  * @param {Float64Array} stretches
  * @param {number} n
- * @param {number} most
  */
-function coloursOf(triangles, stretches, n, most) {
+function strainsOf(triangles, stretches, n) {
   const [sums, counts] = [new Float64Array(n), new Float64Array(n)];
   triangles.forEach((vertex, i) => {
     sums[vertex] += strainOf(stretches, Math.floor(i / 3));
     counts[vertex]++;
   });
-  return new Uint8Array(Uint32Array.from(sums, (sum, i) => divergingPixel(sum / (counts[i] || 1) / most)).buffer);
+  return Float32Array.from(sums, (sum, i) => sum / (counts[i] || 1));
 }
 
 /**

@@ -1,7 +1,7 @@
 /** The smooth patches in a colour each, and the creases between them. */
 import { make } from '../dom.js';
 import { count, degrees, number, percent } from '../format.js';
-import { bytes, css, patchColour } from '../surface/colours.js';
+import { bytes, CREASE, css, patchColour } from '../surface/colours.js';
 import { gridOf } from '../surface/lattice.js';
 import { canvasOf, valueAt } from '../surface/layer.js';
 import { work } from '../surface/work.js';
@@ -9,11 +9,8 @@ import { figures, key, table } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
-/** @import {Colour} from '../surface/colours.js' */
 /** @import {Shown} from './shown.js' */
 
-/** @type {Colour} */
-const CREASE = [20, 24, 28];
 /** Rows of each table. */
 const MOST = 6;
 

@@ -1,7 +1,9 @@
 /** What cannot be laid flat whole, as the sheets that it can be cut into. */
+import { make } from '../dom.js';
+import { CREASE, css, FOLDS } from '../surface/colours.js';
 import { imagePicture } from '../surface/picture.js';
 import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf } from '../pieces.js';
-import { figures, say } from './legend.js';
+import { figures, key, say } from './legend.js';
 import { sheet } from './sheet.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -33,11 +35,21 @@ export async function flat(analyses, result) {
   context.fillStyle = '#fff';
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  // Creases are numbered alike only where they were found on the same lattice, and patches left whole.
+  const known = analyses.cutsAsItIs(result) && drawing.summary.slits === 0;
+  const folds = new Map(known ? drawing.sheets.flatMap(({ folds }) => folds.map(({ crease, direction }) => /** @type {const} */ ([crease, direction]))) : []);
+  /** @param {number} crease */
+  const look = (crease) => {
+    const direction = folds.get(crease);
+    return direction ? { colour: FOLDS[direction], width: 3 } : { colour: CREASE, width: 1.5 };
+  };
   return {
     ...whole,
+    unfolding: whole.unfolding && { ...whole.unfolding, look },
     after: imagePicture(canvas, 'Laid flat, in pieces', piecesInWords(drawing)),
     about: [
       say(`In one piece it would stretch; cut along its creases it lies flat. ${piecesInWords(drawing)}`),
+      ...(folds.size > 0 ? [make('p', 'keys', key(css(CREASE), 'cut'), key(css(FOLDS.mountain), 'folded to a ridge'), key(css(FOLDS.valley), 'folded to a valley'))] : []),
       figures(piecesInFigures(drawing)),
     ],
   };

@@ -1,6 +1,6 @@
 /** The surface laid flat, to scale, each triangle in the colour of its strain. */
-import { count, number, percent } from '../format.js';
-import { linear } from '../surface/colours.js';
+import { count, number, percent, signed, strainInWords } from '../format.js';
+import { CREASE, linear } from '../surface/colours.js';
 import { canvasOf } from '../surface/layer.js';
 import { VERDICTS } from '../words.js';
 import { colourBar, figures, say } from './legend.js';
@@ -23,11 +23,11 @@ export async function sheet(analyses, result) {
   const { picture, report: { distortion, crossings, parts, plan }, verdict } = await analyses.unroll(result);
   const { extent, most } = picture;
   const unit = result.input.unit ?? 'units';
-  const scale = linear(most, (value) => `${value > 0 ? '+' : ''}${percent(value)}`);
+  const scale = linear(most, signed);
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
   return {
     after: pictureOf(picture, unit, `The surface laid flat, ${size}`),
-    unfolding: await analyses.unfold(result, most),
+    unfolding: { ...await analyses.unfold(result, most), look: () => ({ colour: CREASE, width: 1.5 }) },
     about: [
       say(VERDICTS[verdict]),
       colourBar('Strain: blue is compressed, red is stretched', scale),
@@ -51,20 +51,30 @@ export async function sheet(analyses, result) {
  * @param {string} words
  * @returns {Picture}
  */
-function pictureOf({ extent, width: cols, height: rows, pixels }, unit, words) {
+function pictureOf({ extent, width: cols, height: rows, pixels, read }, unit, words) {
   const image = canvasOf({ width: cols, height: rows }, pixels);
+  /** Where it is drawn. @param {{ width: number, height: number }} canvas @param {number} ratio */
+  const placed = ({ width, height }, ratio) => {
+    const room = { width: width - 2 * MARGIN.side * ratio, height: height - (MARGIN.side + MARGIN.below) * ratio };
+    const dots = Math.min(room.width / extent.width, room.height / extent.height);
+    const [wide, high] = [extent.width * dots, extent.height * dots];
+    return { dots, left: (width - wide) / 2, top: MARGIN.side * ratio + (room.height - high) / 2, wide, high };
+  };
   return {
     title: 'Laid flat',
     words,
     paint: (context, ratio) => {
-      const { width, height } = context.canvas;
-      const room = { width: width - 2 * MARGIN.side * ratio, height: height - (MARGIN.side + MARGIN.below) * ratio };
-      const dots = Math.min(room.width / extent.width, room.height / extent.height);
+      const { dots, left, top, wide, high } = placed(context.canvas, ratio);
       if (!(dots > 0)) return;
-      const [wide, high] = [extent.width * dots, extent.height * dots];
       context.imageSmoothingQuality = 'high';
-      context.drawImage(image, (width - wide) / 2, MARGIN.side * ratio + (room.height - high) / 2, wide, high);
+      context.drawImage(image, left, top, wide, high);
       drawRuler(context, dots, unit, ratio);
+    },
+    read: (canvas, ratio, x, y) => {
+      const { left, top, wide, high } = placed(canvas, ratio);
+      const [col, row] = [Math.floor(((x - left) / wide) * read.width), Math.floor(((y - top) / high) * read.height)];
+      const inside = col >= 0 && row >= 0 && col < read.width && row < read.height;
+      return strainInWords(inside ? read.strains[row * read.width + col] : NaN);
     },
   };
 }

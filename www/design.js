@@ -25,28 +25,23 @@ const DENSE = 2;
 const pin = (x, y, z) => ({ x, y, z });
 /** @param {(x: number) => number} height @param {(x: number, z: number) => Pin} place */
 const along = (height, place) => [0, 0.25, 0.5, 0.75, 1].map((x) => place(x, height(x)));
+/** The same over all four edges. @param {(x: number) => number} height */
+const around = (height) => [
+  ...[0, 1].map((y) => along(height, (x, z) => pin(x, y, z))),
+  ...[0, 1].map((x) => along(height, (y, z) => pin(x, y, z))),
+];
 
 /** To start from. @type {Record<string, Design>} */
 export const STARTS = {
   flat: { pins: [pin(0.5, 0.5, 0)], curves: [], clamped: true },
   tent: {
     pins: [pin(0.5, 0.5, 0.45)],
-    curves: [
-      along((x) => 0.08 * Math.sin(Math.PI * x), (x, z) => pin(x, 0, z)),
-      along((x) => 0.08 * Math.sin(Math.PI * x), (x, z) => pin(x, 1, z)),
-      along((y) => 0.08 * Math.sin(Math.PI * y), (y, z) => pin(0, y, z)),
-      along((y) => 0.08 * Math.sin(Math.PI * y), (y, z) => pin(1, y, z)),
-    ],
+    curves: around((t) => 0.08 * Math.sin(Math.PI * t)),
     clamped: false,
   },
   roof: {
     pins: [],
-    curves: [
-      along((x) => 0.3 * Math.sin(Math.PI * x), (x, z) => pin(x, 0, z)),
-      along((x) => 0.3 * Math.sin(Math.PI * x), (x, z) => pin(x, 1, z)),
-      along((y) => 0.3 * Math.sin(Math.PI * y), (y, z) => pin(0, y, z)),
-      along((y) => 0.3 * Math.sin(Math.PI * y), (y, z) => pin(1, y, z)),
-    ],
+    curves: around((t) => 0.3 * Math.sin(Math.PI * t)),
     clamped: false,
   },
   canopy: {

@@ -16,8 +16,8 @@ import { coarse } from './surface/coarse.js';
 
 /** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
 const SIDES = [96, 192, 384];
-/** A design has nothing to begin with but its pins, and takes longer. */
-const DESIGN = [48];
+/** A design has nothing to begin with but its pins, and takes longer: a small one, then itself. */
+const DESIGN = [48, 100];
 /** Milliseconds without a wish after which the worker's memory is given back. */
 const REST = 10_000;
 /** What a picture needs no better than. */

@@ -1,5 +1,6 @@
 /** Input and result in space. */
 import assert from 'node:assert/strict';
+import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
 import { pageTest, painted, runBy } from './support/page.mjs';
 
@@ -142,6 +143,18 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   await page.getByRole('slider', { name: 'From bent to flat' }).press('Home');
   const bent = await brightness(page, '#space-canvas');
   assert.ok(correlation(flat, bent) < 0.98, `${correlation(flat, bent)}`);
+  // What is read of it, in space and on the flat sheet: of a cylinder, hardly any.
+  const [strain, most] = [/^strain [+−]?([\d.]+|[\d.]+\S*10\S+)\s%$/, 1];
+  await page.locator('#space-canvas').hover();
+  const bentStrain = await page.locator('#reading').innerText();
+  assert.match(bentStrain, strain);
+  await page.getByRole('radio', { name: 'Side by side' }).check({ force: true });
+  await page.locator('#result-picture').hover();
+  const flatStrain = await page.locator('#flat-reading').innerText();
+  assert.match(flatStrain, strain);
+  for (const words of [bentStrain, flatStrain]) assert.ok(Math.abs(parsed(words.replace('strain', ''))) < most, words);
+  await page.mouse.move(2, 2);
+  assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
   await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
 }, { arrangement: 'space' });

@@ -1,6 +1,7 @@
 /** The way from a bent surface to its sheet, against a cylinder whose way is known. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { anchored, linesAt, valueOnMesh } from '../../www/surface/anchors.js';
 import { unfolding } from '../../www/surface/unfolding.js';
 
 test('a cylinder unfolds as cylinders of ever larger radius, without stretch', () => {
@@ -46,4 +47,32 @@ test('a cylinder unfolds as cylinders of ever larger radius, without stretch', (
   });
   assert.ok(Math.abs(forms[0][0] - (positions[0] + 10)) < 1e-5 && Math.abs(forms[0][1] - 20) < 1e-5, 'it begins where the surface is');
   assert.ok(forms[forms.length - 1].every((value, i) => i % 3 < 2 || Math.abs(value - forms[forms.length - 1][2]) < 1e-5), 'and ends flat');
+});
+
+test('lines go along with a mesh that moves, and values are read from it where it is seen first', () => {
+  // Two squares side by side; the right one stands up in the end.
+  const positions = Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0]);
+  const triangles = Uint32Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
+  const up = Float32Array.from([0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1]);
+  const forms = [Float32Array.from(positions), up];
+  const look = () => /** @type {const} */ ({ colour: [0, 0, 0], width: 1 });
+  const lines = anchored([[[0.25, 0.5, 0], [1.75, 0.5, 0]], [[0.5, 0.5, 0], [1.5, 0.25, 0], [3, 0.25, 0]], [[5, 5, 0]]], positions, triangles);
+  assert.deepEqual([...lines.lengths], [2, 2], 'a line ends with the mesh');
+  assert.deepEqual([...lines.of], [0, 1]);
+  const [first, second] = linesAt(lines, forms, 1, look).map(({ points }) => points);
+  for (const [found, expected] of [[first[0], [0.25, 0.5, 0]], [first[1], [1, 0.5, 0.75]], [second[1], [1, 0.25, 0.5]]]) {
+    found.forEach((value, k) => assert.ok(Math.abs(value - expected[k]) < 1e-6, `${found} for ${expected}`));
+  }
+  assert.ok(Math.abs(linesAt(lines, forms, 0.5, look)[0].points[1][2] - 0.375) < 1e-6, 'half way');
+
+  const mesh = { triangles, forms };
+  const values = [0, 1, 2, 0, 1, 2];
+  const above = /** @type {const} */ ({ point: [1.5, 0.5, 9], towards: [0, 0, 1] });
+  assert.ok(Math.abs(valueOnMesh(mesh, 0, above, values) - 1.5) < 1e-6);
+  assert.ok(Number.isNaN(valueOnMesh(mesh, 1, above, values)), 'there is nothing any more');
+  const aside = /** @type {const} */ ({ point: [-3, 0.5, 0.5], towards: [1, 0, 0] });
+  assert.ok(Math.abs(valueOnMesh(mesh, 1, aside, values) - 1.5) < 1e-6, 'the wall');
+  // Seen from the right and above, the wall hides what is behind its foot.
+  const slant = /** @type {const} */ ({ point: [0.8, 0.5, 0], towards: [1, 0, 1] });
+  assert.ok(Math.abs(valueOnMesh(mesh, 1, slant, values) - 1.2) < 1e-6, `${valueOnMesh(mesh, 1, slant, values)}`);
 });

@@ -63,7 +63,7 @@ export const CARDS = [
   {
     id: 'fig-9', figure: 'Fig. 9', title: 'Torn where something is in front',
     words: 'A column and a leaf in front of a wall, as a depth camera sees them. Where the heights jump the surface is torn, so that the jump bends nothing.',
-    look: 'Clean edges: untick “Tear where it jumps” to see them smeared.',
+    look: 'Clean edges from above: untick “Tear where it jumps” to see them smeared.',
     input: (size) => sampled('scene', hidden, size, { noise: 0.005, known: false }), size: 200, settings: { ...PAPER, occlusionThreshold: 2e3 }, view: 'shaded',
   },
   {
@@ -75,7 +75,7 @@ export const CARDS = [
   {
     id: 'fig-11', figure: 'Fig. 11', title: 'A crumpled note',
     words: 'Facets between folds in all directions, as a phone scans a note that was in somebody’s pocket. The facets come back flat, and the folds sharp.',
-    look: 'Each facet in one colour under “Patches”.',
+    look: 'One colour for each facet between the sharper folds.',
     input: (size) => sampled('note', note, size, { noise: 0.02 }), size: 200, settings: PAPER, view: 'patches',
   },
   {
@@ -87,7 +87,7 @@ export const CARDS = [
   {
     id: 'fig-18', figure: 'Fig. 18', title: 'Through points and curves',
     words: 'Two edges and three points are held; there is no other input. The surface through them finds its folds by itself.',
-    look: 'Rulings that lead from edge to edge.',
+    look: 'Rulings that lead from the edges to the pins, and across.',
     input: () => designInput(), sketch: (size) => sampled('design', tent, size), size: 120, settings: PAPER, view: 'rulings',
   },
   {
@@ -124,8 +124,8 @@ export const CARDS = [
   },
   {
     id: 'fig-25', figure: 'Fig. 25', title: 'Gaussian curvature, before and after',
-    words: 'The bust again. What bends both ways at once is gathered into lines, and everything between them can be laid flat.',
-    look: 'Colours all over before, along creases only after.',
+    words: 'The bust again. What bends both ways at once is gathered into bands, and what is between them can be laid flat.',
+    look: 'Colours all over before, in few bands after.',
     input: (size) => sampled('bust', bust, size), size: 200, settings: { ...PAPER, lambda: 3e4 }, view: 'gaussian',
   },
   {

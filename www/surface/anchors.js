@@ -1,4 +1,5 @@
 /** Places of a mesh that moves: lines that are drawn on it go along, and values are read from it. */
+import { extentOf } from './triangles.js';
 
 /** @import {Line} from './layer.js' */
 /** @import {Vector} from './camera.js' */
@@ -57,28 +58,24 @@ export function anchored(lines, positions, triangles) {
  * @param {Uint32Array} triangles
  */
 function finderOf(positions, triangles) {
-  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < positions.length; i += 3) {
-    left = Math.min(left, positions[i]);
-    right = Math.max(right, positions[i]);
-    bottom = Math.min(bottom, positions[i + 1]);
-    top = Math.max(top, positions[i + 1]);
-  }
+  const { left, top, width, height } = extentOf(positions, 3);
   const side = Math.max(1, Math.ceil(Math.sqrt(triangles.length / 6)));
-  /** @param {number} value @param {number} from @param {number} to */
-  const cell = (value, from, to) => Math.min(side - 1, Math.max(0, Math.floor(((value - from) / (to - from || 1)) * side)));
+  /** @param {number} share of the way across or down */
+  const cell = (share) => Math.min(side - 1, Math.max(0, Math.floor(share * side)));
+  const colOf = (/** @type {number} */ x) => cell((x - left) / (width || 1));
+  const rowOf = (/** @type {number} */ y) => cell((top - y) / (height || 1));
   /** @type {number[][]} */
   const cells = Array.from({ length: side * side }, () => []);
   for (let t = 0; t < triangles.length; t += 3) {
     const xs = [0, 1, 2].map((k) => positions[3 * triangles[t + k]]);
     const ys = [0, 1, 2].map((k) => positions[3 * triangles[t + k] + 1]);
-    for (let row = cell(Math.min(...ys), bottom, top); row <= cell(Math.max(...ys), bottom, top); row++) {
-      for (let col = cell(Math.min(...xs), left, right); col <= cell(Math.max(...xs), left, right); col++) cells[row * side + col].push(t);
+    for (let row = rowOf(Math.max(...ys)); row <= rowOf(Math.min(...ys)); row++) {
+      for (let col = colOf(Math.min(...xs)); col <= colOf(Math.max(...xs)); col++) cells[row * side + col].push(t);
     }
   }
   /** @param {number} x @param {number} y */
   return (x, y) => {
-    for (const t of cells[cell(y, bottom, top) * side + cell(x, left, right)]) {
+    for (const t of cells[rowOf(y) * side + colOf(x)]) {
       const corners = [triangles[t], triangles[t + 1], triangles[t + 2]];
       const [ax, bx, cx] = corners.map((vertex) => positions[3 * vertex]);
       const [ay, by, cy] = corners.map((vertex) => positions[3 * vertex + 1]);

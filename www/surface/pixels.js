@@ -1,7 +1,7 @@
 /** What views show as colours: pixels as the canvas' bytes, 0 where there is nothing. */
 import { divergingPixel, logarithmic, magnitude } from './colours.js';
 import { interpolated, nearest } from './lattice.js';
-import { fillTriangles } from './triangles.js';
+import { extentOf, fillTriangles } from './triangles.js';
 import { strainOf } from './unfolding.js';
 
 /** @import {Grid, Lattice} from './lattice.js' */
@@ -61,18 +61,4 @@ export function sheetPixels(triangles, places, stretches) {
   read.strains = new Float32Array(read.width * read.height).fill(NaN);
   fillTriangles(read, triangles, onImage.map((value) => value / READ), (pixel, triangle) => (read.strains[pixel] = strains[triangle]));
   return { extent, most, width, height, pixels, read };
-}
-
-/** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */
-
-/** @param {Float64Array} places x, y @returns {Extent} */
-export function extentOf(places) {
-  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < places.length; i += 2) {
-    left = Math.min(left, places[i]);
-    right = Math.max(right, places[i]);
-    bottom = Math.min(bottom, places[i + 1]);
-    top = Math.max(top, places[i + 1]);
-  }
-  return { left, top, width: right - left, height: top - bottom };
 }

@@ -1,5 +1,6 @@
 /** Heights as they lie in space: their frame, the box around them, what is at a place, and marked pixels as points. */
 import { gridOf } from './lattice.js';
+import { extentOf } from './triangles.js';
 
 /** @import {Pin} from '../design.js' */
 /** @import {Input} from '../session.js' */
@@ -74,14 +75,11 @@ export function boxOf(input) {
  * @returns {Box}
  */
 export function boxAround({ forms }, { left, top, width, height, low, high }) {
-  let [right, bottom] = [left + width, top - height];
-  const flat = forms[forms.length - 1];
-  for (let i = 0; i < flat.length; i += 3) {
-    left = Math.min(left, flat[i]);
-    right = Math.max(right, flat[i]);
-    bottom = Math.min(bottom, flat[i + 1]);
-    top = Math.max(top, flat[i + 1]);
-  }
+  const flat = extentOf(forms[forms.length - 1], 3);
+  const right = Math.max(left + width, flat.left + flat.width);
+  const bottom = Math.min(top - height, flat.top - flat.height);
+  left = Math.min(left, flat.left);
+  top = Math.max(top, flat.top);
   return { left, top, width: right - left, height: top - bottom, low, high };
 }
 

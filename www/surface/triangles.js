@@ -29,3 +29,17 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
     }
   }
 }
+
+/** @typedef {{ left: number, top: number, width: number, height: number }} Extent y up */
+
+/** Around places on the plane. @param {ArrayLike<number>} places x, y and what else there is @param {number} [stride] numbers for each */
+export function extentOf(places, stride = 2) {
+  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let i = 0; i < places.length; i += stride) {
+    left = Math.min(left, places[i]);
+    right = Math.max(right, places[i]);
+    bottom = Math.min(bottom, places[i + 1]);
+    top = Math.max(top, places[i + 1]);
+  }
+  return { left, top, width: right - left, height: top - bottom };
+}

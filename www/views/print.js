@@ -1,8 +1,7 @@
 /** A printed page on an example's true surface, photographed from above: something to make flat. */
 import { printed } from '../printed.js';
 import { normalsOf, UNIT } from '../surface/normals.js';
-import { fillTriangles } from '../surface/triangles.js';
-import { extentOf } from '../surface/pixels.js';
+import { extentOf, fillTriangles } from '../surface/triangles.js';
 
 /** @import {Input} from '../session.js' */
 /** @typedef {Pick<Input, 'width' | 'height' | 'pixelSize' | 'heightScale'> & { truth: Float64Array }} Known */

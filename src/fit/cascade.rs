@@ -143,11 +143,12 @@ impl Cascade {
                     self.level.reweight()?
                 }
                 Some(radius) => {
+                    let creases = self.level.reweight_creases(radius)?;
                     let loaded = self.load_border()?;
-                    let (creases, next) = self.level.reweight_creases(radius, loaded)?;
-                    let Some(next) = next else {
+                    if !creases.is_worth() && !loaded {
                         break;
-                    };
+                    }
+                    let next = self.level.begin_pass_at_creases(loaded)?;
                     // A pass for the border alone is none at creases.
                     if creases.is_worth() {
                         self.creases = creases;

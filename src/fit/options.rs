@@ -167,11 +167,10 @@ impl FromStr for Energy {
 pub enum Border {
     /// Nothing. A free border bears no bending moment, so that least energy straightens a bent sheet
     /// along it.
-    #[default]
     Free,
-    /// What it has inside: in the passes after the first the border bears the moments there. Closer to
-    /// the truth where the surface bends smoothly up to its border; further from it where it rises
-    /// steeply there, as an oloid does.
+    /// What it has inside: in the passes after the first the border bears the moments there, as far as
+    /// they would not fold the sheet.
+    #[default]
     Loaded,
 }
 
@@ -367,7 +366,7 @@ impl Options {
         self
     }
 
-    /// What is beyond the border under [`Energy::Huber`]; default [`Border::Free`]. [`Border::Loaded`] takes one of
+    /// What is beyond the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one of
     /// the [`Options::crease_passes`].
     pub fn border(mut self, border: Border) -> Self {
         self.border = border;

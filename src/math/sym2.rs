@@ -121,6 +121,14 @@ impl std::ops::Sub for Sym2 {
     }
 }
 
+impl std::ops::Mul<f64> for Sym2 {
+    type Output = Sym2;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Sym2 {
+        self.scale(factor)
+    }
+}
+
 /// [`Sym2::clamp`], by coordinates, in any precision.
 #[inline(always)]
 pub(crate) fn clamp<T: Real>([mean, diff, off]: [T; 3], limit: T) -> [T; 3] {

@@ -65,7 +65,7 @@ pub(crate) struct Best {
 }
 
 /// Iterations that a surface follows a load for.
-const FOLLOWING: usize = 20;
+const FOLLOWING: usize = 10;
 
 /// An objective that grows by more than this from one check to the next, and is as much above the
 /// input's, is out of hand.
@@ -461,23 +461,24 @@ impl<O: Operator> Level<O> {
         self.begin_pass()
     }
 
-    /// Another pass, in which creases cost less, if there is anything to be done about them, or for
-    /// a border that has been `loaded`; `None` in the place of the reason if neither.
-    pub(crate) fn reweight_creases(
-        &mut self,
-        radius: f64,
-        loaded: bool,
-    ) -> Result<(Creases, Option<Option<StopReason>>)> {
-        let creases = self.problem.reweight_creases(&self.best.z, radius)?;
-        if !creases.is_worth() && !loaded {
-            return Ok((creases, None));
-        }
+    /// Makes creases cost less, if enough of them change by that.
+    pub(crate) fn reweight_creases(&mut self, radius: f64) -> Result<Creases> {
+        self.problem.reweight_creases(&self.best.z, radius)
+    }
+
+    /// Another pass, with other weights or a border that has been `loaded`.
+    pub(crate) fn begin_pass_at_creases(&mut self, loaded: bool) -> Result<Option<StopReason>> {
         let stop = self.begin_pass()?;
         if loaded {
-            self.follow_load(FOLLOWING);
-            return Ok((creases, Some(None)));
+            self.follow_load(
+                std::env::var("FOL")
+                    .ok()
+                    .and_then(|v| v.parse().ok())
+                    .unwrap_or(FOLLOWING),
+            );
+            return Ok(None);
         }
-        Ok((creases, Some(stop)))
+        Ok(stop)
     }
 
     /// Makes the surface follow a load for so many iterations.

@@ -6,6 +6,8 @@
 //! the load, and a sheet that was measured without noise stays where it is. A load is linear in the heights
 //! and so moves the target and nothing else: each problem stays convex, with a certificate of its own.
 
+use std::ops::{Add, Mul, Range};
+
 use super::problem::Problem;
 use crate::error::{Result, try_filled};
 use crate::fit::operator::{Matrices, Operator, Sums};
@@ -14,15 +16,119 @@ use crate::math::sym2::Sym2;
 /// Of the length over which a border straightens: there the moments are those inside.
 const REACH: f64 = 2.3;
 
+/// Of the largest moment that a stencil bears, `ω`: a load as large as that would fold the sheet along its
+/// border without end.
+const BEARABLE: f64 = 0.6;
+
+/// The vertices next to the border, in rings: those without a stencil, their neighbours, and so on.
+pub(crate) struct Rings {
+    /// As many as reach to where moments are those inside, and as many again.
+    rings: Vec<Vec<u32>>,
+    /// Which ring a vertex is in; the largest number where it is in none.
+    depth: Vec<u32>,
+    reach: u32,
+}
+
+impl Rings {
+    /// From the vertices of `outermost`, among `vertices`, to where moments are those inside.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn new<I: Iterator<Item = usize>>(
+        outermost: Vec<u32>,
+        vertices: usize,
+        around: impl Fn(usize) -> I,
+        reach: u32,
+    ) -> Result<Self> {
+        let mut depth = try_filled("border", vertices, u32::MAX)?;
+        outermost.iter().for_each(|v| depth[*v as usize] = 0);
+        let mut rings = Vec::new();
+        let mut front = outermost;
+        while !front.is_empty() && (rings.len() as u32) < 2 * reach {
+            let mut next = Vec::new();
+            for other in front.iter().flat_map(|vertex| around(*vertex as usize)) {
+                if depth[other] == u32::MAX {
+                    depth[other] = rings.len() as u32 + 1;
+                    next.push(other as u32);
+                }
+            }
+            rings.push(std::mem::replace(&mut front, next));
+        }
+        Ok(Rings {
+            rings,
+            depth,
+            reach,
+        })
+    }
+
+    /// Whether a stencil is missing at a vertex, or beside it.
+    pub(crate) fn are_next_to(&self, vertex: usize) -> bool {
+        // An operator may have room for more vertices than there are.
+        self.depth.get(vertex).is_some_and(|depth| *depth <= 1)
+    }
+
+    /// Continues what is inside to the border along the shortest ways; says whether anything is inside.
+    /// Beforehand each value becomes a mean of those around, so often that noise leaves nothing of it.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn continue_outwards<M, I>(
+        &self,
+        values: &mut [M],
+        around: impl Fn(usize) -> I,
+    ) -> Result<bool>
+    where
+        M: Copy + Default + Add<Output = M> + Mul<f64, Output = M>,
+        I: Iterator<Item = usize>,
+    {
+        // Over the neighbours in some rings, and so often the vertex itself.
+        let mean = |values: &[M], vertex: usize, rings: Range<u32>, own: f64| {
+            let start = (values[vertex] * own, own);
+            let others = around(vertex).filter(|other| rings.contains(&self.depth[*other]));
+            let (sum, count) = others.fold(start, |(sum, count), other| {
+                (sum + values[other], count + 1.0)
+            });
+            // No way leads inside from a part that is too narrow.
+            if count > 0.0 {
+                sum * (1.0 / count)
+            } else {
+                M::default()
+            }
+        };
+        let (reach, edge) = (self.reach as usize, 2 * self.reach);
+        let inside = || self.rings.iter().skip(reach).flatten();
+        if inside().next().is_none() {
+            return Ok(false);
+        }
+        let mut means = try_filled("moments", inside().count(), M::default())?;
+        for _ in 0..reach {
+            for (vertex, to) in inside().zip(&mut means) {
+                *to = mean(values, *vertex as usize, self.reach..edge, 2.0);
+            }
+            for (vertex, from) in inside().zip(&means) {
+                values[*vertex as usize] = *from;
+            }
+        }
+        for (depth, ring) in self.rings.iter().enumerate().take(reach).rev() {
+            for vertex in ring {
+                let vertex = *vertex as usize;
+                values[vertex] = M::default();
+                values[vertex] = mean(values, vertex, depth as u32 + 1..edge, 0.0);
+            }
+        }
+        Ok(true)
+    }
+}
+
 impl<O: Operator> Problem<O> {
-    /// From the border to where moments are those inside, in stencils.
+    /// How many rings reach from the border to where moments are those inside.
     pub(crate) fn reach(&self, bend_radius: f64) -> u32 {
         let length = (2.0 * bend_radius / self.lambda).powf(0.25);
-        // Spacings are at least as many as there are vertices from one end to the other.
         ((REACH * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32
     }
 
-    /// Loads the vertices that are `near` the border with `moments`, of all stencils.
+    /// Loads the vertices that are `near` the border with `moments`, of all stencils, as far as these are
+    /// borne.
     ///
     /// # Errors
     /// Out of memory.
@@ -35,8 +141,11 @@ impl<O: Operator> Problem<O> {
             &self.target,
             &mut load,
             |_, run, _, mut to| {
-                for (i, moment) in moments[run.start..run.end].iter().enumerate() {
-                    to.set(i, moment.coordinates());
+                for (i, stencil) in (run.start..run.end).enumerate() {
+                    let most = BEARABLE * self.weight.at(stencil);
+                    let moment = moments[stencil];
+                    let share = most / moment.spectral_norm().max(most);
+                    to.set(i, moment.scale(share).coordinates());
                 }
             },
             |load, run, sums| {
@@ -86,5 +195,31 @@ mod tests {
             assert!(off.dot(off) < 1e-24, "{found:?}");
         }
         assert_eq!(bearing(along, Sym2::default()), Sym2::default());
+    }
+
+    #[test]
+    fn values_inside_go_on_to_the_border() {
+        // A row of vertices, of which the first and the last have no stencil.
+        let around = |vertex: usize| {
+            [vertex.wrapping_sub(1), vertex + 1]
+                .into_iter()
+                .filter(|v| *v < 21)
+        };
+        let continued = |reach: u32| {
+            let rings = Rings::new(vec![0, 20], 21, around, reach).unwrap();
+            let mut values: Vec<f64> = (0..21).map(|v| if v < 10 { 2.0 } else { 5.0 }).collect();
+            values[0] = f64::NAN;
+            values[1] = 100.0;
+            let any = rings.continue_outwards(&mut values, around).unwrap();
+            (any, values)
+        };
+        let (any, values) = continued(3);
+        assert!(any);
+        assert_eq!(
+            [values[0], values[1], values[3], values[20]],
+            [2.0, 2.0, 2.0, 5.0]
+        );
+        // Nothing is as deep as that.
+        assert!(!continued(11).0);
     }
 }

@@ -337,8 +337,8 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let both = Both::new(&input, &huber);
     let (mut lattice, _) = solve(&both.lattice, multigrid, &huber);
     let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &huber);
-    let (a, _) = lattice.reweight_creases(1.0, false).unwrap();
-    let (b, _) = sparse.reweight_creases(1.0, false).unwrap();
+    let a = lattice.reweight_creases(1.0).unwrap();
+    let b = sparse.reweight_creases(1.0).unwrap();
     assert!(a.vertices > 10 && a.is_worth() && b.is_worth(), "{a:?}");
     assert!(a.vertices.abs_diff(b.vertices) <= 2, "{a:?} {b:?}");
 

@@ -69,6 +69,7 @@ pageTest('axe finds nothing wrong with surfaces in space, on a phone, or at twic
       for (const width of [1280, 390, 640]) {
         await page.setViewportSize({ width, height: 800 });
         await painted(page);
+        /** @type {string[] | undefined} */
         const rules = width < 1280 ? small : colorScheme === 'dark' ? ['color-contrast'] : undefined;
         assert.deepEqual(await violations(page, { within, rules }), [], `${what}, ${colorScheme}, ${width}`);
         const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);

@@ -1,4 +1,5 @@
 /** What of a file's heights cannot be taken as it is, in words that say what to do. */
+import { reliefOf } from './guess.js';
 
 /** @import {Input} from './session.js' */
 
@@ -19,14 +20,7 @@ export function doubtOf(input) {
   if (bits && Math.abs(heightScale / ((GUESS * side) / (2 ** Number(bits) - 1)) - 1) < 1e-9) {
     return 'The file does not say how high its levels are: white is taken for a quarter of the longer side above black, and all lengths depend on that. Give the height scale, or tick that these are depths from a camera.';
   }
-  const share = (spread(data) * Math.abs(heightScale)) / side;
+  const share = (reliefOf(data) * Math.abs(heightScale)) / side;
   if (share === 0 || (share >= PLAUSIBLE[0] && share <= PLAUSIBLE[1])) return '';
   return `Is this right? ${share < 1 ? 'The heights hardly differ against the width' : 'The heights differ by more than the width'}. Give the pixel size in the unit of the heights, or tick that these are depths from a camera.`;
-}
-
-/** From the second to the ninety-eighth hundredth. @param {Float64Array} data */
-function spread(data) {
-  const step = Math.ceil(data.length / 1e5);
-  const some = data.filter((value, i) => i % step === 0 && Number.isFinite(value)).sort();
-  return some.length > 0 ? some[Math.floor(0.98 * (some.length - 1))] - some[Math.ceil(0.02 * (some.length - 1))] : 0;
 }

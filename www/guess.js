@@ -35,7 +35,7 @@ export function guessedPixel({ width, height, data, pixelSize, heightScale, unit
 /** From the second to the ninety-eighth hundredth. @param {Float64Array} data */
 export function reliefOf(data) {
   const step = Math.ceil(data.length / 1e5);
-  const some = data.filter((value, i) => i % step === 0 && Number.isFinite(value)).sort();
+  const some = Float64Array.from({ length: Math.ceil(data.length / step) }, (_, i) => data[i * step]).filter(Number.isFinite).sort();
   return some.length > 0 ? some[Math.floor(0.98 * (some.length - 1))] - some[Math.ceil(0.02 * (some.length - 1))] : 0;
 }
 

@@ -16,8 +16,9 @@ import { coarse } from './surface/coarse.js';
 
 /** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
 const SIDES = [96, 192, 384];
-/** A design has nothing to begin with but its pins, and takes longer: a small one, then itself. */
+/** A design has nothing to begin with but its pins, and takes longer: a small one, then itself, from the last one for so many iterations. */
 const DESIGN = [48, 100];
+const DESIGN_ITERATIONS = 8;
 /** Milliseconds without a wish after which the worker's memory is given back. */
 const REST = 10_000;
 /** What a picture needs no better than. */
@@ -114,7 +115,8 @@ export class Live {
     const { pixelSize, solver } = this.#rung(input, side);
     // Passes at creases are for the answer.
     const passes = energy === 'huber' ? { creasePasses: 0 } : {};
-    const surface = await (await solver).fit({ lambda, energy, ...passes, gap: GAP, signal });
+    const few = input.design && side > DESIGN[0] ? { maxIterations: DESIGN_ITERATIONS } : {};
+    const surface = await (await solver).fit({ lambda, energy, ...passes, ...few, gap: GAP, signal });
     const { image, report } = surface;
     if (!image) throw new Error('it has no image');
     return { input, lambda: report.lambda, image: { ...image, pixelSize } };

@@ -2,6 +2,7 @@
 import { pixelsOf } from './pixels.js';
 import { reading } from './reading.js';
 import { handOver } from './surface/work.js';
+import { takenOver } from './understood.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Reader} from './reading.js' */
@@ -34,9 +35,9 @@ export async function inputOf(api, file, signal, wanted, { photo: picture, ...ot
   });
   const { format, dataType } = read;
   const photo = picture && { name: picture.name, image: await pixelsOf(picture) };
-  const understood = await handOver('understoodFirst', [read.data], read, file.name);
+  const found = takenOver(await handOver('lookedThrough', [read.data], read, file.name));
   return {
-    ...understood,
+    ...found,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',
     kind: `${format.toUpperCase()}, ${typeInWords(dataType)}`,
     dataType,

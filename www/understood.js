@@ -32,7 +32,7 @@ const FEW = 0.2;
  * @param {string} name of the file
  * @returns {Understood}
  */
-export function understoodFirst(read, name) {
+function understoodFirst(read, name) {
   const { width, height, unit } = read;
   const depths = depthsIn(name, read) ?? undefined;
   const data = depths ? read.data.map((depth) => (isNoDepth(depth) ? NaN : depth)) : read.data;
@@ -43,6 +43,18 @@ export function understoodFirst(read, name) {
   const { pixelSize, heightScale, design } = stored;
   const first = { ...stored, zeros: false, hexagonal: false };
   return understood({ width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths, stored: first, design }, stored);
+}
+
+/** The same with what else takes a while to find of it, in the page's worker. @param {Parameters<typeof understoodFirst>} read */
+export function lookedThrough(...read) {
+  const input = understoodFirst(...read);
+  return { ...input, reach: reachOf(input.data) };
+}
+
+/** What the worker has found. @param {ReturnType<typeof lookedThrough>} found @returns {Understood} */
+export function takenOver({ reach, ...input }) {
+  reaches.set(input.data, reach);
+  return input;
 }
 
 /**
@@ -99,14 +111,24 @@ function withoutZeros(data) {
   return data.map((value) => (value === 0 ? NaN : value));
 }
 
+/** Differences of the highest and the lowest, which take a while for large inputs. @type {WeakMap<Float64Array, number>} */
+const reaches = new WeakMap();
+
+/** @param {Float64Array} data */
+export function reachOf(data) {
+  const known = reaches.get(data);
+  if (known !== undefined) return known;
+  let [low, high] = [Infinity, -Infinity];
+  for (let i = 0; i < data.length; i++) {
+    if (data[i] < low) low = data[i];
+    if (data[i] > high) high = data[i];
+  }
+  reaches.set(data, high - low);
+  return high - low;
+}
+
 /** What the lengths come to. @param {Input} input */
 export function spanInWords({ data, width, height, pixelSize, heightScale }) {
-  let low = Infinity;
-  let high = -Infinity;
-  for (const value of data) {
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  const depth = (high - low) * Math.abs(heightScale);
+  const depth = reachOf(data) * Math.abs(heightScale);
   return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(depth)} in height.`;
 }

@@ -9,7 +9,7 @@ use super::linear::precise::Precise;
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// Residual at which a pass is done, relative to the first one's first, and most iterations.
+/// Residual at which a pass is done, relative to its first, and most iterations.
 const ENOUGH: (f64, usize) = (1e-10, 200);
 
 /// Passes in which the tie break pulls towards the last one's plate: then it has no say.
@@ -28,12 +28,9 @@ pub(crate) fn fill(problem: &mut Problem, domains: &[Arc<Domain>], plan: &Plan) 
     let mut z = problem.target.clone();
     let mut multigrid = Multigrid::new(problem, domains, rho)?;
     let mut precise = Precise::new(problem)?;
-    precise.start(problem, rho, &z);
-    let (tolerance, steps) = ENOUGH;
-    let goal = tolerance * precise.distance(problem, &multigrid);
     for _ in 0..PASSES {
         precise.start(problem, rho, &z);
-        precise.solve_to(goal, steps, problem, rho, &mut multigrid, &mut z);
+        precise.solve(problem, rho, &mut multigrid, &mut z, ENOUGH);
         for cell in &problem.free {
             problem.target[*cell as usize] = z[*cell as usize];
         }

@@ -89,6 +89,34 @@ pageTest('heights along one line are refused with the reason', async (page) => {
   assert.match(await page.locator('#verdict').innerText(), /Not solved/);
 });
 
+pageTest('a file that is being opened can be done without, and the next one is opened', async (page) => {
+  const before = await page.locator('#input-caption').innerText();
+  await page.evaluate(() => {
+    const panel = /** @type {HTMLElement} */ (document.querySelector('#opening'));
+    const told = { words: '', gone: false };
+    Object.assign(window, { told });
+    // As soon as it is said, before the file can have been read.
+    new MutationObserver((_, observer) => {
+      if (panel.hidden) return;
+      observer.disconnect();
+      told.words = panel.innerText;
+      /** @type {HTMLButtonElement} */ (document.querySelector('#opening-cancel')).click();
+      told.gone = panel.hidden;
+    }).observe(panel, { attributes: true });
+  });
+  const large = grid(600, 400, (col, row) => col + 2 * row);
+  await drop(page, 'large.npy', npy(600, large));
+  await page.waitForFunction(() => /** @type {any} */ (window).told.words !== '');
+  const { words, gone } = await page.evaluate(() => /** @type {any} */ (window).told);
+  assert.match(words, /Reading the file/);
+  assert.ok(gone, 'at once');
+  await open(page, 'slope.npy', npy(WIDTH, plane));
+  assert.match(await page.locator('#input-caption').innerText(), /^slope/);
+  assert.equal(await page.locator('#opening').isVisible(), false);
+  assert.equal(await page.locator('#notice').isVisible(), false, 'nothing went wrong');
+  assert.match(before, /^roof/);
+});
+
 pageTest('the file button opens a file', async (page) => {
   const [chooser] = await Promise.all([
     page.waitForEvent('filechooser'),

@@ -57,3 +57,36 @@ pageTest('while λ is dragged, pictures follow, and the last wish is certified',
   assert.equal(await page.locator('#result-caption').innerText(), caption);
   assert.match(await page.locator('#verdict').innerText(), /^Not solved/);
 });
+
+pageTest('what grows with the size of a result is done in workers, and a picture comes before it where λ is auto', async (page) => {
+  // How often each function was called by the main thread, which no other process has a say in.
+  const debug = await page.context().newCDPSession(page);
+  await debug.send('Profiler.enable');
+  await debug.send('Profiler.startPreciseCoverage', { callCount: true });
+  await page.evaluate(() => {
+    const mark = /** @type {HTMLElement} */ (document.querySelector('#result-mark'));
+    const seen = { previews: 0 };
+    Object.assign(window, { seen });
+    new MutationObserver(() => (seen.previews += Number(mark.textContent === 'preview'))).observe(mark, { childList: true });
+  });
+  assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
+  await runBy(page, () => page.locator('input[name="example"][value="house"]').check());
+  const previews = await page.evaluate(() => /** @type {any} */ (window).seen.previews);
+  assert.ok(previews > 0, 'there was a picture before the result');
+  for (const view of ['gaussian', 'rulings', 'patches', 'sheet', 'dewarped']) {
+    await page.locator(`input[name="view"][value="${view}"]`).check({ force: true });
+    await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
+  }
+  const { result } = await debug.send('Profiler.takePreciseCoverage');
+  /** @param {string} file @param {string} [name] */
+  const calls = (file, name) => result
+    .filter(({ url }) => url.endsWith(`/${file}`))
+    .flatMap(({ functions }) => functions)
+    .filter(({ functionName }) => functionName !== '' && (!name || functionName === name))
+    .reduce((sum, { ranges: [{ count }] }) => sum + count, 0);
+  assert.ok(calls('surface/raster.js', 'rasterOf') > 0, 'it does count');
+  for (const file of ['surface/compare.js', 'surface/pixels.js', 'surface/unfolding.js', 'views/print.js']) assert.equal(calls(file), 0, file);
+  assert.equal(calls('surface/triangles.js', 'fillTriangles'), 0);
+  // Of previews only, which are small.
+  assert.ok(calls('surface/normals.js', 'normalsOf') <= 2 * previews, `${calls('surface/normals.js', 'normalsOf')} for ${previews} previews`);
+});

@@ -28,6 +28,9 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   assert.ok(bound <= objective, `${bound} above ${objective}`);
   const terms = parsed(await reported(page, 'Fidelity')) + parsed(await reported(page, 'Bending'));
   assert.ok(Math.abs(terms - objective) < 1e-3 * objective, `${terms} against ${objective}`);
+
+  const print = await page.pdf({ format: 'A4', printBackground: true });
+  assert.equal(print.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length, 1, 'printed, it is one page');
 });
 
 for (const name of ['page', 'house', 'roof', 'oloid', 'cone', 'cylinder']) {

@@ -25,11 +25,14 @@ export function designPanel(session, space) {
   const layer = element('handles', HTMLElement);
   const clamped = element('clamped', HTMLInputElement);
   const undo = element('design-undo', HTMLButtonElement);
+  const away = element('take-away', HTMLButtonElement);
   const adds = { pin: element('add-pin', HTMLButtonElement), curve: element('add-curve', HTMLButtonElement) };
   /** What was before each change, oldest first. @type {Design[]} */
   let past = [];
   /** @type {{ handle: Handle, knob: HTMLButtonElement }[]} */
   let knobs = [];
+  /** The pin that was touched last. @type {Handle | null} */
+  let touched = null;
   /** What the next drag over the surface makes. @type {'pin' | 'curve' | null} */
   let adding = null;
 
@@ -116,6 +119,22 @@ export function designPanel(session, space) {
     },
   });
 
+  /** @param {Handle | null} handle */
+  const touch = (handle) => {
+    touched = handle;
+    away.disabled = handle === null;
+  };
+  /** @param {Handle} handle */
+  const takeAway = (handle) => {
+    const design = drawn();
+    if (!design) return;
+    renew(changed(design, handle, null));
+    knobs[0]?.knob.focus();
+  };
+  away.addEventListener('click', () => {
+    if (touched) takeAway(touched);
+  });
+
   /** @param {Handle} handle @param {number} number */
   const knobOf = (handle, number) => {
     const knob = document.createElement('button');
@@ -136,12 +155,15 @@ export function designPanel(session, space) {
       const design = drawn();
       return design ? pinAt(design, handle) : null;
     };
+    knob.addEventListener('focus', () => touch(handle));
     /** @type {{ x: number, y: number, pin: Pin } | null} */
     let held = null;
     knob.addEventListener('pointerdown', (event) => {
       const pin = own();
       if (event.button !== 0 || !pin) return;
       knob.setPointerCapture(event.pointerId);
+      // Not every browser focuses what is pressed.
+      touch(handle);
       remember();
       held = { x: event.clientX, y: event.clientY, pin };
     });
@@ -162,8 +184,7 @@ export function designPanel(session, space) {
       if (!pin || !design) return;
       if (event.key === 'Delete' || event.key === 'Backspace') {
         event.preventDefault();
-        renew(changed(design, handle, null));
-        knobs[0]?.knob.focus();
+        takeAway(handle);
         return;
       }
       const step = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
@@ -209,6 +230,7 @@ export function designPanel(session, space) {
     if (!same) {
       knobs = handles.map((handle, i) => knobOf(handle, i + 1));
       layer.replaceChildren(...knobs.map(({ knob }) => knob));
+      touch(null);
     }
     follow();
   });

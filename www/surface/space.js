@@ -32,6 +32,9 @@ import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceF
 
 /** @typedef {{ relief: Relief, textures: WebGLTexture[], colours: WebGLTexture | null, lines: Lines | null }} Side */
 
+/** Texels along the longer side of a surface. */
+const MOST = 2048;
+
 export class Space {
   #gl;
   #surface;
@@ -70,15 +73,20 @@ export class Space {
       this.#sides[side] = null;
       return;
     }
-    const { normals: { width, height, xy }, heights, heightScale } = relief;
+    const { normals, heights, heightScale } = relief;
+    // No screen shows more, and a larger texture may be refused.
+    const step = Math.ceil(Math.max(normals.width, normals.height) / MOST);
+    const [width, height] = [Math.floor(normals.width / step), Math.floor(normals.height / step)];
+    const { xy } = normals;
     const values = new Float32Array(width * height);
     const slopes = new Float32Array(2 * width * height);
     for (let i = 0; i < values.length; i++) {
-      const hole = xy[2 * i] === HOLE;
-      values[i] = hole ? NO_HEIGHT : heights[i] * heightScale;
+      const from = step === 1 ? i : Math.floor(i / width) * step * normals.width + (i % width) * step;
+      const hole = xy[2 * from] === HOLE;
+      values[i] = hole ? NO_HEIGHT : heights[from] * heightScale;
       if (hole) continue;
-      slopes[2 * i] = xy[2 * i] / UNIT;
-      slopes[2 * i + 1] = xy[2 * i + 1] / UNIT;
+      slopes[2 * i] = xy[2 * from] / UNIT;
+      slopes[2 * i + 1] = xy[2 * from + 1] / UNIT;
     }
     this.#sides[side] = {
       relief,

@@ -1,5 +1,5 @@
 /** The worker in which the page works out what it shows; `work.js` is its other end. */
-import { understoodFirst } from '../understood.js';
+import { lookedThrough } from '../understood.js';
 import { photographed } from '../views/print.js';
 import { meanAngle, rmsError } from './compare.js';
 import { interpolated } from './lattice.js';
@@ -8,7 +8,7 @@ import { labelPixels, sheetPixels, valuePixels } from './pixels.js';
 import { unfolding } from './unfolding.js';
 
 /** What can be asked for, by name. Arrays of an answer are handed over. */
-export const tasks = { interpolated, labelPixels, meanAngle, normalsOf, photographed, rmsError, sheetPixels, understoodFirst, unfolding, valuePixels };
+export const tasks = { interpolated, labelPixels, lookedThrough, meanAngle, normalsOf, photographed, rmsError, sheetPixels, unfolding, valuePixels };
 
 globalThis.addEventListener('message', ({ data: { id, task, args } }) => {
   /** @type {{ id: number, value?: unknown, error?: string }} */

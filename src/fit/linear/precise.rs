@@ -61,27 +61,17 @@ impl Precise {
         x: &mut [f64],
         (tolerance, steps): (f64, usize),
     ) -> usize {
-        let goal = tolerance * self.distance(problem, multigrid);
-        self.solve_to(goal, steps, problem, rho, multigrid, x)
-    }
-
-    /// The same until the residual's [`Precise::distance`] is at most `goal`.
-    pub(crate) fn solve_to(
-        &mut self,
-        goal: f64,
-        steps: usize,
-        problem: &Problem,
-        rho: f64,
-        multigrid: &mut Multigrid,
-        x: &mut [f64],
-    ) -> usize {
+        for cell in &problem.constrained {
+            self.residual[*cell as usize] = 0.0;
+        }
         let cells = || problem.operator.domain.active().cells();
+        let goal = tolerance * self.distance(problem, multigrid);
         let mut previous = 0.0;
         for step in 0..steps {
+            let size = largest(&self.residual);
             if self.distance(problem, multigrid) <= goal {
                 return step;
             }
-            let size = largest(&self.residual);
             // Of unit size, so that nothing leaves the range of single precision.
             for cell in cells() {
                 self.single[cell] = lanes::single(self.residual[cell] / size);
@@ -113,10 +103,7 @@ impl Precise {
 
     /// By how much the residual would move a height on its own, at most: a measure that weights of
     /// many orders of magnitude do not upset.
-    pub(crate) fn distance(&mut self, problem: &Problem, multigrid: &Multigrid) -> f64 {
-        for cell in &problem.constrained {
-            self.residual[*cell as usize] = 0.0;
-        }
+    fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
         let inverse = &multigrid.matrix().inverse_diagonal;
         let cells = problem.operator.domain.active().cells();
         let moved = cells.map(|cell| (self.residual[cell] * lanes::double(inverse[cell])).abs());

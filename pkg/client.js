@@ -5,7 +5,7 @@ import { controlOf } from './control.js';
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { explored } from './explore.js';
-import { asBytes, asField, asImage, asInput, asLattice, asPixels, detached } from './input.js';
+import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { asEdges, pageOptions, plainEdges } from './page-input.js';
@@ -280,6 +280,12 @@ export class DevelopableWorker {
     const options = optionsOf('rulings', given);
     const { field, buffers } = detached(asField(input));
     return this.#request((remote) => remote.rulings(transfer(field, buffers), options));
+  }
+
+  /** @param {Heightfield} input */
+  async fitCylinder(input) {
+    const { field, buffers } = detached(asHeights(input));
+    return this.#request((remote) => remote.fitCylinder(transfer(field, buffers)));
   }
 
   /**

@@ -1,7 +1,7 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -159,6 +159,11 @@ export function picture(input: HeightImage | Heightfield, options?: PictureOptio
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): void;
 /** The rulings of a surface: where it does not bend, and straight lines along that. */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): RulingField;
+/**
+ * The cylinder next to heights on the lattice, of whatever profile: for curled sheets, pages of books and parallel folds,
+ * whose rulings are all parallel. `report.verdict` says whether they are those of one.
+ */
+export function fitCylinder(input: Heightfield): FittedCylinder;
 /** Lays a surface flat, as rigidly as it goes. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Unrolling;
 /**

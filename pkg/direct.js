@@ -2,7 +2,7 @@
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
-import { asBytes, asField, asImage, asInput, asLattice, asPixels, carriedOf, isScan } from './input.js';
+import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf, isScan } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
 import { forScan, optionsOf } from './options.js';
@@ -304,6 +304,12 @@ export function rulings(input, given) {
   const field = asField(input);
   const options = optionsOf('rulings', given);
   return sheets.call((wasm) => wasm.rulings(field, options));
+}
+
+/** @type {typeof import('./direct.js').fitCylinder} */
+export function fitCylinder(input) {
+  const field = asHeights(input);
+  return { ...solver.call((wasm) => wasm.fitCylinder(field)), ...carriedOf(field) };
 }
 
 /** @type {typeof import('./direct.js').unroll} */

@@ -1,7 +1,7 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
   ExploredPatterns, OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -162,6 +162,11 @@ export function picture(input: HeightImage | Heightfield, options?: PictureOptio
 export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
 /** The rulings of a surface: where it does not bend, and straight lines along that. */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
+/**
+ * The cylinder next to heights on the lattice, of whatever profile: for curled sheets, pages of books and parallel folds,
+ * whose rulings are all parallel. `report.verdict` says whether they are those of one.
+ */
+export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 /** Lays a surface flat, as rigidly as it goes. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
 /** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
@@ -227,6 +232,7 @@ export class DevelopableWorker {
   picture(input: HeightImage | Heightfield, options?: PictureOptions): Promise<SurfacePicture>;
   draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
   rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
+  fitCylinder(input: Heightfield): Promise<FittedCylinder>;
   unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
   pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
   explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;

@@ -69,6 +69,8 @@ export const picture = (input, options) => worker().picture(input, options);
 export const draw = (canvas, input, options) => worker().draw(canvas, input, options);
 /** @type {typeof import('./index.js').rulings} */
 export const rulings = (input, options) => worker().rulings(input, options);
+/** @type {typeof import('./index.js').fitCylinder} */
+export const fitCylinder = (input) => worker().fitCylinder(input);
 /** @type {typeof import('./index.js').unroll} */
 export const unroll = (input, options) => worker().unroll(input, options);
 /** @type {typeof import('./index.js').pattern} */

@@ -117,6 +117,22 @@ export function asLattice(input) {
   );
 }
 
+/**
+ * Heights and how far they are to be trusted, and nothing that a surface would have to keep to besides.
+ * @param {Heightfield} input
+ * @returns {Lattice}
+ */
+export function asHeights(input) {
+  const { said, lattice } = read(input);
+  const beyond = ['constraints', 'occlusions', 'brokenEdges'].find((name) => said[/** @type {keyof Said} */ (name)] !== undefined);
+  if (lattice && said.heights !== undefined && beyond === undefined) return latticeInput(said);
+  throw new DevelopableError(
+    'INPUT',
+    beyond === undefined ? 'there must be heights on the lattice ({ rows, cols, spacing, heights }), as `sampleMesh` gives them'
+      : `a cylinder cannot keep to ${beyond}: leave them out, or use \`fit\``,
+  );
+}
+
 /** @param {Said} said @returns {Image} */
 function imageHeights(said) {
   return { ...pixels(said), data: numbers('data', said.data) };

@@ -214,6 +214,12 @@ export const service = {
     return transfer(result, buffersOf(result.directions, result.confidence));
   },
 
+  /** @type {(input: Input) => Promise<import('./types.js').FittedCylinder>} */
+  async fitCylinder(input) {
+    const result = direct.fitCylinder(/** @type {import('./types.js').Heightfield} */ (input));
+    return transfer(result, buffersOf(result.heights));
+  },
+
   /** @type {(input: Input, options?: import('./types.js').UnrollOptions) => Promise<import('./types.js').Unrolling>} */
   async unroll(input, options) {
     await loaded('unroll');

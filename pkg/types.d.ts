@@ -589,6 +589,28 @@ export interface Report {
   seconds: { setup: number; zStep: number; hStep: number; certificate: number; total: number };
 }
 
+/** How near heights are to a cylinder. */
+export interface CylinderReport {
+  /**
+   * Whether they are those of one: what it leaves of them goes on along the rulings no more than noise does (`'cylinder'`),
+   * or it does, or there are too few to tell: take another surface (`'other'`).
+   */
+  verdict: 'cylinder' | 'other';
+  /** The direction of the rulings: a unit vector in the axes of the heights. */
+  rulings: [number, number, number];
+  /** Root of the mean square of what it leaves of the heights, in their unit. */
+  residual: number;
+  /** How much of what it leaves goes on along the rulings: about 1 for a cylinder and noise, and below 1.95; NaN where there is too little to tell. */
+  excess: number;
+  /** Heights that it was fitted to. */
+  vertices: number;
+}
+
+/** A cylinder: a surface as `fit` gives it, with another report. */
+export interface FittedCylinder extends Omit<LatticeSurface, 'report'> {
+  report: CylinderReport;
+}
+
 /** The solved surface. Every array is a copy that belongs to the caller. */
 export interface Surface {
   rows: number;

@@ -88,6 +88,7 @@ mod shape;
 
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
+pub use fit::cylinder::{Cylinder, CylinderReport, CylinderVerdict, fit_cylinder};
 pub use fit::input::Input;
 pub use fit::mesh::{
     MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface, Repairs, fit_mesh,

@@ -57,7 +57,7 @@ import { split, usage } from './flags.js';
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, deskew: boolean, map?: string,
- *   quality?: number,
+ *   quality?: number, shape: Shape,
  * }} DewarpTask
  * @typedef {{
  *   command: 'page', input: string, output: string, extension: Extension, written: string[], edges: string, report?: string,
@@ -75,6 +75,9 @@ const surfaces = /** @type {const} */ (['.npy', '.png', '.tif', '.tiff', '.exr',
 const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const units = /** @type {const} */ (['mm', 'm']);
+const shapes = /** @type {const} */ (['auto', 'cylinder', 'developable']);
+
+/** @typedef {typeof shapes[number]} Shape what is fitted to the heights of a photo */
 
 /** What each command can write. @type {Record<WritingCommand, readonly Extension[]>} */
 const extensions = {
@@ -238,10 +241,23 @@ export function parse(args) {
         deskew: values.deskew === true,
         map,
         quality: number('quality', values),
+        shape: shape(values, about.lattice),
       };
     default:
       return { command, ...fitting };
   }
+}
+
+/**
+ * @param {Values} values
+ * @param {InputTask['lattice']} lattice
+ */
+function shape(values, lattice) {
+  const wanted = choice('shape', values.shape ?? 'auto', shapes);
+  if (wanted !== 'cylinder') return wanted;
+  if (lattice === 'square') throw usage('--shape cylinder is for depths, meshes and heights on the lattice, and the input is an image');
+  if (values['as-is']) throw usage('--as-is takes the heights without a fit, and --shape says what to fit: leave one out');
+  return wanted;
 }
 
 /** What a fit over a whole mesh takes. @satisfies {readonly Flag[]} */

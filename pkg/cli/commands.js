@@ -151,7 +151,7 @@ export const commands = {
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
         'others state their resolution, where the unit of lengths is known: --unit, or with --edges --page',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'dots', 'trim', 'deskew', 'map', ...printed, ...page],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'shape', 'dots', 'trim', 'deskew', 'map', ...printed, ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',

@@ -233,6 +233,12 @@ export const sections = {
           'whole on one where it fits; on a4 and letter larger ones on pages that are put together by the crosses on them ' +
           '(default: none, all beside each other)',
       },
+      shape: {
+        value: 'S',
+        help: 'what is fitted: cylinder (bent about parallel rulings, as curled sheets, pages of books and parallel folds are), developable, ' +
+          'or auto: of depths and meshes a cylinder where what it leaves of them is noise (default: auto; developable where anything ' +
+          'is said about what to minimise)',
+      },
       dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
       quality: { value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
       trim: { help: 'a clean rectangle: without the margins where there is no sheet, or that of the four corners of --crop' },

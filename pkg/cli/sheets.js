@@ -187,11 +187,12 @@ export async function dewarp(task, signal) {
   const { surface, options } = await flattened({ ...task, photo: seen }, signal, (input) => {
     if (task.extension === '.pdf') checkUnit(input);
   });
+  const cylinder = cylinderOf(surface);
   const photo = given ?? await textureOf(task.input, surface);
   const camera = elsewhere ?? (photoCamera === undefined ? undefined : await readCamera(photoCamera, [photo]));
   const { dots, trim, deskew, crop } = task;
   const flat = await developable.dewarp(surface, photo, { ...options, ...mapOptions(task.map), dots, trim, deskew, crop, camera, transfer: true });
-  const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, flat)];
+  const files = [{ path: task.output, bytes: await printed(task, flat) }, ...reported(task, { ...flat, report: { ...flat.report, ...(cylinder && { cylinder }) } })];
   if (task.map !== undefined) {
     files.push({ path: task.map, bytes: mapFile(flat, photo) });
   }
@@ -200,6 +201,12 @@ export async function dewarp(task, signal) {
     process.stderr.write(
       'developable: warning: what was made flat goes on to the rim of the depths: it is all that they show, such as a page and ' +
         'the table that it lies on; --crop x,y,x,y,... with the corners of the page in the photo takes it alone, and so does --mask\n',
+    );
+  }
+  if (cylinder?.verdict === 'other') {
+    process.stderr.write(
+      'developable: warning: the heights are not those of a cylinder: what is made flat may be wrong; without --shape cylinder ' +
+        'any surface that unrolls is fitted\n',
     );
   }
   if (flat.verdict === 'flat') {
@@ -274,7 +281,7 @@ async function textureOf(input, surface) {
 
 /**
  * What is to be laid flat, and how it is resampled if it is no lattice yet.
- * @param {SheetTask & { photo?: import('./inputs.js').Size }} task
+ * @param {SheetTask & { photo?: import('./inputs.js').Size, shape?: import('./arguments.js').Shape }} task
  * @param {AbortSignal} signal
  * @param {(input: Input) => void} [check] whether it will do, before the work
  */
@@ -282,7 +289,35 @@ export async function flattened(task, signal, check = () => {}) {
   const input = await readInput(task);
   check(input);
   if (task.asIs) return { surface: input, options: spacing(task) };
-  return { surface: await solve(task, input, { signal }), options: {} };
+  const cylinder = await cylinderFor(task, input);
+  return { surface: cylinder ?? await solve(task, input, { signal }), options: {} };
+}
+
+/**
+ * The cylinder that is to be laid flat, if it is one.
+ * @param {SheetTask & { shape?: import('./arguments.js').Shape }} task
+ * @param {Input} input
+ */
+async function cylinderFor({ shape, lattice, options }, input) {
+  if (shape === undefined || shape === 'developable') return undefined;
+  const field = /** @type {import('../types.js').Heightfield} */ (input);
+  if (shape === 'cylinder') return developable.fitCylinder(field);
+  // What is said of a surface is about one that is fitted by its energy.
+  const free = Object.entries(options).every(([name, value]) => value === undefined || (name === 'normalize' && value === true));
+  if (!free || lattice !== 'mesh' || field.constraints !== undefined || field.occlusions !== undefined) return undefined;
+  try {
+    const found = await developable.fitCylinder(field);
+    return found.report.verdict === 'cylinder' ? found : undefined;
+  } catch (problem) {
+    if (problem instanceof developable.DevelopableError && problem.code === 'UNSUPPORTED') return undefined; // too small
+    throw problem;
+  }
+}
+
+/** @param {Input | import('../types.js').FittedCylinder} surface */
+function cylinderOf(surface) {
+  const { report } = /** @type {Partial<import('../types.js').FittedCylinder>} */ (surface);
+  return report !== undefined && 'rulings' in report ? report : undefined;
 }
 
 /** @param {SheetTask} task */

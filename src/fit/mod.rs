@@ -7,6 +7,7 @@ mod cascade;
 mod coarsen;
 mod components;
 mod coordinates;
+pub(crate) mod cylinder;
 mod energy;
 mod heightfields;
 pub(crate) mod input;

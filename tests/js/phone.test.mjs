@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
+import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
 import { run, temporaryFolder } from './support/command.mjs';
 import { withExif } from './support/exif.mjs';
 import { expanded, readNpyMap } from './support/maps.mjs';
@@ -148,6 +149,51 @@ test('the command takes what capture apps write', async () => {
   const heights = await run(folder, ['dewarp', 'depth.exr', '--no-data', '0', '--texture', 'photo.png', '-o', 'page.png']);
   assert.equal(heights.status, 3);
   assert.match(heights.stderr, /--pixel-size .* --intrinsics/);
+});
+
+test('a curled page is a cylinder, found more exactly than any surface, and a dented one is none', async () => {
+  const { data } = depths();
+  const noise = smoothNoise(width, height, 2, normal(3));
+  const noisy = { width, height, data: data.map((depth, i) => depth && depth + 0.002 * noise[i]) };
+  const field = direct.sampleMesh(direct.backProject(noisy, numbers), { view: 'best-fit' });
+  const cylinder = direct.fitCylinder(field);
+  assert.deepEqual([cylinder.camera, cylinder.uvs, cylinder.unit], [field.camera, field.uvs, field.unit]);
+  const { verdict, rulings, residual } = cylinder.report;
+  assert.equal(verdict, 'cylinder', JSON.stringify(cylinder.report));
+  assert.ok(Math.abs(Math.hypot(...rulings) - 1) < 1e-12 && residual > 0.001 && residual < 0.003, JSON.stringify(cylinder.report));
+  const [own, any] = [cylinder, direct.fit(field)].map((surface) => displacement(photoCamera, direct.dewarp(surface, picture, { dots: 1000 })));
+  assert.ok(own < 0.7 * any && own < 0.005, `${own} ${any}`);
+  assert.deepEqual(await developable.fitCylinder(field), cylinder);
+  assert.throws(() => direct.fitCylinder(/** @type {any} */ ({ width: 2, height: 2, data: [1, 2, 3, 4] })), error('INPUT', /on the lattice/));
+  const held = { ...field, constraints: field.heights };
+  assert.throws(() => direct.fitCylinder(held), error('INPUT', /constraints: leave them out/));
+  await assert.rejects(developable.fitCylinder(held), error('INPUT', /constraints: leave them out/));
+
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo(coarse)));
+  await writeFile(join(folder, 'depth.exr'), direct.writeExr(noisy));
+  const dent = data.map((depth, i) => depth && depth + 0.006 * Math.exp(-(((i % width) - 120) ** 2 + (Math.floor(i / width) - 100) ** 2) / 800));
+  await writeFile(join(folder, 'dented.exr'), direct.writeExr({ width, height, data: dent }));
+  /** @param {string} file @param {...string} more */
+  const dewarped = async (file, ...more) => {
+    const done = await run(folder, [
+      'dewarp', file, '--intrinsics', '205,205,126,97', '--texture', 'photo.png', '-o', 'page.png', '--report', 'page.json', '--dots', '500', ...more,
+    ]);
+    return { ...done, report: done.status === 0 ? JSON.parse(await readFile(join(folder, 'page.json'), 'utf8')) : undefined };
+  };
+  const [byItself, other, minimised, dented, forced, wrong, unfitted] = [
+    await dewarped('depth.exr'), await dewarped('depth.exr', '--shape', 'developable'), await dewarped('depth.exr', '--lambda', 'medium'),
+    await dewarped('dented.exr'), await dewarped('dented.exr', '--shape', 'cylinder'), await dewarped('depth.exr', '--shape', 'cone'),
+    await dewarped('depth.exr', '--shape', 'cylinder', '--as-is'),
+  ];
+  assert.equal(byItself.report?.cylinder?.verdict, 'cylinder', byItself.stderr);
+  assert.ok(byItself.report.distortion.rms < 1e-3 && byItself.report.verdict === 'unrolled', JSON.stringify(byItself.report));
+  for (const { status, report, stderr } of [other, minimised, dented]) assert.deepEqual([status, report?.cylinder], [0, undefined], stderr);
+  assert.deepEqual([forced.status, forced.report?.cylinder?.verdict], [0, 'other'], forced.stderr);
+  assert.match(forced.stderr, /warning: the heights are not those of a cylinder/);
+  assert.equal(wrong.status, 2);
+  assert.match(wrong.stderr, /--shape must be auto or cylinder or developable, but is "cone"/);
+  assert.match(unfitted.stderr, /--as-is takes the heights without a fit/);
 });
 
 test('a part of the photo, with straight edges, and no table beside it', async () => {

@@ -12,6 +12,7 @@ mod check;
 mod camera;
 mod clouds;
 mod confidence;
+mod cylinder;
 mod design;
 mod dewarp;
 #[cfg(feature = "patterns")]

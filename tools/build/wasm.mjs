@@ -16,7 +16,7 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 228_000 },
+  { name: 'solver', limit: 238_000 },
   { name: 'files', limit: 275_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },

@@ -71,7 +71,7 @@ export async function phone({ quick }) {
           all.set(name, [...all.get(name) ?? [], found]);
           const similar = alike(image, print.original);
           if (name === 'smoothed by the truth') oracle = truth.rms;
-          const ours = name.startsWith('fitted');
+          const ours = name.startsWith('fitted') || name.startsWith('as the command');
           rows.push([
             page.name, pose.name, `${noise} mm`, name, percent(truth.rms), percent(truth.anisotropy),
             percent(truth.strain), percent(truth.coverage), Number.isNaN(similar) ? 'none' : digits(similar),
@@ -135,7 +135,7 @@ function table(rows, all, missing) {
       + '25 cm behind it, or the table under it, at outlines. The first pose is tilted by 25°, the second by 12°, and turned by 18° and 7°. '
       + 'The page is cropped by 32 points of its outline in the photo. The photo resampled by the shape that the page has, which is the flat original with as many pixels to a letter as the photo has; the photo as it is; the depths unrolled as they are; smoothed by averages of '
       + 'neighbours, as many steps (one at least) as leave the least displacement, which takes knowing the truth; fitted by the '
-      + 'nuclear norm at medium λ; and by default (the energy `huber` and λ `auto`). Against the page itself: displacement after the best similarity (root mean square, in widths of the page), how much longer lengths are in '
+      + 'nuclear norm at medium λ; by default (the energy `huber` and λ `auto`); and as `developable dewarp` does it: by one profile for all rulings where the depths are those of a cylinder, and else by default. Against the page itself: displacement after the best similarity (root mean square, in widths of the page), how much longer lengths are in '
       + 'one direction than in the other, the mean strain over 2 mm, the share of the page that is shown, the multi-scale structural similarity, and the share of '
       + `characters that the OCR program tesseract gets wrong at ${DPI} dots per inch (${flat}), both after the flat image is turned upright. `
       + 'Targets: 0.5 % of displacement, 0.8 % where crumpled, coverage of 95 %, at most 1.5 times as many characters wrong as by its own shape or 0.1 %, and less displacement '

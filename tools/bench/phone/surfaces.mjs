@@ -1,5 +1,5 @@
 /** Surfaces from a phone's depths: as they are, smoothed, and fitted. */
-import { backProject, dewarp, fit, sampleMesh } from '../../../pkg/direct.js';
+import { backProject, dewarp, fit, fitCylinder, sampleMesh } from '../../../pkg/direct.js';
 import { DPI } from './print.mjs';
 import { measure, placesOf } from './truth.mjs';
 
@@ -104,4 +104,8 @@ export const ways = {
   },
   'fitted at medium λ': (field, scene) => flattened(fit(field, { lambda: 'medium' }), scene),
   'fitted by default': (field, scene) => flattened(fit(field), scene),
+  'as the command does': (field, scene) => {
+    const cylinder = fitCylinder(field);
+    return flattened(cylinder.report.verdict === 'cylinder' ? cylinder : fit(field), scene);
+  },
 };

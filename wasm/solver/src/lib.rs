@@ -1,5 +1,6 @@
 //! The solver and the examples: what every page needs.
 
+mod cylinder;
 mod examples;
 mod occlusions;
 mod results;

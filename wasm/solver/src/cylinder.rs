@@ -1,0 +1,40 @@
+//! Heights of a cylinder.
+
+use js_sys::Float64Array;
+use serde::Serialize;
+use serde_wasm_bindgen::{preserve, to_value};
+use wasm_bindgen::prelude::*;
+
+use super::settings::Settings;
+use super::source::Source;
+use developable::{CylinderReport, fit_cylinder};
+use developable_wasm::Result;
+
+/// `FittedCylinder` of `types.d.ts`.
+#[derive(Serialize)]
+struct CylinderOutput {
+    rows: usize,
+    cols: usize,
+    spacing: f64,
+    origin: [f64; 2],
+    #[serde(with = "preserve")]
+    heights: Float64Array,
+    report: CylinderReport,
+}
+
+/// The cylinder next to heights on the lattice.
+#[wasm_bindgen(js_name = fitCylinder)]
+pub fn cylinder(field: JsValue) -> Result<JsValue> {
+    let settings = Settings::new(&JsValue::UNDEFINED)?;
+    let (input, _) = Source::lattice(field)?.input(&settings)?;
+    let found = fit_cylinder(input)?;
+    let lattice = found.heightfield().lattice();
+    Ok(to_value(&CylinderOutput {
+        rows: lattice.rows(),
+        cols: lattice.cols(),
+        spacing: lattice.spacing(),
+        origin: lattice.origin(),
+        heights: found.heightfield().heights().into(),
+        report: *found.report(),
+    })?)
+}

@@ -160,7 +160,8 @@ export class Analyses {
   unfold(result, most) {
     return this.#once(result.surface, 'unfolding', async (worker) => {
       const small = smaller(result, UNFOLDED);
-      const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result)]);
+      // Without creases it still unfolds.
+      const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result).catch(() => ({ creases: [] }))]);
       const { left, top } = gridOf(result.input);
       return work('unfolding', sheet, most, [left, top - small.height * small.pixelSize], creases.map(({ points }) => points));
     });

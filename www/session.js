@@ -327,19 +327,23 @@ export class Session extends Events {
   }
 
   /** A solver of many vertices holds much memory: it is given back when nothing is asked of it for a while. @param {Input} input */
-  #rest({ width, height }) {
-    if (width * height < LARGE) return;
-    this.#resting = window.setTimeout(() => {
-      this.#kept = null;
-      this.#worker?.dispose();
-      this.#worker = null;
-    }, REST);
+  #rest(input) {
+    if (isLarge(input)) this.#resting = window.setTimeout(() => this.#giveBack(), REST);
   }
 
   /** Gives the solver up: the next run starts from nothing. */
   #forget() {
+    clearTimeout(this.#resting);
+    if (this.#kept && isLarge(this.#kept.input)) this.#giveBack();
     this.#kept?.solver.then((solver) => solver.dispose(), () => {});
     this.#kept = null;
+  }
+
+  /** Only a worker's end gives its memory back. */
+  #giveBack() {
+    this.#kept = null;
+    this.#worker?.dispose();
+    this.#worker = null;
   }
 
   /** Looks where the present input is torn, if that is wanted. */
@@ -400,6 +404,11 @@ function isSame(a, b) {
  */
 function isClose(a, b) {
   return a !== 'auto' && Math.abs(Math.log(a / b)) <= Math.log(CLOSE);
+}
+
+/** @param {Input} input */
+function isLarge({ width, height }) {
+  return width * height >= LARGE;
 }
 
 /**

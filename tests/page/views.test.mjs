@@ -235,6 +235,21 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   const pdf = await saveAs(page, 'PDF');
   assert.equal(pdf.bytes.toString('latin1', 0, 5), '%PDF-');
   await page.locator('#end-sheets').click();
+  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  // Done without, as soon as it has begun, and asked for again.
+  await page.evaluate(() => {
+    const cutting = /** @type {HTMLElement} */ (document.querySelector('#cutting'));
+    new MutationObserver((_, observer) => {
+      if (cutting.hidden) return;
+      observer.disconnect();
+      /** @type {HTMLButtonElement} */ (document.querySelector('#cutting-cancel')).click();
+    }).observe(cutting, { attributes: true });
+  });
+  await page.getByLabel('Depth of the tabs').fill('4.5');
+  await page.locator('.sheets-options .said', { hasText: 'Cancelled' }).waitFor();
+  await page.getByRole('button', { name: 'Cut it into sheets' }).click();
+  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  assert.equal(await page.locator('#cutting').isVisible(), false);
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);
 });
 

@@ -38,9 +38,15 @@ export function offerSheets(result, analyses, stem) {
   const panel = make('div', 'waiting');
   panel.id = 'cutting';
   const waiting = waitingPanel(panel, 'Cutting it into sheets', () => {
+    drawing = Promise.reject(new Error('it was cancelled'));
+    drawing.catch(() => {});
     analyses.stop();
+    waiting.end();
+    preview.setAttribute('aria-busy', 'false');
+    words.textContent = 'Cancelled.';
     again.hidden = false;
     again.focus();
+    offer.renew();
   });
   const again = make('button', '', 'Cut it into sheets');
   Object.assign(again, { type: 'button', hidden: true });
@@ -59,10 +65,7 @@ export function offerSheets(result, analyses, stem) {
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
     waiting.begin('sheets', result.surface.heights.length, EACH);
-    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined })
-      .catch((error) => {
-        throw again.hidden ? error : new Error('it was cancelled');
-      }));
+    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
     offer.renew();
     try {
       const image = await previewOf(analyses, await wanted);

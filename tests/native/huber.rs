@@ -4,8 +4,7 @@
 use crate::common::conic::Instance;
 use crate::common::{cut, max_difference, noisy, rms_difference, unit_square};
 use developable::{
-    Border, Energy, Example, ExampleOptions, Heightfield, Lambda, Lattice, Normalization, Options,
-    Report, StopReason, fit,
+    Border, Energy, Heightfield, Lambda, Lattice, Normalization, Options, Report, StopReason, fit,
 };
 
 fn bumps(x: f64, y: f64) -> f64 {
@@ -206,21 +205,19 @@ fn bent_sheet_keeps_its_border() {
     assert!(with < 0.2 * free, "{with} for {free}");
 }
 
-/// An oloid rises steeply to its outline: there the moments are as large as can be borne.
+/// At steep borders the moments are as large as can be borne.
 #[test]
 fn what_rises_steeply_to_its_border_is_not_folded_along_it() {
-    let sample = Example::Oloid.generate(&ExampleOptions {
-        size: 60,
-        noise: 0.0,
-        seed: 1,
+    let truth = unit_square(100, |x, _| {
+        let across = 0.98 * (2.0 * x - 1.0);
+        0.5 * (1.0 - across * across).sqrt()
     });
-    let truth = sample.unwrap().truth.to_lattice(None).unwrap();
-    let input = noisy(&truth, 0.03, 2);
+    let input = noisy(&truth, 0.05, 2);
     let options = Options::default().energy(Energy::Huber).lambda(3e4);
     let [free, loaded] = [Border::Free, Border::Loaded].map(|border| {
         let surface = fit(&input, &options.border(border)).unwrap();
         rms_difference(surface.heightfield(), &truth)
     });
     assert!(free < 0.3 * rms_difference(&input, &truth), "{free}");
-    assert!(loaded < 1.1 * free, "{loaded} and {free}");
+    assert!(loaded < free, "{loaded} and {free}");
 }

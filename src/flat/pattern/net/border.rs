@@ -1,10 +1,20 @@
 //! The lines around patches.
 
 use super::{Net, Node, Segment, is_triangle};
+use crate::flat::pattern::line::meeting;
+use crate::flat::unroll::pieces::Point;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::NEIGHBOURS;
+use crate::math::hash::NumberMap;
 use crate::scene::triangulation::Triangulation;
 use crate::shape::patches::NO_PATCH;
+
+/// So many nodes from its end tell where a seam is heading.
+pub(in crate::flat::pattern) const BACK: usize = 6;
+
+fn is_vertex((p, q): &Node) -> bool {
+    p == q
+}
 
 impl Net {
     /// The seam that a piece of a patch's line is of, by its ends; `None` on the border.
@@ -74,6 +84,62 @@ impl Net {
                 }
                 self.borders[patch as usize].extend(border);
             }
+        }
+    }
+
+    /// How far seams that end on the border go on to its line, which runs through the middles of its
+    /// edges. It is found in plan, so that it is the same on both sides of a seam.
+    pub(super) fn add_ends(&mut self) {
+        let (mut after, mut before) = (NumberMap::default(), NumberMap::default());
+        for (patch, border) in self.borders.iter().enumerate() {
+            let pieces = border.iter().filter(|piece| piece.iter().any(is_vertex));
+            for [from, to] in pieces {
+                after.insert((*from, patch as u32), *to);
+                before.insert((*to, patch as u32), *from);
+            }
+        }
+        // The middle of the first edge of a patch's border beside a node.
+        let middle = |node: Node, patch: u32| {
+            [&after, &before].into_iter().find_map(|way| {
+                let first = way.get(&(node, patch))?;
+                let next = way.get(&(*first, patch)).filter(|node| is_vertex(node))?;
+                let [p, q] = [first, next].map(|node| self.plan(*node));
+                Some(Point::new(0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])))
+            })
+        };
+        let mut ends = NumberMap::default();
+        for seam in self.seams.iter().filter(|seam| seam.nodes.len() > 1) {
+            let last = seam.nodes.len() - 1;
+            for (end, back) in [(0, BACK.min(last)), (last, last.saturating_sub(BACK))] {
+                let node = seam.nodes[end];
+                let [one, other] = seam.patches.map(|patch| middle(node, patch));
+                let (Some(one), Some(other)) = (one, other) else {
+                    continue;
+                };
+                let [end, back] = [end, back].map(|k| {
+                    let [x, y] = self.plan(seam.nodes[k]);
+                    Point::new(x, y)
+                });
+                let along = (end - back) / (end - back).norm();
+                let reach =
+                    meeting([back, end], [one, other]).map(|p| (along.conj() * (p - end)).re);
+                if let Some(reach) = reach.filter(|reach| reach.abs() < self.spacing) {
+                    ends.insert(node, reach);
+                }
+            }
+        }
+        self.ends = ends;
+    }
+
+    /// Where a seam that ends on the border meets its line: from a node of a patch on its way to the last
+    /// one, as far beyond that as on the other side.
+    pub(in crate::flat::pattern) fn end(&self, nodes: [Node; 2], places: [Point; 2]) -> Point {
+        let [[a, b], [c, d]] = nodes.map(|node| self.plan(node));
+        let long = (c - a).hypot(d - b);
+        let reach = self.ends.get(&nodes[1]).copied().unwrap_or(0.0);
+        match long > 0.0 {
+            true => places[1] + (places[1] - places[0]) * (reach / long),
+            false => places[1],
         }
     }
 }

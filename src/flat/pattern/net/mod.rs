@@ -8,6 +8,8 @@ mod border;
 mod division;
 mod places;
 
+pub(super) use border::BACK;
+
 use super::labels::Labels;
 use super::leaf::Leaf;
 use crate::error::Result;
@@ -61,6 +63,8 @@ pub(super) struct Net {
     labels: Vec<u32>,
     /// Shares of the first corner on edges, or of all three, on triangles.
     shares: NumberMap<Node, [f64; 3]>,
+    /// How far seams go on beyond their last nodes, where these are on the border: in plan.
+    ends: NumberMap<Node, f64>,
     /// By node and patch.
     on_seams: NumberMap<(Node, u32), Point>,
 }
@@ -86,6 +90,7 @@ impl Net {
                 .collect(),
             mesh,
             shares: NumberMap::default(),
+            ends: NumberMap::default(),
             on_seams: NumberMap::default(),
         };
         for (crease, (patches, nodes)) in lines(&net.mesh, &labels.of).into_iter().enumerate() {
@@ -94,6 +99,7 @@ impl Net {
         }
         net.index();
         net.add_borders(surface);
+        net.add_ends();
         Ok(net)
     }
 

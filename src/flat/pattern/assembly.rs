@@ -242,6 +242,7 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
             },
             angle: patches.creases()[seam.crease].fold,
             slit: seam.smooth,
+            torn: net.is_torn(number),
         }
     };
     let sheets = arrangement.sheets.iter().map(|members| {

@@ -89,7 +89,9 @@ impl Cut {
             cut.usual = 0.5 * (one + other) - found;
         }
         cut.drawn = found + cut.usual;
-        [0, 1].map(|side| cut.look(net, side, drawn));
+        for side in 0..2 {
+            cut.look(net, side, drawn);
+        }
         cut
     }
 

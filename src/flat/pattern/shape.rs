@@ -24,7 +24,7 @@ pub(crate) type Side = (usize, u32);
 pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
     let mut loops = 0;
     let lines = layout.outlines(net, patches).into_iter().map(|line| {
-        let (runs, count) = without_loops(runs(net, &line), net.spacing);
+        let (runs, count) = without_loops(runs(net, &line), net.decided);
         loops += count;
         runs
     });

@@ -50,6 +50,8 @@ type Segment = [Node; 2];
 
 pub(super) struct Net {
     pub spacing: f64,
+    /// Spacing of the lattice on which cuts were decided: loops that were small there are.
+    pub decided: f64,
     pub leaves: Vec<Option<Leaf>>,
     pub seams: Vec<Seam>,
     /// The seams that each crease is divided into.
@@ -79,6 +81,7 @@ impl Net {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let mut net = Net {
             spacing: surface.lattice().spacing(),
+            decided: surface.lattice().spacing(),
             borders: vec![Vec::new(); leaves.len()],
             leaves,
             seams: Vec::new(),

@@ -1114,8 +1114,13 @@ export interface Drawing {
     /** Length of the creases that are cut, and of the slits, each line counted once. */
     seamLength: number;
     slitLength: number;
-    /** The most that both sides of one of these differ in length, as a share of it; short ones do not count. */
+    /**
+     * The most that both sides of one of these differ in length, as a share of it. Lines shorter than a tenth of the side
+     * of a square as large as all sheets do not count, nor do steps, whose sides are not joined.
+     */
     mismatch: number;
+    /** Which one that is, by the crease, whose letter is on both sides: its patches, and how long it is on either. */
+    worstJoint?: { crease: number; patches: [number, number]; lengths: [number, number] };
     cutLength: number;
     mountainLength: number;
     valleyLength: number;

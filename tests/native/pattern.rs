@@ -1,9 +1,10 @@
 //! Surfaces cut into sheets that lie flat.
 
 use crate::common::unit_square;
+use developable::drawing::{Drawing, DrawingOptions};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{Direction, PatternOptions, Run, Sheet, pattern};
-use developable::{Example, ExampleOptions, Heightfield, Lambda, Lattice, Options, fit};
+use developable::{Energy, Example, ExampleOptions, Heightfield, Lambda, Lattice, Options, fit};
 
 fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
@@ -578,4 +579,140 @@ fn a_fine_surface_is_cut_like_a_coarse_one() {
     let (few, many) = (cuts(80), cuts(160));
     assert_eq!(few.0, many.0);
     near(few.1 / many.1, 1.0, 0.3);
+}
+
+/// Sheets of a roof from noise: several of several patches, with junctions and ends on the border. Without
+/// evening its joints differ by more than one percent.
+#[test]
+fn joints_of_a_noisy_roof_are_drawn_equally_long() {
+    let options = ExampleOptions {
+        size: 80,
+        noise: 0.01,
+        ..ExampleOptions::default()
+    };
+    let input = Example::Roof.generate(&options).unwrap().input;
+    let field = input.to_lattice(None).unwrap();
+    let solved = fit(&field, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let (_, sheets) = sheets(solved.heightfield());
+    let area: f64 = sheets.iter().map(|sheet| sheet.area).sum();
+    let joints = sides(&sheets);
+    let long = (joints.values()).filter(|(_, [a, b])| a.min(*b) > 0.1 * area.sqrt());
+    assert!(long.clone().count() >= 4, "{joints:?}");
+    for (_, [a, b]) in long {
+        near(a / b, 1.0, 0.004);
+    }
+    let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
+    let worst = drawing.summary.worst_joint.unwrap();
+    let [a, b] = worst.lengths;
+    near(drawing.summary.mismatch, (a - b).abs() / a.max(b), 1e-12);
+    assert!(joints.contains_key(&worst.crease));
+}
+
+/// Distances of a sheet's outline from a line that it is laid upon, the largest one.
+fn off(sheet: &Sheet, exact: &[[f64; 2]]) -> f64 {
+    let pieces = sheet.outlines[0]
+        .iter()
+        .flat_map(|run| run.points.windows(2));
+    let mut here: Vec<[f64; 2]> = pieces
+        .flat_map(|p| {
+            let [from, to] = [p[0], p[1]];
+            (0..20).map(move |k| {
+                let t = f64::from(k) / 20.0;
+                [0, 1].map(|i| from[i] + t * (to[i] - from[i]))
+            })
+        })
+        .collect();
+    let mean = |points: &[[f64; 2]]| {
+        [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64)
+    };
+    let mut most = f64::INFINITY;
+    // Nearest points, and the motion that brings them nearest, in turn.
+    for _ in 0..30 {
+        let away = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+        let nearest = |p: &[f64; 2]| {
+            let by = exact
+                .iter()
+                .min_by(|a, b| away(a, p).total_cmp(&away(b, p)));
+            *by.unwrap()
+        };
+        let there: Vec<[f64; 2]> = here.iter().map(nearest).collect();
+        most = (here.iter().zip(&there)).fold(0.0, |most, (p, q)| away(p, q).max(most));
+        let (from, to) = (mean(&here), mean(&there));
+        let (mut cos, mut sin) = (0.0, 0.0);
+        for (p, q) in here.iter().zip(&there) {
+            let [x, y] = [p[0] - from[0], p[1] - from[1]];
+            let [u, v] = [q[0] - to[0], q[1] - to[1]];
+            cos += x * u + y * v;
+            sin += x * v - y * u;
+        }
+        let size = cos.hypot(sin);
+        for p in &mut here {
+            let [x, y] = [p[0] - from[0], p[1] - from[1]];
+            *p = [
+                (cos * x - sin * y) / size + to[0],
+                (sin * x + cos * y) / size + to[1],
+            ];
+        }
+    }
+    most
+}
+
+/// A cylinder, and a frustum whose four cuts are all slanting: planes that are not perpendicular to its axis.
+#[test]
+fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
+    type Shape = (&'static str, fn(f64, f64) -> f64, fn(f64, f64) -> [f64; 2]);
+    let shapes: [Shape; 2] = [
+        (
+            "cylinder",
+            |x, _| (0.49 - (x - 0.5).powi(2)).sqrt(),
+            |x, y| [0.7 * ((x - 0.5) / 0.7).asin(), y],
+        ),
+        (
+            "frustum",
+            |x, y| -0.8 * (x - 0.5).hypot(y + 0.4),
+            |x, y| {
+                let steep = 1.64f64.sqrt();
+                let far = (x - 0.5).hypot(y + 0.4) * steep;
+                // Upright, as sheets are.
+                let (sin, cos) = ((x - 0.5).atan2(y + 0.4) / steep).sin_cos();
+                [far * sin, far * cos]
+            },
+        ),
+    ];
+    for (name, height, flat) in shapes {
+        let truth = unit_square(100, height);
+        let heights = || truth.heights().iter().copied();
+        let range = heights().fold(f64::MIN, f64::max) - heights().fold(f64::MAX, f64::min);
+        let input = crate::common::noisy(&truth, 0.01 * range * 3f64.sqrt(), 5);
+        let options = Options::default()
+            .energy(Energy::Huber)
+            .lambda(Lambda::Auto);
+        let solved = fit(&input, &options).unwrap();
+        let (_, sheets) = sheets(solved.heightfield());
+        assert_eq!(sheets.len(), 1, "{name}");
+        // Every second row is shifted by half a spacing: its border is halfway.
+        let lattice = truth.lattice();
+        let [left, top] = lattice.position(0, 0);
+        let [right, bottom] = lattice.position(lattice.rows() - 1, lattice.cols() - 1);
+        let shift = |row: usize| if row % 2 == 1 { 0.5 } else { 0.0 };
+        let right = right + shift(lattice.rows() - 1) * lattice.spacing();
+        let [left, right] = [left, right].map(|x| x - 0.25 * lattice.spacing());
+        let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let exact: Vec<[f64; 2]> = (0..4)
+            .flat_map(|k| {
+                let (p, q) = (corners[k], corners[(k + 1) % 4]);
+                (0..500).map(move |i| {
+                    let t = f64::from(i) / 500.0;
+                    flat(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]))
+                })
+            })
+            .collect();
+        let extent = |k: usize| {
+            let values = || exact.iter().map(|p| p[k]);
+            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+        };
+        let error = off(&sheets[0], &exact) / extent(0).max(extent(1));
+        println!("{name}: {:.3} %", 100.0 * error);
+        assert!(error < 0.004, "{name}: {error}");
+    }
 }

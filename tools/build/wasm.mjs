@@ -22,7 +22,7 @@ const files = [
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 120_000 },
   { name: 'unroll', limit: 272_000 },
-  { name: 'patterns', limit: 402_000 },
+  { name: 'patterns', limit: 405_000 },
 ];
 
 /**

@@ -47,8 +47,8 @@ use pack::{Place, packed};
 use pages::count;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
 pub(crate) use smooth::smooth;
-pub use totals::Totals;
 use totals::summary;
+pub use totals::{Totals, WorstJoint};
 
 /// Room around sheets, in millimetres.
 pub(crate) const MARGIN: f64 = 10.0;

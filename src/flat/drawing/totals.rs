@@ -6,6 +6,9 @@ use super::draft::Lines;
 use super::{DrawnSheet, FLATNESS, distance, length};
 use crate::flat::pattern::{Direction, Missing, Sheet};
 
+/// Shorter joints are not compared, in sides of a square as large as all sheets.
+const LEAST: f64 = 0.1;
+
 /// What a drawing comes to, lengths in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
@@ -26,8 +29,12 @@ pub struct Totals {
     /// Length of the slits likewise.
     pub slit_length: f64,
     /// The most that both sides of one of these differ in length, as a share of it; lines shorter than
-    /// a tenth of the side of a square as large as all sheets do not count.
+    /// a tenth of the side of a square as large as all sheets do not count, nor do the sides of steps, which
+    /// are not joined.
     pub mismatch: f64,
+    /// Which one that is, if any counts.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub worst_joint: Option<WorstJoint>,
     /// Creases that are folds.
     pub folds: usize,
     /// Number of tabs.
@@ -59,10 +66,34 @@ pub struct Totals {
     pub letter: usize,
 }
 
+/// The cut whose sides differ most in length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct WorstJoint {
+    /// Its crease, whose letter is on both sides of it ([`Label`](super::Label)).
+    pub crease: usize,
+    /// The patches on either side.
+    pub patches: [u32; 2],
+    /// How long either side is, in millimetres.
+    pub lengths: [f64; 2],
+}
+
 /// A line that is cut: how long it is on either patch.
 struct Joint {
+    crease: usize,
+    patches: [u32; 2],
     slit: bool,
+    torn: bool,
     sides: [f64; 2],
+}
+
+impl Joint {
+    /// How much its sides differ, as a share of the longer one.
+    fn mismatch(&self) -> f64 {
+        let [a, b] = self.sides;
+        (a - b).abs() / a.max(b)
+    }
 }
 
 fn joints(lines: &[Lines<'_>]) -> Vec<Joint> {
@@ -70,7 +101,10 @@ fn joints(lines: &[Lines<'_>]) -> Vec<Joint> {
     for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
         if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
             let joint = joints.entry(seam.crease).or_insert(Joint {
+                crease: seam.crease,
+                patches: seam.patches,
                 slit: seam.slit,
+                torn: seam.torn,
                 sides: [0.0; 2],
             });
             joint.sides[usize::from(patch == seam.patches[1])] += length(&curve.points(FLATNESS));
@@ -100,6 +134,10 @@ pub(super) fn summary(
         length(cut) + closing
     };
     let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
+    let least = LEAST * scale * sheets.iter().map(|sheet| sheet.area).sum::<f64>().sqrt();
+    let counts = |joint: &&Joint| !joint.torn && joint.sides[0].min(joint.sides[1]) >= least;
+    let worst = joints.iter().filter(counts);
+    let worst = worst.max_by(|a, b| a.mismatch().total_cmp(&b.mismatch()));
     let long = |joints: &[&Joint]| -> f64 {
         joints
             .iter()
@@ -113,12 +151,12 @@ pub(super) fn summary(
         slits: slits.len(),
         seam_length: long(&creases),
         slit_length: long(&slits),
-        mismatch: (joints.iter())
-            .filter(|joint| joint.sides[0].min(joint.sides[1]) >= 0.1 * scale * area.sqrt())
-            .map(|joint| {
-                (joint.sides[0] - joint.sides[1]).abs() / joint.sides[0].max(joint.sides[1])
-            })
-            .fold(0.0, f64::max),
+        mismatch: worst.map_or(0.0, Joint::mismatch),
+        worst_joint: worst.map(|joint| WorstJoint {
+            crease: joint.crease,
+            patches: joint.patches,
+            lengths: joint.sides,
+        }),
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
         tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
         cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),

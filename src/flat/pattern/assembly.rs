@@ -10,9 +10,9 @@ use super::outline::Layout;
 use super::parts::Parts;
 use super::refold::refolded;
 use super::sew::sewn;
-use super::shape::{folds, outlines};
+use super::shape::{folds, lines, outlines};
 use super::spots::spots;
-use super::{Direction, Missing, Pattern, PatternOptions, Run, Seam, Sheet};
+use super::{Direction, Missing, Pattern, PatternOptions, Seam, Sheet};
 use crate::error::Result;
 use crate::flat::unroll::joint::Until;
 use crate::flat::unroll::pieces::Point;
@@ -176,27 +176,16 @@ pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> 
     if sum.flipped > 0 {
         return Some(Fault::Flipped(those(&|s| s.flipped > 0)));
     }
-    let lines: Vec<Vec<[f64; 2]>> = (shape_of(net, layout, members).0.into_iter())
+    let lines: Vec<Vec<Point>> = (lines(net, layout, members).0.into_iter())
         .map(|runs| {
-            let points = runs.into_iter().flat_map(|mut run| {
-                run.points.pop();
-                run.points
+            let points = runs.into_iter().flat_map(|(_, mut points)| {
+                points.pop();
+                points
             });
             points.collect()
         })
         .collect();
     crossing(&lines).map(Fault::Crossing)
-}
-
-/// The outlines of a sheet, with no creases told from each other.
-fn shape_of(net: &Net, layout: &Layout, members: &[u32]) -> (Vec<Vec<Run>>, usize) {
-    outlines(net, layout, members, |number| Seam {
-        crease: number,
-        patches: net.seams[number].patches,
-        direction: Direction::Mountain,
-        angle: 0.0,
-        slit: false,
-    })
 }
 
 /// The folds that are to be cut: for an outline that crosses itself the nearest one, or else of those of
@@ -253,6 +242,7 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
             },
             angle: patches.creases()[seam.crease].fold,
             slit: seam.smooth,
+            torn: net.is_torn(number),
         }
     };
     let sheets = arrangement.sheets.iter().map(|members| {

@@ -14,7 +14,7 @@ const CLOSE: f64 = 0.05;
 
 /// So many nodes beside the place where three patches meet are not tied: where more meet they are not
 /// where they should be.
-const LOOSE: usize = 3;
+const LOOSE: usize = 1;
 
 /// A side of a seam, by its patch, and the lengths that its pieces are to have.
 pub(super) struct Measure {
@@ -183,11 +183,11 @@ pub(super) fn strains(net: &Net, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>
 }
 
 /// The first place where lines cross each other or themselves; each is closed.
-pub(super) fn crossing(lines: &[Vec<[f64; 2]>]) -> Option<Point> {
+pub(super) fn crossing(lines: &[Vec<Point>]) -> Option<Point> {
     let (mut places, mut edges) = (Vec::new(), Vec::new());
     for line in lines {
         let (first, count) = (places.len() as u32, line.len() as u32);
-        places.extend(line.iter().map(|[x, y]| Point::new(*x, *y)));
+        places.extend(line);
         edges.extend((0..count).map(|k| [first + k, first + (k + 1) % count]));
     }
     let found = crossings(&places, &edges).into_iter().next()?;

@@ -127,6 +127,7 @@ pub(super) fn refined(
         });
     }
     let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
+    net.decided = rough.net.decided;
     let mut layout = Layout::loose(&net);
     fold_alike(&mut net, &mut layout, &order, rough);
     for members in &mut sheets {

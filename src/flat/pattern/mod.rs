@@ -223,6 +223,8 @@ pub struct Seam {
     /// Whether it is no crease of the surface but a cut through what was one patch, because that cannot
     /// be laid flat in one piece.
     pub slit: bool,
+    /// Whether the surface has a step here: its sides are apart in space, and are not joined.
+    pub torn: bool,
 }
 
 /// Which way a sheet is folded, seen from above.

@@ -4,7 +4,7 @@
 //! its triangles as they lie flat, tied along its folds, to where they fit together best in space,
 //! beginning on the surface. Where it does not come to lie on that again is what its strain is worth.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::Refolding;
 use super::check::ties;
@@ -63,7 +63,9 @@ pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<R
     })
 }
 
-/// Turns and shifts places so that they are nearest to others (Kabsch 1976).
+/// Turns and shifts places that are not far off so that they are nearest to others, by the rotation
+/// that has the largest inner product with their correlation (Müller et al. 2016, *A Robust Method to
+/// Extract the Rotational Part of Deformations*).
 fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let count = places.len().max(1) as f64;
     let here = places.iter().sum::<Vector3<f64>>() / count;
@@ -72,14 +74,44 @@ fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let spread: Matrix3<f64> = pairs
         .map(|(p, q)| (q - there) * (p - here).transpose())
         .sum();
-    let svd = spread.svd(true, true);
-    let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
-        return;
-    };
-    let mirrored = (u * v).determinant().signum();
-    // The least singular value is the last one.
-    let turn = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, mirrored)) * v;
+    let mut turn = Rotation3::identity();
+    for _ in 0..TURNS {
+        let columns = (0..3).map(|k| (turn.matrix().column(k).into_owned(), spread.column(k)));
+        let (mut axis, mut along) = (Vector3::zeros(), 0.0);
+        for (own, wanted) in columns {
+            axis += own.cross(&wanted);
+            along += own.dot(&wanted);
+        }
+        let step = axis / (along.abs() + f64::MIN_POSITIVE);
+        turn = Rotation3::new(step) * turn;
+        if step.norm() < 1e-12 {
+            break;
+        }
+    }
     for place in places {
         *place = turn * (*place - here) + there;
+    }
+}
+
+/// How often the turn is looked at.
+const TURNS: usize = 50;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_turned_and_shifted_is_brought_back() {
+        let built: Vec<Vector3<f64>> = (0..40)
+            .map(|i| Vector3::new(f64::from(i % 8), f64::from(i / 8), f64::from(i * i % 7)))
+            .collect();
+        let turn = Rotation3::from_euler_angles(0.3, -0.5, 0.7);
+        let mut places: Vec<Vector3<f64>> = (built.iter())
+            .map(|p| turn * p + Vector3::new(3.0, -2.0, 5.0))
+            .collect();
+        register(&mut places, &built);
+        for (p, q) in places.iter().zip(&built) {
+            assert!((p - q).norm() < 1e-9, "{p} {q}");
+        }
     }
 }

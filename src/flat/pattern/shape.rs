@@ -1,9 +1,9 @@
 //! From nodes to the lines that are cut and folded: grouped, straightened and plain.
 
 use super::line::{length, meeting, sharpened, simplified, simplified_ring};
-use super::net::{Net, is_triangle};
+use super::net::{BACK, Net, is_triangle};
 use super::outline::{Corner, Layout};
-use super::simple::without_loops;
+use super::simple::{Runs, without_loops};
 use super::{Fold, Run, Seam};
 use crate::flat::unroll::pieces::Point;
 
@@ -17,11 +17,19 @@ const SHORT: f64 = 1.1;
 /// Where four patches meet, there are two nodes of three each, this far apart at most, in spacings.
 const SPECK: f64 = 3.0;
 
-/// So many points from its end tell where a line is heading.
-const BACK: usize = 6;
-
 /// A seam, and the one of its patches that is beside it.
 pub(crate) type Side = (usize, u32);
+
+/// The closed lines around a sheet, and how many small loops were cut off them.
+pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
+    let mut loops = 0;
+    let lines = layout.outlines(net, patches).into_iter().map(|line| {
+        let (runs, count) = without_loops(runs(net, &line), net.decided);
+        loops += count;
+        runs
+    });
+    (lines.collect(), loops)
+}
 
 /// The outlines of a sheet, the longest first, and how many small loops were cut off them.
 pub(super) fn outlines(
@@ -30,12 +38,9 @@ pub(super) fn outlines(
     patches: &[u32],
     seam: impl Fn(usize) -> Seam,
 ) -> (Vec<Vec<Run>>, usize) {
-    let mut loops = 0;
-    let lines = layout.outlines(net, patches);
-    let mut out: Vec<(f64, Vec<Run>)> = (lines.iter())
-        .map(|line| {
-            let (runs, count) = without_loops(runs(net, line), net.spacing);
-            loops += count;
+    let (lines, loops) = lines(net, layout, patches);
+    let mut out: Vec<(f64, Vec<Run>)> = (lines.into_iter())
+        .map(|runs| {
             let long = runs.iter().map(|(_, p)| length(p)).sum();
             let run = |(side, points): (Option<Side>, Vec<Point>)| Run {
                 seam: side.map(|(number, _)| seam(number)),
@@ -136,7 +141,7 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     for (k, (_, group)) in groups.iter_mut().enumerate() {
         group.push(starts[(k + 1) % count]);
     }
-    let mut out: Vec<(Option<Side>, Vec<Point>)> = (groups.iter())
+    let mut out: Runs = (groups.iter())
         .map(|(seam, group)| match seam {
             Some(_) => (*seam, places(group)),
             None => {
@@ -147,10 +152,8 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
             }
         })
         .collect();
-    for k in 0..count {
-        if out[k].0.is_none() && out[k].1.len() > 3 {
-            meet(&mut out, k, net.spacing);
-        }
+    for k in (0..count).filter(|k| groups[*k].0.is_none()) {
+        meet(net, &groups, &mut out, k);
     }
     for ((seam, points), (_, group)) in out.iter_mut().zip(&groups) {
         *points = simplified(points, tolerance);
@@ -162,34 +165,42 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
 }
 
 /// Moves the ends of a border along the seams that it lies between to where these meet its line.
-fn meet(runs: &mut [(Option<Side>, Vec<Point>)], k: usize, spacing: f64) {
-    let count = runs.len();
-    let (before, after) = ((k + count - 1) % count, (k + 1) % count);
-    for (other, starts) in [(before, true), (after, false)] {
-        let mut border = runs[k].1.clone();
-        if !starts {
-            border.reverse();
-        }
-        let seam = &mut runs[other].1;
-        let last = seam.len() - 1;
-        let (end, back) = match starts {
-            true => (last, last.saturating_sub(BACK)),
-            false => (0, BACK.min(last)),
-        };
-        let place = meeting([seam[back], seam[end]], [border[1], border[2]]);
-        let Some(place) = place.filter(|p| (p - border[0]).norm() < spacing) else {
+fn meet(net: &Net, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
+    let count = groups.len();
+    for (other, starts) in [((k + count - 1) % count, true), ((k + 1) % count, false)] {
+        if groups[other].0.is_none() {
             continue;
-        };
-        seam[end] = place;
-        border[0] = place;
-        // What it has passed.
-        while border.len() > 2 && ((border[2] - border[1]).conj() * (border[1] - place)).re < 0.0 {
-            border.remove(1);
         }
-        if !starts {
+        // Both so that they begin at the place where they meet.
+        let turned = |list: &[Corner], turn: bool| -> Vec<Corner> {
+            match turn {
+                true => list.iter().rev().copied().collect(),
+                false => list.to_vec(),
+            }
+        };
+        let corners = turned(&groups[other].1, starts);
+        let back = BACK.min(corners.len() - 1);
+        let [from, end] = [&corners[back], &corners[0]];
+        let place = net.end([from.node, end.node], [from.place, end.place]);
+        let (mut seam, mut border) = (runs[other].1.clone(), runs[k].1.clone());
+        if starts {
+            seam.reverse();
+        } else {
             border.reverse();
         }
-        runs[k].1 = border;
+        for line in [&mut seam, &mut border] {
+            line[0] = place;
+            // What it has passed.
+            while line.len() > 2 && ((line[2] - line[1]).conj() * (line[1] - place)).re < 0.0 {
+                line.remove(1);
+            }
+        }
+        if starts {
+            seam.reverse();
+        } else {
+            border.reverse();
+        }
+        (runs[other].1, runs[k].1) = (seam, border);
     }
 }
 

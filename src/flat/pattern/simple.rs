@@ -5,7 +5,7 @@ use crate::flat::unroll::overlap::crossings;
 use crate::flat::unroll::pieces::Point;
 
 /// A loop goes if it encloses at most this, in squared spacings, and is at most so long, in spacings.
-const AREA: f64 = 1.0;
+const AREA: f64 = 6.0;
 const LENGTH: f64 = 60.0;
 
 /// How often lines are looked at.

@@ -213,13 +213,35 @@ export class Analyses {
   }
 
   /**
+   * By one profile for all rulings, where the heights have one.
    * @param {Result} result
    * @param {Photo} photo
    * @param {FlatOptions} options
    */
-  dewarp({ surface }, photo, options) {
-    return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, (worker) =>
-      worker.dewarp(surface, photo, options));
+  dewarp(result, photo, options) {
+    const { surface } = result;
+    return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, async (worker) => {
+      const cylinder = await this.#cylinder(result);
+      return { ...await worker.dewarp(cylinder ?? surface, photo, options), parallel: cylinder !== undefined };
+    });
+  }
+
+  /**
+   * The cylinder that was seen, if it is one. What is said of the surface is about one that is fitted by its energy.
+   * @param {Result} result
+   */
+  #cylinder({ input: { lattice }, settings: { lambda, energy, occlusionThreshold }, surface }) {
+    const asSeen = lattice && lambda === 'auto' && energy === 'huber' && occlusionThreshold === undefined;
+    if (!asSeen || lattice.constraints || lattice.occlusions || lattice.brokenEdges) return undefined;
+    return this.#once(surface, 'cylinder', async (worker) => {
+      try {
+        const found = await worker.fitCylinder(lattice);
+        return found.report.verdict === 'cylinder' ? found : undefined;
+      } catch (error) {
+        if (error instanceof this.#api.DevelopableError && error.code === 'UNSUPPORTED') return undefined; // too small
+        throw error;
+      }
+    });
   }
 }
 

@@ -59,6 +59,9 @@ export const FLATTENED = {
   stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
 };
 
+/** Of a page that is bent about parallel rulings. */
+export const PARALLEL = 'It is bent in one direction only, so that one profile, from all of it, was taken for the whole.';
+
 /**
  * What came of making a page flat by its edges.
  * @param {PageReport} report

@@ -2,7 +2,7 @@
 import { doubtOf } from '../doubts.js';
 import { count, number, percent } from '../format.js';
 import { imagePicture } from '../surface/picture.js';
-import { FLATTENED } from '../words.js';
+import { FLATTENED, PARALLEL } from '../words.js';
 import { figures, say } from './legend.js';
 
 /** @import {Analyses, FlatOptions} from '../analyses.js' */
@@ -19,7 +19,7 @@ import { figures, say } from './legend.js';
  */
 export async function dewarped(analyses, result, photo, options) {
   const flat = await analyses.dewarp(result, photo, options);
-  const { width, height, data, resolution, verdict, report: { distortion, parts, crossings } } = flat;
+  const { width, height, data, resolution, verdict, parallel, report: { distortion, parts, crossings } } = flat;
   const doubt = doubtOf(result.input);
   const unit = result.input.unit ?? 'unit';
   return {
@@ -27,7 +27,7 @@ export async function dewarped(analyses, result, photo, options) {
     before: photoPicture(photo),
     after: imagePicture(canvasOf(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`),
     about: [
-      say(doubt || FLATTENED[verdict]),
+      say(doubt || `${FLATTENED[verdict]}${parallel ? ` ${PARALLEL}` : ''}`),
       figures([
         ['Flat image', `${width} × ${height} pixels`],
         ['Resolution', `${number(resolution, 4)} pixels per ${unit}`],

@@ -24,6 +24,8 @@ const solvable = {
   constraints: new Float64Array(64).fill(NaN),
   occlusions: new Uint8Array(64),
 };
+// Fewer heights are too few to find a cylinder.
+const curled = { ...lattice(24, 24, cylinder(24)), origin: [0, 0], confidence: new Float64Array(576).fill(1) };
 const shaded = {
   ...hex,
   origin: [0, 0],
@@ -55,6 +57,7 @@ const whole = { positions, triangles, confidence: new Float32Array(positions.len
  */
 const calls = {
   fit: { args: { input: solvable }, options: 'solver' },
+  fitCylinder: { args: { input: curled } },
   occlusions: { args: { input: bent }, options: 'occlusions' },
   read: { args: { bytes: npy }, options: 'read' },
   npzArrays: { args: { bytes: npy } },

@@ -360,9 +360,12 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
   assert.equal(await page.evaluate(() => window.scrollY), scrolled);
   await page.getByRole('button', { name: 'Start again' }).tap();
-  await page.getByRole('button', { name: 'Draw a line of text' }).tap();
+  // Nothing moves under the finger any more.
   await flattened(page);
+  await page.getByRole('button', { name: 'Draw a line of text' }).tap();
+  await page.locator('#line-draw[aria-pressed="true"]').waitFor();
   await page.locator('#page-photo').scrollIntoViewIfNeeded();
+  await painted(page);
   const [begin, end] = [await onPage(page, seen(0.15, 0.5)), await onPage(page, seen(0.85, 0.5))];
   const [before, along] = [await page.evaluate(() => window.scrollY), (/** @type {number} */ k) => ({ x: begin[0] + (k / 4) * (end[0] - begin[0]), y: begin[1] + (k / 4) * (end[1] - begin[1]) })];
   await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [along(0)] });

@@ -470,12 +470,7 @@ impl<O: Operator> Level<O> {
     pub(crate) fn begin_pass_at_creases(&mut self, loaded: bool) -> Result<Option<StopReason>> {
         let stop = self.begin_pass()?;
         if loaded {
-            self.follow_load(
-                std::env::var("FOL")
-                    .ok()
-                    .and_then(|v| v.parse().ok())
-                    .unwrap_or(FOLLOWING),
-            );
+            self.follow_load(FOLLOWING);
             return Ok(None);
         }
         Ok(stop)

@@ -296,30 +296,34 @@ fn direction(points: &[Point], spacing: f64) -> Result<f64> {
 
 /// The profile under the penalty that predicts stretches best which it was not fitted to.
 fn chosen(points: &[Point], axes: &Axes) -> Result<Profile> {
-    // In bins, so that penalties have no unit.
-    let scaled = |point: &Point| Point {
-        height: point.height / axes.unit,
-        ..*point
-    };
-    let stretch = |point: &Point| axes.stretch(axes.place(point.at)[1], FOLDS);
-    let mut all = Sums::new(axes.bins)?;
     let mut parts = Vec::with_capacity(FOLDS);
-    for fold in 0..FOLDS {
-        let own = points.iter().filter(|point| stretch(point) == fold);
-        let sums = axes.sums(own.map(scaled))?;
-        all.plus(&sums, 1.0);
-        parts.push(sums);
+    for _ in 0..FOLDS {
+        parts.push(Sums::new(axes.bins)?);
     }
-    let tenths = |from: i32, to: i32| (from..=to).map(|k| 10f64.powf(0.5 * f64::from(k)));
-    let penalties = (tenths(-6, 10).map(Penalty::Squares)).chain(tenths(-6, 4).map(Penalty::Kinks));
+    for point in points {
+        let [across, along] = axes.place(point.at);
+        // In bins, so that penalties have no unit.
+        let height = point.height / axes.unit;
+        parts[axes.stretch(along, FOLDS)].add(across, along, height, point.weight);
+    }
+    let mut all = Sums::new(axes.bins)?;
+    for part in &parts {
+        all.plus(part, 1.0);
+    }
+    let without = |part: &Sums| {
+        let mut others = all.clone();
+        others.plus(part, -1.0);
+        others
+    };
+    let folds: Vec<(&Sums, Sums)> = parts.iter().map(|part| (part, without(part))).collect();
+    let half_decades = |from: i32, to: i32| (from..=to).map(|k| 10f64.powf(0.5 * f64::from(k)));
+    let penalties =
+        (half_decades(-6, 10).map(Penalty::Squares)).chain(half_decades(-6, 4).map(Penalty::Kinks));
     let mut best = (f64::INFINITY, Penalty::Squares(1.0));
     for penalty in penalties {
-        let mut off = 0.0;
-        for part in &parts {
-            let mut others = all.clone();
-            others.plus(part, -1.0);
-            off += part.off(&others.fit(penalty));
-        }
+        let off = (folds.iter())
+            .map(|(part, others)| part.off(&others.fit(penalty)))
+            .sum();
         if off < best.0 {
             best = (off, penalty);
         }

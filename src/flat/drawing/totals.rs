@@ -134,7 +134,8 @@ pub(super) fn summary(
         length(cut) + closing
     };
     let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
-    let least = LEAST * scale * sheets.iter().map(|sheet| sheet.area).sum::<f64>().sqrt();
+    let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
+    let least = LEAST * scale * area.sqrt();
     let counts = |joint: &&Joint| !joint.torn && joint.sides[0].min(joint.sides[1]) >= least;
     let worst = joints.iter().filter(counts);
     let worst = worst.max_by(|a, b| a.mismatch().total_cmp(&b.mismatch()));
@@ -144,7 +145,6 @@ pub(super) fn summary(
             .map(|j| 0.5 * (j.sides[0] + j.sides[1]))
             .fold(0.0, |a, b| a + b)
     };
-    let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
     Totals {
         sheets: drawn.len(),
         seams: creases.len(),

@@ -19,8 +19,7 @@ fn is_vertex((p, q): &Node) -> bool {
 impl Net {
     /// The seam that a piece of a patch's line is of, by its ends; `None` on the border.
     pub(super) fn seam_along(&self, from: Node, to: Node) -> Option<usize> {
-        let on_vertex = |(p, q): Node| p == q;
-        if on_vertex(from) || on_vertex(to) {
+        if is_vertex(&from) || is_vertex(&to) {
             return None;
         }
         match (is_triangle(from), is_triangle(to)) {

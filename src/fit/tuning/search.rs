@@ -59,16 +59,16 @@ const IN_SPITE: [f64; 2] = [0.15, 0.045];
 /// And by how many standard errors.
 const DOUBT: f64 = 1.0;
 
-/// Bendings to be compared: the steps from the first λ to the one that suits each, and by how many standard
+/// Bendings to be compared: the steps from the first λ to those that may suit each, and by how many standard
 /// errors it must predict better than those before it. What there is no reason to leave; for smooth bends,
 /// for creases among these, and for flat facets; for smooth bends alone, which has no cost of flat parts
 /// to lean on.
-const BENDINGS: [(Bending, i32, f64); 5] = [
-    (Bending::NUCLEAR, 0, 0.0),
-    (Bending::SMOOTH, 0, 0.0),
-    (Bending::new(0.3, 0.3, 0.3), 0, 0.0),
-    (Bending::new(0.1, 1.0, 0.2), 0, 0.0),
-    (Bending::new(0.1, 0.0, 0.3), -1, 1.0),
+const BENDINGS: [Choice; 5] = [
+    (Bending::NUCLEAR, &[0], 0.0),
+    (Bending::SMOOTH, &[0, -1], 0.0),
+    (Bending::new(0.3, 0.3, 0.3), &[0], 0.0),
+    (Bending::new(0.1, 1.0, 0.2), &[0], 0.0),
+    (Bending::new(0.1, 0.0, 0.3), &[-1], 1.0),
 ];
 
 /// What is known about an input before a solve: the factor from the user's units to the energy's, and
@@ -174,8 +174,8 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
 /// What is to be tried: which of the bendings, and how many factors above the first λ.
 type Candidate = (usize, i32);
 
-/// A bending, the step that suits it, and its hurdle.
-type Choice = (Bending, i32, f64);
+/// A bending, the steps that may suit it, and its hurdle.
+type Choice = (Bending, &'static [i32], f64);
 
 /// A search under way.
 #[derive(Debug, Clone)]
@@ -229,16 +229,16 @@ impl Search {
             held_out.extend(HeldOut::of(&input, class)?);
         }
         let mut bendings: Vec<Choice> = Vec::new();
-        for (bending, step, hurdle) in BENDINGS {
-            let (step, hurdle) = if dependent {
-                (0, DOUBT)
+        for (bending, steps, hurdle) in BENDINGS {
+            let (steps, hurdle): (&[i32], _) = if dependent {
+                (&[0], DOUBT)
             } else {
-                (step, hurdle)
+                (steps, hurdle)
             };
             let bending = bending.within(asked);
             let new = bendings.iter().all(|(other, ..)| *other != bending);
             if new && (asked.energy == Energy::Huber || bendings.is_empty()) {
-                bendings.push((bending, step, hurdle));
+                bendings.push((bending, steps, hurdle));
             }
         }
         let now = (0, 0);
@@ -339,7 +339,8 @@ impl Search {
         let missing = |candidate: &Candidate| !self.tried.contains(candidate);
         let (bending, step) = self.best;
         let others = self.bendings.iter().enumerate();
-        let others = others.map(|(bending, (_, step, _))| (bending, *step));
+        let others = others
+            .flat_map(|(bending, (_, steps, _))| steps.iter().map(move |step| (bending, *step)));
         let [least, most] = self.steps;
         let most = if bending == 0 { most } else { 0 };
         let beside = [step - 1, step + 1]
@@ -441,7 +442,7 @@ mod tests {
         assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == 0);
         assert_eq!(at(2).flatness, Some(1.0));
         let asked = first.flatness(0.1);
-        let given = of(&asked, &[(BENDINGS[1].0.within(&asked), 0, 0.0)], (0, 2));
+        let given = of(&asked, &[(BENDINGS[1].0.within(&asked), &[0], 0.0)], (0, 2));
         assert_eq!(given.flatness, Some(0.1));
     }
 

@@ -11,7 +11,7 @@ mod scan;
 use std::error::Error;
 
 use developable::dewarp::Extent;
-use developable::{Heightfield, Lambda, Lattice, Options, fit};
+use developable::{Energy, Heightfield, Lambda, Lattice, Options, fit};
 use serde::Serialize;
 
 use measure::{Truth, measure};
@@ -32,6 +32,7 @@ struct Scene {
     extent: Extent,
     /// The page's own image.
     original: Vec<u8>,
+    exact: Heightfield,
 }
 
 #[derive(Serialize)]
@@ -92,6 +93,15 @@ fn main() -> Outcome<()> {
                 "fitted, reweighted".into(),
                 measured(reweighted.heightfield())?,
             );
+            let scans = Options::default()
+                .energy(Energy::Huber)
+                .lambda(Lambda::Auto);
+            let by_itself = fit(&scanned, &scans)?;
+            add(
+                scan,
+                "huber, λ auto".into(),
+                measured(by_itself.heightfield())?,
+            );
         }
     }
     println!("{}", serde_json::to_string(&rows)?);
@@ -141,5 +151,6 @@ fn photograph(page: &dyn Page, surface: &Heightfield) -> Scene {
         height,
         extent,
         original: print::image(ACROSS, DOWN, print::point_of),
+        exact: surface.clone(),
     }
 }

@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use blazediff_ssim::{MsSsimOptions, Plane, Rgba8, SsimOptions, ms_ssim};
-use developable::Heightfield;
-use developable::Triangulation;
+use developable::{Heightfield, Quadratic, Triangulation};
 use developable::dewarp::{DewarpOptions, Photo, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
 use nalgebra::{Complex, Matrix2, Vector2};
@@ -26,6 +25,8 @@ pub struct Truth {
     pub bend: f64,
     /// Width over height against the page's own.
     pub aspect: f64,
+    /// The share of the true creases' curvature that is there, on the lattice; none where no crease is.
+    pub kept: Option<f64>,
     /// Multi-scale structural similarity of the flat image and the page's, 1 for the same. NaN, in JSON
     /// null, where they are so unlike that it is a root of a negative number.
     pub similarity: f64,
@@ -91,8 +92,40 @@ pub fn measure(page: &dyn Page, scene: &Scene, surface: &Heightfield) -> Outcome
         above: above / count,
         bend: (bends.iter().map(|b| b * b).sum::<f64>() / bends.len() as f64).sqrt(),
         aspect: apart(&upright) / apart(&level) - 1.0,
+        kept: kept(&scene.exact, surface),
         similarity: similarity(&aligned, &scene.original)?,
     })
+}
+
+/// What bends tighter, in widths of the page, is a crease.
+const CREASE: f64 = 0.1;
+
+/// The nuclear norm of a surface's Hessians at creases of the true one and their neighbours, as a share of
+/// its own.
+fn kept(exact: &Heightfield, surface: &Heightfield) -> Option<f64> {
+    let lattice = exact.lattice();
+    let around = |vertex: usize| {
+        let ring = lattice.neighbours(vertex / lattice.cols(), vertex % lattice.cols());
+        ring.map(|n| n.map(|(row, col)| lattice.index(row, col)))
+    };
+    let bend = |field: &Heightfield, vertex: usize| -> Option<f64> {
+        let heights = field.heights();
+        let ring = around(vertex).map(|n| n.map_or(f64::NAN, |n| heights[n]));
+        let hessian = Quadratic::fit(heights[vertex], ring, lattice.spacing()).hessian;
+        let bend = hessian.nuclear_norm();
+        bend.is_finite().then_some(bend)
+    };
+    let is_crease = |vertex: usize| bend(exact, vertex).is_some_and(|s| s > 1.0 / CREASE);
+    let near = (0..lattice.len())
+        .filter(|v| is_crease(*v) || around(*v).into_iter().flatten().any(is_crease));
+    let (mut found, mut whole) = (0.0, 0.0);
+    for vertex in near {
+        if let (Some(a), Some(b)) = (bend(surface, vertex), bend(exact, vertex)) {
+            found += a;
+            whole += b;
+        }
+    }
+    (whole > 0.0).then(|| found / whole)
 }
 
 /// The larger strain of a triangle's map, from its corners before and after.

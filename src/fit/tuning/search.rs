@@ -323,10 +323,14 @@ impl Search {
             (true, false) => larger,
         };
         let [bends, creases] = IN_SPITE;
-        let least = match self.dependent {
-            true if new.flatness < old.flatness => bends,
-            true if new.crease_radius > old.crease_radius => creases,
-            _ => 0.0,
+        let sharp = old.crease_radius.max(Bending::SMOOTH.crease_radius);
+        let correlated = self.known.noise.is_some_and(|noise| noise.merged > 0);
+        let least = if self.dependent && new.flatness < old.flatness {
+            bends
+        } else if correlated && new.crease_radius > sharp {
+            creases
+        } else {
+            0.0
         };
         let sum = |misses: &[f64]| misses.iter().sum::<f64>();
         let enough = sum(misses) <= (1.0 - least) * sum(&self.misses);

@@ -189,16 +189,6 @@ export class Analyses {
     return this.#once(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
-  /** @param {Drawing} drawing */
-  dxf(drawing) {
-    return this.#once(drawing, 'dxf', (worker) => worker.writeDxf(drawing));
-  }
-
-  /** @param {Drawing} drawing @param {'a4' | 'letter'} [paper] */
-  pdf(drawing, paper) {
-    return this.#once(drawing, `pdf ${paper}`, (worker) => worker.writePdf(drawing, { paper }));
-  }
-
   /**
    * An example's true surface with something printed on it, seen from above.
    * @param {Input & { truth: Float64Array }} input
@@ -222,7 +212,7 @@ export class Analyses {
     const { surface } = result;
     return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, async (worker) => {
       const cylinder = await this.#cylinder(result);
-      return { ...await worker.dewarp(cylinder ?? surface, photo, options), parallel: cylinder !== undefined };
+      return { ...await worker.dewarp(cylinder ?? surface, photo, { ...options, map: false, grid: true }), parallel: cylinder !== undefined };
     });
   }
 

@@ -267,11 +267,12 @@ pageTest('the printed page is made flat: an A4 sheet, with its pixels and its ma
   assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [width, height]);
   await page.locator('#flat-save').click();
   const map = await saveAs(page, 'Warp map');
-  const { places, ...size } = JSON.parse(map.bytes.toString());
-  assert.deepEqual([size.width, size.height, places.length], [width, height, width * height]);
+  const { places, columns, rows, step, error, ...size } = JSON.parse(map.bytes.toString());
+  assert.deepEqual([size.width, size.height, places.length], [width, height, columns * rows]);
+  assert.ok(Math.abs((columns - 1) * step[0] - (width - 1)) < 1e-3 && error.maximum <= 0.25);
   // Upright: further to the right there is further to the right here.
-  const row = places.slice(width * (height >> 1), width * ((height >> 1) + 1)).filter(Boolean);
-  assert.ok(row.length > 0.9 * width && row.at(-1)[0] > row[0][0] + width / 2);
+  const row = places.slice(columns * (rows >> 1), columns * ((rows >> 1) + 1)).filter(Boolean);
+  assert.ok(row.length > 0.9 * columns && row.at(-1)[0] > row[0][0] + width / 2);
 
   const dots = page.getByLabel('Pixels per unit');
   await dots.fill('300');

@@ -49,7 +49,7 @@ export function spacePanel(session, light) {
   const unfold = element('unfold', HTMLInputElement);
   const unfoldField = element('unfold-field', HTMLElement);
   const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
-  const hints = { flat: element('light-hint', HTMLElement), space: element('space-hint', HTMLElement) };
+  const hints = { flat: element('light-hint', HTMLElement), picture: element('picture-hint', HTMLElement), space: element('space-hint', HTMLElement) };
   const camera = new Camera();
   const space = spaceOn(canvas);
   let share = 0.5;
@@ -104,6 +104,7 @@ export function spacePanel(session, light) {
     hints.space.hidden = panel.hidden;
     element('flat-reading', HTMLElement).hidden = !panel.hidden;
     hints.flat.hidden = !panel.hidden || (shown.before !== undefined && shown.after !== undefined);
+    hints.picture.hidden = !panel.hidden || shown.after === undefined;
     drawSoon();
   };
 

@@ -28,8 +28,13 @@ import { handOver, work } from './surface/work.js';
  * @property {[number, number][]} [crop]
  */
 
-/** Pixels along the longer side of what is unfolded, and of what is cut into sheets: half a millimetre of a piece of 20 cm. */
-const UNFOLDED = 90;
+/**
+ * Pixels along the longer side of what is unfolded, whole and in pieces, and of what is cut into sheets: half a millimetre
+ * of a piece of 20 cm.
+ */
+const [UNFOLDED, APART] = [90, 120];
+/** The longer side of what is unfolded in pieces, in millimetres. */
+const APART_SIDE = 300;
 const CUT = 450;
 
 /** Milliseconds without a question after which the worker goes. */
@@ -162,8 +167,24 @@ export class Analyses {
       const small = smaller(result, UNFOLDED);
       // Without creases it still unfolds.
       const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result).catch(() => ({ creases: [] }))]);
-      const { left, top } = gridOf(result.input);
-      return work('unfolding', sheet, most, [left, top - small.height * small.pixelSize], creases.map(({ points }) => points));
+      return work('unfolding', sheet, most, cornerOf(result, small), creases.map(({ points }) => points));
+    });
+  }
+
+  /**
+   * The same, cut into sheets that lie beside each other in the end.
+   * @param {Result} result
+   * @param {number} maxStrain
+   * @param {number} most strain at the end of the colours
+   */
+  unfoldInPieces(result, maxStrain, most) {
+    return this.#once(result.surface, `unfolding in pieces ${maxStrain}`, async (worker) => {
+      const small = smaller(result, APART);
+      // Between sheets there is room for scissors, which is little only beside large ones.
+      const scale = APART_SIDE / (Math.max(small.width, small.height) * small.pixelSize);
+      const { assembly } = await worker.pattern(small, { scale, maxStrain, assembly: true });
+      if (!assembly) throw new Error('nothing is said of how it is put together');
+      return work('unfoldingInPieces', assembly.model, scale / 1000, most, cornerOf(result, small));
     });
   }
 
@@ -257,6 +278,17 @@ function smaller(result, side) {
   const { width, pixelSize, ...image } = resultImage(result);
   const small = coarse({ width, ...image }, side);
   return { ...small, pixelSize: (pixelSize * width) / small.width };
+}
+
+/**
+ * Where the lower left corner of the plane is that an image is over.
+ * @param {Result} result
+ * @param {{ height: number, pixelSize: number }} small
+ * @returns {[number, number]}
+ */
+function cornerOf({ input }, { height, pixelSize }) {
+  const { left, top } = gridOf(input);
+  return [left, top - height * pixelSize];
 }
 
 let photos = 0;

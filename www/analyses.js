@@ -6,17 +6,16 @@
  */
 
 import { coarse } from './surface/coarse.js';
-import { magnitude } from './surface/colours.js';
 import { resultImage } from './surface/known.js';
 import { gridOf } from './surface/lattice.js';
-import { CREASED, roundness } from './surface/roundness.js';
+import { CREASED } from './surface/roundness.js';
 import { handOver, work } from './surface/work.js';
 
 /** @import {Api, Surface} from './api.js' */
 /** @import {Input, Result} from './session.js' */
 
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
-/** @typedef {ReturnType<typeof shownOf>} Curvatures */
+/** @typedef {ReturnType<typeof import('./surface/roundness.js').curvaturesOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
@@ -114,7 +113,7 @@ export class Analyses {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
       input.design ? null : this.#once(input, `curvatures ${spacing}`, (worker) =>
-        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shownOf)),
+        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shown)),
       this.curvature(surface),
     ]);
     return { before, after };
@@ -122,7 +121,7 @@ export class Analyses {
 
   /** @param {Surface} surface */
   curvature(surface) {
-    return this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownOf));
+    return this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shown));
   }
 
   /** @param {Result} result */
@@ -135,9 +134,10 @@ export class Analyses {
    * @param {Result} result
    */
   async pieces(result) {
-    const [map, analysis] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
-    const count = roundness(map, analysis) < CREASED ? map.patches.length : Infinity;
-    return { count, creases: map.creases.length };
+    const [map, { gaussian }] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
+    const { rows, cols, labels, spacing, patches, creases } = map;
+    const round = await work('roundness', { rows, cols, labels, spacing }, { gaussian });
+    return { count: round < CREASED ? patches.length : Infinity, creases: creases.length };
   }
 
   /** @param {Result} result */
@@ -256,17 +256,10 @@ export class Analyses {
   }
 }
 
-/**
- * What is shown of an analysis, in half the memory.
- * @param {Analysis} analysis
- */
-function shownOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
-  return {
-    rows, cols, spacing, origin, summary,
-    gaussian: new Float32Array(gaussian),
-    kappa2: new Float32Array(kappa2),
-    medianKappa1: magnitude([kappa1], 0.5),
-  };
+/** What is shown of an analysis. @param {Analysis} analysis */
+function shown(analysis) {
+  const { gaussian, kappa1, kappa2 } = analysis;
+  return handOver('curvaturesOf', [gaussian, kappa1, kappa2], analysis);
 }
 
 /**

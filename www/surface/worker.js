@@ -6,6 +6,7 @@ import { meanAngle, rmsError } from './compare.js';
 import { interpolated } from './lattice.js';
 import { normalsOf } from './normals.js';
 import { labelPixels, sheetPixels, valuePixels } from './pixels.js';
+import { curvaturesOf, roundness } from './roundness.js';
 import { unfolding } from './unfolding.js';
 
 /**
@@ -21,7 +22,10 @@ function unfoldingInPieces(model, scale, most, offset) {
 }
 
 /** What can be asked for, by name. Arrays of an answer are handed over. */
-export const tasks = { interpolated, labelPixels, lookedThrough, meanAngle, normalsOf, photographed, rmsError, sheetPixels, unfolding, unfoldingInPieces, valuePixels };
+export const tasks = {
+  curvaturesOf, interpolated, labelPixels, lookedThrough, meanAngle, normalsOf, photographed, rmsError, roundness, sheetPixels,
+  unfolding, unfoldingInPieces, valuePixels,
+};
 
 globalThis.addEventListener('message', ({ data: { id, task, args } }) => {
   /** @type {{ id: number, value?: unknown, error?: string }} */

@@ -9,26 +9,23 @@ use super::linear::precise::Precise;
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// What the search for a plate starts from, at free vertices.
+/// What the search for a plate starts from, at free vertices, and how far it goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Guess {
-    /// Nothing: the plane that the coordinates have taken away.
+    /// Nothing: the plane that the coordinates have taken away. Each pass ends at a share of its own
+    /// first residual, for where little is held the last digits count.
     Plane,
-    /// `z̃` as it is: the plate of an earlier solve.
+    /// `z̃` as it is, the plate of an earlier solve: for surfaces that are changed while they are watched
+    /// and need not be exact. One pass, which ends at a share of the residual about the plane.
     Earlier,
 }
 
-impl Guess {
-    /// Passes in which the tie break pulls towards the last one's plate, so that it has no say; an
-    /// earlier plate is as good as a pass or two. And the residual at which all is done, relative to that
-    /// about the plane: a plate from an earlier one is for surfaces that are changed while they are watched.
-    fn passes(self) -> (usize, f64) {
-        match self {
-            Guess::Plane => (3, 1e-10),
-            Guess::Earlier => (1, 1e-7),
-        }
-    }
-}
+/// Residuals at which a pass is done, relative to its first one, and to that about the plane.
+const ENOUGH: f64 = 1e-10;
+const ROUGHLY: f64 = 1e-7;
+
+/// Passes in which the tie break pulls towards the last one's plate: then it has no say.
+const PASSES: usize = 3;
 
 /// Most iterations in a pass.
 const STEPS: usize = 200;
@@ -46,20 +43,28 @@ pub(crate) fn fill(
     let rho = plan.first_rho(problem);
     let mut multigrid = Multigrid::new(problem, domains, rho)?;
     let mut precise = Precise::new(problem)?;
-    let mut z = problem.target.clone();
+    let given = problem.target.clone();
     for cell in &problem.free {
-        z[*cell as usize] = 0.0;
+        problem.target[*cell as usize] = 0.0;
     }
+    let mut z = problem.target.clone();
     precise.start(problem, rho, &z);
-    let (passes, tolerance) = guess.passes();
-    let goal = tolerance * precise.distance(problem, &multigrid);
-    match guess {
-        Guess::Plane => problem.target.copy_from_slice(&z),
-        Guess::Earlier => z.copy_from_slice(&problem.target),
-    }
+    let rough = ROUGHLY * precise.distance(problem, &multigrid);
+    let passes = match guess {
+        Guess::Plane => PASSES,
+        Guess::Earlier => {
+            z.copy_from_slice(&given);
+            problem.target = given;
+            1
+        }
+    };
     let mut steps = 0;
     for _ in 0..passes {
         precise.start(problem, rho, &z);
+        let goal = match guess {
+            Guess::Plane => ENOUGH * precise.distance(problem, &multigrid),
+            Guess::Earlier => rough,
+        };
         steps += precise.solve(problem, rho, &mut multigrid, &mut z, (goal, STEPS));
         for cell in &problem.free {
             problem.target[*cell as usize] = z[*cell as usize];

@@ -22,6 +22,9 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
+/// From such a gap on a surface is only looked at, and an earlier plate is good enough for it.
+const WATCHED: f64 = 0.05;
+
 /// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
 const COARSEST_GRID: usize = 20;
 
@@ -102,7 +105,10 @@ impl Preparation {
         let trivial = energy <= problem.rounding && problem.free.is_empty();
         let (guess, warm) = match memory {
             Some((memory, corner)) => (
-                memory.plate(&mut problem, corner),
+                match options.gap >= WATCHED {
+                    true => memory.plate(&mut problem, corner),
+                    false => Guess::Plane,
+                },
                 memory.state(&problem, &plan, corner)?,
             ),
             None => (Guess::Plane, None),

@@ -6,17 +6,16 @@
  */
 
 import { coarse } from './surface/coarse.js';
-import { magnitude } from './surface/colours.js';
 import { resultImage } from './surface/known.js';
 import { gridOf } from './surface/lattice.js';
-import { CREASED, roundness } from './surface/roundness.js';
+import { CREASED } from './surface/roundness.js';
 import { handOver, work } from './surface/work.js';
 
 /** @import {Api, Surface} from './api.js' */
 /** @import {Input, Result} from './session.js' */
 
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
-/** @typedef {ReturnType<typeof shownOf>} Curvatures */
+/** @typedef {ReturnType<typeof import('./surface/roundness.js').curvaturesOf>} Curvatures */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
 /** @typedef {import('../pkg/types.js').Photo} Photo */
@@ -28,8 +27,13 @@ import { handOver, work } from './surface/work.js';
  * @property {[number, number][]} [crop]
  */
 
-/** Pixels along the longer side of what is unfolded, and of what is cut into sheets: half a millimetre of a piece of 20 cm. */
-const UNFOLDED = 90;
+/**
+ * Pixels along the longer side of what is unfolded, whole and in pieces, and of what is cut into sheets: half a millimetre
+ * of a piece of 20 cm.
+ */
+const [UNFOLDED, APART] = [90, 120];
+/** The longer side of what is unfolded in pieces, in millimetres. */
+const APART_SIDE = 300;
 const CUT = 450;
 
 /** Milliseconds without a question after which the worker goes. */
@@ -109,7 +113,7 @@ export class Analyses {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
       input.design ? null : this.#once(input, `curvatures ${spacing}`, (worker) =>
-        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shownOf)),
+        worker.analyze(heightsAlone(input), input.lattice ? {} : { spacing }).then(shown)),
       this.curvature(surface),
     ]);
     return { before, after };
@@ -117,7 +121,7 @@ export class Analyses {
 
   /** @param {Surface} surface */
   curvature(surface) {
-    return this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownOf));
+    return this.#once(surface, 'curvatures', (worker) => worker.analyze(surface).then(shown));
   }
 
   /** @param {Result} result */
@@ -130,9 +134,10 @@ export class Analyses {
    * @param {Result} result
    */
   async pieces(result) {
-    const [map, analysis] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
-    const count = roundness(map, analysis) < CREASED ? map.patches.length : Infinity;
-    return { count, creases: map.creases.length };
+    const [map, { gaussian }] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
+    const { rows, cols, labels, spacing, patches, creases } = map;
+    const round = await work('roundness', { rows, cols, labels, spacing }, { gaussian });
+    return { count: round < CREASED ? patches.length : Infinity, creases: creases.length };
   }
 
   /** @param {Result} result */
@@ -162,8 +167,24 @@ export class Analyses {
       const small = smaller(result, UNFOLDED);
       // Without creases it still unfolds.
       const [sheet, { creases }] = await Promise.all([worker.unroll(small), this.patches(result).catch(() => ({ creases: [] }))]);
-      const { left, top } = gridOf(result.input);
-      return work('unfolding', sheet, most, [left, top - small.height * small.pixelSize], creases.map(({ points }) => points));
+      return work('unfolding', sheet, most, cornerOf(result, small), creases.map(({ points }) => points));
+    });
+  }
+
+  /**
+   * The same, cut into sheets that lie beside each other in the end.
+   * @param {Result} result
+   * @param {number} maxStrain
+   * @param {number} most strain at the end of the colours
+   */
+  unfoldInPieces(result, maxStrain, most) {
+    return this.#once(result.surface, `unfolding in pieces ${maxStrain}`, async (worker) => {
+      const small = smaller(result, APART);
+      // Between sheets there is room for scissors, which is little only beside large ones.
+      const scale = APART_SIDE / (Math.max(small.width, small.height) * small.pixelSize);
+      const { assembly } = await worker.pattern(small, { scale, maxStrain, assembly: true });
+      if (!assembly) throw new Error('nothing is said of how it is put together');
+      return work('unfoldingInPieces', assembly.model, scale / 1000, most, cornerOf(result, small));
     });
   }
 
@@ -189,16 +210,6 @@ export class Analyses {
     return this.#once(drawing, 'svg', (worker) => worker.writeSvg(drawing));
   }
 
-  /** @param {Drawing} drawing */
-  dxf(drawing) {
-    return this.#once(drawing, 'dxf', (worker) => worker.writeDxf(drawing));
-  }
-
-  /** @param {Drawing} drawing @param {'a4' | 'letter'} [paper] */
-  pdf(drawing, paper) {
-    return this.#once(drawing, `pdf ${paper}`, (worker) => worker.writePdf(drawing, { paper }));
-  }
-
   /**
    * An example's true surface with something printed on it, seen from above.
    * @param {Input & { truth: Float64Array }} input
@@ -222,7 +233,7 @@ export class Analyses {
     const { surface } = result;
     return this.#once(surface, `dewarp ${numberOf(photo)} ${JSON.stringify(options)}`, async (worker) => {
       const cylinder = await this.#cylinder(result);
-      return { ...await worker.dewarp(cylinder ?? surface, photo, options), parallel: cylinder !== undefined };
+      return { ...await worker.dewarp(cylinder ?? surface, photo, { ...options, map: false, grid: true }), parallel: cylinder !== undefined };
     });
   }
 
@@ -245,17 +256,10 @@ export class Analyses {
   }
 }
 
-/**
- * What is shown of an analysis, in half the memory.
- * @param {Analysis} analysis
- */
-function shownOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
-  return {
-    rows, cols, spacing, origin, summary,
-    gaussian: new Float32Array(gaussian),
-    kappa2: new Float32Array(kappa2),
-    medianKappa1: magnitude([kappa1], 0.5),
-  };
+/** What is shown of an analysis. @param {Analysis} analysis */
+function shown(analysis) {
+  const { gaussian, kappa1, kappa2 } = analysis;
+  return handOver('curvaturesOf', [gaussian, kappa1, kappa2], analysis);
 }
 
 /**
@@ -267,6 +271,17 @@ function smaller(result, side) {
   const { width, pixelSize, ...image } = resultImage(result);
   const small = coarse({ width, ...image }, side);
   return { ...small, pixelSize: (pixelSize * width) / small.width };
+}
+
+/**
+ * Where the lower left corner of the plane is that an image is over.
+ * @param {Result} result
+ * @param {{ height: number, pixelSize: number }} small
+ * @returns {[number, number]}
+ */
+function cornerOf({ input }, { height, pixelSize }) {
+  const { left, top } = gridOf(input);
+  return [left, top - height * pixelSize];
 }
 
 let photos = 0;

@@ -146,6 +146,16 @@ function isAlike(a, b) {
   return ['width', 'height', 'pixelSize', 'heightScale', 'design'].every((name) => a[/** @type {keyof Input} */ (name)] === b[/** @type {keyof Input} */ (name)]);
 }
 
+/** @type {WeakMap<ArrayLike<number>, import('./surface/coarse.js').Heights>} */
+const known = new WeakMap();
+
+/** On the pixels of the finest rung, from which the coarser ones are made: many pixels are gone through once. @param {import('./surface/coarse.js').Heights} image */
+function finest(image) {
+  const found = known.get(image.data) ?? coarse(image, SIDES[SIDES.length - 1]);
+  known.set(image.data, found);
+  return found;
+}
+
 /**
  * An input on fewer pixels, as the package takes it.
  * @param {Input} input
@@ -153,7 +163,7 @@ function isAlike(a, b) {
  */
 function reducedTo({ width, height, data, pixelSize: each, heightScale, design, confidence, constraints }, side) {
   /** @param {ArrayLike<number>} values */
-  const reduced = (values) => coarse({ width, height, data: values }, side);
+  const reduced = (values) => coarse(finest({ width, height, data: values }), side);
   const heights = reduced(data);
   const pixelSize = (each * width) / heights.width;
   const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };

@@ -1,11 +1,11 @@
 /** A file of heights as the input, with what else is known of it. */
+import { apart } from './apart.js';
 import { pixelsOf } from './pixels.js';
-import { reading } from './reading.js';
 import { handOver } from './surface/work.js';
 import { takenOver } from './understood.js';
 
 /** @import {Api} from './api.js' */
-/** @import {Reader} from './reading.js' */
+/** @import {Worker} from './apart.js' */
 /** @import {Beside, Input} from './session.js' */
 /** @import {Together} from './together.js' */
 
@@ -25,7 +25,7 @@ export class InColour extends Error {
  * @returns {Promise<Input>}
  */
 export async function inputOf(api, file, signal, wanted, { photo: picture, ...others } = {}) {
-  const { names, read, beside } = await reading(api, signal, async (reader) => {
+  const { names, read, beside } = await apart(api, signal, async (reader) => {
     const names = await arraysOf(reader, file);
     const options = names.length > 1 ? { array: wanted ?? names[0] } : undefined;
     const read = await reader.read(file, options).catch((error) => {
@@ -49,7 +49,7 @@ export async function inputOf(api, file, signal, wanted, { photo: picture, ...ot
 
 /**
  * The names of the arrays of an NPZ that may be heights; other files have none.
- * @param {Reader} reader
+ * @param {Worker} reader
  * @param {File} file
  */
 async function arraysOf(reader, file) {
@@ -60,7 +60,7 @@ async function arraysOf(reader, file) {
 
 /**
  * What is known of depths besides, as it is stored.
- * @param {Reader} reader
+ * @param {Worker} reader
  * @param {Pick<Together, 'confidence' | 'mask'>} files
  * @returns {Promise<Beside | undefined>}
  */

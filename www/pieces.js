@@ -46,6 +46,11 @@ export async function piecesOf(analyses, result, { side, tabs }) {
   throw new Error('no cut lays it flat');
 }
 
+/** With how much strain it was to be had. @param {Drawing} drawing */
+export function strainOf({ summary: { strain } }) {
+  return STRAINS.find((most) => strain <= most) ?? STRAINS[STRAINS.length - 1];
+}
+
 /** @param {Drawing} drawing */
 export function piecesInWords({ summary: { sheets, seams, folds, slits, strain } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;

@@ -61,6 +61,14 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  */
 
 /** @typedef {{ input: Input, settings: Settings, surface: Surface }} Result */
+/**
+ * What may take long.
+ * @typedef {object} Slow
+ * @property {string} words what is done
+ * @property {string} kind what takes as long as others of it
+ * @property {number} size vertices, or bytes
+ * @property {number} each milliseconds for one of these, until that was measured
+ */
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 
 /**
@@ -73,7 +81,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {null} cleared the last result is gone, for another input is there
  * @property {Occlusions | null} occlusions where the present input is torn, if that was asked for
  * @property {Phase} phase
- * @property {File | null} opening a file is being read, or nothing is any more
+ * @property {Slow | null} opening something is being opened, or nothing is any more
  * @property {null} unsolved a run has ended with nothing
  * @property {{ doing: string, error: unknown }} failure
  */
@@ -149,13 +157,13 @@ export class Session extends Events {
    * Takes another input. If it cannot be had, what is there stays, and so does a run that is under way.
    * @param {string} doing for the message if it fails
    * @param {(signal: AbortSignal) => Promise<Input>} load `signal`: it is given up
-   * @param {File} [file] that is read
+   * @param {Slow} [slow] for what is said meanwhile
    * @returns {Promise<boolean>} whether it is the input now
    */
-  async open(doing, load, file) {
+  async open(doing, load, slow) {
     this.giveUp();
     const opening = (this.#opening = new AbortController());
-    if (file) this.emit('opening', file);
+    if (slow) this.emit('opening', slow);
     try {
       const input = await load(opening.signal);
       await lookAt(input);

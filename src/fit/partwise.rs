@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::admm::schedule::Plan;
 use super::cascade::{Answer, Cascade, SET_UP};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
@@ -181,11 +180,8 @@ impl Partwise {
             }
         };
         let corner = self.components.corner(number);
-        let warm = |problem: &Problem, plan: &Plan| match &self.memory {
-            Some(memory) => memory.state(problem, plan, corner),
-            None => Ok(None),
-        };
-        let part = Preparation::new(input, domain, self.scale, &self.options, warm)?;
+        let memory = self.memory.as_deref().map(|memory| (memory, corner));
+        let part = Preparation::new(input, domain, self.scale, &self.options, memory)?;
         self.preparing = Some(part);
         Ok(())
     }

@@ -15,11 +15,15 @@ use super::input::Input;
 use super::linear::cg::ConjugateGradients;
 use super::operator::lattice::position;
 use super::options::Options;
-use super::plate;
+use super::plate::{self, Guess};
 use super::report::{Seconds, StopReason};
+use super::warm_start::WarmStart;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
+
+/// From such a gap on a surface is only looked at, and an earlier plate is good enough for it.
+const WATCHED: f64 = 0.05;
 
 /// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
 const COARSEST_GRID: usize = 20;
@@ -45,8 +49,9 @@ pub(crate) struct Lattices {
     coordinates: Coordinates,
     plan: Plan,
     problem: Problem,
-    /// The state to start from on the finest lattice, if there is one.
+    /// The state to start from on the finest lattice, if there is one, and the heights of free vertices.
     warm: Option<State>,
+    guess: Guess,
     /// The domains of all lattices so far, the finest first, and the inputs of the coarser ones.
     domains: Vec<Arc<Domain>>,
     coarse: Vec<Input>,
@@ -79,17 +84,18 @@ pub(crate) struct FirstLevel {
 }
 
 impl Preparation {
-    /// `warm` gives the state to start from on the finest lattice, if there is one.
+    /// `memory`: what to start from on the finest lattice, if there is anything, and the vertex of the
+    /// whole lattice that is `(0, 0)` of the input's.
     pub(crate) fn new(
         input: Input,
         domain: Arc<Domain>,
         scale: f64,
         options: &Options,
-        warm: impl FnOnce(&Problem, &Plan) -> Result<Option<State>>,
+        memory: Option<(&WarmStart, (usize, usize))>,
     ) -> Result<Self> {
         let plan = Plan::new(options);
         let coordinates = Coordinates::new(&input, &domain, scale);
-        let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
+        let mut problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
         let energy = problem.smoothness(&problem.target);
         if !energy.is_finite() {
             return Err(Error::Overflow {
@@ -97,8 +103,19 @@ impl Preparation {
             });
         }
         let trivial = energy <= problem.rounding && problem.free.is_empty();
+        let (guess, warm) = match memory {
+            Some((memory, corner)) => (
+                match options.gap >= WATCHED {
+                    true => memory.plate(&mut problem, corner),
+                    false => Guess::Plane,
+                },
+                memory.state(&problem, &plan, corner)?,
+            ),
+            None => (Guess::Plane, None),
+        };
         Ok(Preparation::Lattices(Box::new(Lattices {
-            warm: warm(&problem, &plan)?,
+            warm,
+            guess,
             input,
             options: *options,
             coordinates,
@@ -162,7 +179,7 @@ impl Lattices {
                 }
             }
             Next::Fill => {
-                plate::fill(&mut self.problem, &self.domains, &self.plan)?;
+                plate::fill(&mut self.problem, &self.domains, &self.plan, self.guess)?;
                 self.problem.take_first_normals(self.options.energy)?;
                 give_back(&mut self.input, &self.problem)?;
                 self.domains.truncate(1);

@@ -9,6 +9,7 @@ use super::cascade::Answer;
 use super::components::Components;
 use super::heightfields::{Problem, State};
 use super::operator::lattice::position;
+use super::plate::Guess;
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
@@ -26,6 +27,38 @@ pub(super) struct WarmStart {
 }
 
 impl WarmStart {
+    /// Sets `z̃` at the free vertices of a problem to what it was there, if that is known for each of them.
+    /// `corner` as in [`state`](Self::state).
+    pub(super) fn plate(&self, problem: &mut Problem, corner: (usize, usize)) -> Guess {
+        let domain = &problem.operator.domain;
+        let known = problem.free.iter().map(|cell| {
+            let cell = *cell as usize;
+            let (row, col) = domain.lattice_vertex(cell);
+            let (answer, old) = self.find((row + corner.0, col + corner.1))?;
+            let operator = &answer.problem.operator;
+            let place = position(&operator.domain, old);
+            let z = operator
+                .coordinates
+                .outward(place, answer.problem.target[old]);
+            Some((
+                cell,
+                problem
+                    .operator
+                    .coordinates
+                    .inward(position(domain, cell), z),
+            ))
+        });
+        match known.collect::<Option<Vec<_>>>() {
+            Some(heights) => {
+                for (cell, z) in heights {
+                    problem.target[cell] = z;
+                }
+                Guess::Earlier
+            }
+            None => Guess::Plane,
+        }
+    }
+
     /// The state to start from, unless a coarse lattice is a better start. `corner` is the
     /// vertex of the whole lattice that is `(0, 0)` of the problem's.
     pub(super) fn state(

@@ -1,8 +1,8 @@
 /** Files in, by drop and by dialog, sound and broken; files out. */
 import assert from 'node:assert/strict';
-import { grid, npy, parseNpy, png16 } from './support/files.mjs';
+import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { drop, look, open, pageTest, reported, runBy, save } from './support/page.mjs';
+import { drop, look, open, pageTest, reported, runBy, save, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -89,32 +89,55 @@ pageTest('heights along one line are refused with the reason', async (page) => {
   assert.match(await page.locator('#verdict').innerText(), /Not solved/);
 });
 
-pageTest('a file that is being opened can be done without, and the next one is opened', async (page) => {
-  const before = await page.locator('#input-caption').innerText();
+pageTest('a file, a mesh’s other side and a file to be saved can be done without: their workers end, and what was there stays', async (page) => {
+  await open(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
+  await settled(page);
   await page.evaluate(() => {
-    const panel = /** @type {HTMLElement} */ (document.querySelector('#opening'));
-    const told = { words: '', gone: false };
-    Object.assign(window, { told });
-    // As soon as it is said, before the file can have been read.
-    new MutationObserver((_, observer) => {
-      if (panel.hidden) return;
-      observer.disconnect();
-      told.words = panel.innerText;
-      /** @type {HTMLButtonElement} */ (document.querySelector('#opening-cancel')).click();
-      told.gone = panel.hidden;
-    }).observe(panel, { attributes: true });
+    const { postMessage, terminate } = Worker.prototype;
+    const held = { on: false, ended: 0 };
+    Object.assign(window, { held });
+    /** Those that are never told what to do. @type {WeakSet<Worker>} */
+    const waiting = new WeakSet();
+    Worker.prototype.postMessage = function (/** @type {any[]} */ ...message) {
+      if (held.on) waiting.add(this);
+      // @ts-expect-error one signature of several
+      else postMessage.apply(this, message);
+    };
+    Worker.prototype.terminate = function () {
+      if (waiting.delete(this)) held.ended++;
+      terminate.call(this);
+    };
   });
-  const large = grid(600, 400, (col, row) => col + 2 * row);
-  await drop(page, 'large.npy', npy(600, large));
-  await page.waitForFunction(() => /** @type {any} */ (window).told.words !== '');
-  const { words, gone } = await page.evaluate(() => /** @type {any} */ (window).told);
-  assert.match(words, /Reading the file/);
-  assert.ok(gone, 'at once');
+  /** @param {boolean} on */
+  const hold = (on) => page.evaluate((value) => void (/** @type {any} */ (window).held.on = value), on);
+  const ended = () => page.evaluate(() => /** @type {any} */ (window).held.ended);
+  const before = await page.locator('#input-caption').innerText();
+  const ways = /** @type {const} */ ([
+    ['opening', /Reading the file/, () => drop(page, 'slope.npy', npy(WIDTH, plane))],
+    ['opening', /Looking at it from there/, () => page.getByRole('button', { name: '+x', exact: true }).click()],
+    ['writing', /Writing the file/, () => page.locator('#end-file').click()],
+  ]);
+  for (const [i, [panel, words, act]] of ways.entries()) {
+    await hold(true);
+    await act();
+    await page.locator(`#${panel}`, { hasText: words }).waitFor();
+    const gone = await page.locator(`#${panel}-cancel`).evaluate((/** @type {HTMLButtonElement} */ button) => {
+      button.click();
+      return button.parentElement?.hidden;
+    });
+    assert.ok(gone, 'at once');
+    assert.equal(await ended(), i + 1, 'nobody goes on with it');
+    await hold(false);
+    assert.equal(await page.locator('#input-caption').innerText(), before);
+  }
+  assert.match(await page.locator('#save-size').innerText(), /Cancelled/);
+  await page.getByRole('button', { name: 'Write it' }).click();
+  await page.locator('#save-size', { hasText: /obj, .*MB/ }).waitFor();
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('#notice').isVisible(), false, 'nothing went wrong');
   await open(page, 'slope.npy', npy(WIDTH, plane));
   assert.match(await page.locator('#input-caption').innerText(), /^slope/);
   assert.equal(await page.locator('#opening').isVisible(), false);
-  assert.equal(await page.locator('#notice').isVisible(), false, 'nothing went wrong');
-  assert.match(before, /^roof/);
 });
 
 pageTest('the file button opens a file', async (page) => {

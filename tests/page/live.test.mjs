@@ -85,8 +85,37 @@ pageTest('what grows with the size of a result is done in workers, and a picture
     .filter(({ functionName }) => functionName !== '' && (!name || functionName === name))
     .reduce((sum, { ranges: [{ count }] }) => sum + count, 0);
   assert.ok(calls('surface/raster.js', 'rasterOf') > 0, 'it does count');
-  for (const file of ['surface/compare.js', 'surface/pixels.js', 'surface/unfolding.js', 'views/print.js']) assert.equal(calls(file), 0, file);
+  for (const file of ['surface/compare.js', 'surface/pixels.js', 'surface/roundness.js', 'surface/unfolding.js', 'views/print.js']) assert.equal(calls(file), 0, file);
   assert.equal(calls('surface/triangles.js', 'fillTriangles'), 0);
   // Of previews only, which are small.
   assert.ok(calls('surface/normals.js', 'normalsOf') <= 2 * previews, `${calls('surface/normals.js', 'normalsOf')} for ${previews} previews`);
+});
+
+pageTest('the solver of a large input gives its memory back when it rests, and comes again', async (page) => {
+  await page.evaluate(() => {
+    const { postMessage, terminate } = Worker.prototype;
+    /** Those that were handed a large image. @type {WeakSet<Worker>} */
+    const large = new WeakSet();
+    const seen = { opened: 0, ended: 0 };
+    Object.assign(window, { seen });
+    Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
+      const bytes = Array.isArray(transfer) ? transfer.reduce((sum, { byteLength = 0 }) => sum + byteLength, 0) : 0;
+      if (bytes >= 8 * 700 ** 2 && String(message.path) === 'open') {
+        large.add(this);
+        seen.opened++;
+      }
+      postMessage.call(this, message, transfer);
+    };
+    Worker.prototype.terminate = function () {
+      if (large.delete(this)) seen.ended++;
+      terminate.call(this);
+    };
+  });
+  const seen = () => page.evaluate(() => /** @type {any} */ (window).seen);
+  await runBy(page, () => page.locator('#size').selectOption('700'));
+  assert.deepEqual(await seen(), { opened: 1, ended: 0 });
+  await page.waitForFunction(() => /** @type {any} */ (window).seen.ended === 1);
+  await runBy(page, () => page.getByRole('button', { name: /^small/ }).click());
+  assert.equal((await seen()).opened, 2);
+  assert.match(await page.locator('#certificate').innerText(), /^Certified/);
 });

@@ -132,7 +132,7 @@ pageTest('the flat page follows while a corner is dragged, and a magnifier shows
   const before = (await look(page, '#flat-canvas')).hash;
   await page.mouse.move(...await onPage(page, await placeOf(page, 'Lower right corner')));
   await page.mouse.down();
-  assert.ok((await look(page, '#page-photo > .magnifier')).covered > 0.9);
+  assert.ok((await look(page, '.frame:has(> #page-photo) > .magnifier')).covered > 0.9);
   // Frames go on being drawn while it is worked out.
   const frames = await page.evaluateHandle(() => {
     const counted = { frames: 0, answers: 0 };
@@ -151,7 +151,7 @@ pageTest('the flat page follows while a corner is dragged, and a magnifier shows
   assert.ok(answers >= 1 && drawn > answers, `${drawn} frames, ${answers} answers`);
   assert.notEqual((await look(page, '#flat-canvas')).hash, before);
   await page.mouse.up();
-  assert.equal(await page.locator('#page-photo > .magnifier').isVisible(), false);
+  assert.equal(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible(), false);
 });
 
 pageTest('everything on the photo can be done by keyboard', async (page) => {
@@ -164,9 +164,9 @@ pageTest('everything on the photo can be done by keyboard', async (page) => {
   const [u, v] = await placeOf(page, 'Upper right corner');
   assert.ok(u <= x - 9 && u > x - 60 && v > y && v < y + 6, `${x}, ${y} to ${u}, ${v}`);
   assert.match(await corner.getAttribute('class') ?? '', /held/, 'it is not drawn back');
-  assert.ok(await page.locator('#page-photo > .magnifier').isVisible());
+  assert.ok(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible());
   await page.keyboard.press('Escape');
-  assert.equal(await page.locator('#page-photo > .magnifier').isVisible(), false);
+  assert.equal(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible(), false);
 
   const points = page.getByRole('button', { name: /^Point \d of the lower edge/ });
   assert.equal(await points.count(), 3);
@@ -351,7 +351,7 @@ pageTest('on a phone a finger drags, and nothing scrolls', async (page) => {
     await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [{ x: fromX + 8 + 5 * k, y: fromY + 8 - 12 * k }] });
   }
   await painted(page);
-  assert.ok(await page.locator('#page-photo > .magnifier').isVisible());
+  assert.ok(await page.locator('.frame:has(> #page-photo) > .magnifier').isVisible());
   const [u, v] = await placeOf(page, 'Lower left corner');
   const box = await page.locator('#page-photo').boundingBox();
   assert.ok(box);

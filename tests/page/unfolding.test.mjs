@@ -1,6 +1,9 @@
 /** The way from a bent surface to its sheet, against a cylinder whose way is known. */
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
+import { initSync, loadSync, pattern } from '../../pkg/sync.js';
+import { assembled, bordersOf } from '../../www/surface/assembled.js';
 import { anchored, linesAt, valueOnMesh } from '../../www/surface/anchors.js';
 import { unfolding } from '../../www/surface/unfolding.js';
 
@@ -75,4 +78,40 @@ test('lines go along with a mesh that moves, and values are read from it where i
   // Seen from the right and above, the wall hides what is behind its foot.
   const slant = /** @type {const} */ ({ point: [0.8, 0.5, 0], towards: [1, 0, 1] });
   assert.ok(Math.abs(valueOnMesh(mesh, 1, slant, values) - 1.2) < 1e-6, `${valueOnMesh(mesh, 1, slant, values)}`);
+});
+
+test('sheets of a pyramid are where it is, and lie flat beside each other in their true size', () => {
+  const wasm = (/** @type {string} */ name) => readFileSync(new URL(`../../pkg/wasm/${name}_bg.wasm`, import.meta.url));
+  initSync(wasm('solver'));
+  loadSync({ patterns: wasm('patterns') });
+  const [side, pixel, slope] = [41, 0.5, 0.8];
+  const height = (/** @type {number} */ x, /** @type {number} */ y) => slope * (side * pixel / 2 - Math.max(Math.abs(x - side * pixel / 2), Math.abs(y - side * pixel / 2)));
+  const data = Float64Array.from({ length: side * side }, (_, i) => height(((i % side) + 0.5) * pixel, (side - Math.floor(i / side) - 0.5) * pixel));
+  const { assembly } = pattern({ width: side, height: side, data, pixelSize: pixel }, { scale: 10, assembly: true });
+  assert.ok(assembly);
+  const { positions, places, triangles, stretches } = assembled(assembly.model, 0.01);
+  let off = 0;
+  for (let i = 0; i < positions.length; i += 3) off = Math.max(off, Math.abs(positions[i + 2] - height(positions[i], positions[i + 1])));
+  assert.ok(off < 0.3 * pixel, `${off} off the pyramid`);
+  const strains = Array.from(stretches, (value) => Math.abs(value - 1)).toSorted((a, b) => a - b);
+  assert.ok(strains[Math.floor(0.9 * strains.length)] < 0.01, `strain of ${strains[Math.floor(0.9 * strains.length)]}`);
+  // The same area as the faces have, and nothing on top of anything else: all triangles lie the same way up.
+  let area = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [ax, ay, bx, by, cx, cy] = [0, 1, 2].flatMap((k) => [places[2 * triangles[t + k]], places[2 * triangles[t + k] + 1]]);
+    const twice = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+    assert.ok(twice > 0);
+    area += twice / 2;
+  }
+  const whole = ((side - 1) * pixel) ** 2 * Math.hypot(1, slope);
+  assert.ok(Math.abs(area / whole - 1) < 0.05, `${area} for ${whole}`);
+  // Borders are closed, and no edge inside is one.
+  const { corners, lengths } = bordersOf(triangles);
+  let at = 0;
+  for (const length of lengths) {
+    assert.equal(corners[3 * at], corners[3 * (at + length - 1)]);
+    at += length;
+  }
+  assert.equal(3 * at, corners.length);
+  assert.deepEqual([...bordersOf(Uint32Array.from([0, 1, 2, 0, 2, 3])).corners].filter((_, i) => i % 3 === 0), [0, 1, 2, 3, 0]);
 });

@@ -213,6 +213,15 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   assert.ok(parsed(await told(page, 'Largest strain')) <= 1);
   assert.equal(await page.locator('#result-title').innerText(), 'Laid flat, in pieces');
   assert.ok((await look(page, '#result-picture')).covered > 0.2);
+  // Under the pointer, on some place of the drawing, is a sheet.
+  const drawn = await page.locator('#result-picture').boundingBox();
+  assert.ok(drawn);
+  const read = new Set();
+  for (let i = 1; i < 12; i++) {
+    await page.mouse.move(drawn.x + (i / 12) * drawn.width, drawn.y + 0.4 * drawn.height);
+    read.add((await page.locator('#flat-reading').innerText()).trim());
+  }
+  assert.match([...read].join('|'), /Sheet \d+, [\d.]+ × [\d.]+ mm/);
 
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
@@ -267,11 +276,35 @@ pageTest('the printed page is made flat: an A4 sheet, with its pixels and its ma
   assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [width, height]);
   await page.locator('#flat-save').click();
   const map = await saveAs(page, 'Warp map');
-  const { places, ...size } = JSON.parse(map.bytes.toString());
-  assert.deepEqual([size.width, size.height, places.length], [width, height, width * height]);
+  const { places, columns, rows, step, error, ...size } = JSON.parse(map.bytes.toString());
+  assert.deepEqual([size.width, size.height, places.length], [width, height, columns * rows]);
+  assert.ok(Math.abs((columns - 1) * step[0] - (width - 1)) < 1e-3 && error.maximum <= 0.25);
   // Upright: further to the right there is further to the right here.
-  const row = places.slice(width * (height >> 1), width * ((height >> 1) + 1)).filter(Boolean);
-  assert.ok(row.length > 0.9 * width && row.at(-1)[0] > row[0][0] + width / 2);
+  const row = places.slice(columns * (rows >> 1), columns * ((rows >> 1) + 1)).filter(Boolean);
+  assert.ok(row.length > 0.9 * columns && row.at(-1)[0] > row[0][0] + width / 2);
+
+  // The photo from closer: by keys and the wheel, moved by hand, and back.
+  const over = page.locator('#photo-over');
+  const boxOf = async () => await over.boundingBox() ?? assert.fail('it is not seen');
+  await over.focus();
+  const [whole, seen] = [await boxOf(), await look(page, '#input-picture')];
+  const middle = /** @type {const} */ ([whole.x + whole.width / 2, whole.y + whole.height / 2]);
+  await page.keyboard.press('+');
+  assert.ok(Math.abs((await boxOf()).width / whole.width - 1.25) < 0.01);
+  await page.mouse.move(...middle);
+  await page.mouse.wheel(0, -400);
+  await page.waitForFunction((wide) => (document.querySelector('#photo-over')?.getBoundingClientRect().width ?? 0) > 1.6 * wide, whole.width);
+  const near = await boxOf();
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 20, middle[1] + 10, { steps: 4 });
+  await page.mouse.up();
+  const moved = await boxOf();
+  assert.ok(Math.abs(moved.x - near.x - 20) < 1 && Math.abs(moved.y - near.y - 10) < 1, 'as far as the hand');
+  await painted(page);
+  assert.notEqual((await look(page, '#input-picture')).hash, seen.hash);
+  await page.keyboard.press('0');
+  await painted(page);
+  assert.deepEqual([await boxOf(), (await look(page, '#input-picture')).hash], [whole, seen.hash]);
 
   const dots = page.getByLabel('Pixels per unit');
   await dots.fill('300');

@@ -53,7 +53,7 @@ export class Flattening {
   /** @param {Wish} wish */
   whole({ photo, traces, text, options }) {
     const { width, height, data, film35 } = photo;
-    return this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, text, 1), options);
+    return this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, text, 1), { ...options, map: false });
   }
 }
 

@@ -8,14 +8,14 @@ const [SIZE, ENLARGED] = [128, 4];
 export class Magnifier {
   #source = document.createElement('canvas');
 
-  /** @param {HTMLElement} box over the whole photo */
+  /** @param {HTMLElement} box over the whole photo, of which its parent may show a part */
   constructor(box) {
     this.box = box;
     this.canvas = document.createElement('canvas');
     this.canvas.className = 'magnifier';
     this.canvas.setAttribute('aria-hidden', 'true');
     this.canvas.hidden = true;
-    box.append(this.canvas);
+    box.parentElement?.append(this.canvas);
   }
 
   hide() {
@@ -37,7 +37,8 @@ export class Magnifier {
     canvas.width = canvas.height = Math.round(SIZE * ratio);
     canvas.hidden = false;
     // On the side where the finger is not.
-    canvas.classList.toggle('right', x < photo.width / 2);
+    const [whole, shown] = [box, box.parentElement ?? box].map((one) => one.getBoundingClientRect());
+    canvas.classList.toggle('right', whole.left + (x / photo.width) * whole.width < shown.left + shown.width / 2);
     const context = canvas.getContext('2d');
     if (!context) return;
     this.#source.width = this.#source.height = side;

@@ -14,6 +14,8 @@ import { waitingPanel } from './waiting.js';
 /** @import {Shown} from '../views/shown.js' */
 /** @typedef {(analyses: Analyses, result: Result) => Promise<Shown>} View */
 
+/** Milliseconds for a vertex, until that was measured. */
+const EACH = 0.005;
 /** @type {Record<string, View>} */
 const VIEWS = { gaussian, kappa2, rulings, patches, sheet: laidFlat };
 
@@ -66,12 +68,12 @@ export function analysisPanel(session, analyses, show) {
     }
     panel.setAttribute('aria-busy', 'true');
     if (!anew) about.replaceChildren();
-    const vertices = result.surface.heights.length;
-    waiting.begin(name, vertices);
+    const slow = { words: 'Working it out', kind: name, size: result.surface.heights.length, each: EACH };
+    waiting.begin(slow);
     try {
       const shown = await (name === 'dewarped' ? flat(result) : VIEWS[name](analyses, result));
       if (turn !== asked) return;
-      waiting.end(name, vertices);
+      waiting.end(slow);
       put(shown);
     } catch (error) {
       if (turn !== asked) return;
@@ -93,7 +95,7 @@ export function analysisPanel(session, analyses, show) {
     return shown;
   };
 
-  const waiting = waitingPanel(element('waiting', HTMLElement), 'Working it out', () => {
+  const waiting = waitingPanel(element('waiting', HTMLElement), () => {
     asked++;
     analyses.stop();
     waiting.end();

@@ -1,17 +1,20 @@
 /** Depths from a camera, put where it has seen them: a mesh, of which a view is taken. */
+import { apart } from '../apart.js';
 import { choosesFile, element } from '../dom.js';
 import { number } from '../format.js';
 
 /** @import {Mesh, PhotoCamera} from '../api.js' */
 /** @import {Called} from '../seen.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @import {Input, Session, Slow} from '../session.js' */
 
+/** Milliseconds for a depth that is put in space, until that was measured. */
+const EACH = 2e-3;
 /** Depths that are larger than that are no metres. */
 const FAR = 100;
 
 /**
  * @param {Session} session
- * @param {(file: Called, load: () => Promise<Mesh>, doing: string) => Promise<boolean>} take
+ * @param {(file: Called, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, slow: Slow) => Promise<boolean>} take
  */
 export function cameraPanel(session, take) {
   const wanted = element('is-depth', HTMLInputElement);
@@ -102,7 +105,8 @@ export function cameraPanel(session, take) {
     const camera = { ...further, fx: x, fy: y, cx: across, cy: down, depthScale };
     const known = beside && { confidence: beside.confidence, mask: beside.mask };
     const kind = beside ? `depths, with ${beside.names.join(' and ')}` : 'depths';
-    return take({ name, kind, photo }, () => session.api.backProject({ width, height, data }, camera, known), 'The depths could not be put in space');
+    return take({ name, kind, photo }, (signal) => apart(session.api, signal, (worker) => worker.backProject({ width, height, data }, camera, known)),
+      'The depths could not be put in space', { words: 'Putting the depths in space', kind: 'depths', size: width * height, each: EACH });
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {
     if (await project()) void session.run();

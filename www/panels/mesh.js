@@ -1,13 +1,13 @@
 /** Meshes and point clouds: turned, and seen as heights from a direction. */
+import { apart, readingOf } from '../apart.js';
 import { element, elements } from '../dom.js';
 import { count, number } from '../format.js';
-import { reading } from '../reading.js';
-import { see } from '../seen.js';
+import { drawingOf, see } from '../seen.js';
 import { MeshView } from '../surface/mesh-view.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
 /** @import {Called} from '../seen.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @import {Input, Session, Slow} from '../session.js' */
 
 /** How long the hand rests, in milliseconds, before what it has turned to is solved. */
 const REST = 180;
@@ -42,7 +42,7 @@ export function meshPanel(session) {
     const { input } = session;
     if (!input?.seen) return;
     const { mesh, options, whole } = input.seen;
-    if (await see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', { whole })) void session.run();
+    if (await see(session, calledAs(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', { whole, slow: drawingOf(mesh) })) void session.run();
   };
   let rest = 0;
   /** Solved from the new side while it is turned, whenever the hand rests. @param {MeshView} view */
@@ -92,9 +92,9 @@ export function meshPanel(session) {
      * @param {Called} file
      * @param {(signal: AbortSignal) => Promise<Mesh>} load
      * @param {string} doing
-     * @param {File} [read]
+     * @param {Slow} [slow]
      */
-    take: (file, load, doing, read) => see(session, file, load, { view: 'best-fit', resolution: wanted() }, doing, { read }),
+    take: (file, load, doing, slow) => see(session, file, load, { view: 'best-fit', resolution: wanted() }, doing, { slow }),
     /**
      * @param {File} file
      * @param {readonly File[]} [beside] what it may name: materials, textures, buffers
@@ -104,8 +104,8 @@ export function meshPanel(session) {
       const called = file.name.replace(NAMES, '') || 'mesh';
       return this.take({ name: called, kind }, async (signal) => {
         const files = new Map(await Promise.all(beside.map(async (one) => /** @type {const} */ ([one.name, await one.arrayBuffer()]))));
-        return reading(session.api, signal, (reader) => reader.readMesh(file, { files }));
-      }, `“${file.name}” could not be read`, file);
+        return apart(session.api, signal, (reader) => reader.readMesh(file, { files }));
+      }, `“${file.name}” could not be read`, readingOf(file));
     },
   };
 }

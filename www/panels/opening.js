@@ -1,23 +1,17 @@
-/** How far the file is that is being opened, and a way to do without it. */
+/** How far it is with what is being opened, and a way to do without it. */
 import { element } from '../dom.js';
-import { waitingPanel } from './waiting.js';
+import { SOON, waitingPanel } from './waiting.js';
 
-/** @import {Session} from '../session.js' */
-
-/** Milliseconds for a byte, until that was measured. */
-const EACH = 2e-5;
+/** @import {Session, Slow} from '../session.js' */
 
 /** @param {Session} session */
 export function openingPanel(session) {
-  /** @type {File | null} */
+  /** @type {Slow | null} */
   let present = null;
-  const panel = element('opening', HTMLElement);
-  const waiting = waitingPanel(panel, 'Reading the file', () => session.giveUp());
-  /** @param {File} file */
-  const kindOf = ({ name }) => name.slice(name.lastIndexOf('.') + 1).toLowerCase();
-  session.on('opening', (file) => {
-    if (file) waiting.begin(kindOf(file), file.size, EACH);
-    else if (present) waiting.end(kindOf(present), present.size);
-    present = file;
+  const waiting = waitingPanel(element('opening', HTMLElement), () => session.giveUp(), SOON);
+  session.on('opening', (slow) => {
+    if (slow) waiting.begin(slow);
+    else if (present) waiting.end(present);
+    present = slow;
   });
 }

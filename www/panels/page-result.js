@@ -2,6 +2,7 @@
 import { download, element, elements } from '../dom.js';
 import { degrees, number, percent } from '../format.js';
 import { imagePicture, PictureView } from '../surface/picture.js';
+import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
 import { pageErrors, pageVerdict } from '../words.js';
@@ -25,7 +26,7 @@ const FILES = {
  */
 export function pageResultPanel(api, session, goOn) {
   const figure = element('flat-view', HTMLElement);
-  const view = new PictureView(element('flat-canvas', HTMLCanvasElement));
+  const view = new PictureView(element('flat-canvas', HTMLCanvasElement), new Zoom());
   const empty = element('flat-empty', HTMLElement);
   const verdict = element('flat-verdict', HTMLElement);
   const detail = element('flat-detail', HTMLElement);

@@ -2,7 +2,7 @@
 import { choosesFile, element } from '../dom.js';
 import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
-import { see } from '../seen.js';
+import { drawingOf, see } from '../seen.js';
 import { cropPanel } from './crop.js';
 import { offerToSave } from './save-dialog.js';
 
@@ -48,7 +48,7 @@ export function photoPanel(session, analyses, changed) {
     const own = { name: name.textContent ?? '', image: photo };
     const taken = await see(
       session, { name: input.name, kind: input.kind, photo: own }, async () => part ?? whole, options,
-      'This part could not be taken', { whole: part ? whole : undefined },
+      'This part could not be taken', { whole: part ? whole : undefined, slow: drawingOf(whole) },
     );
     if (taken) await session.run();
   };
@@ -87,21 +87,22 @@ export function photoPanel(session, analyses, changed) {
   trim.addEventListener('change', changed);
 
   save.addEventListener('click', () => {
-    if (!flat) return;
+    if (!flat || !photo) return;
     const image = flat;
-    const { api } = session;
-    offerToSave({
+    const { width, height } = photo;
+    offerToSave(session.api, {
       title: 'Flat photo',
       stem: `${session.input?.name}-flat`,
+      size: image.width * image.height,
       formats: [
-        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: () => api.writePhoto(image) },
-        { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: () => api.writePhoto(image, { format: 'jpeg' }) },
+        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: (worker) => worker.writePhoto(image) },
+        { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: (worker) => worker.writePhoto(image, { format: 'jpeg' }) },
         {
           value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
           without: image.unit ? undefined : 'no true size is known: the file has no unit',
-          write: () => api.writePhoto(image, { format: 'pdf' }),
+          write: (worker) => worker.writePhoto(image, { format: 'pdf' }),
         },
-        { value: 'json', name: 'Warp map', words: 'for each pixel its place in the photo, as JSON', type: 'application/json', write: async () => mapJson(image) },
+        { value: 'json', name: 'Warp map', words: 'where in the photo its pixels are, as JSON', type: 'application/json', write: async () => mapJson(image, { width, height }) },
       ],
     });
   });
@@ -145,9 +146,18 @@ export function photoPanel(session, analyses, changed) {
   };
 }
 
-/** The warp map: for each pixel its place in the photo, null where there is no sheet. @param {Dewarped} flat */
-function mapJson({ width, height, resolution, corner, map }) {
-  const places = Array.from({ length: width * height }, (_, i) =>
-    (Number.isNaN(map[2 * i]) ? null : [map[2 * i], map[2 * i + 1]].map((place) => Math.round(1000 * place) / 1000)));
-  return `${JSON.stringify({ width, height, resolution, corner, places })}\n`;
+/**
+ * The warp map on a grid, null where there is no sheet: what the command writes, too.
+ * @param {Dewarped} flat
+ * @param {{ width: number, height: number }} photo
+ */
+function mapJson({ width, height, resolution, unit, corner, grid }, photo) {
+  if (!grid) throw new Error('no map was made');
+  const { columns, rows, step, places, rms, maximum } = grid;
+  const rounded = (/** @type {number} */ value) => Math.round(1000 * value) / 1000;
+  return `${JSON.stringify({
+    width, height, photo, resolution, unit: unit ?? null, corner, error: { rms, maximum }, columns, rows, origin: [0, 0], step,
+    places: Array.from({ length: columns * rows }, (_, i) =>
+      (Number.isNaN(places[2 * i]) ? null : [rounded(places[2 * i]), rounded(places[2 * i + 1])])),
+  })}\n`;
 }

@@ -1,7 +1,12 @@
 /** One dialog for whatever is saved: formats to choose from, how large the file will be, and then the file. */
+import { apart } from '../apart.js';
 import { download, element, make } from '../dom.js';
 import { fileSize } from '../format.js';
 import { plainly } from '../plain.js';
+import { SOON, waitingPanel } from './waiting.js';
+
+/** @import {Worker} from '../apart.js' */
+/** @import {Api} from '../api.js' */
 
 /**
  * @typedef {object} Format
@@ -10,26 +15,34 @@ import { plainly } from '../plain.js';
  * @property {string} words what it is for
  * @property {string} type
  * @property {string} [without] why it cannot be had now
- * @property {() => Promise<Uint8Array<ArrayBuffer> | string>} write
+ * @property {(worker: Worker) => Promise<Uint8Array<ArrayBuffer> | string>} write
  *
  * @typedef {object} Offer
  * @property {string} title
  * @property {string} stem of the file's name
+ * @property {number} size pixels, or vertices
+ * @property {() => Promise<unknown>} [ready] what has to be there before anything can be written
  * @property {readonly Format[]} formats
  * @property {readonly Node[]} [extra] above the formats
  * @property {() => void} [closed] when nothing of it is wanted any more
  */
 
-/** Counts what is written, to tell the newest. */
-let turn = 0;
+/** Milliseconds for each of what is written, until that was measured. */
+const EACH = 1e-3;
+
+/** What is being written. @type {AbortController | null} */
+let present = null;
+/** Made with the first offer. @type {ReturnType<typeof waitingPanel> | null} */
+let waiting = null;
 /** The format that was taken last, by the dialog's title. @type {Map<string, string>} */
 const taken = new Map();
 
 /**
+ * @param {Api} api
  * @param {Offer} offer
  * @returns {{ renew: () => void }} to be called when what is offered has changed
  */
-export function offerToSave({ title, stem, formats, extra = [], closed = () => {} }) {
+export function offerToSave(api, { title, stem, size: amount, ready = async () => {}, formats, extra = [], closed = () => {} }) {
   const dialog = element('save-dialog', HTMLDialogElement);
   const list = element('save-formats', HTMLElement);
   const size = element('save-size', HTMLElement);
@@ -46,8 +59,23 @@ export function offerToSave({ title, stem, formats, extra = [], closed = () => {
   });
   list.replaceChildren(...radios);
 
+  const again = element('save-again', HTMLButtonElement);
+  const wait = (waiting ??= waitingPanel(element('writing', HTMLElement), () => {
+    giveUp();
+    element('save-size', HTMLElement).textContent = 'Cancelled.';
+    again.hidden = false;
+    again.focus();
+  }, SOON));
+  const giveUp = () => {
+    present?.abort();
+    present = null;
+    wait.end();
+  };
+
   const write = async () => {
-    const mine = ++turn;
+    giveUp();
+    const mine = (present = new AbortController());
+    again.hidden = true;
     const value = list.querySelector('input:checked')?.getAttribute('value');
     const format = formats.find((one) => one.value === value);
     save.disabled = true;
@@ -55,8 +83,13 @@ export function offerToSave({ title, stem, formats, extra = [], closed = () => {
     taken.set(title, format.value);
     size.textContent = 'Working it out…';
     try {
-      const content = await format.write();
-      if (mine !== turn) return;
+      await ready();
+      if (mine !== present) return;
+      const slow = { words: 'Writing the file', kind: `${title}, ${format.value}`, size: amount, each: EACH };
+      wait.begin(slow);
+      const content = await apart(api, mine.signal, format.write);
+      if (mine !== present) return;
+      wait.end(slow);
       size.textContent = `${stem}.${format.value}, ${fileSize(new Blob([content]).size)}`;
       save.disabled = false;
       save.onclick = () => {
@@ -64,13 +97,14 @@ export function offerToSave({ title, stem, formats, extra = [], closed = () => {
         dialog.close();
       };
     } catch (error) {
-      if (mine !== turn) return;
+      if (mine !== present) return;
+      wait.end();
       const reason = plainly(error instanceof Error ? error.message : String(error));
       size.textContent = `It could not be written: ${reason}.`;
     }
   };
   dialog.onclose = () => {
-    turn++;
+    giveUp();
     save.onclick = null;
     element('save-extra', HTMLElement).replaceChildren();
     closed();
@@ -79,6 +113,7 @@ export function offerToSave({ title, stem, formats, extra = [], closed = () => {
   dialog.onclick = (event) => {
     if (event.target === dialog) dialog.close();
   };
+  again.onclick = () => void write();
   if (!dialog.open) dialog.showModal();
   void write();
   return { renew: () => void write() };

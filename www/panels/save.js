@@ -6,6 +6,7 @@ import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
 /** @import {Analyses} from '../analyses.js' */
+/** @import {Api} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
 
 /**
@@ -17,10 +18,10 @@ export function savePanel(session, analyses, choose) {
   const ends = ['file', 'sheets', 'photo'].map((name) => element(`end-${name}`, HTMLButtonElement));
   const [file, sheets, photo] = ends;
   file.addEventListener('click', () => {
-    if (session.result) offerFile(session, session.result);
+    if (session.result) offerFile(session.api, session.result);
   });
   sheets.addEventListener('click', () => {
-    if (session.result) offerSheets(session.result, analyses, fileStem(session.result));
+    if (session.result) offerSheets(session.api, session.result, analyses, fileStem(session.result));
   });
   photo.addEventListener('click', () => {
     choose('dewarped');
@@ -36,24 +37,25 @@ export function savePanel(session, analyses, choose) {
 
 /**
  * Images at the input's pixels, meshes on the lattice.
- * @param {Session} session
+ * @param {Api} api
  * @param {Result} result
  */
-function offerFile({ api }, result) {
+function offerFile(api, result) {
   const { surface } = result;
   const image = () => resultImage(result);
-  offerToSave({
+  offerToSave(api, {
     title: '3D file',
     stem: fileStem(result),
+    size: surface.heights.length,
     formats: [
-      { value: 'obj', name: 'OBJ', words: 'a mesh that nearly every program reads', type: 'model/obj', write: () => api.writeObj(surface) },
-      { value: 'stl', name: 'STL', words: 'a mesh for 3D printing', type: 'model/stl', write: () => api.writeStl(surface) },
-      { value: 'glb', name: 'GLB', words: 'a mesh for the web and for phones, with colours', type: 'model/gltf-binary', write: () => api.writeGlb(surface) },
-      { value: 'ply', name: 'PLY', words: 'a mesh in double precision', type: 'model/ply', write: () => api.writePly(surface) },
-      { value: 'png', name: 'PNG', words: 'heights as 16-bit grey, with their scale recorded', type: 'image/png', write: () => api.writePng(image()) },
-      { value: 'tiff', name: 'TIFF', words: 'heights as 32-bit floats', type: 'image/tiff', write: () => api.writeTiff(image()) },
-      { value: 'exr', name: 'EXR', words: 'heights as 32-bit floats', type: 'image/x-exr', write: () => api.writeExr(image()) },
-      { value: 'npy', name: 'NPY', words: 'heights as 64-bit floats, for NumPy', type: 'application/octet-stream', write: () => api.writeNpy(image()) },
+      { value: 'obj', name: 'OBJ', words: 'a mesh that nearly every program reads', type: 'model/obj', write: (worker) => worker.writeObj(surface) },
+      { value: 'stl', name: 'STL', words: 'a mesh for 3D printing', type: 'model/stl', write: (worker) => worker.writeStl(surface) },
+      { value: 'glb', name: 'GLB', words: 'a mesh for the web and for phones, with colours', type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
+      { value: 'ply', name: 'PLY', words: 'a mesh in double precision', type: 'model/ply', write: (worker) => worker.writePly(surface) },
+      { value: 'png', name: 'PNG', words: 'heights as 16-bit grey, with their scale recorded', type: 'image/png', write: (worker) => worker.writePng(image()) },
+      { value: 'tiff', name: 'TIFF', words: 'heights as 32-bit floats', type: 'image/tiff', write: (worker) => worker.writeTiff(image()) },
+      { value: 'exr', name: 'EXR', words: 'heights as 32-bit floats', type: 'image/x-exr', write: (worker) => worker.writeExr(image()) },
+      { value: 'npy', name: 'NPY', words: 'heights as 64-bit floats, for NumPy', type: 'application/octet-stream', write: (worker) => worker.writeNpy(image()) },
     ],
   });
 }

@@ -7,6 +7,7 @@ import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Analyses} from '../analyses.js' */
+/** @import {Api} from '../api.js' */
 /** @import {Result} from '../session.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
@@ -21,11 +22,12 @@ const REST = 300;
 const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS };
 
 /**
+ * @param {Api} api
  * @param {Result} result
  * @param {Analyses} analyses
  * @param {string} stem of the file's name
  */
-export function offerSheets(result, analyses, stem) {
+export function offerSheets(api, result, analyses, stem) {
   const side = numberField(handySide(result), 10, 5000);
   const depth = numberField(chosen.depth, 1, 50);
   const tabs = make('input', '');
@@ -37,7 +39,7 @@ export function offerSheets(result, analyses, stem) {
   words.setAttribute('role', 'status');
   const panel = make('div', 'waiting');
   panel.id = 'cutting';
-  const waiting = waitingPanel(panel, 'Cutting it into sheets', () => {
+  const waiting = waitingPanel(panel, () => {
     drawing = Promise.reject(new Error('it was cancelled'));
     drawing.catch(() => {});
     analyses.stop();
@@ -52,6 +54,7 @@ export function offerSheets(result, analyses, stem) {
   Object.assign(again, { type: 'button', hidden: true });
   again.addEventListener('click', () => void draw());
   const about = make('div', '');
+  const slow = { words: 'Cutting it into sheets', kind: 'sheets', size: result.surface.heights.length, each: EACH };
   /** @type {Promise<Drawing>} */
   let drawing = Promise.reject(new Error('nothing is drawn yet'));
   drawing.catch(() => {});
@@ -64,14 +67,14 @@ export function offerSheets(result, analyses, stem) {
     words.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
-    waiting.begin('sheets', result.surface.heights.length, EACH);
+    waiting.begin(slow);
     const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
     offer.renew();
     try {
       const image = await previewOf(analyses, await wanted);
       if (wanted !== drawing) return;
       const made = await wanted;
-      waiting.end('sheets', result.surface.heights.length);
+      waiting.end(slow);
       preview.replaceChildren(image);
       words.textContent = piecesInWords(made);
       about.replaceChildren(figures(piecesInFigures(made)));
@@ -99,9 +102,11 @@ export function offerSheets(result, analyses, stem) {
     offer.renew();
   });
 
-  const offer = offerToSave({
+  const offer = offerToSave(api, {
     title: 'Cut-out sheets',
     stem: `${stem}-sheets`,
+    size: result.surface.heights.length,
+    ready: () => drawing,
     // What is still being cut would hold up the next question.
     closed: () => analyses.stop(),
     extra: [make('div', 'sheets',
@@ -117,9 +122,9 @@ export function offerSheets(result, analyses, stem) {
         about))],
     formats: [
       { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
-        write: async () => analyses.pdf(await drawing, paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined) },
-      { value: 'svg', name: 'SVG', words: 'for a cutting plotter or a drawing program', type: 'image/svg+xml', write: async () => analyses.svg(await drawing) },
-      { value: 'dxf', name: 'DXF', words: 'for a laser cutter or CAD', type: 'image/vnd.dxf', write: async () => analyses.dxf(await drawing) },
+        write: async (worker) => worker.writePdf(await drawing, { paper: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
+      { value: 'svg', name: 'SVG', words: 'for a cutting plotter or a drawing program', type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
+      { value: 'dxf', name: 'DXF', words: 'for a laser cutter or CAD', type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
     ],
   });
   void draw();

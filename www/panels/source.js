@@ -1,4 +1,5 @@
 /** Where the heights come from: an example, or a file with its scale. */
+import { readingOf } from '../apart.js';
 import { designInput } from '../design.js';
 import { doubtOf } from '../doubts.js';
 import { choosesFiles, element, elements } from '../dom.js';
@@ -81,7 +82,7 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
         if (error instanceof InColour && wanted === undefined) coloured = error;
         throw error;
       }
-    }, chosen);
+    }, readingOf(chosen));
     if (coloured) return takePhoto(chosen);
     if (!opened || !session.input) return false;
     waiting = null;

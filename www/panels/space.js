@@ -49,9 +49,9 @@ export function spacePanel(session, light) {
   const unfold = element('unfold', HTMLInputElement);
   const unfoldField = element('unfold-field', HTMLElement);
   const arrangement = elements('input[name="arrangement"]', HTMLInputElement);
-  const hints = { flat: element('light-hint', HTMLElement), space: element('space-hint', HTMLElement) };
+  const hints = { flat: element('light-hint', HTMLElement), picture: element('picture-hint', HTMLElement), space: element('space-hint', HTMLElement) };
   const camera = new Camera();
-  const space = spaceOn(canvas);
+  const space = spaceOn(canvas, () => drawSoon());
   let share = 0.5;
   /** Who takes drags over the surface, and who follows what is drawn. @type {Taken | null} */
   let taken = null;
@@ -81,10 +81,9 @@ export function spacePanel(session, light) {
     const seen = both && alone ? 0 : both ? share : 1;
     divider.hidden = !both || alone;
     divider.style.left = `${100 * share}%`;
-    const again = space.draw(camera, light, seen, unfold.valueAsNumber);
+    space.draw(camera, light, seen, unfold.valueAsNumber);
     for (const follow of followers) follow();
-    if (again) drawSoon();
-    else if (!resting) {
+    if (!resting) {
       clearTimeout(rest);
       rest = window.setTimeout(() => {
         resting = true;
@@ -104,6 +103,7 @@ export function spacePanel(session, light) {
     hints.space.hidden = panel.hidden;
     element('flat-reading', HTMLElement).hidden = !panel.hidden;
     hints.flat.hidden = !panel.hidden || (shown.before !== undefined && shown.after !== undefined);
+    hints.picture.hidden = !panel.hidden || shown.after === undefined;
     drawSoon();
   };
 
@@ -373,10 +373,10 @@ export function spacePanel(session, light) {
   };
 }
 
-/** Nothing where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
-function spaceOn(canvas) {
+/** Nothing where there is no WebGL 2. @param {HTMLCanvasElement} canvas @param {() => void} finer */
+function spaceOn(canvas, finer) {
   try {
-    return new Space(canvas);
+    return new Space(canvas, finer);
   } catch {
     return null;
   }

@@ -22,7 +22,20 @@ export function viewsPanel(session) {
   const zoom = new Zoom();
   const before = new SurfaceView(element('input-canvas', HTMLCanvasElement), light, zoom);
   const after = new SurfaceView(element('result-canvas', HTMLCanvasElement), light, zoom);
-  const photo = new PictureView(element('input-picture', HTMLCanvasElement));
+  const over = element('photo-over', HTMLElement);
+  const photoZoom = new Zoom();
+  const photo = new PictureView(element('input-picture', HTMLCanvasElement), photoZoom, over);
+  photoZoom.onChange(() => {
+    const { scale, shift } = photoZoom;
+    for (const [name, value] of Object.entries({ zoom: scale, across: shift.x, down: shift.y })) over.style.setProperty(`--${name}`, String(value));
+  });
+  session.on('cleared', () => photoZoom.reset());
+  // What the keyboard comes to is seen.
+  over.addEventListener('focusin', ({ target }) => {
+    const [knob, frame] = [target, over.parentElement].map((one) => (one instanceof Element ? one.getBoundingClientRect() : new DOMRect()));
+    const seen = knob.right > frame.left && knob.left < frame.right && knob.bottom > frame.top && knob.top < frame.bottom;
+    if (!seen) photoZoom.reset();
+  });
   const flat = new PictureView(element('result-picture', HTMLCanvasElement), new Zoom());
   const space = spacePanel(session, light);
   const views = element('views', HTMLElement);

@@ -4,16 +4,19 @@ import { count } from '../format.js';
 
 /** Milliseconds between two looks at the clock. */
 const LOOK = 200;
-/** Milliseconds for a vertex until one was measured, and the least that is a measurement. */
-const EACH = 0.005;
+/** What takes fewer milliseconds is done before anybody could read about it. */
+export const SOON = 150;
+/** The fewest milliseconds that are a measurement. */
 const LEAST = 100;
+
+/** @import {Slow} from '../session.js' */
 
 /**
  * @param {HTMLElement} panel empty
- * @param {string} doing what is done, in words
  * @param {() => void} cancel
+ * @param {number} [after] so many milliseconds it is shown
  */
-export function waitingPanel(panel, doing, cancel) {
+export function waitingPanel(panel, cancel, after = 0) {
   const bar = make('progress', '');
   bar.max = 1;
   bar.setAttribute('aria-label', 'How far this is, by what others took');
@@ -24,7 +27,8 @@ export function waitingPanel(panel, doing, cancel) {
   panel.append(bar, text, button);
   /** Milliseconds for each of what an answer goes through, by its kind. @type {Map<string, number>} */
   const rates = new Map();
-  let [start, expected, clock] = [0, 0, 0];
+  let [start, expected, clock, shown] = [0, 0, 0, 0];
+  let doing = '';
 
   const look = () => {
     const gone = performance.now() - start;
@@ -35,24 +39,24 @@ export function waitingPanel(panel, doing, cancel) {
   };
 
   return {
-    /**
-     * @param {string} kind
-     * @param {number} size vertices, or bytes
-     * @param {number} [each] milliseconds for one, until that was measured
-     */
-    begin(kind, size, each = EACH) {
+    /** @param {Slow} slow */
+    begin({ kind, size, each, words }) {
       start = performance.now();
+      doing = words;
       expected = Math.max(LEAST, size * (rates.get(kind) ?? each));
-      panel.hidden = false;
+      clearTimeout(shown);
+      if (after === 0) panel.hidden = false;
+      else shown = window.setTimeout(() => (panel.hidden = false), after);
       clearInterval(clock);
       clock = window.setInterval(look, LOOK);
       look();
     },
-    /** @param {string} [kind] of the answer that is there */
-    end(kind, size = 0) {
+    /** @param {Slow} [done] what has got its answer */
+    end(done) {
       const gone = performance.now() - start;
-      if (kind && gone > LEAST && size > 0) rates.set(kind, gone / size);
+      if (done && gone > LEAST) rates.set(done.kind, gone / Math.max(1, done.size));
       clearInterval(clock);
+      clearTimeout(shown);
       panel.hidden = true;
     },
   };

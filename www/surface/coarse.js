@@ -27,5 +27,6 @@ export function coarse({ width, height, data }, side) {
       counts[from + colOf[x]]++;
     }
   }
-  return { width: cols, height: rows, data: sums.map((sum, i) => sum / counts[i]) };
+  for (let i = 0; i < sums.length; i++) sums[i] /= counts[i];
+  return { width: cols, height: rows, data: sums };
 }

@@ -187,3 +187,21 @@ export class Mesh {
     this.#arrays.dispose();
   }
 }
+
+/**
+ * When the graphics card has done what it was asked for. Nothing waits meanwhile.
+ * @param {WebGL2RenderingContext} gl
+ * @returns {Promise<void>}
+ */
+export function finished(gl) {
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.flush();
+  return new Promise((resolve) => {
+    const look = () => {
+      if (fence && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return void setTimeout(look, 1);
+      gl.deleteSync(fence);
+      resolve();
+    };
+    setTimeout(look, 1);
+  });
+}

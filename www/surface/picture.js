@@ -20,13 +20,14 @@ export class PictureView {
 
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {Zoom} [zoom] none where something else lies over the picture
+   * @param {Zoom} [zoom]
+   * @param {HTMLElement} [over] what lies over the picture
    */
-  constructor(canvas, zoom) {
+  constructor(canvas, zoom, over = canvas) {
     this.canvas = canvas;
     this.zoom = zoom;
     zoom?.onChange(this.#paintSoon);
-    if (zoom) zoomable(canvas, zoom);
+    if (zoom) zoomable(over, zoom, { alone: true });
     // At once, for a resized canvas is blank.
     followDevicePixels(canvas, () => this.#paint());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', this.#paintSoon);
@@ -76,19 +77,28 @@ export class PictureView {
  * @param {HTMLCanvasElement} image
  * @param {string} title
  * @param {string} words
+ * @param {(x: number, y: number) => string} [value] at a place of the image, in its pixels
  * @returns {Picture}
  */
-export function imagePicture(image, title, words) {
+export function imagePicture(image, title, words, value) {
+  /** @param {{ width: number, height: number }} canvas */
+  const placed = ({ width, height }) => {
+    const scale = Math.min(width / image.width, height / image.height);
+    const [w, h] = [image.width * scale, image.height * scale];
+    return { scale, left: (width - w) / 2, top: (height - h) / 2, w, h };
+  };
   return {
     title,
     words,
     paint: (context) => {
-      const { width, height } = context.canvas;
-      const scale = Math.min(width / image.width, height / image.height);
-      const [w, h] = [image.width * scale, image.height * scale];
+      const { scale, left, top, w, h } = placed(context.canvas);
       context.imageSmoothingEnabled = scale < 4;
       context.imageSmoothingQuality = 'high';
-      context.drawImage(image, (width - w) / 2, (height - h) / 2, w, h);
+      context.drawImage(image, left, top, w, h);
     },
+    read: value && ((canvas, _, x, y) => {
+      const { scale, left, top, w, h } = placed(canvas);
+      return x < left || y < top || x >= left + w || y >= top + h ? '' : value((x - left) / scale, (y - top) / scale);
+    }),
   };
 }

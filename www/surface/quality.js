@@ -20,6 +20,13 @@ export class Quality {
   // From below: what is too much would be felt.
   #level = 3;
   #drawn = 0;
+  #measuring = false;
+  #finer;
+
+  /** @param {() => void} finer it is worth drawing again, as finely as it says now */
+  constructor(finer) {
+    this.#finer = finer;
+  }
 
   /** @returns {Level} */
   get level() {
@@ -32,23 +39,30 @@ export class Quality {
   }
 
   /**
-   * Draws, and now and then takes the time.
+   * Draws, and now and then takes the time, for which nobody waits.
    * @param {() => void} draw
-   * @param {() => void} wait until it is drawn
-   * @returns {boolean} whether to draw again, as finely as it says now
+   * @param {() => Promise<void>} finished when it is drawn
    */
-  draw(draw, wait) {
-    const measured = this.#drawn++ % EVERY < 2;
+  draw(draw, finished) {
+    const measured = this.#drawn++ % EVERY < 2 && !this.#measuring;
     const start = performance.now();
     draw();
-    if (!measured) return false;
-    wait();
-    const time = performance.now() - start;
-    const before = this.#level;
-    if (time > MOST) this.#level = Math.min(LEVELS.length - 1, before + 1);
+    if (measured) void this.#measure(start, finished());
+  }
+
+  /** @param {number} start @param {Promise<void>} finished */
+  async #measure(start, finished) {
     // The first picture is also when shaders are made ready.
-    else if (time < LITTLE && this.#drawn > 1) this.#level = Math.max(0, before - 1);
-    if (this.#level < before) this.#drawn = 0;
-    return this.#level < before;
+    const first = this.#drawn === 1;
+    this.#measuring = true;
+    await finished;
+    this.#measuring = false;
+    const time = performance.now() - start;
+    if (time > MOST) this.#level = Math.min(LEVELS.length - 1, this.#level + 1);
+    else if (time < LITTLE && !first && this.#level > 0) {
+      this.#level--;
+      this.#drawn = 0;
+      this.#finer();
+    }
   }
 }

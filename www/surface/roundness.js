@@ -1,5 +1,7 @@
-/** How much a surface bends both ways at once within its smooth pieces: next to nothing, where they are sheets. */
+/** What is shown of curvatures, and how much a surface bends both ways at once within its smooth pieces: next to nothing, where they are sheets. */
+import { magnitude } from './colours.js';
 
+/** @typedef {import('../../pkg/types.js').Analysis} Analysis */
 /** @typedef {import('../../pkg/types.js').PatchMap} PatchMap */
 
 /**
@@ -38,4 +40,17 @@ export function roundness({ rows, cols, labels, spacing }, { gaussian }) {
   }
   const kept = Float64Array.from(found).sort().subarray(0, Math.floor(MOST * found.length));
   return kept.reduce((sum, value) => sum + value, 0) * step * spacing * spacing * CELL;
+}
+
+/**
+ * What is shown of an analysis, in half the memory.
+ * @param {Analysis} analysis
+ */
+export function curvaturesOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
+  return {
+    rows, cols, spacing, origin, summary,
+    gaussian: new Float32Array(gaussian),
+    kappa2: new Float32Array(kappa2),
+    medianKappa1: magnitude([kappa1], 0.5),
+  };
 }

@@ -1,6 +1,6 @@
 /** Surfaces in space, drawn by WebGL 2: heights and normals are textures, so that no mesh is made of them. */
 import { linesAt } from './anchors.js';
-import { Lines, Mesh, programOf, textureOf } from './gl.js';
+import { finished, Lines, Mesh, programOf, textureOf } from './gl.js';
 import { HOLE, UNIT } from './normals.js';
 import { Quality } from './quality.js';
 import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceFragment, surfaceVertex } from './shaders.js';
@@ -44,16 +44,18 @@ export class Space {
   #sides = { before: null, after: null };
   /** @type {{ sheet: Sheet, mesh: Mesh } | null} */
   #laid = null;
-  #quality = new Quality();
+  #quality;
 
   /**
    * @param {HTMLCanvasElement} canvas
+   * @param {() => void} finer it is worth drawing again
    * @throws where there is no WebGL 2
    */
-  constructor(canvas) {
+  constructor(canvas, finer) {
     const gl = canvas.getContext('webgl2', { antialias: false, alpha: true, premultipliedAlpha: true });
     if (!gl) throw new Error('this browser has no WebGL 2');
     this.canvas = canvas;
+    this.#quality = new Quality(finer);
     this.#gl = gl;
     this.#surface = programOf(gl, surfaceVertex, surfaceFragment);
     this.#mesh = programOf(gl, meshVertex, meshFragment);
@@ -136,19 +138,14 @@ export class Space {
    * @param {Light} light
    * @param {number} divider share of the canvas that shows what was before
    * @param {number} laid how far the mesh is on its way
-   * @returns {boolean} whether it is worth drawing again, more finely
    */
   draw(camera, light, divider, laid) {
-    const gl = this.#gl;
     const { canvas } = this;
     const density = Math.min(this.#quality.level.density, Math.max(1, devicePixelRatio) * 2);
     const size = { width: Math.max(1, Math.round(canvas.clientWidth * density)), height: Math.max(1, Math.round(canvas.clientHeight * density)) };
     if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     camera.size = size;
-    return this.#quality.draw(
-      () => this.#draw(camera, light, divider, laid),
-      () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)),
-    );
+    this.#quality.draw(() => this.#draw(camera, light, divider, laid), () => finished(this.#gl));
   }
 
   /**

@@ -31,12 +31,16 @@ export function unfolding({ positions, places, triangles, stretches }, most, [le
   for (let i = 0; i < n; i++) flat.set([places[2 * i] - px + middle[0], places[2 * i + 1] - py + middle[1], middle[2]], 3 * i);
   const maps = mapsOf(flat, bent, triangles);
   const graph = graphOf(triangles, n);
+  // Least squares leave open where each part is: where it would be on a straight way. So what is solved for is how far
+  // each form is off that way, which goes on from form to form.
+  let [before, last] = [new Float64Array(3 * n), new Float64Array(3 * n)];
   const forms = Array.from({ length: STEPS + 1 }, (_, step) => {
     const share = 1 - step / STEPS;
     if (step === 0 || step === STEPS) return Float32Array.from(step === 0 ? bent : flat);
-    // Least squares leave open where each part is: where it would be on a straight way.
-    const form = flat.map((value, i) => value + share * (bent[i] - value));
+    const straight = flat.map((value, i) => value + share * (bent[i] - value));
+    const form = straight.map((value, i) => value + 2 * last[i] - before[i]);
     solve(graph, rightSide(maps, flat, triangles, share), form);
+    [before, last] = [last, form.map((value, i) => value - straight[i])];
     return Float32Array.from(form);
   });
   const strains = strainsOf(triangles, stretches, n);
@@ -151,40 +155,54 @@ function graphOf(triangles, n) {
  * @param {Float64Array} right
  * @param {Float64Array} x from where to start, and the answer
  */
-function solve({ from, to, weight, degree }, right, x) {
-  /** @param {Float64Array} values */
-  const laplacian = (values) => {
-    const out = new Float64Array(values.length);
-    for (let e = 0; e < from.length; e++) {
-      const [i, j] = [3 * from[e], 3 * to[e]];
-      for (let k = 0; k < 3; k++) {
-        const difference = weight[e] * (values[i + k] - values[j + k]);
-        out[i + k] += difference;
-        out[j + k] -= difference;
-      }
+function solve(graph, right, x) {
+  const { degree } = graph;
+  const [residual, scaled, image] = [right.slice(), new Float64Array(x.length), new Float64Array(x.length)];
+  laplacian(graph, x, image);
+  for (let i = 0; i < x.length; i++) residual[i] -= image[i];
+  const scale = () => {
+    let sum = 0;
+    for (let i = 0; i < x.length; i++) {
+      scaled[i] = residual[i] / degree[(i / 3) | 0];
+      sum += residual[i] * scaled[i];
     }
-    return out;
+    return sum;
   };
-  /** @param {Float64Array} a @param {Float64Array} b */
-  const product = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
-  const applied = laplacian(x);
-  const residual = right.map((value, i) => value - applied[i]);
-  const scaled = residual.map((value, i) => value / degree[Math.floor(i / 3)]);
+  let size = scale();
   const direction = scaled.slice();
-  let size = product(residual, scaled);
-  const enough = TOLERANCE ** 2 * product(right, right.map((value, i) => value / degree[Math.floor(i / 3)]));
+  let enough = 0;
+  for (let i = 0; i < x.length; i++) enough += (TOLERANCE ** 2 * right[i] ** 2) / degree[(i / 3) | 0];
   for (let iteration = 0; iteration < ITERATIONS && size > enough; iteration++) {
-    const image = laplacian(direction);
-    const step = size / product(direction, image);
+    const step = size / laplacian(graph, direction, image);
     for (let i = 0; i < x.length; i++) {
       x[i] += step * direction[i];
       residual[i] -= step * image[i];
-      scaled[i] = residual[i] / degree[Math.floor(i / 3)];
     }
-    const next = product(residual, scaled);
+    const next = scale();
     for (let i = 0; i < x.length; i++) direction[i] = scaled[i] + (next / size) * direction[i];
     size = next;
   }
+}
+
+/**
+ * @param {Graph} graph
+ * @param {Float64Array} values
+ * @param {Float64Array} out the graph's Laplacian of them
+ * @returns {number} their product
+ */
+function laplacian({ from, to, weight }, values, out) {
+  out.fill(0);
+  let product = 0;
+  for (let e = 0; e < from.length; e++) {
+    const [i, j, w] = [3 * from[e], 3 * to[e], weight[e]];
+    for (let k = 0; k < 3; k++) {
+      const difference = values[i + k] - values[j + k];
+      out[i + k] += w * difference;
+      out[j + k] -= w * difference;
+      product += w * difference * difference;
+    }
+  }
+  return product;
 }
 
 /**

@@ -1,14 +1,31 @@
 /** The worker in which the page works out what it shows; `work.js` is its other end. */
 import { lookedThrough } from '../understood.js';
 import { photographed } from '../views/print.js';
+import { assembled, bordersOf } from './assembled.js';
 import { meanAngle, rmsError } from './compare.js';
 import { interpolated } from './lattice.js';
 import { normalsOf } from './normals.js';
 import { labelPixels, sheetPixels, valuePixels } from './pixels.js';
+import { curvaturesOf, roundness } from './roundness.js';
 import { unfolding } from './unfolding.js';
 
+/**
+ * Sheets on their way, each by itself, with the lines along which they were cut.
+ * @param {Uint8Array} model
+ * @param {number} scale
+ * @param {number} most
+ * @param {Parameters<typeof unfolding>[2]} offset
+ */
+function unfoldingInPieces(model, scale, most, offset) {
+  const sheets = assembled(model, scale);
+  return { ...unfolding(sheets, most, offset), lines: bordersOf(sheets.triangles) };
+}
+
 /** What can be asked for, by name. Arrays of an answer are handed over. */
-export const tasks = { interpolated, labelPixels, lookedThrough, meanAngle, normalsOf, photographed, rmsError, sheetPixels, unfolding, valuePixels };
+export const tasks = {
+  curvaturesOf, interpolated, labelPixels, lookedThrough, meanAngle, normalsOf, photographed, rmsError, roundness, sheetPixels,
+  unfolding, unfoldingInPieces, valuePixels,
+};
 
 globalThis.addEventListener('message', ({ data: { id, task, args } }) => {
   /** @type {{ id: number, value?: unknown, error?: string }} */

@@ -25,7 +25,8 @@ export async function dewarped(analyses, result, photo, options) {
   return {
     flat,
     before: photoPicture(photo),
-    after: imagePicture(canvasOf(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`),
+    after: imagePicture(canvasOf(new ImageData(data, width)), 'Made flat', `The photo made flat, ${width} × ${height} pixels`,
+      (x, y) => `${number(x / resolution)}, ${number(y / resolution)} ${result.input.unit ?? 'units'} from the upper left corner`),
     about: [
       say(doubt || `${FLATTENED[verdict]}${parallel ? ` ${PARALLEL}` : ''}`),
       figures([

@@ -1,14 +1,16 @@
 /** What cannot be laid flat whole, as the sheets that it can be cut into. */
 import { make } from '../dom.js';
+import { number } from '../format.js';
 import { CREASE, css, FOLDS } from '../surface/colours.js';
 import { imagePicture } from '../surface/picture.js';
-import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf } from '../pieces.js';
+import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf, strainOf } from '../pieces.js';
 import { figures, key, say } from './legend.js';
 import { sheet } from './sheet.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
 /** @import {Shown} from './shown.js' */
+/** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Pixels along the drawing's longer side, so that lines stay lines. */
 const FINE = 2400;
@@ -20,18 +22,18 @@ const FINE = 2400;
  * @returns {Promise<Shown>}
  */
 export async function flat(analyses, result) {
-  const { verdict } = await analyses.unroll(result);
-  const whole = await sheet(analyses, result);
-  if (verdict !== 'stretched' || !Number.isFinite((await analyses.pieces(result)).count)) return whole;
+  const { verdict, picture: { most } } = await analyses.unroll(result);
+  const whole = () => sheet(analyses, result);
+  if (verdict !== 'stretched' || !Number.isFinite((await analyses.pieces(result)).count)) return whole();
   // Where no cut helps, the whole with its strain is what there is to see.
   const drawing = await piecesOf(analyses, result, { side: handySide(result) }).catch(() => null);
-  if (!drawing) return whole;
+  if (!drawing) return whole();
   const image = await previewOf(analyses, drawing);
   const canvas = document.createElement('canvas');
   const scale = FINE / Math.max(image.naturalWidth, image.naturalHeight);
   Object.assign(canvas, { width: Math.round(image.naturalWidth * scale), height: Math.round(image.naturalHeight * scale) });
   const context = canvas.getContext('2d');
-  if (!context) return whole;
+  if (!context) return whole();
   context.fillStyle = '#fff';
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
@@ -43,14 +45,40 @@ export async function flat(analyses, result) {
     const direction = folds.get(crease);
     return direction ? { colour: FOLDS[direction], width: 3 } : { colour: CREASE, width: 1.5 };
   };
+  // Where a coarser lattice cannot be cut like this one, it goes whole.
+  const unfolding = await analyses.unfoldInPieces(result, strainOf(drawing), most).then(
+    (apart) => ({ ...apart, look: () => ({ colour: CREASE, width: 1.5 }) }),
+    async () => ({ ...await analyses.unfold(result, most), look }),
+  );
   return {
-    ...whole,
-    unfolding: whole.unfolding && { ...whole.unfolding, look },
-    after: imagePicture(canvas, 'Laid flat, in pieces', piecesInWords(drawing)),
+    unfolding,
+    after: imagePicture(canvas, 'Laid flat, in pieces', piecesInWords(drawing), (x, y) => sheetAt(drawing, (x / canvas.width) * drawing.width, (1 - y / canvas.height) * drawing.height)),
     about: [
       say(`In one piece it would stretch; cut along its creases it lies flat. ${piecesInWords(drawing)}`),
       ...(folds.size > 0 ? [make('p', 'keys', key(css(CREASE), 'cut'), key(css(FOLDS.mountain), 'folded to a ridge'), key(css(FOLDS.valley), 'folded to a valley'))] : []),
       figures(piecesInFigures(drawing)),
     ],
   };
+}
+
+/**
+ * Which sheet is at a place of the drawing, and how large it is.
+ * @param {Drawing} drawing
+ * @param {number} x
+ * @param {number} y
+ */
+function sheetAt({ sheets }, x, y) {
+  // Holes are closed lines, too: a place on the sheet has an odd number of them to its right.
+  const found = sheets.find(({ cuts }) => cuts.reduce((sum, line) => sum + crossings(line, x, y), 0) % 2 === 1);
+  if (!found) return '';
+  const { name, bounds: [low, high] } = found;
+  return `${name}, ${number(high[0] - low[0], 3)} × ${number(high[1] - low[1], 3)} mm`;
+}
+
+/** How often a closed line crosses the ray to the right of a place. @param {[number, number][]} line @param {number} x @param {number} y */
+function crossings(line, x, y) {
+  return line.filter(([ax, ay], i) => {
+    const [bx, by] = line[(i + 1) % line.length];
+    return ay > y !== by > y && ax + ((y - ay) / (by - ay)) * (bx - ax) > x;
+  }).length;
 }

@@ -166,10 +166,11 @@ impl Solver<LatticeOperator> for ConjugateGradients {
         problem: &Problem,
         residual: &mut Vec<f64>,
         x: &mut [f64],
-        enough: (f64, usize),
+        (tolerance, steps): (f64, usize),
     ) -> Result<usize> {
         let mut precise = Precise::with_residual(problem, std::mem::take(residual))?;
-        let steps = precise.solve(problem, self.rho, &mut self.multigrid, x, enough);
+        let goal = tolerance * precise.distance(problem, &self.multigrid);
+        let steps = precise.solve(problem, self.rho, &mut self.multigrid, x, (goal, steps));
         *residual = precise.residual;
         Ok(steps)
     }

@@ -51,21 +51,20 @@ impl Precise {
         }
     }
 
-    /// Adds to `x` until the residual is `tolerance` of what it was, or after
-    /// so many `steps`. Returns how many there were.
+    /// Adds to `x` until the residual's [`distance`](Self::distance) is below `goal`, or after so many
+    /// `steps`. Returns how many there were.
     pub(crate) fn solve(
         &mut self,
         problem: &Problem,
         rho: f64,
         multigrid: &mut Multigrid,
         x: &mut [f64],
-        (tolerance, steps): (f64, usize),
+        (goal, steps): (f64, usize),
     ) -> usize {
         for cell in &problem.constrained {
             self.residual[*cell as usize] = 0.0;
         }
         let cells = || problem.operator.domain.active().cells();
-        let goal = tolerance * self.distance(problem, multigrid);
         let mut previous = 0.0;
         for step in 0..steps {
             let size = largest(&self.residual);
@@ -103,7 +102,7 @@ impl Precise {
 
     /// By how much the residual would move a height on its own, at most: a measure that weights of
     /// many orders of magnitude do not upset.
-    fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
+    pub(crate) fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
         let inverse = &multigrid.matrix().inverse_diagonal;
         let cells = problem.operator.domain.active().cells();
         let moved = cells.map(|cell| (self.residual[cell] * lanes::double(inverse[cell])).abs());

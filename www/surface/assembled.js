@@ -1,0 +1,114 @@
+/** The sheets of a pattern as one mesh, bent as they are built and flat as they lie beside each other. */
+
+/** @import {Anchored} from './anchors.js' */
+
+/**
+ * Its root's rotation is left out: z is up, as everywhere here.
+ * @param {Uint8Array} model a pattern's assembly, a GLB file in metres
+ * @param {number} scale metres for each unit of length
+ */
+export function assembled(model, scale) {
+  const file = new DataView(model.buffer, model.byteOffset, model.byteLength);
+  const length = file.getUint32(12, true);
+  const { meshes, accessors, bufferViews, nodes, animations } = JSON.parse(new TextDecoder().decode(model.subarray(20, 20 + length)));
+  /** @param {number} index of numbers, all of four bytes */
+  const numbers = (index) => {
+    const { bufferView, componentType } = accessors[index];
+    const { byteOffset, byteLength } = bufferViews[bufferView];
+    const bytes = model.slice(28 + length + byteOffset, 28 + length + byteOffset + byteLength);
+    return componentType === 5126 ? new Float32Array(bytes.buffer) : new Uint32Array(bytes.buffer);
+  };
+  const { samplers, channels } = animations[0];
+  /** Where a node is at last. @param {number} node @param {string} path */
+  const last = (node, path) => {
+    const { sampler } = channels.find((/** @type {any} */ { target }) => target.node === node && target.path === path);
+    const values = numbers(samplers[sampler].output);
+    return values.subarray(values.length / 2);
+  };
+  /** @type {[number[], number[], number[]]} */
+  const [positions, places, triangles] = [[], [], []];
+  for (const [number, { translation, rotation, mesh }] of nodes.entries()) {
+    if (mesh === undefined) continue;
+    const { attributes, indices, targets } = meshes[mesh].primitives[0];
+    const [flat, bends] = [numbers(attributes.POSITION), numbers(targets[0].POSITION)];
+    const [turn, shift] = [last(number, 'rotation'), last(number, 'translation')];
+    const first = places.length / 2;
+    for (let i = 0; i < flat.length; i += 3) {
+      const [x, y] = moved([flat[i], flat[i + 1], flat[i + 2]], rotation, translation);
+      places.push(x / scale, y / scale);
+      positions.push(...moved([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift).map((value) => value / scale));
+    }
+    for (const corner of numbers(indices)) triangles.push(first + corner);
+  }
+  const mesh = { positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles) };
+  return { ...mesh, stretches: stretchesOf(mesh) };
+}
+
+/**
+ * The closed lines around the parts of a mesh.
+ * @param {Uint32Array} triangles
+ * @returns {Anchored}
+ */
+export function bordersOf(triangles) {
+  /** @type {Map<number, Set<number>>} */
+  const next = new Map();
+  for (let t = 0; t < triangles.length; t += 3) {
+    for (let corner = 0; corner < 3; corner++) {
+      const [a, b] = [triangles[t + corner], triangles[t + ((corner + 1) % 3)]];
+      // Inside, each edge is there in both directions.
+      if (next.get(b)?.delete(a)) continue;
+      if (!next.has(a)) next.set(a, new Set());
+      next.get(a)?.add(b);
+    }
+  }
+  /** @type {[number[], number[]]} */
+  const [corners, lengths] = [[], []];
+  for (const first of next.keys()) {
+    let length = 0;
+    for (let at = first, on = next.get(at); on && on.size > 0; on = next.get(at)) {
+      if (length++ === 0) corners.push(at, at, at);
+      const [to] = on;
+      on.delete(to);
+      corners.push(to, to, to);
+      at = to;
+    }
+    if (length > 0) lengths.push(length + 1);
+  }
+  return {
+    corners: Uint32Array.from(corners),
+    shares: Float32Array.from(corners, (_, i) => (i % 3 === 0 ? 1 : 0)),
+    lengths: Uint32Array.from(lengths),
+    of: new Uint32Array(lengths.length),
+  };
+}
+
+/** Turned by a quaternion, then shifted. @param {number[]} place @param {ArrayLike<number>} turn @param {ArrayLike<number>} shift */
+function moved([x, y, z], turn, shift) {
+  const [a, b, c, w] = Array.from(turn);
+  const [u, v, t] = [2 * (b * z - c * y), 2 * (c * x - a * z), 2 * (a * y - b * x)];
+  return [x + w * u + b * t - c * v + shift[0], y + w * v + c * u - a * t + shift[1], z + w * t + a * v - b * u + shift[2]];
+}
+
+/**
+ * Singular values of each triangle's map to the plane, the larger one first.
+ * @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh
+ */
+function stretchesOf({ positions, places, triangles }) {
+  const stretches = new Float64Array((2 * triangles.length) / 3);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [i, j, k] = triangles.subarray(t, t + 3);
+    const edge = (/** @type {number} */ to) => [0, 1, 2].map((d) => positions[3 * to + d] - positions[3 * i + d]);
+    const [e, f] = [edge(j), edge(k)];
+    const [ax, ay, bx, by] = [j, k].flatMap((to) => [places[2 * to] - places[2 * i], places[2 * to + 1] - places[2 * i + 1]]);
+    const dot = (/** @type {number[]} */ p, /** @type {number[]} */ q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    const [ee, ef, ff] = [dot(e, e), dot(e, f), dot(f, f)];
+    const determinant = ee * ff - ef * ef;
+    // Of the metric on the sheet by that on the surface: eigenvalues are the squares.
+    const [p, q, r] = [ax * ax + ay * ay, ax * bx + ay * by, bx * bx + by * by];
+    const half = (ff * p - 2 * ef * q + ee * r) / (2 * determinant);
+    const root = Math.sqrt(Math.max(0, half * half - (p * r - q * q) / determinant));
+    stretches[(2 * t) / 3] = determinant > 0 ? Math.sqrt(half + root) : 1;
+    stretches[(2 * t) / 3 + 1] = determinant > 0 ? Math.sqrt(Math.max(0, half - root)) : 1;
+  }
+  return stretches;
+}

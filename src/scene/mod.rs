@@ -9,4 +9,5 @@ pub(crate) mod region;
 pub(crate) mod sampling;
 mod splats;
 pub(crate) mod triangulation;
+pub(crate) mod twins;
 pub(crate) mod view;

@@ -19,7 +19,7 @@ pub(super) struct Neighbour {
 
 /// The fit at one vertex.
 #[derive(Debug, Clone)]
-pub(super) struct Quadratic {
+pub(crate) struct Quadratic {
     /// From heights to the coefficients: a column for each neighbour.
     columns: Vec<[f64; N]>,
     inverse: [[f64; N]; N],
@@ -105,7 +105,7 @@ impl Quadratic {
     }
 
     /// Second derivatives.
-    pub(super) fn hessian(&self) -> Sym2 {
+    pub(crate) fn hessian(&self) -> Sym2 {
         let [xx, xy, yy, ..] = self.coefficients;
         Sym2::new(xx, xy, yy).scale(1.0 / self.scale)
     }

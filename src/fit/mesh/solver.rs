@@ -447,6 +447,14 @@ impl Shape {
     }
 }
 
+/// The factor to coordinates in which the ball about a mesh has the diameter 1.
+///
+/// # Errors
+/// [`Error::Topology`] if it has no size.
+pub(crate) fn scale_of(mesh: &Mesh) -> Result<f64> {
+    Ok(Ball::around(mesh)?.scale)
+}
+
 impl Ball {
     /// About the centre of its area. It does not depend on how the mesh is turned.
     fn around(mesh: &Mesh) -> Result<Self> {

@@ -2,6 +2,7 @@
 
 pub(crate) mod camera;
 mod depth;
+pub(crate) mod facets;
 pub(crate) mod mesh;
 mod parts;
 pub(crate) mod quarter;

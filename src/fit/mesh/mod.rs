@@ -12,6 +12,7 @@ mod noise;
 mod options;
 mod quadratic;
 mod report;
+mod sharpen;
 mod solver;
 #[cfg(test)]
 mod tests;

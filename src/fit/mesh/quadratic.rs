@@ -121,6 +121,13 @@ impl Quadratic {
         self.scale * inner(&self.coefficients, &terms(place.map(|x| x / self.scale)))
     }
 
+    /// First derivatives there.
+    pub(super) fn gradient(&self, place: [f64; 2]) -> [f64; 2] {
+        let [x, y] = place.map(|x| x / self.scale);
+        let [xx, xy, yy, a, b] = self.coefficients;
+        [xx * x + xy * y + a, xy * x + yy * y + b]
+    }
+
     /// How the second derivatives change when the `k`-th neighbour moves by `v` relative to the vertex.
     pub(super) fn change(&self, frame: &Frame, k: usize, v: Point) -> Sym2 {
         let [dx, dy, dz] = frame.coordinates(v);

@@ -11,6 +11,7 @@ use super::load::load_border;
 use super::noise::noise;
 use super::options::{MeshOptions, check_confidence};
 use super::report::{MeshPass, MeshReport};
+use super::sharpen::sharpen;
 use super::topology::Topology;
 use crate::error::{Error, Result, try_filled};
 use crate::fit::admm::iteration::Level;
@@ -338,7 +339,11 @@ impl MeshSolver {
         });
         self.seconds = self.seconds + level.seconds;
         self.surface = next;
-        if last || !matches!(reason, StopReason::Gap | StopReason::Residuals) {
+        let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
+        if done && self.options.crease_passes > 0 {
+            sharpen(&self.given, &mut self.surface, &self.linear.frames)?;
+        }
+        if done {
             self.reason = Some(reason);
             return Ok(());
         }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::error::{Error, Result};
+use crate::math::axes::axes;
 use crate::math::forest::Forest;
 use crate::math::hash::NumberMap;
 use crate::scene::twins::{NONE, twins};
@@ -14,9 +15,6 @@ pub(super) type Place = Vector3<f64>;
 
 /// A vertex nearer to a plane than this, in lengths of edges, lies on it.
 const ON: f64 = 0.1;
-
-/// Steps to find main axes, at most.
-const STEPS: usize = 100;
 
 #[derive(Debug, Clone)]
 pub(super) struct Body {
@@ -129,17 +127,10 @@ impl Body {
             let off = (a + b + c) / 3.0 - middle;
             spread += off * off.transpose() * area;
         }
-        // Of what is not finite there are none.
-        let axes = SymmetricEigen::try_new(spread, f64::EPSILON, STEPS)
-            .map_or(Matrix3::zeros(), |eigen| eigen.eigenvectors);
+        let axes = axes(spread);
         let through = [middle, place].into_iter();
         through
-            .flat_map(|through| {
-                let axes = axes.column_iter().map(|axis| axis.into_owned());
-                axes.map(|normal| Plane { through, normal })
-                    .collect::<Vec<_>>()
-            })
-            .filter(|plane| plane.normal.norm_squared() > 0.5)
+            .flat_map(|through| axes.map(|(_, normal)| Plane { through, normal }))
             .collect()
     }
 

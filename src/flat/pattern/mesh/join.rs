@@ -1,6 +1,7 @@
 //! Parts joined to sheets, as far as their sides fit and nothing comes to lie on anything else.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::body::Body;
 use super::lay::Laid;
@@ -36,16 +37,11 @@ impl Seams {
     /// A cut that runs along a crease from some place on, which bends by more than `bend`, is two seams.
     pub(super) fn new(body: &Body, bend: f64) -> Seams {
         let twins = twins(&body.triangles);
-        let mut between: BTreeMap<([u32; 2], bool), Vec<[u32; 2]>> = BTreeMap::new();
+        let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
         for (side, twin) in (0u32..).zip(&twins).filter(|(_, twin)| **twin != NONE) {
             let [a, b] = [side, *twin].map(|side| body.parts[side as usize / 3]);
             if a < b {
-                let [one, other] = [side, *twin].map(|side| body.patches[side as usize / 3]);
-                let smooth = one == other && fold(body, [side, *twin]).1.abs() <= bend;
-                between
-                    .entry(([a, b], smooth))
-                    .or_default()
-                    .push([side, *twin]);
+                between.entry([a, b]).or_default().push([side, *twin]);
             }
         }
         let mut seams = Seams {
@@ -53,36 +49,31 @@ impl Seams {
             of: vec![NONE; twins.len()],
         };
         let pointed = body.pointed();
-        for ((parts, smooth), pairs) in between {
+        for (parts, pairs) in between {
             let edges: Vec<[u32; 2]> = pairs.iter().map(|p| ends(&body.triangles, p[0])).collect();
             for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
                 let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
-                for side in sides.as_flattened() {
-                    seams.of[*side as usize] = seams.all.len() as u32;
+                let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
+                for (run, sharp) in stretches(&folds, bend) {
+                    seams.add(Seam {
+                        parts,
+                        vertices: chain.vertices[run.start..=run.end].to_vec(),
+                        smooth: !sharp && is_one(body, sides[run.start]),
+                        sides: sides[run.clone()].to_vec(),
+                        length: folds[run.clone()].iter().map(|(long, _)| long).sum(),
+                        angle: mean(&folds[run]),
+                    });
                 }
-                let mut seam = Seam {
-                    parts,
-                    vertices: chain.vertices,
-                    smooth,
-                    sides,
-                    length: 0.0,
-                    angle: 0.0,
-                };
-                let mut bent = 0.0;
-                for pair in &seam.sides {
-                    let (long, angle) = fold(body, *pair);
-                    seam.length += long;
-                    bent += long * angle;
-                }
-                seam.angle = if seam.length > 0.0 {
-                    bent / seam.length
-                } else {
-                    0.0
-                };
-                seams.all.push(seam);
             }
         }
         seams
+    }
+
+    fn add(&mut self, seam: Seam) {
+        for side in seam.sides.as_flattened() {
+            self.of[*side as usize] = self.all.len() as u32;
+        }
+        self.all.push(seam);
     }
 
     /// The seam that a side of the body is on.
@@ -90,6 +81,39 @@ impl Seams {
         let seam = self.of[side as usize];
         (seam != NONE).then_some(seam as usize)
     }
+}
+
+/// Whether both sides of an edge were one patch.
+fn is_one(body: &Body, pair: [u32; 2]) -> bool {
+    let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
+    a == b
+}
+
+/// So many edges on either side say whether a line is a crease, and a stretch of it has as many.
+const BESIDE: usize = 2;
+
+/// Where a line of edges, given by their lengths and angles, is a crease, and where it is none.
+fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
+    let is_sharp = |k: usize| {
+        let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(folds.len());
+        mean(&folds[near]).abs() > bend
+    };
+    let mut found: Vec<(Range<usize>, bool)> = Vec::new();
+    for k in 0..folds.len() {
+        let sharp = is_sharp(k);
+        match found.last_mut() {
+            Some((run, before)) if *before == sharp || run.len() <= BESIDE => run.end = k + 1,
+            _ => found.push((k..k + 1, sharp)),
+        }
+    }
+    found
+}
+
+/// The mean angle by length.
+fn mean(folds: &[(f64, f64)]) -> f64 {
+    let long: f64 = folds.iter().map(|(long, _)| long).sum();
+    let bent: f64 = folds.iter().map(|(long, angle)| long * angle).sum();
+    if long > 0.0 { bent / long } else { 0.0 }
 }
 
 /// The length of an edge, and the angle between its triangles: above 0 for a ridge.

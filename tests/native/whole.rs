@@ -295,3 +295,46 @@ fn curvatures_are_those_of_tubes_and_balls() {
     );
     assert_eq!(summary.gaussian_above, 1.0);
 }
+
+#[test]
+fn what_was_found_of_a_noisy_bottle_lies_flat_within_the_limit() {
+    // A pipe that goes on to a cone, at 27°.
+    let mut random = oorandom::Rand64::new(7);
+    let mut noise = move || 0.01 * (0..12).map(|_| random.rand_float() - 0.5).sum::<f64>();
+    let exact = surface(
+        &[&|u, v| {
+            let (angle, z) = (TAU * u, 3.0 * v);
+            let r = if z < 2.0 { 1.0 } else { 2.0 - 0.5 * z };
+            [r * angle.cos(), r * angle.sin(), z]
+        }],
+        72,
+        36,
+    );
+    let noisy = exact.positions().iter().map(|[x, y, z]| {
+        let more = 1.0 + noise();
+        [x * more, y * more, *z]
+    });
+    let noisy = Mesh::new(noisy.collect(), exact.triangles().to_vec()).unwrap();
+    let found = developable::fit_mesh(&noisy, &developable::MeshOptions::default()).unwrap();
+    let (patches, pattern) = pattern_of(found.mesh());
+    let areas = [4.0 * PI, 1.5 * PI * 1.25f64.sqrt()];
+    assert_eq!(patches.patches().len(), 2);
+    for (patch, area) in patches.patches().iter().zip(areas) {
+        assert!(
+            (patch.area / area - 1.0).abs() < 0.02,
+            "{} for {area}",
+            patch.area
+        );
+    }
+    for sheet in &pattern.sheets {
+        assert!(sheet.strain <= 0.01, "{}", sheet.strain);
+    }
+    // The circle between them is no line that one sheet folds along.
+    assert!(
+        (2..=4).contains(&pattern.sheets.len()),
+        "{}",
+        pattern.sheets.len()
+    );
+    let whole: f64 = pattern.sheets.iter().map(enclosed).sum();
+    assert!((whole / (areas[0] + areas[1]) - 1.0).abs() < 0.02);
+}

@@ -219,8 +219,8 @@ impl Body {
         turns.iter().map(missing).collect()
     }
 
-    /// Numbers the parts by their areas.
-    pub(super) fn sort(&mut self) {
+    /// Numbers the parts by their areas; the new number of each.
+    pub(super) fn sort(&mut self) -> Vec<u32> {
         let mut areas = vec![0.0; self.count as usize];
         for (part, corners) in self.parts.iter().zip(&self.triangles) {
             let [a, b, c] = corners.map(|v| self.places[v as usize]);
@@ -235,5 +235,6 @@ impl Body {
         self.parts
             .iter_mut()
             .for_each(|part| *part = numbers[*part as usize]);
+        numbers
     }
 }

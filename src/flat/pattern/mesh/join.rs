@@ -54,6 +54,11 @@ impl Seams {
             for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
                 let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
                 let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
+                // Between patches a line is a crease unless it is quite smooth.
+                let bend = match is_one(body, sides[0]) {
+                    true => bend,
+                    false => SMOOTH * bend,
+                };
                 for (run, sharp) in stretches(&folds, bend) {
                     seams.add(Seam {
                         parts,
@@ -88,6 +93,9 @@ fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
     a == b
 }
+
+/// The angle of a stretch between patches that is no crease, as a share of what is one.
+const SMOOTH: f64 = 0.25;
 
 /// So many edges on either side say whether a line is a crease, and a stretch of it has as many.
 const BESIDE: usize = 2;

@@ -29,6 +29,9 @@ pub(super) struct Laid {
     pub worst: usize,
 }
 
+/// Steps before triangles may be given up.
+const START: usize = 40;
+
 /// In how many steps it shows whether triangles lie flat.
 pub(super) const TRIAL: usize = 12;
 
@@ -97,7 +100,16 @@ impl Laid {
         let whole = pieces.iter().copied().zip(laid.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
         let joint = Joint::new(laid.places.len(), whole, Vec::new(), Vec::new())?;
-        joint.relax(&mut laid.places, until)?;
+        // Steps that hardly change anything say little before what is wrong at one end has come to the other.
+        let start = Until {
+            steps: until.steps.min(START),
+            hopeless: f64::INFINITY,
+            ..until
+        };
+        let steps = joint.relax(&mut laid.places, start)?;
+        if steps == START && until.steps > START {
+            joint.relax(&mut laid.places, until)?;
+        }
         laid.measure(&pieces);
         Ok(laid)
     }

@@ -9,6 +9,8 @@ mod draw;
 mod join;
 mod lay;
 
+use std::collections::BTreeMap;
+
 use super::{PatternOptions, Sheet};
 use crate::error::{Error, Result, check_count, positive};
 use crate::fit::mesh::topology::Topology;
@@ -92,12 +94,26 @@ pub fn pattern_mesh(
 /// Cuts until every part lies flat; these by their area.
 fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
     let whole = |_: u32| false;
+    // What was found to lie flat, with its triangles then: cuts beside it divide some of them.
+    let mut flat: BTreeMap<u32, Laid> = BTreeMap::new();
     let mut open: Vec<u32> = (0..body.count).rev().collect();
-    while let Some(part) = open.pop() {
+    loop {
+        let Some(part) = open.pop() else {
+            let moved = |(part, laid): (&u32, &Laid)| {
+                (body.members(*part).len() != laid.members.len()).then_some(*part)
+            };
+            open = flat.iter().filter_map(moved).collect();
+            if open.is_empty() {
+                break;
+            }
+            continue;
+        };
         let laid = Laid::new(&body, body.members(part), whole, None, limits.until)?;
         if laid.strain <= limits.strain && !laid.overlaps() {
+            flat.insert(part, laid);
             continue;
         }
+        flat.remove(&part);
         let worst = body.triangles[laid.members[laid.worst] as usize];
         let worst = worst.map(|v| body.places[v as usize]).iter().sum::<Place>() / 3.0;
         let mut best: Option<(f64, Body, Vec<u32>)> = None;
@@ -133,9 +149,11 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
         body = cut;
         open.extend(parts);
     }
-    body.sort();
-    let parts = (0..body.count)
-        .map(|part| Laid::new(&body, body.members(part), whole, None, limits.until))
-        .collect::<Result<_>>()?;
+    let numbers = body.sort();
+    let mut parts: Vec<(u32, Laid)> = (flat.into_iter())
+        .map(|(part, laid)| (numbers[part as usize], laid))
+        .collect();
+    parts.sort_by_key(|(part, _)| *part);
+    let parts = parts.into_iter().map(|(_, laid)| laid).collect();
     Ok((body, parts))
 }

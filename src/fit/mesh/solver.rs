@@ -132,7 +132,8 @@ struct Shape {
 /// The surface minimises `λ Σ w s² + Σ w φ(‖II‖_*)`, `s` being how far a vertex goes from where it was
 /// given, along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the
 /// cost of bends of [`Energy::Huber`](crate::Energy::Huber). It is linearised about a smoothed base and
-/// solved as over a lattice, and then once more about the result.
+/// solved as over a lattice, and then once more about the result. At the end vertices on creases are moved to
+/// where the continuations of both sides meet, unless there were to be no crease passes.
 ///
 /// # Errors
 /// [`Error::Topology`] if the mesh is no surface and cannot safely be made one, and says where;

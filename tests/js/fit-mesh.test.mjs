@@ -218,7 +218,7 @@ test('the command lays whole meshes flat', async () => {
   assert.equal(drawn.status, 0, drawn.stderr);
   assert.match(drawn.stderr, /sheets?, strained by .* slits? besides the creases/);
   const { sheets, strain } = JSON.parse(await text('a.json'));
-  assert.ok(sheets >= 2 && strain <= 0.01);
+  assert.ok(sheets >= 1 && sheets <= 4 && strain <= 0.01, `${sheets} sheets, ${strain}`);
   assert.match(await text('a.svg'), /<svg/);
   const flat = await run(folder, ['unroll', 'scan.ply', '-o', 'flat.obj', '--surface', '--report', 'flat.json']);
   assert.deepEqual(flat, { status: 0, stdout: '', stderr: '' });

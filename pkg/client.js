@@ -203,6 +203,36 @@ export class DevelopableWorker {
   }
 
   /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').MeshAnalyzeOptions} [given]
+   */
+  async analyzeMesh(mesh, given) {
+    const options = optionsOf('analyzeMesh', given);
+    const { shape } = wholeOf(mesh);
+    return this.#request((remote) => remote.analyzeMesh(shape, options));
+  }
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').MeshUnrollOptions} [given]
+   */
+  async unrollMesh(mesh, given) {
+    const options = optionsOf('unrollMesh', given);
+    const { shape } = wholeOf(mesh);
+    return this.#request((remote) => remote.unrollMesh(shape, options));
+  }
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').MeshPatternOptions} [given]
+   */
+  async patternMesh(mesh, given) {
+    const options = optionsOf('patternMesh', given);
+    const { shape } = wholeOf(mesh);
+    return this.#request((remote) => remote.patternMesh(shape, options));
+  }
+
+  /**
    * @param {HeightImage} input
    * @param {import('./types.js').Intrinsics} intrinsics
    * @param {import('./types.js').DepthOptions} [given]

@@ -1,7 +1,8 @@
 /** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
+  MeshPatternOptions, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -22,9 +23,9 @@ export function init(input?: InitInput): Promise<void>;
  *   mesh with textures;
  * - `images`: all other height images, and photos in JPEG and WebP;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
- * - `fitmesh`: `fitMesh` and `MeshSolver`;
+ * - `fitmesh`: `fitMesh`, `MeshSolver` and `analyzeMesh`;
  * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
- * - `patterns`: `pattern`, `writeSvg`, `writePdf` and `writeDxf`.
+ * - `patterns`: `pattern`, `patternMesh`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
  *
  * Where nothing can be awaited, `developable/sync` has `initSync` and `loadSync`.
  */
@@ -171,6 +172,12 @@ export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions
  * draws them beside each other in millimetres.
  */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Drawing;
+/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
+export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): MeshAnalysis;
+/** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
+export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): MeshUnrolling;
+/** The same drawn in millimetres, as `pattern` does for heights. */
+export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Drawing;
 /** SVG of a drawing, in millimetres, with the layers `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing): Uint8Array<ArrayBuffer>;
 /**

@@ -326,6 +326,27 @@ export function pattern(input, given) {
   return patterns.call((wasm) => wasm.pattern(field, options));
 }
 
+/** @type {typeof import('./direct.js').analyzeMesh} */
+export function analyzeMesh(mesh, given) {
+  const { shape } = wholeOf(mesh);
+  const options = optionsOf('analyzeMesh', given);
+  return meshFits.call((wasm) => wasm.analyzeMesh(shape, options));
+}
+
+/** @type {typeof import('./direct.js').unrollMesh} */
+export function unrollMesh(mesh, given) {
+  const { shape } = wholeOf(mesh);
+  const options = optionsOf('unrollMesh', given);
+  return patterns.call((wasm) => wasm.unrollMesh(shape, options));
+}
+
+/** @type {typeof import('./direct.js').patternMesh} */
+export function patternMesh(mesh, given) {
+  const { shape } = wholeOf(mesh);
+  const options = optionsOf('patternMesh', given);
+  return patterns.call((wasm) => wasm.patternMesh(shape, options));
+}
+
 /** @type {typeof import('./direct.js').writeSvg} */
 export function writeSvg(drawing) {
   const own = plainCopy('the drawing', drawing);

@@ -1,7 +1,8 @@
 /** The promise API: the solver runs in a module worker (in Node, a worker thread). */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshSolverOptions, MeshSurface, NpzArray,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
+  MeshPatternOptions, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   ExploredPatterns, OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -171,6 +172,12 @@ export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
 /** Cuts a surface along its creases into sheets that lie flat, and draws them in millimetres. */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+/** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
+export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
+/** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
+export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
+/** The same drawn in millimetres, as `pattern` does for heights. */
+export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
 /**
  * Patterns at several λ and sizes of patches, from the surface nearest to the input to the plainest. Takes one solve
  * for each λ, which start from each other, and one `pattern` for each plan. Surfaces that cannot be laid flat are plans
@@ -235,6 +242,9 @@ export class DevelopableWorker {
   fitCylinder(input: Heightfield): Promise<FittedCylinder>;
   unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
   pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
+  analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
+  unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
+  patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
   explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
   writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
   writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;

@@ -57,6 +57,12 @@ export const sampleMesh = (mesh, options) => worker().sampleMesh(mesh, options);
 export const fitMesh = (mesh, options) => worker().fitMesh(mesh, options);
 /** @type {typeof import('./index.js').backProject} */
 export const backProject = (input, camera, options) => worker().backProject(input, camera, options);
+/** @type {typeof import('./index.js').analyzeMesh} */
+export const analyzeMesh = (mesh, options) => worker().analyzeMesh(mesh, options);
+/** @type {typeof import('./index.js').unrollMesh} */
+export const unrollMesh = (mesh, options) => worker().unrollMesh(mesh, options);
+/** @type {typeof import('./index.js').patternMesh} */
+export const patternMesh = (mesh, options) => worker().patternMesh(mesh, options);
 /** @type {typeof import('./index.js').paint} */
 export const paint = (input, picture, options) => worker().paint(input, picture, options);
 /** @type {typeof import('./index.js').analyze} */

@@ -164,6 +164,17 @@ const stock = either(
   either(numbers(2, '[width, height] of plates'), numbers(1, '[width] of a roll, in millimetres')),
 );
 
+const drawing = {
+  scale: number,
+  tabs: number,
+  marks: number,
+  kerf: number,
+  allowance: number,
+  smoothing: number,
+  paper: stock,
+  assembly: flag,
+};
+
 const directions = ['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'];
 
 /** What each call takes. @satisfies {Record<string, Record<string, Kind>>} */
@@ -206,22 +217,10 @@ export const OPTIONS = {
   },
   rulings: { ...resampled, separation: number, confidence: number, crease: number },
   unroll: { ...resampled, ...unrolling },
-  pattern: {
-    ...resampled,
-    ...patching,
-    ...unrolling,
-    scale: number,
-    tabs: number,
-    marks: number,
-    kerf: number,
-    allowance: number,
-    smoothing: number,
-    paper: stock,
-    assembly: flag,
-    gap: number,
-    maxStrain: number,
-    refold: flag,
-  },
+  pattern: { ...resampled, ...patching, ...unrolling, ...drawing, gap: number, maxStrain: number, refold: flag },
+  analyzeMesh: { threshold: number },
+  unrollMesh: { ...patching, ...unrolling, gap: number, maxStrain: number },
+  patternMesh: { ...patching, ...unrolling, ...drawing, gap: number, maxStrain: number },
   explorePattern: {
     lambdas: several, smallest: several, sheets: whole, solver: optionsFor('solver'), pattern: optionsFor('pattern'), signal, onPlan: callback,
   },

@@ -234,6 +234,27 @@ export const service = {
     return direct.pattern(heights(input), options);
   },
 
+  /** @type {(mesh: import('./types.js').Mesh, options?: import('./types.js').MeshAnalyzeOptions) => Promise<import('./types.js').MeshAnalysis>} */
+  async analyzeMesh(mesh, options) {
+    await loaded('fitmesh');
+    const result = direct.analyzeMesh(mesh, options);
+    return transfer(result, buffersOf(result.gaussian, result.kappa1, result.kappa2, result.nuclearNorm, result.rulings));
+  },
+
+  /** @type {(mesh: import('./types.js').Mesh, options?: import('./types.js').MeshUnrollOptions) => Promise<import('./types.js').MeshUnrolling>} */
+  async unrollMesh(mesh, options) {
+    await loaded('patterns');
+    const result = direct.unrollMesh(mesh, options);
+    const { labels, positions, places, triangles, sheets } = result;
+    return transfer(result, buffersOf(labels, positions, places, triangles, sheets));
+  },
+
+  /** @type {(mesh: import('./types.js').Mesh, options?: import('./types.js').MeshPatternOptions) => Promise<import('./types.js').Drawing>} */
+  async patternMesh(mesh, options) {
+    await loaded('patterns');
+    return direct.patternMesh(mesh, options);
+  },
+
   /** @type {(input: Input, photo: import('./types.js').Photo, options?: import('./types.js').DewarpOptions) => Promise<import('./types.js').Dewarped>} */
   async dewarp(input, photo, options) {
     await loaded('unroll');

@@ -857,6 +857,31 @@ export interface DecodedPhoto extends Photo {
   film35?: number;
 }
 
+/** Options of the figures of a mesh as it is. */
+export interface MeshAnalyzeOptions {
+  /**
+   * Gaussian curvature, in coordinates in which the ball about the mesh has the diameter 1, above which a vertex counts.
+   * Default 1.
+   */
+  threshold?: number;
+}
+
+/** Curvatures at the vertices of a mesh, NaN where triangles do not go all around one; above 0 where it bends as a ball. */
+export interface MeshAnalysis {
+  /** Discrete Gaussian curvature: angle deficit over lumped area. */
+  gaussian: Float64Array<ArrayBuffer>;
+  /** Eigenvalue of larger magnitude of the second fundamental form. */
+  kappa1: Float64Array<ArrayBuffer>;
+  /** That of smaller magnitude. */
+  kappa2: Float64Array<ArrayBuffer>;
+  /** `|kappa1| + |kappa2|`: the energy's density. */
+  nuclearNorm: Float64Array<ArrayBuffer>;
+  /** x, y, z of the unit vector along which it bends by `kappa2`: that of the ruling, up to its sign. */
+  rulings: Float64Array<ArrayBuffer>;
+  /** `size` is the diameter of the ball about the mesh; the sum of nuclear norms is by area. */
+  summary: AnalysisSummary;
+}
+
 export interface AnalyzeOptions {
   /**
    * Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts.
@@ -1029,6 +1054,40 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
    * as laying them flat. Default `false`.
    */
   refold?: boolean;
+}
+
+/** Options of a mesh laid flat as it is. `bend` is the angle between triangles, by default at most 0.35. */
+export interface MeshUnrollOptions extends Omit<PatchOptions, 'spacing'>, Omit<UnrollOptions, 'spacing'> {
+  /** As in `PatternOptions`; a quarter of the mean length of edges is always allowed. */
+  gap?: number;
+  /** As in `PatternOptions`. */
+  maxStrain?: number;
+}
+
+/** Options of the drawing of a mesh as it is laid flat. */
+export interface MeshPatternOptions extends Omit<PatternOptions, 'spacing' | 'refold'> {}
+
+/**
+ * A mesh as it is laid flat: in sheets, one to the right of the other, as they are seen from the side that its triangles
+ * face. They have more vertices than the mesh, where they were cut.
+ */
+export interface MeshUnrolling {
+  /** x, y, z of each vertex of the sheets, where it is on the mesh. */
+  positions: Float64Array<ArrayBuffer>;
+  /** x, y of the same vertices, flat. */
+  places: Float64Array<ArrayBuffer>;
+  /** Three vertices of each triangle, counter-clockwise. */
+  triangles: Uint32Array<ArrayBuffer>;
+  /** The sheet of each vertex, from 0. */
+  sheets: Uint32Array<ArrayBuffer>;
+  /** The patch of each triangle of the mesh that was given, -1 for none. */
+  labels: Int32Array<ArrayBuffer>;
+  /** The patches of the mesh, that with the largest area first. */
+  patches: { vertices: number; area: number }[];
+  /** The creases between them. */
+  creases: Crease[];
+  /** `strain` (root of the mean square) and `gap` (between the sides of folds) are those of the worst sheet. */
+  report: { sheets: number; area: number; strain: number; gap: number };
 }
 
 /** A line to fold along. */

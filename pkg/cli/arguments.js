@@ -65,7 +65,9 @@ import { split, usage } from './flags.js';
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
  * @typedef {{
- *   command: 'surface', input: string, output: string, extension: Extension, written: string[], report?: string,
+ *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], report?: string,
+ *   asIs: boolean, threshold?: number, laying: import('../types.js').PatchOptions & { maxStrain?: number },
+ *   drawing: Omit<import('../types.js').MeshPatternOptions, 'assembly'>, assembly?: string,
  *   options: import('../types.js').MeshSolverOptions,
  * }} MeshTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
@@ -154,7 +156,7 @@ export function parse(args) {
     noData: number('no-data', values),
     normalize: !values['no-normalize'],
   };
-  if (command === 'fit' && values.surface) return whole(about, values);
+  if (values.surface) return whole(/** @type {WholeCommand} */ (command), about, values);
   if (command === 'occlusions') return { command, ...about, threshold: number('threshold', values) };
   if (command === 'fit' && texture !== undefined && !['.obj', '.ply', '.glb'].includes(about.extension)) {
     throw usage('--texture is for outputs that end in .obj, .ply or .glb');
@@ -265,25 +267,47 @@ const wholeFlags = [
   'surface', 'output', 'report', 'lambda', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'gap', 'max-iterations',
 ];
 
+/** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
+const wholeCommands = {
+  fit: [],
+  analyze: ['as-is', 'threshold'],
+  unroll: ['as-is'],
+  pattern: [
+    'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'smoothing', 'paper', 'assembly',
+  ],
+};
+
+/** @typedef {keyof typeof wholeCommands} WholeCommand */
+
 /**
  * A mesh as it is, without a view.
+ * @param {WholeCommand} make
  * @param {InputTask} about
  * @param {Values} values
  * @returns {MeshTask}
  */
-function whole({ input, output, written, extension: kind }, values) {
+function whole(make, { input, output, written, extension: kind }, values) {
   /** @type {readonly string[]} */
-  const known = wholeFlags;
+  const known = [...wholeFlags, ...wholeCommands[make]];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
-  if (stray !== undefined) throw usage(`--${stray} is for heights, and with --surface the whole mesh is fitted`, 'fit');
-  if (!isMesh(output) || kind === '.json') throw usage('with --surface the output is a mesh: .obj, .ply, .stl or .glb', 'fit');
+  if (stray !== undefined) throw usage(`--${stray} is for heights, and with --surface the whole mesh is fitted`, make);
+  if (make === 'fit' && (!isMesh(output) || kind === '.json')) {
+    throw usage('with --surface the output is a mesh: .obj, .ply, .stl or .glb', make);
+  }
+  const { maxStrain, assembly, ...drawn } = drawing(values);
   return {
     command: 'surface',
+    make,
     input,
     output,
     written,
     extension: kind,
     report: values.report,
+    asIs: values['as-is'] === true,
+    threshold: number('threshold', values),
+    laying: { ...patching(values), maxStrain },
+    drawing: drawn,
+    assembly,
     options: {
       lambda: lambda(values.lambda),
       gap: number('gap', values),

@@ -104,9 +104,9 @@ export const sections = {
     title: 'How to look at a mesh',
     flags: {
       surface: {
-        help: 'do not look at it along a view: fit the whole mesh as it is, closed, overhanging or open. OUTPUT is the same ' +
-          'mesh (.obj, .ply, .stl or .glb), its vertices moved; lambda is auto unless it is given, and radii are shares of ' +
-          'the diameter of a ball about it',
+        help: 'do not look at it along a view: fit the whole mesh as it is, closed, overhanging or open. Of "fit" OUTPUT is the ' +
+          'same mesh (.obj, .ply, .stl or .glb), its vertices moved; lambda is auto unless it is given, and radii are shares ' +
+          'of the diameter of a ball about it',
       },
       view: {
         value: 'V',

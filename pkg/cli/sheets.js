@@ -43,20 +43,24 @@ export async function pattern(task, signal) {
     files.push({ path: task.assembly, bytes: task.assembly.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
   }
   await writeWhole(files, signal);
-  const { slits, slitLength, sheets, strain } = drawing.summary;
+  const { sheets } = drawing.summary;
   if (plan !== undefined) {
     process.stderr.write(
       `developable: ${counted(sheets, 'sheet')} with --lambda ${plan.lambda} and --smallest ${plan.smallest}, ` +
         `${Number(plan.distance.toPrecision(3))} from the input (root mean square)\n`,
     );
   }
-  if (slits > 0) {
-    process.stderr.write(
-      `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
-        `besides the creases, ${slitLength.toFixed(0)} mm long\n`,
-    );
-  }
+  reportSlits(drawing.summary);
   reportMissing(drawing.summary);
+}
+
+/** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */
+export function reportSlits({ slits, slitLength, sheets, strain }) {
+  if (slits === 0) return;
+  process.stderr.write(
+    `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
+      `besides the creases, ${slitLength.toFixed(0)} mm long\n`,
+  );
 }
 
 /** @param {PatternTask} task */
@@ -164,7 +168,7 @@ const counted = (count, what, several = `${what}s`) => `${count} ${count === 1 ?
  * @param {import('../types.js').Drawing} drawing
  * @param {import('./arguments.js').Extension} extension
  */
-async function drawn(drawing, extension) {
+export async function drawn(drawing, extension) {
   switch (extension) {
     case '.svg': return developable.writeSvg(drawing);
     case '.pdf': return developable.writePdf(drawing);
@@ -339,13 +343,13 @@ export function json(value) {
 }
 
 /** Typed arrays as plain ones, for JSON. @param {object} object */
-function plainArrays(object) {
+export function plainArrays(object) {
   const entries = Object.entries(object);
   return Object.fromEntries(entries.map(([name, value]) => [name, ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value]));
 }
 
-/** The sheet as a flat mesh. @param {Unrolling} sheet */
-function flatObj({ places, triangles }) {
+/** The sheet as a flat mesh. @param {Pick<Unrolling, 'places' | 'triangles'>} sheet */
+export function flatObj({ places, triangles }) {
   const lines = ['# a surface laid flat'];
   for (let i = 0; i < places.length; i += 2) lines.push(`v ${places[i]} ${places[i + 1]} 0`);
   // The file counts from 1.

@@ -1,26 +1,83 @@
-/** `developable fit --surface`: a mesh as it is, without a view. */
+/** `--surface`: a mesh as it is, without a view, fitted and what is made of it. */
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { announceMesh, percent, progressLine } from './terminal.js';
+import { drawn, flatObj, json, plainArrays, reportSlits } from './sheets.js';
+import { announceMesh, percent, print, progressLine } from './terminal.js';
 
 /**
- * @param {import('./arguments.js').MeshTask} task
+ * @typedef {import('./arguments.js').MeshTask} MeshTask
+ * @typedef {import('../types.js').Mesh} Mesh
+ * @typedef {{ path: string, bytes: Uint8Array }} File
+ */
+
+/**
+ * @param {MeshTask} task
  * @param {AbortSignal} signal
  */
 export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh({ ...task, lattice: 'mesh', normalize: true });
+  const surface = task.asIs ? undefined : await fitted(task, mesh, signal);
+  const files = await made[task.make](task, surface ?? mesh, mesh);
+  await writeWhole(files, signal);
+  if (surface !== undefined) tell(task, surface, mesh);
+  if (task.make === 'analyze' && task.output === '') await print(new TextDecoder().decode(files[0].bytes));
+}
+
+/**
+ * @param {MeshTask} task
+ * @param {Mesh} mesh
+ * @param {AbortSignal} signal
+ */
+function fitted(task, mesh, signal) {
   const line = progressLine();
-  const surface = await developable
+  return developable
     .fitMesh(mesh, { ...task.options, signal, onProgress: line.shown ? line.show : undefined })
     .finally(() => line.clear());
-  const { report } = surface;
-  const files = [{ path: task.output, bytes: await encode(task.extension, surface) }];
-  if (task.report !== undefined) {
-    files.push({ path: task.report, bytes: new TextEncoder().encode(`${JSON.stringify(report, undefined, 2)}\n`) });
-  }
-  await writeWhole(files, signal);
+}
+
+/** What each command writes. @type {Record<MeshTask['make'], (task: MeshTask, surface: Mesh, mesh: Mesh) => Promise<File[]>>} */
+const made = {
+  async fit({ output, extension, report: path }, surface) {
+    const { report } = /** @type {import('../types.js').MeshSurface} */ (surface);
+    return [{ path: output, bytes: await encode(extension, surface) }, ...(path === undefined ? [] : [{ path, bytes: json(report) }])];
+  },
+
+  async analyze({ output, asIs, threshold }, surface, mesh) {
+    const figures = { input: (await developable.analyzeMesh(mesh, { threshold })).summary };
+    const after = asIs ? {} : { output: (await developable.analyzeMesh(surface, { threshold })).summary };
+    return [{ path: output, bytes: json({ ...figures, ...after }) }];
+  },
+
+  async unroll({ output, extension, report: path, laying }, surface) {
+    const sheets = await developable.unrollMesh(surface, laying);
+    const { patches, creases, report } = sheets;
+    const bytes = extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
+    return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
+  },
+
+  async pattern({ output, extension, report, laying, drawing, assembly: path }, surface) {
+    const told = path !== undefined || report !== undefined;
+    const pattern = await developable.patternMesh(surface, { ...laying, ...drawing, assembly: told });
+    const files = [{ path: output, bytes: await drawn(pattern, extension) }];
+    const { assembly, summary } = pattern;
+    if (report !== undefined) files.push({ path: report, bytes: json({ ...summary, assembly: assembly?.steps }) });
+    if (path !== undefined && assembly !== undefined) {
+      files.push({ path, bytes: path.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
+    }
+    reportSlits(summary);
+    return files;
+  },
+};
+
+/**
+ * Says how the fit went.
+ * @param {MeshTask} task
+ * @param {import('../types.js').MeshSurface} surface
+ * @param {Mesh} mesh
+ */
+function tell(task, { report }, mesh) {
   announceMesh(task.output, report);
   if (report.stopReason === 'maxIterations') {
     process.stderr.write('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');
@@ -43,7 +100,7 @@ export async function whole(task, signal) {
 
 /**
  * @param {import('./arguments.js').Extension} extension
- * @param {import('../types.js').MeshSurface} surface
+ * @param {Mesh} surface
  */
 function encode(extension, surface) {
   switch (extension) {

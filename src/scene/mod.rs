@@ -2,6 +2,7 @@
 
 pub(crate) mod camera;
 mod depth;
+pub(crate) mod facets;
 pub(crate) mod mesh;
 mod parts;
 pub(crate) mod quarter;
@@ -9,4 +10,5 @@ pub(crate) mod region;
 pub(crate) mod sampling;
 mod splats;
 pub(crate) mod triangulation;
+pub(crate) mod twins;
 pub(crate) mod view;

@@ -179,3 +179,55 @@ test('the command fits whole meshes, and says so where a view would lose much', 
   assert.match((await run(folder, ['fit', 'scan.ply', '-o', 'x.npy', '--surface'])).stderr, /\.obj, \.ply, \.stl or \.glb/);
   assert.match((await run(folder, ['fit', 'scan.png', '-o', 'x.ply', '--surface'])).stderr, /--surface is for meshes/);
 });
+
+/** Areas of the bottle's two parts. */
+const [pipe, cone] = [4 * Math.PI, 1.5 * Math.PI * Math.hypot(1, 0.5)];
+
+test('a whole mesh is measured, laid flat and drawn', async () => {
+  await direct.load('patterns');
+  const surface = await developable.fitMesh(noisy);
+  const [before, after] = await Promise.all([noisy, surface].map((mesh) => developable.analyzeMesh(mesh)));
+  assert.ok(after.summary.gaussianAbove < 0.2 * before.summary.gaussianAbove, JSON.stringify(after.summary));
+  assert.ok(Math.abs(after.summary.size - 2 * Math.hypot(1, 1.35)) < 0.2, `${after.summary.size}`);
+  const count = noisy.positions.length / 3;
+  const round = Array.from({ length: count }, (_, i) => i).filter((i) => Math.abs(noisy.positions[3 * i + 2] - 1) < 0.5);
+  const median = (/** @type {number[]} */ values) => values.sort((a, b) => a - b)[values.length >> 1];
+  assert.ok(Math.abs(median(round.map((i) => after.kappa1[i])) - 1) < 0.05);
+  assert.ok(median(round.map((i) => Math.abs(after.rulings[3 * i + 2]))) > 0.99);
+  const sheets = await developable.unrollMesh(surface);
+  assert.equal(sheets.labels.length, noisy.triangles.length / 3);
+  assert.equal(sheets.patches.length, 2);
+  [pipe, cone].forEach((area, k) => assert.ok(Math.abs(sheets.patches[k].area / area - 1) < 0.03, `${sheets.patches[k].area} for ${area}`));
+  assert.equal(sheets.places.length / 2, sheets.positions.length / 3);
+  assert.ok(sheets.report.strain <= 0.01 && Math.abs(sheets.report.area / (pipe + cone) - 1) < 0.03);
+  const drawing = await developable.patternMesh(surface, { scale: 10, tabs: 4, assembly: true });
+  assert.equal(drawing.sheets.length, sheets.report.sheets);
+  assert.equal(drawing.assembly?.steps.length, drawing.sheets.length);
+  assert.match(new TextDecoder().decode(direct.writeSvg(drawing)), /<svg/);
+  assert.deepEqual(direct.patternMesh(surface, { scale: 10, tabs: 4, assembly: true }).sheets, drawing.sheets);
+  assert.throws(() => direct.unrollMesh(surface, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
+  const edges = { positions: new Float64Array(15).map((_, i) => (i * 7) % 5), triangles: Uint32Array.of(0, 1, 2, 0, 1, 3, 0, 1, 4) };
+  assert.throws(() => direct.patternMesh(edges), error('TOPOLOGY', /3 triangles/));
+});
+
+test('the command lays whole meshes flat', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
+  const text = async (/** @type {string} */ name) => readFile(join(folder, name), 'utf8');
+  const drawn = await run(folder, ['pattern', 'scan.ply', '-o', 'a.svg', '--surface', '--scale', '10', '--report', 'a.json']);
+  assert.equal(drawn.status, 0, drawn.stderr);
+  assert.match(drawn.stderr, /sheets?, strained by .* slits? besides the creases/);
+  const { sheets, strain } = JSON.parse(await text('a.json'));
+  assert.ok(sheets >= 1 && sheets <= 4 && strain <= 0.01, `${sheets} sheets, ${strain}`);
+  assert.match(await text('a.svg'), /<svg/);
+  const flat = await run(folder, ['unroll', 'scan.ply', '-o', 'flat.obj', '--surface', '--report', 'flat.json']);
+  assert.deepEqual(flat, { status: 0, stdout: '', stderr: '' });
+  const report = JSON.parse(await text('flat.json'));
+  assert.deepEqual([report.sheets, report.patches.length], [sheets, 2]);
+  const mesh = direct.readMesh(await readFile(join(folder, 'flat.obj')));
+  assert.ok(mesh.positions.every((x, i) => i % 3 !== 2 || x === 0));
+  const told = await run(folder, ['analyze', 'scan.ply', '--surface', '--as-is']);
+  assert.equal(told.status, 0);
+  assert.deepEqual(Object.keys(JSON.parse(told.stdout)), ['input']);
+  assert.match((await run(folder, ['pattern', 'scan.ply', '-o', 'a.svg', '--surface', '--view', '-z'])).stderr, /--view is for heights/);
+});

@@ -51,3 +51,4 @@ mod surfaces;
 mod textures;
 mod unroll;
 mod warm;
+mod whole;

@@ -20,9 +20,9 @@ const files = [
   { name: 'files', limit: 275_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
-  { name: 'fitmesh', limit: 120_000 },
+  { name: 'fitmesh', limit: 146_000 },
   { name: 'unroll', limit: 272_000 },
-  { name: 'patterns', limit: 405_000 },
+  { name: 'patterns', limit: 475_000 },
 ];
 
 /**

@@ -2,17 +2,20 @@
 
 use super::geometry::{Frame, Point};
 use super::linear::Given;
-use super::quadratic::{Neighbour, Quadratic, SECOND};
+use super::quadratic::{Neighbour, Quadratic};
+use super::topology::Topology;
 
 /// Rings around a vertex of the border in which a vertex inside is looked for.
 const RINGS: usize = 3;
+
+/// What a vertex of the second ring counts beside one of the first, where some of these are missing.
+const BESIDE: f64 = 0.3;
 
 /// Puts each vertex that is not inside on the mean of the quadratics that fit at the vertices inside next
 /// to it. Where there are none it stays.
 pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame]) {
     let topology = &given.topology;
     let old = x.to_vec();
-    let mut second = Vec::new();
     for vertex in 0..topology.len() {
         if topology.inside[vertex] || given.held[vertex] {
             continue;
@@ -35,30 +38,11 @@ pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame]) {
             if !topology.inside[inner] {
                 continue;
             }
-            topology.second_ring(inner, &mut second);
-            let near = topology.around(inner).iter().map(|other| (other, 1.0));
-            let all = near.chain(second.iter().map(|other| (other, SECOND)));
-            let neighbours: Vec<Neighbour> = all
-                .filter(|(other, _)| topology.inside[**other as usize])
-                .map(|(other, weight)| Neighbour {
-                    offset: old[*other as usize] - old[inner],
-                    weight: if weight == 1.0 { 1.0 } else { 0.3 },
-                })
-                .collect();
-            if neighbours.iter().filter(|n| n.weight == 1.0).count() < 2 {
-                continue;
-            }
+            let inside = |other: usize| topology.inside[other];
             let frame = &frames[inner];
-            let Some(fit) = Quadratic::fit(frame, &neighbours) else {
-                continue;
-            };
-            if fit.amplification() > 100.0 {
-                continue;
-            }
-            let [a, b, height] = frame.coordinates(old[vertex] - old[inner]);
-            let rise = fit.height([a, b]) - height;
-            if rise.is_finite() {
-                sum += frame.normal * rise;
+            if let Some((rise, up)) = continued(topology, &old, frame, inner, inside, old[vertex]) {
+                // Along the normal of the vertex inside, as far as that one's surface is above.
+                sum += frame.normal * (rise / up.dot(&frame.normal));
                 count += 1.0;
             }
         }
@@ -66,4 +50,37 @@ pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame]) {
             x[vertex] += sum / count;
         }
     }
+}
+
+/// How far a place is below the quadratic that fits at an inner vertex, by those around that are `usable`;
+/// along that quadratic's normal there, which comes with it.
+pub(super) fn continued(
+    topology: &Topology,
+    x: &[Point],
+    frame: &Frame,
+    inner: usize,
+    usable: impl Fn(usize) -> bool,
+    at: Point,
+) -> Option<(f64, Point)> {
+    let mut second = Vec::new();
+    topology.second_ring(inner, &mut second);
+    let near = topology.around(inner).iter().map(|other| (other, 1.0));
+    let all = near.chain(second.iter().map(|other| (other, BESIDE)));
+    let neighbours: Vec<Neighbour> = all
+        .filter(|(other, _)| usable(**other as usize))
+        .map(|(other, weight)| Neighbour {
+            offset: x[*other as usize] - x[inner],
+            weight,
+        })
+        .collect();
+    if neighbours.iter().filter(|n| n.weight == 1.0).count() < 2 {
+        return None;
+    }
+    let fit = Quadratic::fit(frame, &neighbours).filter(|fit| fit.amplification() <= 100.0)?;
+    let [a, b, height] = frame.coordinates(at - x[inner]);
+    let [along, across] = fit.gradient([a, b]);
+    let [t1, t2] = &frame.tangents;
+    let up = (frame.normal - along * t1 - across * t2).normalize();
+    let rise = (fit.height([a, b]) - height) * up.dot(&frame.normal);
+    rise.is_finite().then_some((rise, up))
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::topology::Topology;
 
-pub(super) type Point = Vector3<f64>;
+pub(crate) type Point = Vector3<f64>;
 
 /// How far a vertex goes towards the mean of its neighbours in one step. With 1 there are meshes that
 /// alternate for ever.
@@ -12,14 +12,14 @@ const STEP: f64 = 0.7;
 
 /// Where vertices are, and which way the surface faces there.
 #[derive(Debug, Clone)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     pub normal: Point,
     pub tangents: [Point; 2],
 }
 
 impl Frame {
     /// About a normal, turned as little as may be from another frame.
-    pub(super) fn about(normal: Point, hint: Point) -> Self {
+    pub(crate) fn about(normal: Point, hint: Point) -> Self {
         let mut along = hint - normal * normal.dot(&hint);
         if along.norm_squared() < 1e-6 {
             let least = normal.iamin();
@@ -33,14 +33,14 @@ impl Frame {
     }
 
     /// Along both tangents, and upwards.
-    pub(super) fn coordinates(&self, v: Point) -> [f64; 3] {
+    pub(crate) fn coordinates(&self, v: Point) -> [f64; 3] {
         let [t1, t2] = &self.tangents;
         [v.dot(t1), v.dot(t2), v.dot(&self.normal)]
     }
 }
 
 /// Unit normals of vertices by the areas of their triangles; where these cancel, that of the `old` ones.
-pub(super) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -> Vec<Point> {
+pub(crate) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -> Vec<Point> {
     let mut sums = vec![Point::zeros(); x.len()];
     for triangle in &topology.triangles {
         let area = twice_area(x, triangle);

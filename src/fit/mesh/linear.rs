@@ -210,7 +210,7 @@ impl Linearised {
 const SLANTING: f64 = 0.02;
 
 /// The quadratic about a vertex, over its tangent plane, and the vertices that it goes by.
-pub(super) fn fit_at(
+pub(crate) fn fit_at(
     topology: &Topology,
     x: &[Point],
     frame: &Frame,

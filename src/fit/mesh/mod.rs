@@ -5,18 +5,20 @@
 //! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
 
 mod border;
-mod geometry;
-mod linear;
+pub(crate) mod geometry;
+pub(crate) mod linear;
 mod load;
 mod noise;
 mod options;
 mod quadratic;
 mod report;
+mod sharpen;
 mod solver;
 #[cfg(test)]
 mod tests;
-mod topology;
+pub(crate) mod topology;
 
 pub use options::MeshOptions;
 pub use report::{MeshPass, MeshReport, Repairs};
+pub(crate) use solver::scale_of;
 pub use solver::{MeshKnown, MeshSolver, MeshSurface, fit_mesh};

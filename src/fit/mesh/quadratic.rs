@@ -19,7 +19,7 @@ pub(super) struct Neighbour {
 
 /// The fit at one vertex.
 #[derive(Debug, Clone)]
-pub(super) struct Quadratic {
+pub(crate) struct Quadratic {
     /// From heights to the coefficients: a column for each neighbour.
     columns: Vec<[f64; N]>,
     inverse: [[f64; N]; N],
@@ -105,7 +105,7 @@ impl Quadratic {
     }
 
     /// Second derivatives.
-    pub(super) fn hessian(&self) -> Sym2 {
+    pub(crate) fn hessian(&self) -> Sym2 {
         let [xx, xy, yy, ..] = self.coefficients;
         Sym2::new(xx, xy, yy).scale(1.0 / self.scale)
     }
@@ -119,6 +119,13 @@ impl Quadratic {
     /// Height above the tangent plane.
     pub(super) fn height(&self, place: [f64; 2]) -> f64 {
         self.scale * inner(&self.coefficients, &terms(place.map(|x| x / self.scale)))
+    }
+
+    /// First derivatives there.
+    pub(super) fn gradient(&self, place: [f64; 2]) -> [f64; 2] {
+        let [x, y] = place.map(|x| x / self.scale);
+        let [xx, xy, yy, a, b] = self.coefficients;
+        [xx * x + xy * y + a, xy * x + yy * y + b]
     }
 
     /// How the second derivatives change when the `k`-th neighbour moves by `v` relative to the vertex.

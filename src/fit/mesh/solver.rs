@@ -11,6 +11,7 @@ use super::load::load_border;
 use super::noise::noise;
 use super::options::{MeshOptions, check_confidence};
 use super::report::{MeshPass, MeshReport};
+use super::sharpen::sharpen;
 use super::topology::Topology;
 use crate::error::{Error, Result, try_filled};
 use crate::fit::admm::iteration::Level;
@@ -131,7 +132,8 @@ struct Shape {
 /// The surface minimises `λ Σ w s² + Σ w φ(‖II‖_*)`, `s` being how far a vertex goes from where it was
 /// given, along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the
 /// cost of bends of [`Energy::Huber`](crate::Energy::Huber). It is linearised about a smoothed base and
-/// solved as over a lattice, and then once more about the result.
+/// solved as over a lattice, and then once more about the result. At the end vertices on creases are moved to
+/// where the continuations of both sides meet, unless there were to be no crease passes.
 ///
 /// # Errors
 /// [`Error::Topology`] if the mesh is no surface and cannot safely be made one, and says where;
@@ -338,7 +340,11 @@ impl MeshSolver {
         });
         self.seconds = self.seconds + level.seconds;
         self.surface = next;
-        if last || !matches!(reason, StopReason::Gap | StopReason::Residuals) {
+        let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
+        if done && self.options.crease_passes > 0 {
+            sharpen(&self.given, &mut self.surface, &self.linear.frames)?;
+        }
+        if done {
             self.reason = Some(reason);
             return Ok(());
         }
@@ -445,6 +451,14 @@ impl Shape {
             flipped: flipped.count(),
         }
     }
+}
+
+/// The factor to coordinates in which the ball about a mesh has the diameter 1.
+///
+/// # Errors
+/// [`Error::Topology`] if it has no size.
+pub(crate) fn scale_of(mesh: &Mesh) -> Result<f64> {
+    Ok(Ball::around(mesh)?.scale)
 }
 
 impl Ball {

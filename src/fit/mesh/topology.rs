@@ -9,12 +9,14 @@ use super::report::Repairs;
 
 /// The triangles of a mesh, joined where its vertices coincide and all facing the same side.
 #[derive(Debug, Clone)]
-pub(super) struct Topology {
+pub(crate) struct Topology {
     /// For each vertex of the mesh the one that it is here.
     pub joined: Vec<u32>,
     /// One vertex of the mesh for each that is here.
     pub source: Vec<u32>,
     pub triangles: Vec<[u32; 3]>,
+    /// The triangle of the mesh that each is.
+    pub from: Vec<u32>,
     /// The neighbours of vertex `i` are `around[first[i]..first[i + 1]]`; `rim` tells which of these
     /// edges have one triangle only.
     first: Vec<u32>,
@@ -33,12 +35,12 @@ impl Topology {
     /// # Errors
     /// [`Error::Topology`] where an edge has more than two triangles, or where no choice of sides fits
     /// together.
-    pub(super) fn new(mesh: &Mesh) -> Result<Self> {
+    pub(crate) fn new(mesh: &Mesh) -> Result<Self> {
         let mut repairs = Repairs::default();
         let (joined, source) = join(mesh)?;
-        let mut triangles = Vec::new();
+        let (mut triangles, mut from) = (Vec::new(), Vec::new());
         let mut seen = std::collections::HashSet::new();
-        for triangle in mesh.triangles() {
+        for (number, triangle) in mesh.triangles().iter().enumerate() {
             let [a, b, c] = triangle.map(|i| joined[i as usize]);
             let mut key = [a, b, c];
             key.sort_unstable();
@@ -48,6 +50,7 @@ impl Topology {
                 repairs.repeated += 1;
             } else {
                 triangles.push([a, b, c]);
+                from.push(number as u32);
             }
         }
         drop(seen);
@@ -72,6 +75,7 @@ impl Topology {
             inside: try_filled("vertices", source.len(), false)?,
             source,
             triangles,
+            from,
             pinched: 0,
             components: 0,
             closed: true,
@@ -81,22 +85,22 @@ impl Topology {
         Ok(topology)
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.source.len()
     }
 
     /// Those with triangles all around.
-    pub(super) fn vertices_inside(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+    pub(crate) fn vertices_inside(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         (0..self.len()).filter(|vertex| self.inside[*vertex])
     }
 
     /// The neighbours of a vertex.
-    pub(super) fn around(&self, vertex: usize) -> &[u32] {
+    pub(crate) fn around(&self, vertex: usize) -> &[u32] {
         &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }
 
     /// Those along the border.
-    pub(super) fn along_rim(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn along_rim(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
         let edges = self.first[vertex] as usize..self.first[vertex + 1] as usize;
         edges
             .filter(|edge| self.rim[*edge])
@@ -104,7 +108,7 @@ impl Topology {
     }
 
     /// The neighbours' neighbours that are none themselves, in order.
-    pub(super) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
+    pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
         let ring = self.around(vertex);
         to.clear();
         for neighbour in ring {

@@ -33,6 +33,7 @@ mod labels;
 mod layout;
 mod leaf;
 mod line;
+mod mesh;
 mod net;
 mod outline;
 mod parts;
@@ -50,6 +51,7 @@ use assembly::{Assembled, Assembly, assembled, drawn};
 use even::evened;
 pub use faces::Faces;
 use fine::{Coarse, refined};
+pub use mesh::{MeshPattern, pattern_mesh};
 use parts::Parts;
 pub(crate) use simple::without_loops;
 

@@ -64,7 +64,7 @@ impl Curvatures {
 }
 
 /// The eigenvalues, that of larger magnitude first.
-fn by_magnitude(hessian: Sym2) -> [f64; 2] {
+pub(super) fn by_magnitude(hessian: Sym2) -> [f64; 2] {
     let [high, low] = hessian.eigenvalues();
     if high.abs() >= low.abs() {
         [high, low]

@@ -23,7 +23,9 @@
 //! ```
 
 mod curvature;
+mod mesh;
 mod summary;
 
 pub use curvature::Curvatures;
+pub use mesh::MeshCurvatures;
 pub use summary::{Deviation, Histogram, Summary, THRESHOLD};

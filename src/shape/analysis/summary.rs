@@ -70,13 +70,27 @@ impl Summary {
             let there = field.iter().filter(|value| !value.is_nan());
             there.map(|value| value.abs() / factor).collect()
         };
-        let mut gaussian = magnitudes(&curvatures.gaussian, scale * scale);
-        let mut kappa2 = magnitudes(&curvatures.kappa2, scale);
-        let nuclear_norm = magnitudes(&curvatures.nuclear_norm, scale).iter().sum();
-        let above = gaussian.iter().filter(|k| **k > threshold).count();
-        Ok(Summary {
-            vertices: gaussian.len(),
+        Ok(Summary::of(Measured {
+            gaussian: magnitudes(&curvatures.gaussian, scale * scale),
+            kappa2: magnitudes(&curvatures.kappa2, scale),
+            nuclear_norm: magnitudes(&curvatures.nuclear_norm, scale).iter().sum(),
             size: 1.0 / scale,
+            threshold,
+        }))
+    }
+
+    pub(super) fn of(measured: Measured) -> Self {
+        let Measured {
+            mut gaussian,
+            mut kappa2,
+            nuclear_norm,
+            size,
+            threshold,
+        } = measured;
+        let above = gaussian.iter().filter(|k| **k > threshold).count();
+        Summary {
+            vertices: gaussian.len(),
+            size,
             threshold,
             gaussian_above: above as f64 / gaussian.len().max(1) as f64,
             nuclear_norm,
@@ -84,8 +98,17 @@ impl Summary {
             kappa2: Histogram::of(&kappa2),
             median_gaussian: median(&mut gaussian),
             median_kappa2: median(&mut kappa2),
-        })
+        }
     }
+}
+
+/// Magnitudes of curvatures, in normalised coordinates.
+pub(super) struct Measured {
+    pub gaussian: Vec<f64>,
+    pub kappa2: Vec<f64>,
+    pub nuclear_norm: f64,
+    pub size: f64,
+    pub threshold: f64,
 }
 
 impl Histogram {

@@ -26,10 +26,12 @@
 //! ```
 
 mod bend;
+pub(crate) mod chains;
 pub(crate) mod crease;
 pub(crate) mod extend;
 mod flood;
 mod merge;
+mod mesh;
 
 use crate::error::{Error, Result, check_shape, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
@@ -38,6 +40,7 @@ use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use bend::Bend;
 pub use crease::Crease;
+pub use mesh::MeshPatches;
 
 /// Label of vertices without a height, and of those that belong to no patch.
 pub const NO_PATCH: u32 = u32::MAX;

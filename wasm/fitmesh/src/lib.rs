@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
+use developable::analysis::{MeshCurvatures, Summary, THRESHOLD};
 use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
@@ -96,4 +97,43 @@ impl MeshSolver {
             report: surface.report(),
         })?)
     }
+}
+
+/// `MeshAnalysis` of `types.d.ts`.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct AnalysisOutput {
+    #[serde(with = "preserve")]
+    gaussian: Float64Array,
+    #[serde(with = "preserve")]
+    kappa1: Float64Array,
+    #[serde(with = "preserve")]
+    kappa2: Float64Array,
+    #[serde(with = "preserve")]
+    nuclear_norm: Float64Array,
+    #[serde(with = "preserve")]
+    rulings: Float64Array,
+    summary: Summary,
+}
+
+/// How developable a mesh is.
+#[wasm_bindgen(js_name = analyzeMesh)]
+pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
+    let mut threshold = THRESHOLD;
+    for (name, value) in entries(&options)? {
+        match name.as_str() {
+            "threshold" => threshold = option("threshold", value, "must be a number")?,
+            _ => return Err(unknown(&name, "threshold")),
+        }
+    }
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let found = MeshCurvatures::new(&mesh)?;
+    Ok(to_value(&AnalysisOutput {
+        summary: found.summary(&mesh, threshold)?,
+        gaussian: found.gaussian.as_slice().into(),
+        kappa1: found.kappa1.as_slice().into(),
+        kappa2: found.kappa2.as_slice().into(),
+        nuclear_norm: found.nuclear_norm.as_slice().into(),
+        rulings: found.rulings.as_flattened().into(),
+    })?)
 }

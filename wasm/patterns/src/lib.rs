@@ -1,75 +1,187 @@
 //! Surfaces cut into sheets: drawn, and drawings to files.
 
-use js_sys::{Reflect, Uint8Array};
-use serde::Deserialize;
-use serde_wasm_bindgen::{from_value, to_value};
+use js_sys::{Float64Array, Int32Array, Reflect, Uint8Array, Uint32Array};
+use serde::{Deserialize, Serialize};
+use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::assembly::Assembly;
 use developable::drawing::{Drawing, DrawingOptions, Stock};
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
-use developable::patches::{PatchOptions, Patches};
-use developable::pattern::{PatternOptions, pattern};
+use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
+use developable::pattern::{MeshPattern, Missing, PatternOptions, Sheet, pattern, pattern_mesh};
+use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
 
+/// What is asked for of a pattern.
+#[derive(Default)]
+struct Wanted {
+    patches: PatchOptions,
+    sheets: PatternOptions,
+    drawing: DrawingOptions,
+    stock: Option<Stock>,
+    assembled: bool,
+    spacing: Option<f64>,
+}
+
+impl Wanted {
+    fn of(options: &JsValue) -> Result<Self> {
+        let mut settings = Settings::default();
+        let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
+        let mut drawing = DrawingOptions::default();
+        let (mut stock, mut assembled) = (None, false);
+        const NUMBER: &str = "must be a number";
+        for (name, value) in entries(options)? {
+            match name.as_str() {
+                "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
+                "smoothing" => drawing = drawing.smoothing(option("smoothing", value, NUMBER)?),
+                "paper" => stock = Some(paper(value)?),
+                "marks" => drawing = drawing.marks(option("marks", value, NUMBER)?),
+                "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
+                "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
+                "assembly" => assembled = option("assembly", value, "must be true or false")?,
+                "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
+                "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
+                "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
+                "refold" => {
+                    sheets = sheets.refold(option("refold", value, "must be true or false")?);
+                }
+                "bend" => wanted = wanted.bend(option("bend", value, NUMBER)?),
+                "fold" => wanted = wanted.fold(option("fold", value, NUMBER)?),
+                "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
+                _ if settings.take(&name, &value)? => {}
+                _ => {
+                    let known = "scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
+                                 tolerance, maxIterations and spacing";
+                    return Err(unknown(&name, known));
+                }
+            }
+        }
+        Ok(Wanted {
+            patches: wanted,
+            sheets: sheets.unrolling(settings.unrolling),
+            drawing,
+            stock,
+            assembled,
+            spacing: settings.spacing,
+        })
+    }
+
+    /// `Drawing` of `types.d.ts`.
+    fn draw(&self, sheets: &[Sheet], missing: &Missing) -> Result<JsValue> {
+        let drawn = Drawing::new(sheets, &self.drawing)?;
+        let drawn = drawn.missing(missing, self.drawing.scale);
+        let drawn = match self.stock {
+            Some(stock) => drawn.onto(stock)?,
+            None => drawn,
+        };
+        let value = to_value(&drawn)?;
+        if self.assembled {
+            let assembly = Assembly::new(sheets);
+            let whole = to_value(&assembly)?;
+            let model = write_animation(sheets, &assembly, self.drawing.scale)?;
+            let picture = write_assembly_svg(sheets)?;
+            set(&whole, "model", &Uint8Array::from(&model[..]))?;
+            set(&whole, "picture", &Uint8Array::from(&picture[..]))?;
+            set(&value, "assembly", &whole)?;
+        }
+        Ok(value)
+    }
+}
+
 /// The drawing of a surface's pattern.
 #[wasm_bindgen(js_name = pattern)]
 pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut settings = Settings::default();
-    let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
-    let mut drawing = DrawingOptions::default();
-    let (mut stock, mut assembled) = (None, false);
-    const NUMBER: &str = "must be a number";
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
-            "smoothing" => drawing = drawing.smoothing(option("smoothing", value, NUMBER)?),
-            "paper" => stock = Some(paper(value)?),
-            "marks" => drawing = drawing.marks(option("marks", value, NUMBER)?),
-            "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
-            "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
-            "assembly" => assembled = option("assembly", value, "must be true or false")?,
-            "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
-            "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
-            "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
-            "refold" => {
-                sheets = sheets.refold(option("refold", value, "must be true or false")?);
-            }
-            "bend" => wanted = wanted.bend(option("bend", value, NUMBER)?),
-            "fold" => wanted = wanted.fold(option("fold", value, NUMBER)?),
-            "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
-            _ if settings.take(&name, &value)? => {}
-            _ => {
-                let known = "scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
-                             tolerance, maxIterations and spacing";
-                return Err(unknown(&name, known));
-            }
-        }
+    let wanted = Wanted::of(&options)?;
+    check_spacing(wanted.spacing, is_image(&field)?)?;
+    let surface = Scene::new(field, wanted.spacing)?.surface;
+    let patches = Patches::new(&surface, &wanted.patches)?;
+    let found = pattern(&surface, &patches, &wanted.sheets)?;
+    wanted.draw(&found.sheets, &found.missing)
+}
+
+/// The same of a mesh as it is.
+#[wasm_bindgen(js_name = patternMesh)]
+pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
+    let wanted = Wanted::of(&options)?;
+    let (_, found) = sheets_of(mesh, &wanted)?;
+    wanted.draw(&found.sheets, &Missing::default())
+}
+
+/// `MeshUnrolling` of `types.d.ts`.
+#[derive(Serialize)]
+struct UnrollingOutput<'a> {
+    #[serde(with = "preserve")]
+    labels: Int32Array,
+    #[serde(with = "preserve")]
+    positions: Float64Array,
+    #[serde(with = "preserve")]
+    places: Float64Array,
+    #[serde(with = "preserve")]
+    triangles: Uint32Array,
+    #[serde(with = "preserve")]
+    sheets: Uint32Array,
+    patches: &'a [Patch],
+    creases: &'a [Crease],
+    report: UnrollingReport,
+}
+
+#[derive(Serialize)]
+struct UnrollingReport {
+    sheets: usize,
+    area: f64,
+    strain: f64,
+    gap: f64,
+}
+
+/// A mesh as it is laid flat: in sheets, one to the right of the other.
+#[wasm_bindgen(js_name = unrollMesh)]
+pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
+    let wanted = Wanted::of(&options)?;
+    let (patches, found) = sheets_of(mesh, &wanted)?;
+    let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
+    let (mut positions, mut places, mut triangles, mut sheets) =
+        (Vec::new(), Vec::new(), Vec::<[u32; 3]>::new(), Vec::new());
+    let mut right = 0.0;
+    for (number, sheet) in (0u32..).zip(&found.sheets) {
+        let first = positions.len() as u32;
+        let xs = sheet.faces.flat.iter().map(|[x, _]| *x);
+        let (low, high) = (
+            xs.clone().fold(f64::INFINITY, f64::min),
+            xs.fold(f64::NEG_INFINITY, f64::max),
+        );
+        positions.extend(&sheet.faces.built);
+        places.extend(sheet.faces.flat.iter().map(|[x, y]| [x - low + right, *y]));
+        triangles.extend(sheet.faces.triangles.iter().map(|t| t.map(|v| v + first)));
+        sheets.resize(positions.len(), number);
+        right += high - low + sheet.spacing;
     }
-    check_spacing(settings.spacing, is_image(&field)?)?;
-    let surface = Scene::new(field, settings.spacing)?.surface;
-    let patches = Patches::new(&surface, &wanted)?;
-    let found = pattern(&surface, &patches, &sheets.unrolling(settings.unrolling))?;
-    let drawn = Drawing::new(&found.sheets, &drawing)?;
-    let drawn = drawn.missing(&found.missing, drawing.scale);
-    let drawn = match stock {
-        Some(stock) => drawn.onto(stock)?,
-        None => drawn,
-    };
-    let value = to_value(&drawn)?;
-    if assembled {
-        let assembly = Assembly::new(&found.sheets);
-        let whole = to_value(&assembly)?;
-        let model = write_animation(&found.sheets, &assembly, drawing.scale)?;
-        let picture = write_assembly_svg(&found.sheets)?;
-        set(&whole, "model", &Uint8Array::from(&model[..]))?;
-        set(&whole, "picture", &Uint8Array::from(&picture[..]))?;
-        set(&value, "assembly", &whole)?;
-    }
-    Ok(value)
+    let most = |of: fn(&Sheet) -> f64| found.sheets.iter().map(of).fold(0.0, f64::max);
+    Ok(to_value(&UnrollingOutput {
+        labels: labels.as_slice().into(),
+        positions: positions.as_flattened().into(),
+        places: places.as_flattened().into(),
+        triangles: triangles.as_flattened().into(),
+        sheets: sheets.as_slice().into(),
+        patches: patches.patches(),
+        creases: patches.creases(),
+        report: UnrollingReport {
+            sheets: found.sheets.len(),
+            area: found.sheets.iter().map(|sheet| sheet.area).sum(),
+            strain: most(|sheet| sheet.strain),
+            gap: most(|sheet| sheet.gap),
+        },
+    })?)
+}
+
+fn sheets_of(mesh: JsValue, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern)> {
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let patches = MeshPatches::new(&mesh, &wanted.patches)?;
+    let found = pattern_mesh(&mesh, &patches, &wanted.sheets)?;
+    Ok((patches, found))
 }
 
 fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {

@@ -1,0 +1,181 @@
+//! Vertices on creases, put where the surfaces on either side go on to.
+//!
+//! The fit about a vertex next to a crease straddles it, and blunts it by a part of an edge's length. So each
+//! vertex on a crease is moved, as little as may be, to where the continuations of both sides meet (or of all
+//! three in a corner), each found without what is beyond the crease.
+
+use super::border::continued;
+use super::geometry::{Frame, Point, faces_away, normals};
+use super::linear::{Given, NONE};
+use super::topology::Topology;
+use crate::error::Result;
+use crate::math::axes::axes;
+use crate::scene::facets::Facets;
+use nalgebra::Matrix3;
+
+/// Sides that meet at less than this, in radians, do not say well where.
+const FOLD: f64 = 0.25;
+
+/// The least share of the area that a side has.
+const SHARE: f64 = 0.003;
+
+/// A vertex goes no further than so many lengths of the edges around it.
+const FARTHEST: f64 = 0.7;
+
+/// Moves the vertices on creases; `rays` are their normals so far.
+///
+/// # Errors
+/// Out of memory.
+pub(super) fn sharpen(given: &Given, x: &mut [Point], rays: &[Frame]) -> Result<()> {
+    let topology = &given.topology;
+    let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
+    let labels = facets.parted(facets.usual_bend(), SHARE, FOLD)?;
+    let sides = Sides::new(topology, &labels);
+    let old: Vec<Point> = rays.iter().map(|frame| frame.normal).collect();
+    let up = normals(topology, x, Some(&old));
+    let frames: Vec<Frame> = (up.iter().zip(rays))
+        .map(|(normal, hint)| Frame::about(*normal, hint.tangents[0]))
+        .collect();
+    let before = x.to_vec();
+    for vertex in topology.vertices_inside() {
+        let around = sides.around(vertex);
+        if given.held[vertex] || !(2..=3).contains(&around.len()) {
+            continue;
+        }
+        let planes: Vec<(f64, Point)> = around
+            .iter()
+            .filter_map(|label| plane(topology, &before, &frames, &sides.of, vertex, *label))
+            .collect();
+        if planes.len() < around.len() {
+            continue;
+        }
+        let Some(step) = meeting(&planes) else {
+            continue;
+        };
+        let ring = topology.around(vertex);
+        let edges = ring
+            .iter()
+            .map(|other| (before[*other as usize] - before[vertex]).norm());
+        if step.norm() > FARTHEST * edges.sum::<f64>() / ring.len() as f64 {
+            continue;
+        }
+        x[vertex] = before[vertex] + step;
+        // Nothing folds over that did not.
+        let folds = |x: &[Point], t: &u32| faces_away(x, &up, &topology.triangles[*t as usize]);
+        let own = sides.triangles(vertex);
+        if own.iter().any(|t| folds(x, t) && !folds(&before, t)) {
+            x[vertex] = before[vertex];
+        }
+    }
+    Ok(())
+}
+
+/// Which sides of creases vertices are on.
+struct Sides {
+    /// The one label of the triangles around a vertex, or [`NONE`].
+    of: Vec<u32>,
+    first: Vec<u32>,
+    triangles: Vec<u32>,
+    labels: Vec<u32>,
+}
+
+impl Sides {
+    fn new(topology: &Topology, labels: &[u32]) -> Sides {
+        let mut first = vec![0u32; topology.len() + 1];
+        for corner in topology.triangles.as_flattened() {
+            first[*corner as usize + 1] += 1;
+        }
+        for i in 0..topology.len() {
+            first[i + 1] += first[i];
+        }
+        let mut next = first.clone();
+        let mut triangles = vec![0; 3 * topology.triangles.len()];
+        for (t, corners) in (0..).zip(&topology.triangles) {
+            for corner in corners {
+                triangles[next[*corner as usize] as usize] = t;
+                next[*corner as usize] += 1;
+            }
+        }
+        let mut sides = Sides {
+            of: vec![NONE; topology.len()],
+            first,
+            triangles,
+            labels: labels.to_vec(),
+        };
+        for vertex in 0..topology.len() {
+            if let [one] = sides.around(vertex)[..] {
+                sides.of[vertex] = one;
+            }
+        }
+        sides
+    }
+
+    fn triangles(&self, vertex: usize) -> &[u32] {
+        &self.triangles[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+
+    fn around(&self, vertex: usize) -> Vec<u32> {
+        let own = self.triangles(vertex).iter();
+        let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+/// How far a side's continuation is above a vertex on average, and its normal there.
+fn plane(
+    topology: &Topology,
+    x: &[Point],
+    frames: &[Frame],
+    of: &[u32],
+    vertex: usize,
+    label: u32,
+) -> Option<(f64, Point)> {
+    let mut second = Vec::new();
+    let own = |other: &&u32| of[**other as usize] == label && topology.inside[**other as usize];
+    let mut near: Vec<u32> = topology
+        .around(vertex)
+        .iter()
+        .filter(own)
+        .copied()
+        .collect();
+    if near.len() < 2 {
+        topology.second_ring(vertex, &mut second);
+        near.extend(second.iter().filter(own));
+    }
+    let usable = |other: usize| of[other] == label;
+    let (mut rise, mut normal, mut count) = (0.0, Point::zeros(), 0.0);
+    for inner in near {
+        let inner = inner as usize;
+        if let Some((own, up)) = continued(topology, x, &frames[inner], inner, usable, x[vertex]) {
+            rise += own;
+            normal += up;
+            count += 1.0;
+        }
+    }
+    (count > 0.0 && normal.norm() > 0.0).then(|| (rise / count, normal.normalize()))
+}
+
+/// The shortest way to where planes meet, each given by how far it is above and its normal.
+fn meeting(planes: &[(f64, Point)]) -> Option<Point> {
+    let (mut matrix, mut right) = (Matrix3::zeros(), Point::zeros());
+    for (rise, normal) in planes {
+        matrix += normal * normal.transpose();
+        right += normal * *rise;
+    }
+    let values = axes(matrix);
+    // Two planes at an angle have 1 ± cos, and none along their line.
+    let least = 1.0 - FOLD.cos();
+    let known = values
+        .iter()
+        .take(planes.len())
+        .filter(|(value, _)| *value > least);
+    let mut step = Point::zeros();
+    let mut count = 0;
+    for (value, vector) in known {
+        step += vector * (vector.dot(&right) / value);
+        count += 1;
+    }
+    (count >= 2 && step.iter().all(|v| v.is_finite())).then_some(step)
+}

@@ -1,0 +1,252 @@
+//! Triangles laid flat together, cut open along some of their edges.
+
+use std::collections::VecDeque;
+
+use super::body::Body;
+use crate::error::Result;
+use crate::flat::unroll::joint::{Joint, Until};
+use crate::flat::unroll::overlap::crossings;
+use crate::flat::unroll::pieces::{Piece, Point};
+use crate::math::forest::Forest;
+use crate::math::hash::NumberMap;
+use crate::scene::twins::{NONE, ends, next, twins};
+
+/// Some of a body's triangles, flat.
+#[derive(Debug, Clone)]
+pub(super) struct Laid {
+    /// Triangles of the body.
+    pub members: Vec<u32>,
+    /// Their corners, and what is on the other side of their sides where that is not cut.
+    pub triangles: Vec<[u32; 3]>,
+    pub twins: Vec<u32>,
+    /// The body's vertex of each.
+    pub source: Vec<u32>,
+    pub places: Vec<Point>,
+    pub area: f64,
+    /// Root of the mean square over the area.
+    pub strain: f64,
+    /// The triangle that is strained most for its size.
+    pub worst: usize,
+}
+
+/// Steps before triangles may be given up.
+const START: usize = 40;
+
+/// In how many steps it shows whether triangles lie flat.
+pub(super) const TRIAL: usize = 12;
+
+impl Laid {
+    /// Lays triangles flat; edges stay whole that have both sides among them, which are not `open`. They start
+    /// from where `at` has them, or else are turned over one edge after the other.
+    pub(super) fn new(
+        body: &Body,
+        members: Vec<u32>,
+        open: impl Fn(u32) -> bool,
+        at: Option<&NumberMap<(u32, u32), Point>>,
+        until: Until,
+    ) -> Result<Laid> {
+        let own: Vec<[u32; 3]> = members
+            .iter()
+            .map(|t| body.triangles[*t as usize])
+            .collect();
+        let mut twins = twins(&own);
+        for side in 0..twins.len() {
+            let other = twins[side];
+            if other != NONE && open(3 * members[side / 3] + side as u32 % 3) {
+                (twins[side], twins[other as usize]) = (NONE, NONE);
+            }
+        }
+        // Corners are one vertex where no cut parts them.
+        let mut forest = Forest::new("pattern", 3 * own.len())?;
+        for (side, twin) in twins.iter().enumerate().filter(|(_, twin)| **twin != NONE) {
+            let side = side as u32;
+            forest.join(side, next(*twin));
+            forest.join(next(side), *twin);
+        }
+        let mut numbers = vec![NONE; 3 * own.len()];
+        let mut source = Vec::new();
+        let mut triangles = vec![[0; 3]; own.len()];
+        for corner in 0..3 * own.len() {
+            let root = forest.root(corner as u32) as usize;
+            if numbers[root] == NONE {
+                numbers[root] = source.len() as u32;
+                source.push(own[corner / 3][corner % 3]);
+            }
+            triangles[corner / 3][corner % 3] = numbers[root];
+        }
+        let pieces: Vec<Piece> = (own.iter())
+            .map(|t| Piece::between(t.map(|v| body.places[v as usize].into())))
+            .collect();
+        let mut laid = Laid {
+            area: pieces.iter().map(Piece::area).sum(),
+            places: vec![Point::default(); source.len()],
+            members,
+            triangles,
+            twins,
+            source,
+            strain: 0.0,
+            worst: 0,
+        };
+        match at {
+            None => laid.turn_over(&pieces),
+            Some(at) => {
+                for (t, corners) in laid.members.iter().zip(&laid.triangles) {
+                    for (k, corner) in corners.iter().enumerate() {
+                        laid.places[*corner as usize] = at[&(*t, k as u32)];
+                    }
+                }
+            }
+        }
+        let whole = pieces.iter().copied().zip(laid.triangles.iter().copied());
+        let whole = whole.filter(|(piece, _)| piece.exists()).collect();
+        let joint = Joint::new(laid.places.len(), whole, Vec::new(), Vec::new())?;
+        // Steps that hardly change anything say little before what is wrong at one end has come to the other.
+        let start = Until {
+            steps: until.steps.min(START),
+            hopeless: f64::INFINITY,
+            ..until
+        };
+        let steps = joint.relax(&mut laid.places, start)?;
+        if steps == START && until.steps > START {
+            joint.relax(&mut laid.places, until)?;
+        }
+        laid.measure(&pieces);
+        Ok(laid)
+    }
+
+    /// One triangle after the other, as they are, beside those that lie already.
+    fn turn_over(&mut self, pieces: &[Piece]) {
+        let mut lies = vec![false; self.places.len()];
+        let mut seen = vec![false; pieces.len()];
+        let mut queue = VecDeque::new();
+        for start in 0..pieces.len() {
+            if seen[start] || !pieces[start].exists() {
+                continue;
+            }
+            seen[start] = true;
+            let [_, b, c] = self.triangles[start].map(|v| v as usize);
+            let apex = pieces[start].third_corner();
+            let long = (2.0 * pieces[start].area() / apex.im).sqrt();
+            (self.places[b], self.places[c]) = (Point::new(long, 0.0), apex * long);
+            for v in self.triangles[start] {
+                lies[v as usize] = true;
+            }
+            queue.push_back(start);
+            while let Some(t) = queue.pop_front() {
+                for side in 3 * t..3 * t + 3 {
+                    let twin = self.twins[side];
+                    if twin == NONE {
+                        continue;
+                    }
+                    let other = twin as usize / 3;
+                    if std::mem::replace(&mut seen[other], true) {
+                        continue;
+                    }
+                    queue.push_back(other);
+                    let [from, to] = ends(&self.triangles, twin).map(|v| v as usize);
+                    let apex = self.triangles[other][(twin as usize + 2) % 3] as usize;
+                    if std::mem::replace(&mut lies[apex], true) {
+                        continue;
+                    }
+                    let along = self.places[to] - self.places[from];
+                    self.places[apex] =
+                        self.places[from] + along * third(&pieces[other], twin as usize % 3);
+                }
+            }
+        }
+    }
+
+    fn measure(&mut self, pieces: &[Piece]) {
+        let (mut squares, mut worst) = (0.0, 0.0);
+        for (t, piece) in pieces.iter().enumerate().filter(|(_, p)| p.exists()) {
+            let [long, short] = piece.stretches(self.triangles[t].map(|v| self.places[v as usize]));
+            let own = piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+            squares += own;
+            if own > worst {
+                (worst, self.worst) = (own, t);
+            }
+        }
+        self.strain = match self.area > 0.0 {
+            true => (0.5 * squares / self.area).sqrt(),
+            false => 0.0,
+        };
+    }
+
+    /// The sides along the border.
+    pub(super) fn border(&self) -> impl Iterator<Item = u32> + '_ {
+        let all = (0..self.twins.len() as u32).zip(&self.twins);
+        all.filter(|(_, twin)| **twin == NONE).map(|(side, _)| side)
+    }
+
+    /// Whether its border crosses itself, or parts of it lie on each other.
+    pub(super) fn overlaps(&self) -> bool {
+        let border: Vec<[u32; 2]> = self.border().map(|s| ends(&self.triangles, s)).collect();
+        !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
+    }
+
+    /// Whether the middle of a triangle lies on another one: by how often the border runs around it.
+    fn covers_itself(&self, border: &[[u32; 2]]) -> bool {
+        let step = self.triangles.len().div_ceil(PROBES);
+        (self.triangles.iter().step_by(step)).any(|corners| {
+            let middle = corners
+                .iter()
+                .map(|v| self.places[*v as usize])
+                .sum::<Point>()
+                / 3.0;
+            let turns: f64 = (border.iter())
+                .map(|ends| {
+                    let [a, b] = ends.map(|v| self.places[v as usize] - middle);
+                    (b * a.conj()).arg()
+                })
+                .sum();
+            turns > 1.5 * std::f64::consts::TAU
+        })
+    }
+
+    /// The closed lines around it, by sides, what lies inside of them to the left.
+    pub(super) fn outlines(&self) -> Vec<Vec<u32>> {
+        let mut done = vec![false; self.twins.len()];
+        let mut lines = Vec::new();
+        for start in self.border() {
+            let mut line = Vec::new();
+            let mut side = start;
+            while !std::mem::replace(&mut done[side as usize], true) {
+                line.push(side);
+                side = next(side);
+                while self.twins[side as usize] != NONE {
+                    side = next(self.twins[side as usize]);
+                }
+            }
+            if !line.is_empty() {
+                lines.push(line);
+            }
+        }
+        lines
+    }
+
+    /// Where each corner of the body's triangles lies.
+    pub(super) fn corners(&self) -> impl Iterator<Item = ((u32, u32), Point)> + '_ {
+        let all = self.members.iter().zip(&self.triangles);
+        all.flat_map(|(t, corners)| {
+            (0..3).map(|k| ((*t, k as u32), self.places[corners[k] as usize]))
+        })
+    }
+}
+
+/// So many triangles are asked whether others lie on them.
+const PROBES: usize = 60;
+
+/// The corner opposite a side, where that goes from 0 to 1.
+fn third(piece: &Piece, side: usize) -> Point {
+    if !piece.exists() {
+        return Point::new(0.5, 0.0);
+    }
+    let apex = piece.third_corner();
+    let one = Point::new(1.0, 0.0);
+    match side {
+        0 => apex,
+        // From the second corner to the third one.
+        1 => -one / (apex - one),
+        _ => (one - apex) / -apex,
+    }
+}

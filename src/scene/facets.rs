@@ -1,0 +1,224 @@
+//! The triangles of a surface, the angles between them, and its smooth parts.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+use nalgebra::Vector3;
+
+use crate::error::{Result, try_filled};
+use crate::math::forest::Forest;
+use crate::scene::twins::{NONE, ends, twins};
+
+/// The usual threshold between these angles: flat facets of a round shape fold by less, and what is left of
+/// noise does, too.
+const BEND: [f64; 2] = [0.035, 0.35];
+
+/// A crease that noise has made blunt bends by no more than this along either side of a strip.
+const BLUNT: f64 = 1.0;
+
+/// What is flat up to rounding says nothing about how much a surface bends usually.
+const FLAT: f64 = 1e-6;
+
+/// Triangles with what lies between them.
+pub(crate) struct Facets {
+    pub places: Vec<Vector3<f64>>,
+    pub triangles: Vec<[u32; 3]>,
+    pub twins: Vec<u32>,
+    /// Angle along each side, and the side's length.
+    pub angles: Vec<f64>,
+    pub lengths: Vec<f64>,
+    pub areas: Vec<f64>,
+}
+
+impl Facets {
+    pub fn new(places: Vec<Vector3<f64>>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        let twins = twins(&triangles);
+        let mut normals = try_filled("patches", triangles.len(), Vector3::zeros())?;
+        let mut areas = try_filled("patches", triangles.len(), 0.0)?;
+        for (corners, (normal, area)) in triangles.iter().zip(normals.iter_mut().zip(&mut areas)) {
+            let [a, b, c] = corners.map(|v| places[v as usize]);
+            let cross: Vector3<f64> = (b - a).cross(&(c - a));
+            *area = 0.5 * cross.norm();
+            *normal = cross;
+        }
+        let mut angles = try_filled("patches", twins.len(), 0.0)?;
+        let mut lengths = try_filled("patches", twins.len(), 0.0)?;
+        for side in 0..twins.len() {
+            let [a, b] = ends(&triangles, side as u32).map(|v| places[v as usize]);
+            lengths[side] = (b - a).norm();
+            if twins[side] != NONE {
+                let [m, n] = [side, twins[side] as usize].map(|side| normals[side / 3]);
+                angles[side] = m.cross(&n).norm().atan2(m.dot(&n));
+            }
+        }
+        Ok(Facets {
+            places,
+            triangles,
+            twins,
+            angles,
+            lengths,
+            areas,
+        })
+    }
+
+    /// Sides with another one, each pair once.
+    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let all = self.twins.iter().enumerate();
+        all.filter(|(side, twin)| **twin != NONE && *side < **twin as usize)
+            .map(|(side, twin)| (side, *twin as usize))
+    }
+
+    pub fn usual_bend(&self) -> f64 {
+        let pairs = self.pairs().map(|(side, _)| self.angles[side]);
+        let mut angles: Vec<f64> = pairs.filter(|angle| *angle > FLAT).collect();
+        let middle = angles.len() / 2;
+        let median = match angles.is_empty() {
+            true => 0.0,
+            false => *angles.select_nth_unstable_by(middle, f64::total_cmp).1,
+        };
+        (6.0 * median).clamp(BEND[0], BEND[1])
+    }
+
+    /// The smooth parts of the surface, by triangles, none smaller than a share of the area, and none that
+    /// folds by less than half of `bend`, or less than `fold`, towards its neighbour on average.
+    ///
+    /// Watersheds (Mangan and Whitaker 1999): each triangle is as high as the surface bends around it, and basins
+    /// flood until they meet. So where a crease is blunt, a strip of triangles between its sides, that is no part
+    /// of its own, and where it is weak, no part leaks into another.
+    pub fn parted(&self, bend: f64, share: f64, fold: f64) -> Result<Vec<u32>> {
+        let fold = fold.max(0.5 * bend);
+        let heights = self.heights();
+        let mut labels = self.basins(&heights, 0.5 * bend)?;
+        self.merge(&mut labels, fold)?;
+        self.give_away(&mut labels, share);
+        self.merge(&mut labels, fold)?;
+        Ok(labels)
+    }
+
+    /// The mean angle along the sides of each triangle.
+    fn heights(&self) -> Vec<f64> {
+        let of = |t: usize| {
+            let sides = 3 * t..3 * t + 3;
+            let bent: f64 = sides
+                .clone()
+                .map(|s| self.lengths[s] * self.angles[s])
+                .sum();
+            bent / sides.map(|s| self.lengths[s]).sum::<f64>()
+        };
+        (0..self.triangles.len()).map(of).collect()
+    }
+
+    /// Where water would gather that does not pass sharper edges; the rest by where it runs.
+    fn basins(&self, heights: &[f64], bend: f64) -> Result<Vec<u32>> {
+        let mut forest = Forest::new("patches", heights.len())?;
+        let around = |t: usize| {
+            let sides = (3 * t..3 * t + 3).filter(|side| self.twins[*side] != NONE);
+            sides.map(|side| (side, self.twins[side] as usize / 3))
+        };
+        // Vertices without a sharper edge: where there are none beside it, a strip is what it is.
+        let count = 1 + self
+            .triangles
+            .as_flattened()
+            .iter()
+            .max()
+            .map_or(0, |v| *v as usize);
+        let mut smooth = try_filled("patches", count, true)?;
+        for (side, _) in self.pairs().filter(|(side, _)| self.angles[*side] > bend) {
+            for end in ends(&self.triangles, side as u32) {
+                smooth[end as usize] = false;
+            }
+        }
+        let mut open = try_filled("patches", heights.len(), true)?;
+        for t in 0..heights.len() {
+            open[t] = around(t).any(|(side, other)| {
+                let runs = self.angles[side] <= bend
+                    || (self.angles[side] <= BLUNT
+                        && self.triangles[other].iter().any(|v| smooth[*v as usize]));
+                // Up to rounding, which flat parts differ by.
+                runs && heights[other] < heights[t] - FLAT
+            });
+        }
+        for (side, twin) in self.pairs() {
+            let (a, b) = (side / 3, twin / 3);
+            if !open[a] && !open[b] && self.angles[side] <= bend {
+                forest.join(a as u32, b as u32);
+            }
+        }
+        let mut labels: Vec<u32> = (0..heights.len() as u32).map(|t| forest.root(t)).collect();
+        self.flood(&mut labels, open, |side| {
+            heights[self.twins[side] as usize / 3].max(self.angles[side])
+        });
+        Ok(labels)
+    }
+
+    /// Gives open triangles the label of a neighbour, the lowest ways first.
+    fn flood(&self, labels: &mut [u32], mut open: Vec<bool>, way: impl Fn(usize) -> f64) {
+        // Positive numbers are in order as their bits are.
+        let mut queue = BinaryHeap::new();
+        let around = |t: usize| (3 * t..3 * t + 3).filter(|side| self.twins[*side] != NONE);
+        let entry = |side: usize| Reverse((way(side).to_bits(), self.twins[side], side));
+        for t in (0..labels.len()).filter(|t| !open[*t]) {
+            queue.extend(around(t).map(entry));
+        }
+        while let Some(Reverse((_, twin, side))) = queue.pop() {
+            let to = twin as usize / 3;
+            if std::mem::take(&mut open[to]) {
+                labels[to] = labels[side / 3];
+                queue.extend(around(to).map(entry));
+            }
+        }
+    }
+
+    /// The triangles of small regions go to where they bend least, as water runs.
+    fn give_away(&self, labels: &mut [u32], share: f64) {
+        let mut areas = vec![0.0; labels.len()];
+        for (label, area) in labels.iter().zip(&self.areas) {
+            areas[*label as usize] += area;
+        }
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        let least = largest.min(share * self.areas.iter().sum::<f64>());
+        let open = labels.iter().map(|l| areas[*l as usize] < least).collect();
+        self.flood(labels, open, |side| self.angles[side]);
+    }
+
+    /// Regions that fold by less than an angle on average are one, those that fold least first.
+    fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
+        let mut forest = Forest::new("patches", labels.len())?;
+        let mut between: BTreeMap<(u32, u32), [f64; 2]> = BTreeMap::new();
+        for (side, twin) in self.pairs() {
+            let [a, b] = [side, twin].map(|side| labels[side / 3]);
+            if a != b {
+                let sum = between.entry((a.min(b), a.max(b))).or_default();
+                *sum = [
+                    sum[0] + self.lengths[side] * self.angles[side],
+                    sum[1] + self.lengths[side],
+                ];
+            }
+        }
+        loop {
+            let angles = between
+                .iter()
+                .map(|(pair, [bent, long])| (bent / long, *pair));
+            let least = angles
+                .filter(|(angle, _)| *angle < fold)
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, (a, b))) = least else {
+                break;
+            };
+            forest.join(a, b);
+            let mut joined: BTreeMap<(u32, u32), [f64; 2]> = BTreeMap::new();
+            for ((a, b), [bent, long]) in between {
+                let (a, b) = (forest.root(a), forest.root(b));
+                if a != b {
+                    let sum = joined.entry((a.min(b), a.max(b))).or_default();
+                    *sum = [sum[0] + bent, sum[1] + long];
+                }
+            }
+            between = joined;
+        }
+        for label in labels {
+            *label = forest.root(*label);
+        }
+        Ok(())
+    }
+}

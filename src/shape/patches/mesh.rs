@@ -1,0 +1,144 @@
+//! The patches of a mesh as it is: its triangles, parted along the edges where the surface folds.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+
+use super::chains::chains;
+use super::{Crease, Patch, PatchOptions};
+use crate::error::{Error, Result, positive, try_filled};
+use crate::fit::mesh::topology::Topology;
+use crate::scene::facets::Facets;
+use crate::scene::mesh::Mesh;
+use crate::scene::twins::ends;
+
+/// Label of triangles that belong to no patch.
+const NO_PATCH: u32 = super::NO_PATCH;
+
+/// A mesh parted along its creases.
+///
+/// A crease runs along edges. Where noise or the triangles themselves have cut its corner, so that it is a
+/// strip of triangles, these go to the side that they bend away from less.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshPatches {
+    labels: Vec<u32>,
+    patches: Vec<Patch>,
+    creases: Vec<Crease>,
+    bend: f64,
+}
+
+impl MeshPatches {
+    /// Looks for the patches of a mesh; costs `O(n log n)` for `n` triangles. [`PatchOptions::bend`] is the
+    /// angle between the triangles on either side of an edge; by default six times its median over edges
+    /// that are not flat, from 0.035 to 0.35.
+    ///
+    /// # Errors
+    /// [`Error::Option`] as for heightfields, [`Error::Topology`] if the mesh is no surface,
+    /// [`Error::OutOfMemory`].
+    pub fn new(mesh: &Mesh, options: &PatchOptions) -> Result<Self> {
+        if !(0.0..=1.0).contains(&options.smallest) {
+            let must = "must be from 0 to 1";
+            return Err(Error::option("smallest", options.smallest, must));
+        }
+        let fold = positive("fold", options.fold)?;
+        let bend = options.bend.map(|b| positive("bend", b)).transpose()?;
+        let topology = Topology::new(mesh)?;
+        let place = |vertex: &u32| Vector3::from(mesh.positions()[*vertex as usize]);
+        let places = topology.source.iter().map(place).collect();
+        let shape = Facets::new(places, topology.triangles)?;
+        let bend = bend.unwrap_or_else(|| shape.usual_bend());
+        let mut own = shape.parted(bend, options.smallest, fold)?;
+        let patches = sorted(&shape, &mut own);
+        let mut labels = try_filled("patches", mesh.triangles().len(), NO_PATCH)?;
+        for (label, triangle) in own.iter().zip(&topology.from) {
+            labels[*triangle as usize] = *label;
+        }
+        Ok(MeshPatches {
+            labels,
+            patches,
+            creases: creases(&shape, &own),
+            bend,
+        })
+    }
+
+    /// The patch of each triangle; [`NO_PATCH`](super::NO_PATCH) for those without an area or that are
+    /// there twice.
+    pub fn labels(&self) -> &[u32] {
+        &self.labels
+    }
+
+    /// The patches, that with the largest area first. Vertices on creases count for all patches there.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    /// The creases between them.
+    pub fn creases(&self) -> &[Crease] {
+        &self.creases
+    }
+
+    /// The angle that counted as a crease, in radians from one triangle to the next; half of it does along
+    /// an edge whose neighbours reach it.
+    pub fn bend(&self) -> f64 {
+        self.bend
+    }
+}
+
+/// Measures the regions and numbers them by their areas.
+fn sorted(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
+    let mut found: BTreeMap<u32, (f64, Vec<u32>)> = BTreeMap::new();
+    for ((label, area), corners) in labels.iter().zip(&facets.areas).zip(&facets.triangles) {
+        let (sum, vertices) = found.entry(*label).or_default();
+        *sum += area;
+        vertices.extend(corners);
+    }
+    let mut order: Vec<(u32, Patch)> = found
+        .into_iter()
+        .map(|(label, (area, mut vertices))| {
+            vertices.sort_unstable();
+            vertices.dedup();
+            let vertices = vertices.len();
+            (label, Patch { vertices, area })
+        })
+        .collect();
+    order.sort_by(|a, b| b.1.area.total_cmp(&a.1.area));
+    let numbers: BTreeMap<u32, u32> = (order.iter().zip(0..))
+        .map(|((old, _), new)| (*old, new))
+        .collect();
+    for label in labels {
+        *label = numbers[label];
+    }
+    order.into_iter().map(|(_, patch)| patch).collect()
+}
+
+fn creases(facets: &Facets, labels: &[u32]) -> Vec<Crease> {
+    let mut between: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    for (side, twin) in facets.pairs() {
+        let [a, b] = [side, twin].map(|side| labels[side / 3]);
+        if a != b {
+            between.entry([a.min(b), a.max(b)]).or_default().push(side);
+        }
+    }
+    let mut creases = Vec::new();
+    for (patches, sides) in between {
+        let edges: Vec<[u32; 2]> = (sides.iter())
+            .map(|side| ends(&facets.triangles, *side as u32))
+            .collect();
+        for chain in chains(&edges, |_| false) {
+            let (mut bent, mut length) = (0.0, 0.0);
+            for edge in &chain.edges {
+                let side = sides[*edge];
+                bent += facets.lengths[side] * facets.angles[side];
+                length += facets.lengths[side];
+            }
+            let points = chain.vertices.iter();
+            creases.push(Crease {
+                patches,
+                points: points.map(|v| facets.places[*v as usize].into()).collect(),
+                length,
+                fold: if length > 0.0 { bent / length } else { 0.0 },
+            });
+        }
+    }
+    creases
+}

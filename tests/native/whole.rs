@@ -1,0 +1,335 @@
+//! What is made of meshes as they are: patches, curvatures and patterns, by closed forms.
+
+use std::collections::HashMap;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+
+use developable::Mesh;
+use developable::analysis::MeshCurvatures;
+use developable::patches::{MeshPatches, PatchOptions};
+use developable::pattern::{MeshPattern, PatternOptions, Sheet, pattern_mesh};
+
+/// The triangles of a map from the unit square, corners at one place being one vertex, and those without an
+/// area left out.
+fn surface(maps: &[&dyn Fn(f64, f64) -> [f64; 3]], cols: usize, rows: usize) -> Mesh {
+    let (mut places, mut triangles, mut found) = (Vec::new(), Vec::new(), HashMap::new());
+    for map in maps {
+        let mut vertex = |i: usize, j: usize| {
+            let place = map(i as f64 / cols as f64, j as f64 / rows as f64);
+            let key = place.map(|x| (x * 1e8).round() as i64);
+            *found.entry(key).or_insert_with(|| {
+                places.push(place);
+                places.len() as u32 - 1
+            })
+        };
+        for i in 0..cols {
+            for j in 0..rows {
+                let [a, b] = [vertex(i, j), vertex(i + 1, j)];
+                let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
+                let both = match (i + j) % 2 {
+                    0 => [[a, b, c], [a, c, d]],
+                    _ => [[a, b, d], [b, c, d]],
+                };
+                let whole = |t: &&[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+                triangles.extend(both.iter().filter(whole));
+            }
+        }
+    }
+    Mesh::new(places, triangles).unwrap()
+}
+
+/// A box of given sides, each divided into squares.
+fn cuboid([a, b, c]: [f64; 3], count: usize) -> Mesh {
+    surface(
+        &[
+            &|u, v| [a * u, b * (1.0 - v), 0.0],
+            &|u, v| [a * u, b * v, c],
+            &|u, v| [a * u, 0.0, c * v],
+            &|u, v| [a * (1.0 - u), b, c * v],
+            &|u, v| [0.0, b * (1.0 - u), c * v],
+            &|u, v| [a, b * u, c * v],
+        ],
+        count,
+        count,
+    )
+}
+
+/// A tube of radius 1 from z = 0 to a slanting cut.
+fn slanting(angle: f64) -> f64 {
+    2.0 + 0.5 * angle.cos()
+}
+
+fn tube(around: usize) -> Mesh {
+    surface(
+        &[&|u, v| {
+            let angle = TAU * u;
+            [angle.cos(), angle.sin(), v * slanting(angle)]
+        }],
+        around,
+        around / 4,
+    )
+}
+
+fn pattern_of(mesh: &Mesh) -> (MeshPatches, MeshPattern) {
+    let patches = MeshPatches::new(mesh, &PatchOptions::default()).unwrap();
+    let pattern = pattern_mesh(mesh, &patches, &PatternOptions::default()).unwrap();
+    (patches, pattern)
+}
+
+/// Area within the outlines of a sheet, holes running clockwise.
+fn enclosed(sheet: &Sheet) -> f64 {
+    let runs = sheet.outlines.iter().flatten();
+    let pieces = runs.flat_map(|run| run.points.windows(2));
+    0.5 * pieces
+        .map(|p| p[0][0] * p[1][1] - p[0][1] * p[1][0])
+        .sum::<f64>()
+}
+
+fn area_of(mesh: &Mesh) -> f64 {
+    mesh.triangles().iter().map(|t| area(mesh, t)).sum()
+}
+
+fn area(mesh: &Mesh, triangle: &[u32; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|v| nalgebra::Vector3::from(mesh.positions()[v as usize]));
+    0.5 * (b - a).cross(&(c - a)).norm()
+}
+
+#[test]
+fn a_box_has_six_faces_and_one_net() {
+    for count in [1, 4] {
+        let sides = [3.0, 2.0, 1.0];
+        let (patches, pattern) = pattern_of(&cuboid(sides, count));
+        let areas: Vec<f64> = patches.patches().iter().map(|patch| patch.area).collect();
+        for (area, expected) in areas.iter().zip([6.0, 6.0, 3.0, 3.0, 2.0, 2.0]) {
+            assert!((area - expected).abs() < 1e-12, "{areas:?}");
+        }
+        assert_eq!((areas.len(), patches.creases().len()), (6, 12));
+        assert!(
+            patches
+                .creases()
+                .iter()
+                .all(|crease| (crease.fold - FRAC_PI_2).abs() < 1e-12)
+        );
+        let [sheet] = &pattern.sheets[..] else {
+            panic!("{} sheets", pattern.sheets.len());
+        };
+        // Five folds hold six faces together, and all bend outwards.
+        assert_eq!(sheet.folds.len(), 5);
+        assert!(sheet.folds.iter().all(|fold| {
+            fold.seam.direction == developable::pattern::Direction::Mountain && !fold.seam.slit
+        }));
+        assert!(sheet.strain < 1e-12 && sheet.gap < 1e-12);
+        assert!((enclosed(sheet) - 22.0).abs() < 1e-9, "{}", enclosed(sheet));
+        // Each of the other seven edges is there twice.
+        let cuts: Vec<_> = sheet
+            .outlines
+            .iter()
+            .flatten()
+            .map(|run| run.seam)
+            .collect();
+        assert_eq!(cuts.len(), 14);
+    }
+}
+
+#[test]
+fn a_tube_with_a_slanting_cut_unrolls_to_a_sine() {
+    let around = 96;
+    let mesh = tube(around);
+    let (patches, pattern) = pattern_of(&mesh);
+    assert_eq!(patches.patches().len(), 1);
+    let [sheet] = &pattern.sheets[..] else {
+        panic!("{} sheets", pattern.sheets.len());
+    };
+    assert!(sheet.strain < 1e-6, "{}", sheet.strain);
+    assert!((enclosed(sheet) - area_of(&mesh)).abs() < 1e-6);
+    assert!((area_of(&mesh) - 4.0 * PI).abs() < 0.01);
+    assert!(sheet.folds.is_empty());
+    let cut: Vec<_> = sheet
+        .outlines
+        .iter()
+        .flatten()
+        .filter(|run| run.seam.is_some())
+        .collect();
+    assert!(cut.len() == 2 && cut.iter().all(|run| run.seam.unwrap().slit));
+    // Above the foot, which is straight, the other end is as high as the tube there.
+    let faces = &sheet.faces;
+    let on_foot = (0..faces.flat.len()).filter(|i| faces.built[*i][2].abs() < 1e-9);
+    let foot: Vec<[f64; 2]> = on_foot.map(|i| faces.flat[i]).collect();
+    let far = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    let (first, last) = foot
+        .iter()
+        .flat_map(|p| foot.iter().map(move |q| (p, q)))
+        .max_by(|a, b| far(a.0, a.1).total_cmp(&far(b.0, b.1)))
+        .unwrap();
+    let long = 2.0 * around as f64 * (PI / around as f64).sin();
+    assert!(
+        (far(first, last) - long).abs() < 1e-5,
+        "{}",
+        far(first, last)
+    );
+    let along = [0, 1].map(|k| (last[k] - first[k]) / long);
+    let above = |p: &[f64; 2]| (along[0] * (p[1] - first[1]) - along[1] * (p[0] - first[0])).abs();
+    assert!(foot.iter().all(|p| above(p) < 1e-5));
+    for (built, flat) in faces.built.iter().zip(&faces.flat) {
+        assert!((above(flat) - built[2]).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn a_cone_gets_one_slit_and_its_angle() {
+    // As high as its radius is long.
+    let cone = surface(
+        &[&|u, v| {
+            let angle = TAU * u;
+            [v * angle.cos(), v * angle.sin(), 1.0 - v]
+        }],
+        64,
+        16,
+    );
+    let (_, pattern) = pattern_of(&cone);
+    let [sheet] = &pattern.sheets[..] else {
+        panic!("{} sheets", pattern.sheets.len());
+    };
+    assert!((area_of(&cone) - PI * SQRT_2).abs() < 0.01);
+    assert!((enclosed(sheet) - area_of(&cone)).abs() < 1e-3);
+    let cut = sheet
+        .outlines
+        .iter()
+        .flatten()
+        .filter(|run| run.seam.is_some());
+    let long: f64 = cut
+        .flat_map(|run| run.points.windows(2))
+        .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+        .sum();
+    assert!(
+        (long - 2.0 * SQRT_2).abs() < 0.05,
+        "both sides of the slit: {long}"
+    );
+}
+
+/// Two circles of radius 1 in planes at right angles, each through the other's centre, and their common
+/// tangent planes (Dirnböck and Stachel 1997).
+fn oloid(cols: usize, rows: usize) -> Mesh {
+    let ruling = |t: f64, up: f64, v: f64| {
+        let c = t.cos();
+        let a = [t.sin(), -0.5 - c, 0.0];
+        let b = [
+            0.0,
+            0.5 - c / (1.0 + c),
+            up * (1.0 + 2.0 * c).max(0.0).sqrt() / (1.0 + c),
+        ];
+        [0, 1, 2].map(|k| a[k] + v * (b[k] - a[k]))
+    };
+    let most = TAU / 3.0;
+    surface(
+        &[
+            &|u, v| ruling(most * (FRAC_PI_2 * (2.0 * u - 1.0)).sin(), 1.0, v),
+            &|u, v| ruling(most * (FRAC_PI_2 * (1.0 - 2.0 * u)).sin(), -1.0, v),
+        ],
+        cols,
+        rows,
+    )
+}
+
+#[test]
+fn an_oloid_is_one_sheet_as_large_as_a_sphere() {
+    let mesh = oloid(80, 20);
+    assert!(
+        (area_of(&mesh) - 2.0 * TAU).abs() < 0.02,
+        "{}",
+        area_of(&mesh)
+    );
+    let (_, pattern) = pattern_of(&mesh);
+    assert_eq!(pattern.sheets.len(), 1);
+    assert!(pattern.sheets[0].strain < 0.01);
+    assert!((enclosed(&pattern.sheets[0]) - 2.0 * TAU).abs() < 0.02);
+}
+
+#[test]
+fn curvatures_are_those_of_tubes_and_balls() {
+    let mesh = tube(96);
+    let found = MeshCurvatures::new(&mesh).unwrap();
+    let inside = || (0..mesh.positions().len()).filter(|i| !found.gaussian[*i].is_nan());
+    assert_eq!(inside().count(), 96 * 23);
+    for i in inside() {
+        assert!((found.kappa1[i] - 1.0).abs() < 0.01, "{}", found.kappa1[i]);
+        assert!(found.kappa2[i].abs() < 0.01 && found.gaussian[i].abs() < 1e-9);
+        // The rulings run along the axis.
+        assert!(found.rulings[i][2].abs() > 0.999);
+    }
+    let summary = found.summary(&mesh, 1.0).unwrap();
+    assert_eq!((summary.vertices, summary.gaussian_above), (96 * 23, 0.0));
+    let ball = surface(
+        &[&|u, v| {
+            let (angle, high) = (TAU * u, PI * v);
+            [
+                high.sin() * angle.cos(),
+                high.sin() * angle.sin(),
+                -high.cos(),
+            ]
+            .map(|x| 3.0 * x)
+        }],
+        60,
+        30,
+    );
+    let found = MeshCurvatures::new(&ball).unwrap();
+    let summary = found.summary(&ball, 1.0).unwrap();
+    // In a ball of the diameter 1 its radius is a half.
+    assert!((summary.size - 6.0).abs() < 1e-9);
+    // Gauss and Bonnet: the curvature of all of it is 4π.
+    let mut areas = vec![0.0; ball.positions().len()];
+    for t in ball.triangles() {
+        t.iter()
+            .for_each(|v| areas[*v as usize] += area(&ball, t) / 3.0);
+    }
+    let whole: f64 = found
+        .gaussian
+        .iter()
+        .zip(&areas)
+        .map(|(k, area)| k * area)
+        .sum();
+    assert!((whole - 2.0 * TAU).abs() < 1e-9, "{whole}");
+    assert!(
+        (summary.median_kappa2 - 2.0).abs() < 0.05,
+        "{}",
+        summary.median_kappa2
+    );
+    assert_eq!(summary.gaussian_above, 1.0);
+}
+
+#[test]
+fn what_was_found_of_a_noisy_bottle_lies_flat_within_the_limit() {
+    // A pipe that goes on to a cone, at 27°.
+    let mut random = oorandom::Rand64::new(7);
+    let mut noise = move || 0.01 * (0..12).map(|_| random.rand_float() - 0.5).sum::<f64>();
+    let exact = surface(
+        &[&|u, v| {
+            let (angle, z) = (TAU * u, 3.0 * v);
+            let r = if z < 2.0 { 1.0 } else { 2.0 - 0.5 * z };
+            [r * angle.cos(), r * angle.sin(), z]
+        }],
+        120,
+        60,
+    );
+    let noisy = exact.positions().iter().map(|[x, y, z]| {
+        let more = 1.0 + noise();
+        [x * more, y * more, *z]
+    });
+    let noisy = Mesh::new(noisy.collect(), exact.triangles().to_vec()).unwrap();
+    let found = developable::fit_mesh(&noisy, &developable::MeshOptions::default()).unwrap();
+    let (patches, pattern) = pattern_of(found.mesh());
+    let areas = [4.0 * PI, 1.5 * PI * 1.25f64.sqrt()];
+    assert_eq!(patches.patches().len(), 2);
+    for (patch, area) in patches.patches().iter().zip(areas) {
+        assert!(
+            (patch.area / area - 1.0).abs() < 0.02,
+            "{} for {area}",
+            patch.area
+        );
+    }
+    for sheet in &pattern.sheets {
+        assert!(sheet.strain <= 0.01, "{}", sheet.strain);
+    }
+    assert!(pattern.sheets.len() <= 4, "{}", pattern.sheets.len());
+    let whole: f64 = pattern.sheets.iter().map(enclosed).sum();
+    assert!((whole / (areas[0] + areas[1]) - 1.0).abs() < 0.02);
+}

@@ -20,9 +20,10 @@ export async function whole(task, signal) {
   const mesh = await readMesh({ ...task, lattice: 'mesh', normalize: true });
   const surface = task.asIs ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.make](task, surface ?? mesh, mesh);
+  const shown = task.output === '' ? files.shift() : undefined;
   await writeWhole(files, signal);
   if (surface !== undefined) tell(task, surface, mesh);
-  if (task.make === 'analyze' && task.output === '') await print(new TextDecoder().decode(files[0].bytes));
+  if (shown !== undefined) await print(new TextDecoder().decode(shown.bytes));
 }
 
 /**

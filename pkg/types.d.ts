@@ -1180,6 +1180,16 @@ export interface Drawing {
     mismatch: number;
     /** Which one that is, by the crease, whose letter is on both sides: its patches, and how long it is on either. */
     worstJoint?: { crease: number; patches: [number, number]; lengths: [number, number] };
+    /**
+     * At how many points inside of the surface, where cuts or folds end, the angles of the pieces around were compared with
+     * that of the surface, within the shortest of these lines or twenty cells.
+     */
+    points: number;
+    /**
+     * Where they differ most, in degrees: 360 on the surface is what lies flat in one piece. `place` is on the surface, in
+     * its units, `crease` one that is cut there.
+     */
+    worstAngle?: { place: [number, number, number]; crease?: number; flat: number; surface: number };
     cutLength: number;
     mountainLength: number;
     valleyLength: number;

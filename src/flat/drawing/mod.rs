@@ -18,6 +18,7 @@
 //! # }
 //! ```
 
+mod angles;
 mod curve;
 mod draft;
 mod label;
@@ -35,6 +36,7 @@ mod totals;
 
 use super::pattern::{Direction, Missing, Seam, Sheet};
 use crate::error::{Error, Result, positive};
+pub use angles::WorstAngle;
 pub use curve::{Curve, Piece};
 pub(crate) use draft::letters;
 use draft::{Lines, Named};

@@ -5,6 +5,7 @@ use super::faces::faces;
 use super::layout::{Arrangement, apart, arranged};
 use super::leaf::{Leaf, Strain};
 use super::line::length;
+use super::meeting::Meetings;
 use super::net::Net;
 use super::outline::Layout;
 use super::parts::Parts;
@@ -245,14 +246,15 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
             torn: net.is_torn(number),
         }
     };
+    let meetings = Meetings::new(&parts.surface, &parts.labels, net, layout)?;
     let sheets = arrangement.sheets.iter().map(|members| {
-        let (outlines, loops) = outlines(net, layout, members, seam);
+        let (outlines, loops) = outlines(net, layout, members, &meetings, seam);
         let own = |patch: &u32| patches.patches()[*patch as usize].area;
         let (strain, _) = strains(net, members);
         let folded = folded(net, layout, members);
         let gaps = folded.iter().map(|seam| apart(net, layout, *seam));
         Ok(Sheet {
-            folds: folds(net, layout, members, &outlines, seam),
+            folds: folds(net, layout, members, &outlines, &meetings, seam),
             outlines,
             spots: members.iter().map(|p| places[*p as usize]).collect(),
             faces: faces(&parts.surface, net, layout, members),

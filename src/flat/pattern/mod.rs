@@ -33,6 +33,7 @@ mod labels;
 mod layout;
 mod leaf;
 mod line;
+mod meeting;
 mod mesh;
 mod net;
 mod outline;
@@ -51,6 +52,7 @@ use assembly::{Assembled, Assembly, assembled, drawn};
 use even::evened;
 pub use faces::Faces;
 use fine::{Coarse, refined};
+pub use meeting::Meeting;
 pub use mesh::{MeshPattern, pattern_mesh};
 use parts::Parts;
 pub(crate) use simple::without_loops;
@@ -196,6 +198,8 @@ pub struct Run {
     pub seam: Option<Seam>,
     /// Which of the crease's two patches this is the side of; `None` for the border.
     pub patch: Option<u32>,
+    /// Where it begins and ends, if that is inside of the surface.
+    pub ends: [Option<Meeting>; 2],
     /// At least two; the first one again at the end where the run is a whole outline.
     pub points: Vec<[f64; 2]>,
 }
@@ -206,6 +210,8 @@ pub struct Run {
 pub struct Fold {
     /// The crease.
     pub seam: Seam,
+    /// Where it begins and ends, if that is inside of the surface.
+    pub ends: [Option<Meeting>; 2],
     /// At least two; the first one again at the end where it is closed.
     pub points: Vec<[f64; 2]>,
 }

@@ -104,7 +104,8 @@ fn is_within(run: &Run) -> bool {
     }
 }
 
-/// The angle of a sheet between the end of one of its runs and what goes on from there.
+/// The angle of a sheet between the end of one of its runs and what goes on from there, at the distance at
+/// which that of the surface was measured.
 fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) -> f64 {
     let count = outline.len();
     let mut next = (1..=count).map(|i| (k + i) % count);
@@ -113,8 +114,8 @@ fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) ->
     let mut back = outline[k].1.points(FLATNESS);
     back.reverse();
     let [back, on] = [back, outline[next].1.points(FLATNESS)].map(|points| {
-        let (place, _) = place_at(&points, reach);
-        Point::new(place[0] - points[0][0], place[1] - points[0][1])
+        let [from, to] = [0.5, 1.0].map(|share| place_at(&points, share * reach).0);
+        Point::new(to[0] - from[0], to[1] - from[1])
     });
     (on.conj() * back).arg().rem_euclid(TAU)
 }

@@ -75,6 +75,7 @@ pub(super) fn assembled(
     let (mut parts, patches) = parts.numbered(patches)?;
     let leaves = std::mem::take(&mut parts.leaves);
     let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
+    net.decided *= parts.finest;
     net.divide_by_fit(options.gap);
     // What is wrong with a part by itself needs no joint unrolling to be seen.
     let limit = options.max_strain;

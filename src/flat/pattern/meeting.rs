@@ -34,7 +34,7 @@ pub struct Meeting {
     /// Sum of the angles of the surface around it, in radians: 2π where that could be laid flat in one
     /// piece, less at the point of a cone, more in a saddle.
     pub angle: f64,
-    /// The distance along the surface within which that was measured.
+    /// The distance along the surface at which that was measured: from half of it on.
     pub reach: f64,
     /// How many ends of cuts there are.
     pub cuts: usize,
@@ -174,6 +174,8 @@ struct Around<'a> {
 struct Way {
     long: f64,
     place: [f64; 3],
+    /// The same of its first half.
+    half: (f64, [f64; 3]),
     creased: bool,
 }
 
@@ -182,8 +184,9 @@ fn squared(p: [f64; 3], q: [f64; 3]) -> f64 {
 }
 
 impl Around<'_> {
-    /// The sum of the angles around a place, by the lengths of ways from it to a ring and along the ring.
-    /// That is exact for cones, thus where flat faces meet. Nothing where the ring leaves the surface.
+    /// The sum of the angles around a place, by the lengths of ways from one ring around it to another of twice
+    /// its radius, and along both. That is exact for cones, thus where flat faces meet, and hardly depends on
+    /// what is right at the place, which the lattice blurs. Nothing where a ring leaves the surface.
     fn angle(&self, place: [f64; 3], reach: f64) -> Option<f64> {
         let even: Vec<f64> = (0..RING).map(|k| k as f64 / RING as f64).collect();
         let first = self.ring(place, 0.5 * reach, &even)?;
@@ -202,8 +205,9 @@ impl Around<'_> {
         let ring = self.ring(place, radius, &turns)?;
         let next = ring.iter().cycle().skip(1);
         let angles = ring.iter().zip(next).map(|(one, other)| {
-            let (a, b) = (one.long, other.long);
-            let square = squared(one.place, other.place);
+            let (a, b) = (one.long - one.half.0, other.long - other.half.0);
+            let along = squared(one.place, other.place).sqrt();
+            let square = (along - squared(one.half.1, other.half.1).sqrt()).powi(2);
             // Of a triangle by its sides, near 0: the cosine would lose half of the digits.
             let sine = ((square - (a - b).powi(2)) / (4.0 * a * b)).max(0.0).sqrt();
             2.0 * sine.min(1.0).asin()
@@ -218,17 +222,18 @@ impl Around<'_> {
             let mut way = Way {
                 long: 0.0,
                 place,
+                half: (0.0, place),
                 creased: false,
             };
             for step in 1..=WAY {
                 let away = radius * step as f64 / WAY as f64;
                 let [x, y] = [place[0] + away * cos, place[1] + away * sin];
                 let (z, creased) = self.height([x, y])?;
-                way = Way {
-                    long: way.long + squared([x, y, z], way.place).sqrt(),
-                    place: [x, y, z],
-                    creased,
-                };
+                way.long += squared([x, y, z], way.place).sqrt();
+                (way.place, way.creased) = ([x, y, z], creased);
+                if 2 * step == WAY {
+                    way.half = (way.long, way.place);
+                }
             }
             Some(way)
         };

@@ -153,7 +153,7 @@ async function tellPlans({ output }, plans, signal) {
 function fitInWords({ summary: { mismatch, worstJoint, worstAngle } }) {
   const words = [];
   if (worstJoint !== undefined) {
-    const [a, b] = worstJoint.lengths.map((long) => long.toFixed(1));
+    const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));
     words.push(`both sides of each joint are equally long to ${percent(mismatch, 2)} (${a} and ${b} mm)`);
   }
   if (worstAngle !== undefined) {

@@ -291,14 +291,7 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("gap", options.gap)?;
     positive("maxStrain", options.max_strain)?;
-    // Where loops are cut off, both sides of a joint differ: what is drawn as it was cut has only the smallest.
-    let mut whole = match Coarse::new(surface, patches)? {
-        Some(coarse) => refined_or_direct(surface, patches, &coarse, options)?,
-        None => match direct(surface, patches, options, FINEST) {
-            Err(Error::NotFlat { .. }) => direct(surface, patches, options, 1.0)?,
-            other => other?,
-        },
-    };
+    let mut whole = whole(surface, patches, options, FINEST)?;
     evened(&mut whole.net, &mut whole.arrangement, options.max_strain)?;
     drawn(surface, &whole)
 }
@@ -307,36 +300,37 @@ pub fn pattern(
 /// much on the fine one.
 const MARGINS: [f64; 2] = [0.95, 0.75];
 
-/// How much finer than usual outlines are where nothing is refined.
+/// The finest thing of outlines, in spacings, where nothing is refined: where larger loops are cut off, both sides
+/// of a joint differ.
 const FINEST: f64 = 0.4;
 
 /// Cuts and joins on a coarse lattice where there are many vertices.
-fn whole(surface: &Heightfield, patches: &Patches, options: &PatternOptions) -> Result<Assembled> {
-    match Coarse::new(surface, patches)? {
-        Some(coarse) => refined_or_direct(surface, patches, &coarse, options),
-        None => direct(surface, patches, options, 1.0),
-    }
-}
-
-/// Cuts and joins on a coarse lattice, or else on the surface's own.
-fn refined_or_direct(
+fn whole(
     surface: &Heightfield,
     patches: &Patches,
-    coarse: &Coarse,
     options: &PatternOptions,
+    mut finest: f64,
 ) -> Result<Assembled> {
-    for margin in MARGINS {
-        let stricter = options.max_strain(margin * options.max_strain);
-        let rough = match whole(&coarse.surface, &coarse.patches, &stricter) {
-            Err(Error::NotFlat { .. }) => break,
-            other => other?,
-        };
-        let parts = Parts::none(surface, options);
-        if let Ok(found) = refined(surface, patches, coarse, &rough, parts)? {
-            return Ok(found);
+    if let Some(coarse) = Coarse::new(surface, patches)? {
+        finest = 1.0;
+        for margin in MARGINS {
+            let stricter = options.max_strain(margin * options.max_strain);
+            let rough = match whole(&coarse.surface, &coarse.patches, &stricter, finest) {
+                Err(Error::NotFlat { .. }) => break,
+                other => other?,
+            };
+            let parts = Parts::none(surface, options);
+            if let Ok(found) = refined(surface, patches, &coarse, &rough, parts)? {
+                return Ok(found);
+            }
         }
     }
-    direct(surface, patches, options, 1.0)
+    loop {
+        match direct(surface, patches, options, finest) {
+            Err(Error::NotFlat { .. }) if finest < 1.0 => finest = 1.0,
+            other => return other,
+        }
+    }
 }
 
 /// Cuts and joins until every sheet is as it should be.

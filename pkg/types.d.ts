@@ -1027,6 +1027,16 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
   kerf?: number;
   /** What is left outside of all edges to be sewn or bent over, in millimetres. Default 0. */
   allowance?: number;
+  /**
+   * Thickness of metal, in millimetres: sheets get what bends take along the neutral line, and lose what they save
+   * beside the crease. The surface is the upper side of the metal. Folds have to be straight and go from edge to edge.
+   * Default: none is taken into account.
+   */
+  thickness?: number;
+  /** Inner radius of bends, in millimetres. Default: the thickness. */
+  bendRadius?: number;
+  /** Where the neutral line is, from the inside of a bend, as a share of the thickness. Default 0.44. */
+  kFactor?: number;
   /** Whether to tell how the sheets are put together. Default false. */
   assembly?: boolean;
   /**
@@ -1180,6 +1190,16 @@ export interface Drawing {
     mismatch: number;
     /** Which one that is, by the crease, whose letter is on both sides: its patches, and how long it is on either. */
     worstJoint?: { crease: number; patches: [number, number]; lengths: [number, number] };
+    /**
+     * At how many points inside of the surface, where cuts or folds end, the angles of the pieces around were compared with
+     * that of the surface, within the shortest of these lines or twenty cells.
+     */
+    points: number;
+    /**
+     * Where they differ most, in degrees: 360 on the surface is what lies flat in one piece. `place` is on the surface, in
+     * its units, `crease` one that is cut there.
+     */
+    worstAngle?: { place: [number, number, number]; crease?: number; flat: number; surface: number };
     cutLength: number;
     mountainLength: number;
     valleyLength: number;

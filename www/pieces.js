@@ -64,7 +64,8 @@ export function piecesInWords({ summary: { sheets, seams, folds, slits, strain }
  * @param {Drawing} drawing
  * @returns {[string, string][]}
  */
-export function piecesInFigures({ width, height, summary: { cutLength, mountainLength, valleyLength, area, strain, mismatch, a4, letter } }) {
+export function piecesInFigures({ width, height, summary: { cutLength, mountainLength, valleyLength, area, strain, mismatch, worstAngle, a4, letter } }) {
+  const off = worstAngle && Math.abs(worstAngle.flat - worstAngle.surface);
   return [
     ['Drawing', `${number(width, 3)} × ${number(height, 3)} mm`],
     ['Pages', `${count(a4)} of A4, ${count(letter)} of Letter`],
@@ -73,6 +74,7 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
     ['Area', `${number(area / 100)} cm²`],
     ['Largest strain', percent(strain)],
     ['Sides of a cut differ by', percent(mismatch)],
+    ...(off === undefined ? [] : [/** @type {[string, string]} */ (['Angles at a point differ by', `${number(off, 2)}°`])]),
   ];
 }
 

@@ -52,7 +52,7 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
  * @typedef {SheetTask & {
  *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
- *   marks?: number, kerf?: number, allowance?: number, assembly?: string,
+ *   marks?: number, kerf?: number, allowance?: number, thickness?: number, bendRadius?: number, kFactor?: number, assembly?: string,
  *   smoothing?: number, paper?: import('../types.js').Stock, explore: boolean, sheets?: number,
  * }} PatternTask
  * @typedef {SheetTask & {
@@ -396,6 +396,9 @@ function drawing(values) {
     marks: number('marks', values),
     kerf: number('kerf', values),
     allowance: number('allowance', values),
+    thickness: number('thickness', values),
+    bendRadius: number('bend-radius', values),
+    kFactor: number('k-factor', values),
     assembly: values.assembly,
     smoothing: number('smoothing', values),
     paper: values.paper === undefined || values.paper === 'none' ? undefined : stock(values.paper),

@@ -44,6 +44,8 @@ export async function pattern(task, signal) {
   }
   await writeWhole(files, signal);
   const { sheets } = drawing.summary;
+  const fit = fitInWords(drawing);
+  if (fit !== '') process.stderr.write(`developable: ${fit}\n`);
   if (plan !== undefined) {
     process.stderr.write(
       `developable: ${counted(sheets, 'sheet')} with --lambda ${plan.lambda} and --smallest ${plan.smallest}, ` +
@@ -64,9 +66,9 @@ export function reportSlits({ slits, slitLength, sheets, strain }) {
 }
 
 /** @param {PatternTask} task */
-function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, report }) {
+function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickness, bendRadius, kFactor, smoothing, paper, assembly, report }) {
   const told = assembly !== undefined || report !== undefined;
-  return { maxStrain, scale, tabs, marks, kerf, allowance, smoothing, paper, assembly: told };
+  return { maxStrain, scale, tabs, marks, kerf, allowance, thickness, bendRadius, kFactor, smoothing, paper, assembly: told };
 }
 
 /**
@@ -145,6 +147,19 @@ async function tellPlans({ output }, plans, signal) {
   const widths = COLUMNS.map((_, i) => Math.max(...rows.map((cells) => (i === 2 && cells[3] === '' ? 0 : cells[i].length))));
   const lines = rows.map((cells) => cells.map((cell, i) => (cells[3] === '' && i === 2 ? cell : cell.padStart(widths[i]))).join('  '));
   await print(`${lines.join('\n')}\n`);
+}
+
+/** How well what is joined fits. @param {import('../types.js').Drawing} drawing */
+function fitInWords({ summary: { mismatch, worstJoint, worstAngle } }) {
+  const words = [];
+  if (worstJoint !== undefined) {
+    const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));
+    words.push(`both sides of each joint are equally long to ${percent(mismatch, 2)} (${a} and ${b} mm)`);
+  }
+  if (worstAngle !== undefined) {
+    words.push(`angles of the pieces around each point come to that of the surface to ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);
+  }
+  return words.join(', ');
 }
 
 /** What is on no sheet, and what was cut off. @param {import('../types.js').Drawing['summary']} summary */

@@ -229,6 +229,11 @@ test('both sides of a cut are as long as the crease', () => {
   assert.equal(plain.summary.tabs, 0);
   assert.ok(drawing.summary.cutLength > plain.summary.cutLength);
   near(drawing.summary.area, plain.summary.area, 1e-9);
+  // Eight times half of a face's angle, around its point.
+  const { points, worstAngle } = plain.summary;
+  const around = (8 * Math.atan(1 / Math.hypot(1, 0.8)) * 180) / Math.PI;
+  assert.equal(points, 1);
+  assert.ok(worstAngle && [worstAngle.flat, worstAngle.surface].every((angle) => Math.abs(angle - around) < 1), JSON.stringify(worstAngle));
 });
 
 /** A round cone of slope 0.8, which is a sector once it is slit. */
@@ -448,6 +453,9 @@ test('the command', async () => {
   near(fitted.sheets[0].folds[0].length, flat.height / scale, 0.01);
   assert.deepEqual(await command(`${from} -o made.svg --assembly made.glb --marks 20 --kerf 0.2`), silent);
   assert.equal(String(await readFile(join(folder, 'made.glb'))).slice(0, 4), 'glTF');
+  await writeFile(join(folder, 'pyramid.npy'), direct.writeNpy(pyramid));
+  const { stderr } = await command('pattern pyramid.npy --lattice hex --as-is -o pyramid.svg');
+  assert.match(stderr, /equally long to [\d.]+ % \(\d.* mm\), angles .* to [\d.]+°/);
   await writeFile(join(folder, 'small.npy'), direct.writeNpy(lattice(24, 20, (x) => -0.6 * Math.abs(x - 9.3))));
   const small = 'pattern small.npy --lattice hex --no-data 1e9';
   const table = await command(`${small} --explore`);

@@ -19,9 +19,12 @@ test('a tutorial that does what it says', async () => {
     return 20 - 0.7 * Math.max(v, u - 12) + noise(x, y);
   });
   await writeFile(join(folder, 'scan.tif'), direct.writeTiff(roof));
+  // A channel, for metal.
+  const box = image(72, 60, (x) => 20 - 0.9 * Math.max(Math.abs(x - 35.3) - 14, 0));
+  await writeFile(join(folder, 'box.tif'), direct.writeTiff(box));
   const text = await readFile(new URL('../../docs/paper-model.md', import.meta.url), 'utf8');
   const commands = [...text.matchAll(/^```sh\n([\s\S]*?)^```/gm)].flatMap(([, lines]) => lines.trim().split('\n'));
-  assert.equal(commands.length, 5);
+  assert.equal(commands.length, 6);
   const told = [];
   for (const line of commands) {
     const [npx, name, ...args] = line.split(' ');
@@ -32,7 +35,7 @@ test('a tutorial that does what it says', async () => {
   }
   assert.match(told[0].stdout, /^lambda +smallest +sheets/);
   const files = await readdir(folder);
-  for (const file of ['model.pdf', 'model.glb', 'model.json', 'model.svg', 'numbered.svg', 'model.dxf', 'cloth.svg']) {
+  for (const file of ['model.pdf', 'model.glb', 'model.json', 'model.svg', 'numbered.svg', 'model.dxf', 'cloth.svg', 'box.dxf']) {
     assert.ok(files.includes(file), file);
   }
   const { sheets, a4, assembly, strain } = JSON.parse(await readFile(join(folder, 'model.json'), 'utf8'));

@@ -2,7 +2,7 @@
 //! `tests/js/patterns.test.mjs`.)
 
 use crate::common::{noisy, unit_square};
-use developable::drawing::{Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
+use developable::drawing::{Bending, Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, Sheet, pattern};
@@ -393,4 +393,109 @@ fn nonsense_is_refused() {
     // So deep that no edge is long enough for one.
     let tabs = drawn(&sheets, DrawingOptions::default().tabs(1e3));
     assert_eq!(tabs.summary.tabs, 0);
+}
+
+/// Brackets and a channel of metal: by the formulas of the trade.
+#[test]
+fn bends_take_the_length_of_their_neutral_line() {
+    let [thickness, radius, k] = [2.0, 3.0, 0.4];
+    let metal = Bending::new(thickness).radius(radius).k_factor(k);
+    let bends = std::f64::consts::FRAC_PI_2;
+    let allowance = bends * (radius + k * thickness);
+    let plain = DrawingOptions::default().scale(100.0);
+    // From the left edge to each fold and on to the right one.
+    let across = |sheets: &[Sheet], options: DrawingOptions| {
+        let drawing = drawn(sheets, options);
+        let sheet = &drawing.sheets[0];
+        let from = |x: f64| (x - sheet.bounds[0][0]).min(sheet.bounds[1][0] - x);
+        let mut folds: Vec<f64> = (sheet.folds.iter())
+            .map(|fold| {
+                from(fold.points.iter().map(|p| p[0]).sum::<f64>() / fold.points.len() as f64)
+            })
+            .collect();
+        folds.sort_by(f64::total_cmp);
+        assert!(
+            sheet
+                .folds
+                .iter()
+                .all(|fold| (fold.angle - 90.0).abs() < 0.5)
+        );
+        (
+            sheet.bounds[1][0] - sheet.bounds[0][0],
+            folds,
+            area_of(sheet),
+            drawing.summary.area,
+        )
+    };
+    let ridge = |x: f64, _: f64| -(x - 0.403).abs();
+    let groove = |x: f64, _: f64| (x - 0.403).abs();
+    // Two right angles: a ridge and a groove.
+    let step = |x: f64, _: f64| {
+        if x < 0.303 {
+            x
+        } else if x < 0.703 {
+            0.606 - x
+        } else {
+            x - 0.8
+        }
+    };
+    let outside = 2.0 * (radius + thickness);
+    let inside = 2.0 * radius;
+    for (name, height, longer) in [
+        (
+            "ridge",
+            &ridge as &dyn Fn(f64, f64) -> f64,
+            allowance - outside,
+        ),
+        ("groove", &groove, allowance - inside),
+        ("step", &step, 2.0 * allowance - outside - inside),
+    ] {
+        let sheets = sheets(&unit_square(100, height));
+        assert_eq!(sheets.len(), 1, "{name}");
+        let (wide, folds, area, told) = across(&sheets, plain);
+        let (bent, moved, less, all) = across(&sheets, plain.bending(metal));
+        assert!(
+            (bent - wide - longer).abs() < 0.06,
+            "{name}: {} {longer}",
+            bent - wide
+        );
+        assert_eq!(folds.len(), moved.len());
+        let high = area / wide;
+        assert!(
+            (less - area - longer * high).abs() < 0.01 * area,
+            "{name}: {less} {area}"
+        );
+        assert!(
+            (all - told - longer * high).abs() < 0.01 * told,
+            "{name}: {all} {told}"
+        );
+        // A flange has half of what its bend takes or saves.
+        if folds.len() == 1 {
+            assert!(
+                (moved[0] - folds[0] - 0.5 * longer).abs() < 0.06,
+                "{name}: {moved:?} {folds:?}"
+            );
+        }
+    }
+    // What has no such bends.
+    let refused = |sheets: &[Sheet], bending: Bending| {
+        Drawing::new(sheets, &plain.bending(bending))
+            .unwrap_err()
+            .to_string()
+    };
+    assert!(
+        refused(&pyramid(), metal).contains("ends inside"),
+        "{}",
+        refused(&pyramid(), metal)
+    );
+    let narrow = sheets(&unit_square(100, |x, _| -(x - 0.053).abs()));
+    assert!(refused(&narrow, metal.radius(30.0)).contains("nearer to an edge"));
+    for (bending, name) in [
+        (metal.k_factor(2.0), "kFactor"),
+        (metal.radius(-1.0), "bendRadius"),
+        (Bending::new(0.0), "thickness"),
+        (Bending::new(f64::NAN), "thickness"),
+    ] {
+        assert!(refused(&narrow, bending).contains(name), "{bending:?}");
+    }
 }

@@ -212,6 +212,10 @@ fn a_vertex_with_a_full_turn_around_it_is_folded_flat() {
     // All four meet at the same slope.
     let steep = (1.0f64 + 0.25 * 1.16).sqrt();
     near(sheet.area, steep, 0.02);
+    let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
+    let worst = drawing.summary.worst_angle.unwrap();
+    assert_eq!((drawing.summary.points, worst.flat), (1, 360.0));
+    near(worst.surface, 360.0, 0.5);
 }
 
 #[test]
@@ -715,4 +719,80 @@ fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
         println!("{name}: {:.3} %", 100.0 * error);
         assert!(error < 0.004, "{name}: {error}");
     }
+}
+
+/// A height over a plane that is linear between rays from a point: by how far each rises along its direction.
+fn fan(rays: &[(f64, f64)], [x, y]: [f64; 2]) -> f64 {
+    let at = y.atan2(x).rem_euclid(std::f64::consts::TAU);
+    let k = rays.partition_point(|(turn, _)| *turn <= at);
+    let (a, b) = (
+        rays[(k + rays.len() - 1) % rays.len()],
+        rays[k % rays.len()],
+    );
+    // Shares of both directions.
+    let cross = (b.0 - a.0).sin();
+    let far = x.hypot(y);
+    far * (a.1 * (b.0 - at).sin() + b.1 * (at - a.0).sin()) / cross
+}
+
+/// The sum of the angles between such rays.
+fn around(rays: &[(f64, f64)]) -> f64 {
+    let ray = |(turn, rise): (f64, f64)| {
+        let long = rise.hypot(1.0);
+        [turn.cos() / long, turn.sin() / long, rise / long]
+    };
+    let next = rays.iter().cycle().skip(1);
+    let angles = rays.iter().zip(next).map(|(a, b)| {
+        let (a, b) = (ray(*a), ray(*b));
+        (0..3).map(|k| a[k] * b[k]).sum::<f64>().acos()
+    });
+    angles.sum::<f64>().to_degrees()
+}
+
+/// Angles of pieces around a point, against sums that are known.
+#[test]
+fn angles_at_points_close_up() {
+    let third = std::f64::consts::TAU / 3.0;
+    // The corner of a cube on its tip; the edges of a cube rise by 1/√2 there.
+    let cube: Vec<(f64, f64)> = (0..3)
+        .map(|k| (0.3 + third * f64::from(k), -(0.5f64.sqrt())))
+        .collect();
+    near(around(&cube), 270.0, 1e-9);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    // A pyramid's edges.
+    let pyramid: Vec<(f64, f64)> = (0..4)
+        .map(|k| (quarter * (f64::from(k) + 0.5), -0.8 * 0.5f64.sqrt()))
+        .collect();
+    near(
+        around(&pyramid),
+        8.0 * (1.0 / 1.64f64.sqrt()).atan().to_degrees(),
+        1e-9,
+    );
+    // More than a full turn.
+    let saddle = vec![(0.05, -0.2), (1.9, 0.5), (3.4, -0.9), (4.9, 0.5)];
+    assert!(around(&saddle) > 370.0);
+    for (name, rays) in [("cube", cube), ("pyramid", pyramid), ("saddle", saddle)] {
+        let surface = unit_square(120, |x, y| fan(&rays, [x - 0.503, y - 0.498]));
+        let (_, sheets) = sheets(&surface);
+        let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
+        let worst = drawing.summary.worst_angle.unwrap();
+        println!("{name}: {worst:?}");
+        assert_eq!(drawing.summary.points, 1, "{name}");
+        near(worst.surface, around(&rays), 1.0);
+        near(worst.flat, around(&rays), 1.0);
+        near(worst.place[0], 0.503, 0.02);
+        near(worst.place[1], 0.498, 0.02);
+        assert_eq!(worst.crease.is_none(), name == "folded", "{name}");
+    }
+    // A cone is slit as far as its point.
+    let cone = crate::common::cut(
+        &unit_square(120, |x, y| -(x - 0.503).hypot(y - 0.502)),
+        |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
+    );
+    let (_, sheets) = sheets(&cone);
+    let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
+    let worst = drawing.summary.worst_angle.unwrap();
+    println!("cone: {worst:?}");
+    near(worst.surface, 360.0 / 2f64.sqrt(), 2.0);
+    near(worst.flat, 360.0 / 2f64.sqrt(), 3.0);
 }

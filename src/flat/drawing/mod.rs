@@ -18,6 +18,8 @@
 //! # }
 //! ```
 
+mod angles;
+mod bend;
 mod curve;
 mod draft;
 mod label;
@@ -35,6 +37,9 @@ mod totals;
 
 use super::pattern::{Direction, Missing, Seam, Sheet};
 use crate::error::{Error, Result, positive};
+pub use angles::WorstAngle;
+pub use bend::Bending;
+use bend::bent;
 pub use curve::{Curve, Piece};
 pub(crate) use draft::letters;
 use draft::{Lines, Named};
@@ -136,7 +141,7 @@ impl Drawing {
     /// # Errors
     /// [`Error::Empty`] without a sheet, [`Error::Option`] for lengths that are negative or not finite, or if the
     /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for a kerf or an allowance at which an outline
-    /// would cross itself.
+    /// would cross itself, or for folds that are not straight from edge to edge where metal is bent.
     pub fn new(sheets: &[Sheet], options: &DrawingOptions) -> Result<Self> {
         let scale = positive("scale", options.scale)?;
         let tabs = options.tabs.map(|t| positive("tabs", t)).transpose()?;
@@ -146,6 +151,9 @@ impl Drawing {
         options.check()?;
         let letters = letters(sheets);
         let options = DrawingOptions { tabs, ..*options };
+        let sheets: &[Sheet] = &(sheets.iter().enumerate())
+            .map(|(number, sheet)| bent(number, sheet, &options))
+            .collect::<Result<Vec<_>>>()?;
         let lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, &options)).collect();
         let marks = options.marks.map(|distance| counts(&lines, distance));
         let named = Named {

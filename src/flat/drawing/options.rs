@@ -1,6 +1,6 @@
 //! How a pattern is drawn.
 
-use super::MAX_SIZE;
+use super::{Bending, MAX_SIZE};
 use crate::error::{Error, Result};
 
 /// How a pattern is drawn.
@@ -20,6 +20,9 @@ pub struct DrawingOptions {
     /// What is left outside of all edges to be sewn or bent over, in millimetres: lines are cut so much further out.
     /// Default 0.
     pub allowance: f64,
+    /// How thick metal is and how it is bent: what folds take is added to sheets or taken from them. They have to be
+    /// straight and go from edge to edge. Default: no thickness.
+    pub bending: Option<Bending>,
     /// How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they
     /// are. Default 0.5.
     pub smoothing: f64,
@@ -33,6 +36,7 @@ impl Default for DrawingOptions {
             marks: None,
             kerf: 0.0,
             allowance: 0.0,
+            bending: None,
             smoothing: 0.5,
         }
     }
@@ -55,6 +59,7 @@ impl DrawingOptions {
                 return Err(Error::option(name, value, "must be from 0 to 1000"));
             }
         }
+        self.bending.map_or(Ok(()), |bending| bending.check())?;
         match self.smoothing >= 0.0 && self.smoothing.is_finite() {
             true => Ok(()),
             false => Err(Error::option(
@@ -94,6 +99,14 @@ impl DrawingOptions {
     /// These options with another allowance.
     pub fn allowance(self, allowance: f64) -> Self {
         DrawingOptions { allowance, ..self }
+    }
+
+    /// These options with metal that is bent.
+    pub fn bending(self, bending: Bending) -> Self {
+        DrawingOptions {
+            bending: Some(bending),
+            ..self
+        }
     }
 
     /// These options with lines that are smooth within another tolerance.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::angles::{WorstAngle, angles};
 use super::draft::Lines;
 use super::{DrawnSheet, FLATNESS, distance, length};
 use crate::flat::pattern::{Direction, Missing, Sheet};
@@ -35,6 +36,13 @@ pub struct Totals {
     /// Which one that is, if any counts.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub worst_joint: Option<WorstJoint>,
+    /// Points inside of the surface where cuts or folds end and angles were compared: those of the pieces
+    /// around each, within four fifths of the shortest of these lines and twenty cells at most, with that of the surface
+    /// around it.
+    pub points: usize,
+    /// Where these differ most, if any was compared.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub worst_angle: Option<WorstAngle>,
     /// Creases that are folds.
     pub folds: usize,
     /// Number of tabs.
@@ -120,6 +128,7 @@ pub(super) fn summary(
     scale: f64,
 ) -> Totals {
     let joints = joints(lines);
+    let angles = angles(sheets, lines, scale);
     let folds = |direction: Direction| -> f64 {
         let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
         let own = lines.filter(|line| line.direction == direction);
@@ -157,6 +166,8 @@ pub(super) fn summary(
             patches: joint.patches,
             lengths: joint.sides,
         }),
+        points: angles.len(),
+        worst_angle: (angles.into_iter()).max_by(|a, b| a.difference().total_cmp(&b.difference())),
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
         tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
         cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),

@@ -5,6 +5,7 @@ use super::faces::faces;
 use super::layout::{Arrangement, apart, arranged};
 use super::leaf::{Leaf, Strain};
 use super::line::length;
+use super::meeting::Meetings;
 use super::net::Net;
 use super::outline::Layout;
 use super::parts::Parts;
@@ -74,6 +75,7 @@ pub(super) fn assembled(
     let (mut parts, patches) = parts.numbered(patches)?;
     let leaves = std::mem::take(&mut parts.leaves);
     let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
+    net.decided *= parts.finest;
     net.divide_by_fit(options.gap);
     // What is wrong with a part by itself needs no joint unrolling to be seen.
     let limit = options.max_strain;
@@ -245,14 +247,15 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
             torn: net.is_torn(number),
         }
     };
+    let meetings = Meetings::new(&parts.surface, &parts.labels, net, layout)?;
     let sheets = arrangement.sheets.iter().map(|members| {
-        let (outlines, loops) = outlines(net, layout, members, seam);
+        let (outlines, loops) = outlines(net, layout, members, &meetings, seam);
         let own = |patch: &u32| patches.patches()[*patch as usize].area;
         let (strain, _) = strains(net, members);
         let folded = folded(net, layout, members);
         let gaps = folded.iter().map(|seam| apart(net, layout, *seam));
         Ok(Sheet {
-            folds: folds(net, layout, members, &outlines, seam),
+            folds: folds(net, layout, members, &outlines, &meetings, seam),
             outlines,
             spots: members.iter().map(|p| places[*p as usize]).collect(),
             faces: faces(&parts.surface, net, layout, members),

@@ -33,6 +33,7 @@ mod labels;
 mod layout;
 mod leaf;
 mod line;
+mod meeting;
 mod mesh;
 mod net;
 mod outline;
@@ -51,6 +52,7 @@ use assembly::{Assembled, Assembly, assembled, drawn};
 use even::evened;
 pub use faces::Faces;
 use fine::{Coarse, refined};
+pub use meeting::Meeting;
 pub use mesh::{MeshPattern, pattern_mesh};
 use parts::Parts;
 pub(crate) use simple::without_loops;
@@ -196,6 +198,8 @@ pub struct Run {
     pub seam: Option<Seam>,
     /// Which of the crease's two patches this is the side of; `None` for the border.
     pub patch: Option<u32>,
+    /// Where it begins and ends, if that is inside of the surface.
+    pub ends: [Option<Meeting>; 2],
     /// At least two; the first one again at the end where the run is a whole outline.
     pub points: Vec<[f64; 2]>,
 }
@@ -206,6 +210,8 @@ pub struct Run {
 pub struct Fold {
     /// The crease.
     pub seam: Seam,
+    /// Where it begins and ends, if that is inside of the surface.
+    pub ends: [Option<Meeting>; 2],
     /// At least two; the first one again at the end where it is closed.
     pub points: Vec<[f64; 2]>,
 }
@@ -285,7 +291,7 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("gap", options.gap)?;
     positive("maxStrain", options.max_strain)?;
-    let mut whole = whole(surface, patches, options)?;
+    let mut whole = whole(surface, patches, options, FINEST)?;
     evened(&mut whole.net, &mut whole.arrangement, options.max_strain)?;
     drawn(surface, &whole)
 }
@@ -294,12 +300,22 @@ pub fn pattern(
 /// much on the fine one.
 const MARGINS: [f64; 2] = [0.95, 0.75];
 
+/// The finest thing of outlines, in spacings, where nothing is refined: where larger loops are cut off, both sides
+/// of a joint differ.
+const FINEST: f64 = 0.4;
+
 /// Cuts and joins on a coarse lattice where there are many vertices.
-fn whole(surface: &Heightfield, patches: &Patches, options: &PatternOptions) -> Result<Assembled> {
+fn whole(
+    surface: &Heightfield,
+    patches: &Patches,
+    options: &PatternOptions,
+    mut finest: f64,
+) -> Result<Assembled> {
     if let Some(coarse) = Coarse::new(surface, patches)? {
+        finest = 1.0;
         for margin in MARGINS {
             let stricter = options.max_strain(margin * options.max_strain);
-            let rough = match whole(&coarse.surface, &coarse.patches, &stricter) {
+            let rough = match whole(&coarse.surface, &coarse.patches, &stricter, finest) {
                 Err(Error::NotFlat { .. }) => break,
                 other => other?,
             };
@@ -309,12 +325,23 @@ fn whole(surface: &Heightfield, patches: &Patches, options: &PatternOptions) -> 
             }
         }
     }
-    direct(surface, patches, options)
+    loop {
+        match direct(surface, patches, options, finest) {
+            Err(Error::NotFlat { .. }) if finest < 1.0 => finest = 1.0,
+            other => return other,
+        }
+    }
 }
 
 /// Cuts and joins until every sheet is as it should be.
-fn direct(surface: &Heightfield, patches: &Patches, options: &PatternOptions) -> Result<Assembled> {
+fn direct(
+    surface: &Heightfield,
+    patches: &Patches,
+    options: &PatternOptions,
+    finest: f64,
+) -> Result<Assembled> {
     let mut parts = Parts::new(surface, patches, options)?;
+    parts.finest = finest;
     parts.cut_strained()?;
     parts.give_away_crumbs()?;
     // What is not as it should be is cut further; what is too small goes to what is beside it, or is

@@ -32,6 +32,8 @@ pub(super) struct Parts {
     pub labels: Labels,
     pub leaves: Vec<Option<Leaf>>,
     pub options: PatternOptions,
+    /// The finest thing of outlines, in spacings: smaller loops of them are cut off.
+    pub finest: f64,
     /// Around each part.
     windows: Vec<Window>,
     /// Those that were not looked at yet.
@@ -57,6 +59,7 @@ impl Parts {
             labels,
             leaves: (0..count).map(|_| None).collect(),
             options: *options,
+            finest: 1.0,
             pending: Vec::new(),
             left_out: 0,
             most_left_out: (LEFT_OUT * valid as f64) as usize,
@@ -72,6 +75,7 @@ impl Parts {
             labels: Labels::new(&[], 0),
             leaves: Vec::new(),
             options: *options,
+            finest: 1.0,
             windows: Vec::new(),
             pending: Vec::new(),
             left_out: 0,

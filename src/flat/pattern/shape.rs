@@ -1,7 +1,8 @@
 //! From nodes to the lines that are cut and folded: grouped, straightened and plain.
 
 use super::line::{length, meeting, sharpened, simplified, simplified_ring};
-use super::net::{BACK, Net, is_triangle};
+use super::meeting::Meetings;
+use super::net::{BACK, Net, SPECK, is_triangle};
 use super::outline::{Corner, Layout};
 use super::simple::{Runs, without_loops};
 use super::{Fold, Run, Seam};
@@ -13,9 +14,6 @@ const TOLERANCE: f64 = 0.02;
 /// What the middles of a border's edges cut off its corners is no longer than this, in lengths of
 /// the longest edge.
 const SHORT: f64 = 1.1;
-
-/// Where four patches meet, there are two nodes of three each, this far apart at most, in spacings.
-const SPECK: f64 = 3.0;
 
 /// A seam, and the one of its patches that is beside it.
 pub(crate) type Side = (usize, u32);
@@ -36,15 +34,27 @@ pub(super) fn outlines(
     net: &Net,
     layout: &Layout,
     patches: &[u32],
+    meetings: &Meetings,
     seam: impl Fn(usize) -> Seam,
 ) -> (Vec<Vec<Run>>, usize) {
     let (lines, loops) = lines(net, layout, patches);
+    let corners = meetings.corners(net, layout, patches);
+    let end = |place: Point| {
+        // A loop may have been cut off there.
+        let away = |corner: &Point| (corner - place).norm();
+        let here = corners
+            .iter()
+            .filter(|(corner, _)| away(corner) <= SPECK * net.spacing);
+        let here = here.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
+        here.map(|(_, meeting)| *meeting)
+    };
     let mut out: Vec<(f64, Vec<Run>)> = (lines.into_iter())
         .map(|runs| {
             let long = runs.iter().map(|(_, p)| length(p)).sum();
             let run = |(side, points): (Option<Side>, Vec<Point>)| Run {
                 seam: side.map(|(number, _)| seam(number)),
                 patch: side.map(|(_, patch)| patch),
+                ends: [points[0], points[points.len() - 1]].map(end),
                 points: pairs(&points),
             };
             (long, runs.into_iter().map(run).collect())
@@ -60,6 +70,7 @@ pub(super) fn folds(
     layout: &Layout,
     patches: &[u32],
     outlines: &[Vec<Run>],
+    meetings: &Meetings,
     seam: impl Fn(usize) -> Seam,
 ) -> Vec<Fold> {
     let own = |number: &usize| {
@@ -80,6 +91,7 @@ pub(super) fn folds(
         }
         Fold {
             seam: seam(number),
+            ends: [nodes[0], nodes[last]].map(|node| meetings.at(node)),
             points: pairs(&simplified(&points, TOLERANCE * net.spacing)),
         }
     };

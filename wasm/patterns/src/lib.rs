@@ -6,7 +6,7 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::assembly::Assembly;
-use developable::drawing::{Drawing, DrawingOptions, Stock};
+use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
@@ -33,6 +33,7 @@ impl Wanted {
         let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
         let mut drawing = DrawingOptions::default();
         let (mut stock, mut assembled) = (None, false);
+        let (mut thickness, mut radius, mut factor) = (None, None, None);
         const NUMBER: &str = "must be a number";
         for (name, value) in entries(options)? {
             match name.as_str() {
@@ -42,6 +43,9 @@ impl Wanted {
                 "marks" => drawing = drawing.marks(option("marks", value, NUMBER)?),
                 "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
                 "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
+                "thickness" => thickness = Some(option("thickness", value, NUMBER)?),
+                "bendRadius" => radius = Some(option("bendRadius", value, NUMBER)?),
+                "kFactor" => factor = Some(option("kFactor", value, NUMBER)?),
                 "assembly" => assembled = option("assembly", value, "must be true or false")?,
                 "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
                 "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
@@ -54,11 +58,14 @@ impl Wanted {
                 "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
                 _ if settings.take(&name, &value)? => {}
                 _ => {
-                    let known = "scale, tabs, marks, kerf, allowance, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
+                    let known = "scale, tabs, marks, kerf, allowance, thickness, bendRadius, kFactor, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
                                  tolerance, maxIterations and spacing";
                     return Err(unknown(&name, known));
                 }
             }
+        }
+        if let Some(bending) = bending(thickness, radius, factor)? {
+            drawing = drawing.bending(bending);
         }
         Ok(Wanted {
             patches: wanted,
@@ -182,6 +189,26 @@ fn sheets_of(mesh: JsValue, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern
     let patches = MeshPatches::new(&mesh, &wanted.patches)?;
     let found = pattern_mesh(&mesh, &patches, &wanted.sheets)?;
     Ok((patches, found))
+}
+
+/// How metal is bent, if a thickness was given.
+fn bending(
+    thickness: Option<f64>,
+    radius: Option<f64>,
+    factor: Option<f64>,
+) -> Result<Option<Bending>> {
+    let Some(thickness) = thickness else {
+        return match radius.or(factor) {
+            None => Ok(None),
+            Some(_) => Err(Failure {
+                code: "OPTION",
+                message: "bendRadius and kFactor need a thickness".into(),
+            }),
+        };
+    };
+    let metal = Bending::new(thickness);
+    let metal = metal.radius(radius.unwrap_or(metal.radius));
+    Ok(Some(metal.k_factor(factor.unwrap_or(metal.k_factor))))
 }
 
 fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {

@@ -86,6 +86,7 @@ fn draw(body: &Body, seams: &Seams, sheet: &Joined) -> Sheet {
                 points.push(place(ends(&laid.triangles, sides[sides.len() - 1])[1]));
                 let part = body.parts[laid.members[sides[0] as usize / 3] as usize];
                 Run {
+                    ends: [None; 2],
                     seam: number.map(seam),
                     patch: number.map(|_| part),
                     points,
@@ -101,6 +102,7 @@ fn draw(body: &Body, seams: &Seams, sheet: &Joined) -> Sheet {
         .filter(|number| !seams.all[**number].smooth);
     let mut folds: Vec<Fold> = folded
         .map(|number| Fold {
+            ends: [None; 2],
             seam: seam(*number),
             points: along(seams, laid, *number).into_iter().map(place).collect(),
         })

@@ -24,6 +24,9 @@ use crate::shape::patches::crease::lines;
 /// number and that of no vertex. All in the numbers of the whole surface's mesh.
 pub(super) type Node = crate::shape::patches::crease::Node;
 
+/// Where four patches meet, there are two nodes of three each, this far apart at most, in spacings.
+pub(super) const SPECK: f64 = 3.0;
+
 /// No part of a seam has fewer nodes.
 const SHORT: usize = 4;
 

@@ -33,6 +33,31 @@ impl Net {
         })
     }
 
+    /// Where it is on the surface: as high as its patches are there on average.
+    pub(in crate::flat::pattern) fn built(&self, node: Node) -> [f64; 3] {
+        let [x, y] = self.plan(node);
+        let seams = match is_triangle(node) {
+            true => self.seams_at(node.0),
+            false => [self.seams_of(node)[0], None, None],
+        };
+        let (mut sum, mut count) = (0.0, 0.0);
+        for patch in seams
+            .into_iter()
+            .flatten()
+            .flat_map(|seam| self.seams[seam].patches)
+        {
+            let leaf = self.leaves[patch as usize].as_ref();
+            if let (Some(leaf), Some(mean)) = (leaf, self.mean(node, patch)) {
+                let terms = mean.iter().filter(|(_, share)| *share != 0.0);
+                sum += terms
+                    .map(|(vertex, share)| share * leaf.positions()[*vertex as usize][2])
+                    .sum::<f64>();
+                count += 1.0;
+            }
+        }
+        [x, y, sum / count]
+    }
+
     /// Where nodes are on a patch's plane, smoothed along their line.
     pub(super) fn line(&self, patch: u32, nodes: &[Node], smooth: bool) -> Vec<Point> {
         let places = nodes.iter().map(|node| self.raw_place(*node, patch));

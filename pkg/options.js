@@ -171,7 +171,7 @@ const drawing = {
   kerf: number,
   allowance: number,
   thickness: number,
-  bendRadius: number,
+  innerRadius: number,
   kFactor: number,
   smoothing: number,
   paper: stock,

@@ -1034,7 +1034,7 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
    */
   thickness?: number;
   /** Inner radius of bends, in millimetres. Default: the thickness. */
-  bendRadius?: number;
+  innerRadius?: number;
   /** Where the neutral line is, from the inside of a bend, as a share of the thickness. Default 0.44. */
   kFactor?: number;
   /** Whether to tell how the sheets are put together. Default false. */

@@ -11,7 +11,7 @@ pub enum Noise {
     White(f64),
     /// Smoothed over about a cell, as that of depth cameras is.
     Correlated(f64),
-    /// Rounded to multiples of a step.
+    /// Rounded to one of many levels, which are so far apart.
     Voxels(f64),
 }
 
@@ -24,6 +24,9 @@ impl fmt::Display for Noise {
         }
     }
 }
+
+/// Where the levels lie, as a share of the step: no plane that a scene is made of lies in one.
+const LEVEL: f64 = 0.37;
 
 /// How often correlated noise is averaged with its neighbours'.
 const SMOOTHING: usize = 4;
@@ -44,7 +47,9 @@ impl Noise {
         let heights = match self {
             Noise::Voxels(share) => {
                 let step = share * range(truth);
-                heights.map(|z| (z / step + 0.37).round() * step).collect()
+                heights
+                    .map(|z| ((z / step + LEVEL).round() - LEVEL) * step)
+                    .collect()
             }
             Noise::White(_) => {
                 let noise = normal(lattice.len());

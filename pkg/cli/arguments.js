@@ -52,7 +52,7 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
  * @typedef {SheetTask & {
  *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
- *   marks?: number, kerf?: number, allowance?: number, thickness?: number, bendRadius?: number, kFactor?: number, assembly?: string,
+ *   marks?: number, kerf?: number, allowance?: number, thickness?: number, innerRadius?: number, kFactor?: number, assembly?: string,
  *   smoothing?: number, paper?: import('../types.js').Stock, explore: boolean, sheets?: number,
  * }} PatternTask
  * @typedef {SheetTask & {
@@ -273,7 +273,8 @@ const wholeCommands = {
   analyze: ['as-is', 'threshold'],
   unroll: ['as-is'],
   pattern: [
-    'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'smoothing', 'paper', 'assembly',
+    'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor',
+    'smoothing', 'paper', 'assembly',
   ],
 };
 
@@ -397,7 +398,7 @@ function drawing(values) {
     kerf: number('kerf', values),
     allowance: number('allowance', values),
     thickness: number('thickness', values),
-    bendRadius: number('bend-radius', values),
+    innerRadius: number('inner-radius', values),
     kFactor: number('k-factor', values),
     assembly: values.assembly,
     smoothing: number('smoothing', values),

@@ -214,7 +214,7 @@ export const sections = {
       kerf: { value: 'MM', help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)' },
       allowance: { value: 'MM', help: 'what is left outside of all edges to be sewn or bent over (default 0)' },
       thickness: { value: 'MM', help: 'thickness of metal: sheets get what its bends take; folds must be straight from edge to edge (default: none)' },
-      'bend-radius': { value: 'MM', help: 'inner radius of bends (default: the thickness)' },
+      'inner-radius': { value: 'MM', help: 'inner radius of bends (default: the thickness)' },
       'k-factor': { value: 'K', help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)' },
       assembly: {
         value: 'FILE',

@@ -66,9 +66,9 @@ export function reportSlits({ slits, slitLength, sheets, strain }) {
 }
 
 /** @param {PatternTask} task */
-function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickness, bendRadius, kFactor, smoothing, paper, assembly, report }) {
+function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, paper, assembly, report }) {
   const told = assembly !== undefined || report !== undefined;
-  return { maxStrain, scale, tabs, marks, kerf, allowance, thickness, bendRadius, kFactor, smoothing, paper, assembly: told };
+  return { maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, paper, assembly: told };
 }
 
 /**

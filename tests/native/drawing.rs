@@ -492,7 +492,7 @@ fn bends_take_the_length_of_their_neutral_line() {
     assert!(refused(&narrow, metal.radius(30.0)).contains("nearer to an edge"));
     for (bending, name) in [
         (metal.k_factor(2.0), "kFactor"),
-        (metal.radius(-1.0), "bendRadius"),
+        (metal.radius(-1.0), "innerRadius"),
         (Bending::new(0.0), "thickness"),
         (Bending::new(f64::NAN), "thickness"),
     ] {

@@ -54,7 +54,7 @@ impl Bending {
         positive("thickness", self.thickness)?;
         if !(self.radius >= 0.0 && self.radius.is_finite()) {
             return Err(Error::option(
-                "bendRadius",
+                "innerRadius",
                 self.radius,
                 "must be 0 or more",
             ));

@@ -42,6 +42,7 @@ impl Curve {
     }
 
     /// Whether the number of control points is one that a curve has.
+    #[cfg(feature = "patterns")]
     pub(super) fn is_whole(&self) -> bool {
         self.0.len() % 3 == 1
     }

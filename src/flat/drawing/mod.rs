@@ -47,10 +47,12 @@ pub use label::{Label, LabelKind};
 use marks::counts;
 use nest::Shape;
 pub use options::DrawingOptions;
+#[cfg(feature = "patterns")]
 pub(crate) use pack::beside;
 use pack::{Place, packed};
 use pages::count;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
+#[cfg(feature = "patterns")]
 pub(crate) use smooth::smooth;
 use totals::summary;
 pub use totals::{Totals, WorstJoint};

@@ -99,6 +99,7 @@ impl Place {
 
 /// How sheets of closed lines in millimetres lie beside each other: of each the cosine and sine of its turn, and the
 /// shift after it.
+#[cfg(feature = "patterns")]
 pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])> {
     let boxes: Vec<Place> = sheets.iter().map(|lines| Place::around(lines)).collect();
     let (places, _) = packed(&boxes);

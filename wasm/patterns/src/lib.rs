@@ -44,7 +44,7 @@ impl Wanted {
                 "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
                 "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
                 "thickness" => thickness = Some(option("thickness", value, NUMBER)?),
-                "bendRadius" => radius = Some(option("bendRadius", value, NUMBER)?),
+                "innerRadius" => radius = Some(option("innerRadius", value, NUMBER)?),
                 "kFactor" => factor = Some(option("kFactor", value, NUMBER)?),
                 "assembly" => assembled = option("assembly", value, "must be true or false")?,
                 "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
@@ -58,7 +58,7 @@ impl Wanted {
                 "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
                 _ if settings.take(&name, &value)? => {}
                 _ => {
-                    let known = "scale, tabs, marks, kerf, allowance, thickness, bendRadius, kFactor, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
+                    let known = "scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
                                  tolerance, maxIterations and spacing";
                     return Err(unknown(&name, known));
                 }
@@ -202,7 +202,7 @@ fn bending(
             None => Ok(None),
             Some(_) => Err(Failure {
                 code: "OPTION",
-                message: "bendRadius and kFactor need a thickness".into(),
+                message: "innerRadius and kFactor need a thickness".into(),
             }),
         };
     };

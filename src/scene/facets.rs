@@ -184,41 +184,88 @@ impl Facets {
     /// Regions that fold by less than an angle on average are one, those that fold least first.
     fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
         let mut forest = Forest::new("patches", labels.len())?;
-        let mut between: BTreeMap<(u32, u32), [f64; 2]> = BTreeMap::new();
+        let mut regions = Regions {
+            around: try_filled("patches", labels.len(), BTreeMap::new())?,
+            queue: BinaryHeap::new(),
+            fold,
+        };
         for (side, twin) in self.pairs() {
             let [a, b] = [side, twin].map(|side| labels[side / 3]);
             if a != b {
-                let sum = between.entry((a.min(b), a.max(b))).or_default();
-                *sum = [
-                    sum[0] + self.lengths[side] * self.angles[side],
-                    sum[1] + self.lengths[side],
-                ];
+                let own = [self.lengths[side] * self.angles[side], self.lengths[side]];
+                regions.add(a, b, own);
             }
         }
-        loop {
-            let angles = between
-                .iter()
-                .map(|(pair, [bent, long])| (bent / long, *pair));
-            let least = angles
-                .filter(|(angle, _)| *angle < fold)
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, (a, b))) = least else {
-                break;
-            };
+        for a in 0..labels.len() as u32 {
+            regions.wait(a);
+        }
+        while let Some((a, b)) = regions.next() {
             forest.join(a, b);
-            let mut joined: BTreeMap<(u32, u32), [f64; 2]> = BTreeMap::new();
-            for ((a, b), [bent, long]) in between {
-                let (a, b) = (forest.root(a), forest.root(b));
-                if a != b {
-                    let sum = joined.entry((a.min(b), a.max(b))).or_default();
-                    *sum = [sum[0] + bent, sum[1] + long];
-                }
-            }
-            between = joined;
+            regions.join(a, b);
         }
         for label in labels {
             *label = forest.root(*label);
         }
         Ok(())
+    }
+}
+
+/// Regions and what lies between each two of them: the integral of the angle along it, and its length.
+struct Regions {
+    around: Vec<BTreeMap<u32, [f64; 2]>>,
+    /// Pairs by their mean angle, as it was when they came in.
+    queue: BinaryHeap<Reverse<(u64, u32, u32)>>,
+    fold: f64,
+}
+
+impl Regions {
+    fn add(&mut self, a: u32, b: u32, [bent, long]: [f64; 2]) {
+        for (one, other) in [(a, b), (b, a)] {
+            let sum = self.around[one as usize].entry(other).or_default();
+            *sum = [sum[0] + bent, sum[1] + long];
+        }
+    }
+
+    /// The mean angle between two; positive numbers are in order as their bits are.
+    fn angle(&self, a: u32, b: u32) -> Option<u64> {
+        let [bent, long] = self.around[a as usize].get(&b)?;
+        let angle = bent / long;
+        (angle < self.fold).then(|| angle.to_bits())
+    }
+
+    /// Puts a region's pairs into the queue, each once.
+    fn wait(&mut self, a: u32) {
+        for b in self.around[a as usize].keys().filter(|b| **b > a) {
+            if let Some(angle) = self.angle(a, *b) {
+                self.queue.push(Reverse((angle, a, *b)));
+            }
+        }
+    }
+
+    /// The pair that folds least, of those that fold by less than is wanted.
+    fn next(&mut self) -> Option<(u32, u32)> {
+        while let Some(Reverse((angle, a, b))) = self.queue.pop() {
+            if self.angle(a, b) == Some(angle) {
+                return Some((a, b));
+            }
+        }
+        None
+    }
+
+    /// Makes one region of two: what has fewer neighbours goes into the other.
+    fn join(&mut self, a: u32, b: u32) {
+        let size = |region: u32| self.around[region as usize].len();
+        let (to, from) = if size(a) < size(b) { (b, a) } else { (a, b) };
+        for (other, sum) in std::mem::take(&mut self.around[from as usize]) {
+            self.around[other as usize].remove(&from);
+            if other == to {
+                continue;
+            }
+            self.add(to, other, sum);
+            if let Some(angle) = self.angle(to, other) {
+                self.queue
+                    .push(Reverse((angle, to.min(other), to.max(other))));
+            }
+        }
     }
 }

@@ -44,8 +44,7 @@ export async function pattern(task, signal) {
   }
   await writeWhole(files, signal);
   const { sheets } = drawing.summary;
-  const fit = fitInWords(drawing);
-  if (fit !== '') process.stderr.write(`developable: ${fit}\n`);
+  reportFit(drawing);
   if (plan !== undefined) {
     process.stderr.write(
       `developable: ${counted(sheets, 'sheet')} with --lambda ${plan.lambda} and --smallest ${plan.smallest}, ` +
@@ -150,7 +149,7 @@ async function tellPlans({ output }, plans, signal) {
 }
 
 /** How well what is joined fits. @param {import('../types.js').Drawing} drawing */
-function fitInWords({ summary: { mismatch, worstJoint, worstAngle } }) {
+export function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
   const words = [];
   if (worstJoint !== undefined) {
     const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));
@@ -159,7 +158,7 @@ function fitInWords({ summary: { mismatch, worstJoint, worstAngle } }) {
   if (worstAngle !== undefined) {
     words.push(`angles of the pieces around each point come to that of the surface to ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);
   }
-  return words.join(', ');
+  if (words.length > 0) process.stderr.write(`developable: ${words.join(', ')}\n`);
 }
 
 /** What is on no sheet, and what was cut off. @param {import('../types.js').Drawing['summary']} summary */

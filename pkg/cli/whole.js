@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { drawn, flatObj, json, plainArrays, reportSlits } from './sheets.js';
+import { drawn, flatObj, json, plainArrays, reportFit, reportSlits } from './sheets.js';
 import { announceMesh, percent, print, progressLine } from './terminal.js';
 
 /**
@@ -67,6 +67,7 @@ const made = {
     if (path !== undefined && assembly !== undefined) {
       files.push({ path, bytes: path.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
     }
+    reportFit(pattern);
     reportSlits(summary);
     return files;
   },

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use blazediff_ssim::{MsSsimOptions, Plane, Rgba8, SsimOptions, ms_ssim};
-use developable::{Heightfield, Quadratic, Triangulation};
 use developable::dewarp::{DewarpOptions, Photo, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
+use developable::{Heightfield, Quadratic, Triangulation};
 use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
 

@@ -553,17 +553,28 @@ fn sheets_fold_back_to_the_surface() {
     }
 }
 
+/// Surfaces that have to be cut, although they are smooth: sheets are strained to the limit, and sides of slits
+/// differ by several percent before they are drawn.
 #[test]
-fn both_sides_of_a_cut_are_equally_long() {
-    let dome = unit_square(80, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
-    let saddle = unit_square(80, |x, y| 0.6 * ((x - 0.5).powi(2) - (y - 0.5).powi(2)));
-    for (name, surface) in [("dome", dome), ("saddle", saddle)] {
-        let sheets = check(name, &surface, 0.01);
-        for (crease, (_, [a, b])) in sides(&sheets) {
-            if a.min(b) > 0.1 {
-                near(a / b, 1.0, 0.004);
-                assert!(crease < 1000);
-            }
+fn both_sides_of_a_cut_are_drawn_equally_long() {
+    let waves = unit_square(100, |x, y| 0.08 * (7.0 * x).sin() * (6.0 * y).cos());
+    let bumps = unit_square(100, |x, y| 0.02 * (21.0 * x).sin() * (19.0 * y).cos());
+    let cone = crate::common::cut(
+        &unit_square(120, |x, y| -(x - 0.503).hypot(y - 0.502)),
+        |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
+    );
+    for (name, surface, slits) in [("waves", waves, 4), ("bumps", bumps, 20), ("cone", cone, 1)] {
+        let (_, sheets) = sheets(&surface);
+        let drawing = Drawing::new(&sheets, &DrawingOptions::default().scale(1e3)).unwrap();
+        println!("{name}: {:?}", drawing.summary);
+        assert!(drawing.summary.slits >= slits, "{name}");
+        assert!(drawing.summary.mismatch <= 0.002, "{name}");
+        // Not by lines that go astray: outlines are as long as before, and simple.
+        let long: f64 = sides(&sheets).values().map(|(_, [a, b])| a + b).sum();
+        let drawn = 2e-3 * (drawing.summary.seam_length + drawing.summary.slit_length);
+        near(drawn / long, 1.0, 0.02);
+        for sheet in &drawing.sheets {
+            assert!(!crosses(&sheet.cuts), "{name}");
         }
     }
 }
@@ -601,11 +612,9 @@ fn joints_of_a_noisy_roof_are_drawn_equally_long() {
     let area: f64 = sheets.iter().map(|sheet| sheet.area).sum();
     let joints = sides(&sheets);
     let long = (joints.values()).filter(|(_, [a, b])| a.min(*b) > 0.1 * area.sqrt());
-    assert!(long.clone().count() >= 4, "{joints:?}");
-    for (_, [a, b]) in long {
-        near(a / b, 1.0, 0.004);
-    }
+    assert!(long.count() >= 4, "{joints:?}");
     let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
+    assert!(drawing.summary.mismatch <= 0.002, "{:?}", drawing.summary);
     let worst = drawing.summary.worst_joint.unwrap();
     let [a, b] = worst.lengths;
     near(drawing.summary.mismatch, (a - b).abs() / a.max(b), 1e-12);

@@ -83,6 +83,25 @@ impl Curve {
         points
     }
 
+    /// Its length.
+    pub(super) fn length(&self) -> f64 {
+        self.pieces().map(|piece| piece.length()).sum()
+    }
+
+    /// Its control points, each with the share of the length that lies before it; the inner ones of a piece are
+    /// at its thirds.
+    pub(super) fn placed(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
+        let whole = self.length().max(f64::MIN_POSITIVE);
+        let mut before = 0.0;
+        let mut shares = vec![0.0];
+        for piece in self.pieces() {
+            let long = piece.length();
+            shares.extend([1.0, 2.0, 3.0].map(|third| (before + third / 3.0 * long) / whole));
+            before += long;
+        }
+        self.0.iter().copied().zip(shares)
+    }
+
     /// The parts of it between places, which are shares of its length, ascending.
     pub(super) fn split(&self, shares: &[f64]) -> Vec<Curve> {
         let pieces: Vec<Piece> = self.pieces().collect();

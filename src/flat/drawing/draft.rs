@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::curve::Curve;
+use super::joints::evened;
 use super::label::Label;
 use super::leader::led;
 use super::offset::outwards;
@@ -46,7 +47,17 @@ pub(super) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
+    /// Those of all sheets, both sides of joints equally long.
+    pub(super) fn all(sheets: &'a [Sheet], options: &DrawingOptions) -> Vec<Lines<'a>> {
+        let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
+        // Where metal is bent, what lies across a fold is drawn as much shorter as it grows there.
+        if options.bending.is_none() {
+            evened(sheets, &mut lines, options);
+        }
+        lines
+    }
+
+    fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
         let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
         let smooth = smoothed(sheet, options.smoothing);
         let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {

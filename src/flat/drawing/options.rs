@@ -24,7 +24,7 @@ pub struct DrawingOptions {
     /// straight and go from edge to edge. Default: no thickness.
     pub bending: Option<Bending>,
     /// How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they
-    /// are. Default 0.5.
+    /// are. Sides of joints are moved as far again to become equally long. Default 0.5.
     pub smoothing: f64,
 }
 

@@ -79,7 +79,7 @@ pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
 }
 
 /// The runs that cross each other or themselves.
-fn crossed(curves: &[Curve], spacing: f64) -> Vec<usize> {
+pub(super) fn crossed(curves: &[Curve], spacing: f64) -> Vec<usize> {
     let (mut places, mut edges, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (owner, curve) in curves.iter().enumerate() {
         for p in curve.points(0.02 * spacing).windows(2) {

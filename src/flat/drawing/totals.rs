@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::angles::{WorstAngle, angles};
 use super::draft::Lines;
-use super::{DrawnSheet, FLATNESS, distance, length};
+use super::{DrawnSheet, distance, length};
 use crate::flat::pattern::{Direction, Missing, Sheet};
 
 /// Shorter joints are not compared, in sides of a square as large as all sheets.
@@ -115,7 +115,7 @@ fn joints(lines: &[Lines<'_>]) -> Vec<Joint> {
                 torn: seam.torn,
                 sides: [0.0; 2],
             });
-            joint.sides[usize::from(patch == seam.patches[1])] += length(&curve.points(FLATNESS));
+            joint.sides[usize::from(patch == seam.patches[1])] += curve.length();
         }
     }
     joints.into_values().collect()

@@ -42,6 +42,12 @@ pub(super) const EFFORT: Until = Until {
     steps: 25,
 };
 
+/// The same for patches that begin near to where they belong.
+const SETTLING: Until = Until {
+    steps: 12,
+    ..EFFORT
+};
+
 /// What is wrong with a sheet.
 pub(super) enum Fault {
     /// How much, and the parts that are strained more than they may be.
@@ -118,7 +124,7 @@ pub(super) fn settle(
             .filter_map(|p| net.leaves[*p as usize].as_ref());
         let rough = leaves.clone().any(Leaf::is_rough);
         if rough || !are_close(net, layout, &folded) {
-            Tied::new(net, layout, &members, &folded, &[])?.relax(net, layout, EFFORT)?;
+            Tied::new(net, layout, &members, &folded)?.relax(net, layout, SETTLING)?;
         } else if folded.is_empty() {
             members.iter().for_each(|patch| net.lay_alone(*patch));
         }

@@ -5,7 +5,7 @@ use super::leaf::Strain;
 use super::net::{Net, is_triangle};
 use super::outline::{Layout, Motion};
 use crate::error::Result;
-use crate::flat::unroll::joint::{Joint, Mean, Rod, Until};
+use crate::flat::unroll::joint::{Joint, Mean, Until};
 use crate::flat::unroll::overlap::crossings;
 use crate::flat::unroll::pieces::Point;
 
@@ -15,24 +15,6 @@ const CLOSE: f64 = 0.05;
 /// So many nodes beside the place where three patches meet are not tied: where more meet they are not
 /// where they should be.
 const LOOSE: usize = 1;
-
-/// A side of a seam, by its patch, and the lengths that its pieces are to have.
-pub(super) struct Measure {
-    pub seam: usize,
-    pub side: usize,
-    /// Between each two of [`marks`].
-    pub lengths: Vec<f64>,
-}
-
-/// Nodes from one mark of a seam to the next.
-const STEP: usize = 6;
-
-/// The nodes between which a seam is measured, the first and the last one among them.
-pub(super) fn marks(count: usize) -> Vec<usize> {
-    let last = count.saturating_sub(1);
-    let pieces = (last / STEP).max(1);
-    (0..=pieces).map(|k| k * last / pieces).collect()
-}
 
 /// Whether the sides of some folds lie on each other already.
 pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
@@ -50,15 +32,13 @@ pub(super) struct Tied {
 }
 
 impl Tied {
-    /// `measures` are the sides of seams that are to have given lengths.
     pub(super) fn new(
         net: &Net,
         layout: &Layout,
         patches: &[u32],
         folded: &[usize],
-        measures: &[Measure],
     ) -> Result<Tied> {
-        let (mut pieces, mut rods) = (Vec::new(), Vec::new());
+        let mut pieces = Vec::new();
         let mut places: Vec<Point> = Vec::new();
         let mut starts = Vec::new();
         for patch in patches {
@@ -73,40 +53,12 @@ impl Tied {
             pieces.extend(own.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
         }
         let ties = ties(net, patches, &starts, folded);
-        for measure in measures {
-            let seam = &net.seams[measure.seam];
-            let patch = seam.patches[measure.side];
-            let Ok(number) = patches.binary_search(&patch) else {
-                continue;
-            };
-            for (pair, length) in marks(seam.nodes.len()).windows(2).zip(&measure.lengths) {
-                let [from, to] =
-                    [pair[0], pair[1]].map(|mark| net.around(measure.seam, mark, patch));
-                let from = from.into_iter().map(|(v, w)| (v, -w));
-                let mut terms: Vec<(u32, f64)> = Vec::new();
-                for (v, w) in to.into_iter().chain(from) {
-                    let v = v + starts[number];
-                    match terms.iter_mut().find(|(other, _)| *other == v) {
-                        Some((_, weight)) => *weight += w,
-                        None => terms.push((v, w)),
-                    }
-                }
-                let length = *length;
-                rods.push(Rod { terms, length });
-            }
-        }
         Ok(Tied {
             patches: patches.to_vec(),
             starts,
-            joint: Joint::new(places.len(), pieces, ties, rods)?,
+            joint: Joint::new(places.len(), pieces, ties)?,
             places,
         })
-    }
-
-    /// Asks the measured sides for other lengths, in the order in which they were given.
-    pub(super) fn ask(&mut self, measures: &[Measure]) {
-        self.joint
-            .ask(measures.iter().flat_map(|m| m.lengths.iter().copied()));
     }
 
     /// Lays the patches to where they fit best; their motions are none then. Returns what it took:

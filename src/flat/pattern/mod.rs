@@ -26,7 +26,6 @@
 
 mod assembly;
 mod check;
-mod even;
 mod faces;
 mod fine;
 mod labels;
@@ -49,7 +48,6 @@ use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
 use assembly::{Assembled, Assembly, assembled, drawn};
-use even::evened;
 pub use faces::Faces;
 use fine::{Coarse, refined};
 pub use meeting::Meeting;
@@ -152,7 +150,8 @@ pub struct Sheet {
     /// the longest first. Each run begins where the one before ends.
     ///
     /// Along creases they are where the patches' continuations meet, smoothed over a spacing or
-    /// two; both sides of a cut have the same length but for the strain. Elsewhere they follow the
+    /// two; both sides of a cut have the same length but for the strain, and are drawn equally long
+    /// ([`Drawing`](super::drawing::Drawing)). Elsewhere they follow the
     /// border of the lattice's whole triangles, its zigzag taken to the middle of its edges.
     pub outlines: Vec<Vec<Run>>,
     /// Where it is folded, by the creases' numbers.
@@ -268,8 +267,7 @@ pub struct Spot {
 /// cannot be laid flat so is cut. A patch that is strained by more is cut in two where it is strained
 /// most, as often as it takes, and its parts are joined again as far as their sides fit, so that a cone is
 /// slit and a dome gets darts. Where a crease's sides fit along a part of it only, it is opened along the
-/// rest. Then cuts are closed again, whole or in part, where strain and outlines allow it, and both sides of
-/// those that stay open are made equally long as far as the limit of the strain goes. What is too small to be
+/// rest. Then cuts are closed again, whole or in part, where strain and outlines allow it. What is too small to be
 /// cut and lies flat with nothing beside it is left out, a fiftieth of the vertices at most
 /// ([`Pattern::missing`]).
 ///
@@ -291,9 +289,7 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("gap", options.gap)?;
     positive("maxStrain", options.max_strain)?;
-    let mut whole = whole(surface, patches, options, FINEST)?;
-    evened(&mut whole.net, &mut whole.arrangement, options.max_strain)?;
-    drawn(surface, &whole)
+    drawn(surface, &whole(surface, patches, options, FINEST)?)
 }
 
 /// What a sheet may be strained by on a coarse lattice, as shares of the limit: less where that was too

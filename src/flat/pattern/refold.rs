@@ -42,7 +42,7 @@ pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<R
     }
     let ties = ties(net, patches, &starts, folded);
     let built = places.clone();
-    let joint = Joint::new(places.len(), pieces, ties, Vec::new())?;
+    let joint = Joint::new(places.len(), pieces, ties)?;
     joint.bend(&mut places, EFFORT)?;
     let strain = joint.strain_in_space(&places);
     register(&mut places, &built);

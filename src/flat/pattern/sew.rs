@@ -12,14 +12,10 @@ use crate::error::Result;
 use crate::flat::unroll::joint::Until;
 use crate::flat::unroll::pieces::Point;
 
-/// The share of the limit that sheets are strained by at most when cuts are closed, so that something
-/// is left for making the sides of cuts alike.
-const SHARE: f64 = 0.9;
-
-/// The same where a crease is closed, unless the sheets beside it are strained more already.
+/// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it are strained more already.
 const CREASE: f64 = 0.1;
 
-/// The same right beside a cut that is closed.
+/// How many times the limit what lies right beside a cut that is closed may be strained by.
 const BESIDE: f64 = 2.0;
 
 /// A seam that cannot be closed is halved and tried again down to so many nodes.
@@ -148,13 +144,10 @@ fn closed(
     // A cut through what is smooth is closed wherever that is possible; a crease that bends on the flat
     // sheet stays cut, for it could not be folded.
     let most = match net.seams[seam].smooth {
-        true => SHARE * limit,
+        true => limit,
         false => {
             let sheets = [a, b].map(|sheet| strains(net, &arrangement.sheets[sheet]).0.rms());
-            (CREASE * limit)
-                .max(sheets[0])
-                .max(sheets[1])
-                .min(SHARE * limit)
+            (CREASE * limit).max(sheets[0]).max(sheets[1]).min(limit)
         }
     };
     let until = Until {
@@ -163,7 +156,7 @@ fn closed(
     };
     let joined = !are_close(net, &layout, &ties);
     if joined {
-        let mut sheet = Tied::new(net, &layout, &members, &ties, &[])?;
+        let mut sheet = Tied::new(net, &layout, &members, &ties)?;
         let work = sheet.relax(net, &mut layout, until)?;
         *budget = budget.saturating_sub(work);
     }

@@ -1,9 +1,8 @@
 //! Meshes laid flat together, tied to each other along lines: what is cut and joined is no lattice,
 //! so that its global step is a sparse matrix's.
 //!
-//! Minimised is the energy of all pieces, as for one lattice, for each tie the square of the
-//! distance between its two places, times [`TIE`], and for each rod that of how much longer or shorter
-//! it is than it should be, times [`ROD`].
+//! Minimised is the energy of all pieces, as for one lattice, and for each tie the square of the
+//! distance between its two places, times [`TIE`].
 
 use nalgebra::Vector3;
 use sprs::{CsMat, TriMat};
@@ -14,9 +13,6 @@ use crate::error::{Result, try_filled};
 /// What a tie weighs; an edge between two equilateral triangles weighs 0.58.
 const TIE: f64 = 8.0;
 
-/// What a rod weighs.
-const ROD: f64 = 20.0;
-
 /// Steps of conjugate gradients in each global step.
 const INNER: usize = 16;
 
@@ -26,29 +22,14 @@ const REDUCTION: f64 = 1e-3;
 /// A place as a mean of vertices with weights; a vertex without a weight stands for none.
 pub(crate) type Mean = [(u32, f64); 3];
 
-/// Pieces by the numbers of their corners, pairs of places that are to be one, and rods.
+/// Pieces by the numbers of their corners, and pairs of places that are to be one.
 pub(crate) struct Joint {
     pieces: Vec<(Piece, [u32; 3])>,
     ties: Vec<[Mean; 2]>,
-    rods: Vec<Rod>,
+    /// The global step's, its diagonal apart.
     matrix: CsMat<f64>,
-    /// Inverse of its diagonal.
-    inverse: Vec<f64>,
+    diagonal: Vec<f64>,
     area: f64,
-}
-
-/// The way between two places, each a mean of vertices, that is to have a length: its end's weights less
-/// its start's.
-pub(crate) struct Rod {
-    pub terms: Vec<(u32, f64)>,
-    pub length: f64,
-}
-
-impl Rod {
-    fn way(&self, places: &[Point]) -> Point {
-        let terms = self.terms.iter();
-        terms.map(|(v, w)| places[*v as usize] * *w).sum()
-    }
 }
 
 /// When to stop.
@@ -72,35 +53,22 @@ impl Joint {
         count: usize,
         pieces: Vec<(Piece, [u32; 3])>,
         ties: Vec<[Mean; 2]>,
-        rods: Vec<Rod>,
     ) -> Result<Joint> {
         let area = pieces.iter().map(|(piece, _)| piece.area()).sum();
-        let matrix = matrix(count, &pieces, &ties, &rods);
-        let mut inverse = try_filled("unrolling", count, 0.0)?;
-        for (row, entries) in matrix.outer_iterator().enumerate() {
-            let own = entries.get(row).copied().unwrap_or(0.0);
-            inverse[row] = if own > 0.0 { 1.0 / own } else { 0.0 };
-        }
+        let mut diagonal = try_filled("unrolling", count, 0.0)?;
+        let matrix = matrix(&mut diagonal, &pieces, &ties);
         Ok(Joint {
             pieces,
             ties,
-            rods,
             matrix,
-            inverse,
+            diagonal,
             area,
         })
     }
 
-    /// Asks each rod for a length.
-    pub(crate) fn ask(&mut self, lengths: impl Iterator<Item = f64>) {
-        for (rod, length) in self.rods.iter_mut().zip(lengths) {
-            rod.length = length;
-        }
-    }
-
-    /// Moves the vertices to where pieces, ties and rods fit best; the number of steps that took.
+    /// Moves the vertices to where pieces and ties fit best; the number of steps that took.
     pub(crate) fn relax(&self, places: &mut [Point], until: Until) -> Result<usize> {
-        let mut gradients = Gradients::new(&self.matrix, &self.inverse)?;
+        let mut gradients = Gradients::new(&self.matrix, &self.diagonal)?;
         let area = self.area;
         let mut last = places.to_vec();
         let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
@@ -141,7 +109,7 @@ impl Joint {
     /// Bends what the pieces make up to where these fit best in space: from places that are near to
     /// those.
     pub(crate) fn bend(&self, places: &mut [Vector3<f64>], until: Until) -> Result<()> {
-        let mut gradients = Gradients::new(&self.matrix, &self.inverse)?;
+        let mut gradients = Gradients::new(&self.matrix, &self.diagonal)?;
         let mut pull = try_filled("refolding", places.len(), Vector3::zeros())?;
         let mut last = places.to_vec();
         let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
@@ -230,35 +198,20 @@ impl Joint {
                 pull[v as usize] -= apart * (TIE * w);
             }
         }
-        for rod in &self.rods {
-            let way = rod.way(places);
-            let long = way.norm();
-            if long > 0.0 {
-                let excess = way * (1.0 - rod.length / long);
-                energy += ROD * excess.norm_sqr();
-                for (v, w) in &rod.terms {
-                    pull[*v as usize] -= excess * (ROD * w);
-                }
-            }
-        }
         energy
     }
 }
 
-fn matrix(
-    count: usize,
-    pieces: &[(Piece, [u32; 3])],
-    ties: &[[Mean; 2]],
-    rods: &[Rod],
-) -> CsMat<f64> {
-    let squares: usize = rods.iter().map(|rod| rod.terms.len().pow(2)).sum();
-    let room = 12 * pieces.len() + 36 * ties.len() + squares;
+/// The matrix without its diagonal, which is filled in.
+fn matrix(diagonal: &mut [f64], pieces: &[(Piece, [u32; 3])], ties: &[[Mean; 2]]) -> CsMat<f64> {
+    let count = diagonal.len();
+    let room = 6 * pieces.len() + 30 * ties.len();
     let mut entries = TriMat::with_capacity((count, count), room);
     for (piece, corners) in pieces {
         for (k, weight) in piece.weights.into_iter().enumerate() {
             let [a, b] = [k, (k + 1) % 3].map(|k| corners[k] as usize);
-            entries.add_triplet(a, a, weight);
-            entries.add_triplet(b, b, weight);
+            diagonal[a] += weight;
+            diagonal[b] += weight;
             entries.add_triplet(a, b, -weight);
             entries.add_triplet(b, a, -weight);
         }
@@ -267,16 +220,13 @@ fn matrix(
         let terms = difference(tie);
         for (a, wa) in terms {
             for (b, wb) in terms {
-                if wa != 0.0 && wb != 0.0 {
-                    entries.add_triplet(a as usize, b as usize, TIE * wa * wb);
+                if wa == 0.0 || wb == 0.0 {
+                    continue;
                 }
-            }
-        }
-    }
-    for rod in rods {
-        for (a, wa) in &rod.terms {
-            for (b, wb) in &rod.terms {
-                entries.add_triplet(*a as usize, *b as usize, ROD * wa * wb);
+                match a == b {
+                    true => diagonal[a as usize] += TIE * wa * wb,
+                    false => entries.add_triplet(a as usize, b as usize, TIE * wa * wb),
+                }
             }
         }
     }
@@ -294,7 +244,8 @@ fn difference([one, other]: &[Mean; 2]) -> [(u32, f64); 6] {
 /// of the complex numbers, and the matrix is real.
 struct Gradients<'a> {
     matrix: &'a CsMat<f64>,
-    inverse: &'a [f64],
+    diagonal: &'a [f64],
+    inverse: Vec<f64>,
     right: Vec<Point>,
     solution: Vec<Point>,
     direction: Vec<Point>,
@@ -302,14 +253,19 @@ struct Gradients<'a> {
 }
 
 impl<'a> Gradients<'a> {
-    fn new(matrix: &'a CsMat<f64>, inverse: &'a [f64]) -> Result<Self> {
-        let blank = || try_filled("unrolling", inverse.len(), Point::default());
+    fn new(matrix: &'a CsMat<f64>, diagonal: &'a [f64]) -> Result<Self> {
+        let blank = || try_filled("unrolling", diagonal.len(), Point::default());
+        let mut inverse = try_filled("unrolling", diagonal.len(), 0.0)?;
+        for (inverse, own) in inverse.iter_mut().zip(diagonal) {
+            *inverse = if *own > 0.0 { 1.0 / own } else { 0.0 };
+        }
         Ok(Gradients {
             right: blank()?,
             solution: blank()?,
             direction: blank()?,
             image: blank()?,
             matrix,
+            diagonal,
             inverse,
         })
     }
@@ -320,7 +276,7 @@ impl<'a> Gradients<'a> {
         self.direction.fill(Point::default());
         let (mut last, mut first) = (0.0, None);
         for _ in 0..INNER {
-            let pairs = self.right.iter().zip(self.inverse);
+            let pairs = self.right.iter().zip(&self.inverse);
             let square: f64 = pairs.clone().map(|(r, d)| r.norm_sqr() * d).sum();
             let goal = *first.get_or_insert(REDUCTION * REDUCTION * square);
             if square <= goal || square <= f64::MIN_POSITIVE {
@@ -333,8 +289,12 @@ impl<'a> Gradients<'a> {
             }
             let mut curvature = 0.0;
             for (row, entries) in self.matrix.outer_iterator().enumerate() {
-                let sum: Point = entries.iter().map(|(k, w)| self.direction[k] * *w).sum();
-                curvature += (self.direction[row].conj() * sum).re;
+                let own = self.direction[row];
+                let mut sum = own * self.diagonal[row];
+                for (k, w) in entries.iter() {
+                    sum += self.direction[k] * *w;
+                }
+                curvature += (own.conj() * sum).re;
                 self.image[row] = sum;
             }
             if curvature <= 0.0 {

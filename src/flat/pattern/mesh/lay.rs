@@ -99,7 +99,7 @@ impl Laid {
         }
         let whole = pieces.iter().copied().zip(laid.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        let joint = Joint::new(laid.places.len(), whole, Vec::new(), Vec::new())?;
+        let joint = Joint::new(laid.places.len(), whole, Vec::new())?;
         // Steps that hardly change anything say little before what is wrong at one end has come to the other.
         let start = Until {
             steps: until.steps.min(START),

@@ -13,9 +13,6 @@ const LEAST: f64 = 0.01;
 /// How often a cut through a patch is smoothed; it is the zigzag between the vertices on either side.
 const CUT_SMOOTHING: usize = 4;
 
-/// So many nodes on either side make a place where a seam is held.
-const BESIDE: usize = 2;
-
 impl Net {
     /// Where a node is in plan.
     pub(in crate::flat::pattern) fn plan(&self, (p, q): Node) -> [f64; 2] {
@@ -127,32 +124,6 @@ impl Net {
             }
         }
         Some(mean)
-    }
-
-    /// The middle of a seam's nodes next to one of them, as a mean of vertices of one of its leaves.
-    pub(in crate::flat::pattern) fn around(
-        &self,
-        seam: usize,
-        node: usize,
-        patch: u32,
-    ) -> Vec<(u32, f64)> {
-        let nodes = &self.seams[seam].nodes;
-        let reach = BESIDE.min(node).min(nodes.len() - 1 - node);
-        let means: Vec<Mean> = (nodes[node - reach..=node + reach].iter())
-            .filter_map(|node| self.mean(*node, patch))
-            .collect();
-        let share = 1.0 / means.len().max(1) as f64;
-        let terms = means.into_iter().flatten().filter(|(_, w)| *w != 0.0);
-        terms.map(|(v, w)| (v, share * w)).collect()
-    }
-
-    /// Where that is on the patch's plane.
-    pub(in crate::flat::pattern) fn held(&self, seam: usize, node: usize, patch: u32) -> Point {
-        let places = self.leaves[patch as usize].as_ref().map(Leaf::places);
-        let terms = self.around(seam, node, patch).into_iter();
-        terms
-            .map(|(v, w)| places.map_or(Point::default(), |places| places[v as usize] * w))
-            .sum()
     }
 
     /// Where on an edge its patches meet, from the first vertex to the second, and how much faster

@@ -15,6 +15,10 @@ use crate::flat::unroll::pieces::Point;
 /// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it are strained more already.
 const CREASE: f64 = 0.1;
 
+/// What the mean of a sheet's squared strains may grow by, in squares of the limit, for a length that is closed as long
+/// as the side of a square of its size: what is cheap to close is not left open for what is dear.
+const PRICE: f64 = 0.5;
+
 /// How many times the limit what lies right beside a cut that is closed may be strained by.
 const BESIDE: f64 = 2.0;
 
@@ -141,10 +145,16 @@ fn closed(
     let before: Vec<(u32, Vec<Point>)> = (members.iter())
         .filter_map(|p| Some((*p, net.leaves[*p as usize].as_ref()?.places().to_vec())))
         .collect();
-    // A cut through what is smooth is closed wherever that is possible; a crease that bends on the flat
+    // A cut through what is smooth is closed wherever that is worth its strain; a crease that bends on the flat
     // sheet stays cut, for it could not be folded.
     let most = match net.seams[seam].smooth {
-        true => limit,
+        true => {
+            let now = strains(net, &members).0;
+            let share = length(&net.seams[seam].sides[0]) / now.area.sqrt();
+            (now.rms().powi(2) + PRICE * share * limit * limit)
+                .sqrt()
+                .min(limit)
+        }
         false => {
             let sheets = [a, b].map(|sheet| strains(net, &arrangement.sheets[sheet]).0.rms());
             (CREASE * limit).max(sheets[0]).max(sheets[1]).min(limit)

@@ -8,6 +8,7 @@
  * still being chosen, previews show what it is about (`live.js`).
  */
 import { settingsOf } from './design.js';
+import { breath } from './dom.js';
 import { Events } from './events.js';
 import { Live } from './live.js';
 import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
@@ -23,7 +24,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {number} height
  * @property {Float64Array} data steps of height, row by row, NaN for no data
  * @property {boolean} [design] the data are constraints, and there is nothing else
- * @property {Float64Array} [confidence] how far each height is to be trusted
+ * @property {Float64Array | Float32Array} [confidence] how far each height is to be trusted
  * @property {Float64Array} [constraints] steps of height to be met exactly, NaN for none
  * @property {number} pixelSize
  * @property {number} heightScale
@@ -161,13 +162,10 @@ export class Session extends Events {
    * @returns {Promise<boolean>} whether it is the input now
    */
   async open(doing, load, slow) {
-    this.giveUp();
-    const opening = (this.#opening = new AbortController());
-    if (slow) this.emit('opening', slow);
-    try {
-      const input = await load(opening.signal);
+    const opened = await this.obtain(doing, async (signal) => {
+      const input = await load(signal);
       await lookAt(input);
-      if (opening.signal.aborted) return false;
+      if (signal.aborted) return false;
       this.#stop();
       this.#forget();
       this.input = input;
@@ -177,12 +175,31 @@ export class Session extends Events {
       this.emit('cleared', null);
       void this.#look();
       return true;
+    }, slow);
+    if (this.phase === 'starting') this.#enter('idle');
+    return opened ?? false;
+  }
+
+  /**
+   * Something from a file, in the place of what is being opened.
+   * @template T
+   * @param {string} doing for the message if it fails
+   * @param {(signal: AbortSignal) => Promise<T>} load `signal`: it is given up
+   * @param {Slow} [slow] for what is said meanwhile
+   * @returns {Promise<T | undefined>} nothing where it failed, or was given up
+   */
+  async obtain(doing, load, slow) {
+    this.giveUp();
+    const opening = (this.#opening = new AbortController());
+    if (slow) this.emit('opening', slow);
+    try {
+      const found = await load(opening.signal);
+      return opening.signal.aborted ? undefined : found;
     } catch (error) {
       if (!opening.signal.aborted) this.fail(doing, error);
-      return false;
+      return undefined;
     } finally {
       if (this.#opening === opening) this.giveUp();
-      if (this.phase === 'starting') this.#enter('idle');
     }
   }
 
@@ -278,6 +295,9 @@ export class Session extends Events {
     if (input.width * input.height > MANY) this.#wish(input);
     const { coarsening, ...options } = settingsOf(input, settings);
     try {
+      // A large input is copied for the solver: not within the same moment as all else that is done with it.
+      if (this.#kept?.input !== input) await breath();
+      if (this.#job !== job) return;
       const solver = await this.#solverOf(input);
       if (this.#job !== job) return;
       const surface = await solver.fit({

@@ -94,6 +94,8 @@ const MANY = 150 ** 2;
 /** From so many pixels on, a solver that rests for so many milliseconds is given up. */
 const LARGE = 500 ** 2;
 const REST = 5000;
+/** Milliseconds that a cancelled run of so many pixels has for its last surface. */
+const SOON = 150;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
@@ -107,7 +109,7 @@ export class Session extends Events {
   /** @type {Phase} */
   phase = 'starting';
 
-  /** The run under way. @type {{ abort: AbortController, input: Input, settings: Settings } | null} */
+  /** The run under way, and whether it has come to the finest lattice. @type {{ abort: AbortController, input: Input, settings: Settings, finest: boolean } | null} */
   #job = null;
   /** Whether a setting is still being chosen. */
   #following = false;
@@ -286,7 +288,7 @@ export class Session extends Events {
     const { input, settings } = this;
     if (!input) return;
     const abort = new AbortController();
-    const job = (this.#job = { abort, input, settings });
+    const job = (this.#job = { abort, input, settings, finest: /** @type {boolean} */ (false) });
     this.#tried = true;
     this.#following = false;
     clearTimeout(this.#resting);
@@ -306,6 +308,7 @@ export class Session extends Events {
         signal: abort.signal,
         onAbort: 'keep',
         onProgress: (progress) => {
+          job.finest = progress.level === 0;
           if (this.#job === job && !abort.signal.aborted) this.emit('progress', progress);
         },
       });
@@ -392,12 +395,15 @@ export class Session extends Events {
     }
   }
 
-  /** Ends the run; its best surface so far becomes the result. */
+  /** Ends the run; its best surface so far becomes the result, if it can be had soon. */
   cancel() {
     this.#following = false;
     this.#live.stop();
-    if (this.#job) {
-      this.#job.abort.abort();
+    const job = this.#job;
+    if (job) {
+      job.abort.abort();
+      // Before the finest lattice is reached, that surface is no better than a preview, and takes long to be certified.
+      if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && this.#leave(), SOON);
     } else if (this.phase === 'running') {
       // There were previews only.
       this.#stop();
@@ -412,7 +418,14 @@ export class Session extends Events {
     job?.abort.abort();
   }
 
-  /** The same, and nothing else is to come. */
+  /** Ends the run with its worker. */
+  #leave() {
+    this.#giveBack();
+    this.#stop();
+    this.emit('unsolved', null);
+  }
+
+  /** Ends the run and forgets it; nothing else is to come. */
   #stop() {
     this.#drop();
     this.#following = false;

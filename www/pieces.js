@@ -20,8 +20,12 @@ export function longerSide({ input: { width, height, pixelSize } }) {
  * @param {Result} result
  */
 export function handySide(result) {
-  const { unit } = result.input;
-  const side = longerSide(result) * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
+  return handyLength(longerSide(result), result.input.unit);
+}
+
+/** @param {number} length @param {string | null} [unit] */
+export function handyLength(length, unit) {
+  const side = length * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
   return side >= 30 && side <= 1000 ? Number(side.toPrecision(4)) : HANDY;
 }
 
@@ -80,14 +84,14 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
 
 /**
  * A drawing to be looked at, as the SVG that is saved.
- * @param {Analyses} analyses
+ * @param {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
  * @param {Drawing} drawing
  * @returns {Promise<HTMLImageElement>}
  */
-export async function previewOf(analyses, drawing) {
+export async function previewOf(svg, drawing) {
   const image = new Image();
   image.alt = piecesInWords(drawing);
-  const address = URL.createObjectURL(new Blob([await analyses.svg(drawing)], { type: 'image/svg+xml' }));
+  const address = URL.createObjectURL(new Blob([await svg(drawing)], { type: 'image/svg+xml' }));
   try {
     image.src = address;
     await image.decode();

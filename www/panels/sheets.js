@@ -1,14 +1,12 @@
 /** The result as sheets to cut out: how large, on what paper, with tabs or without; looked at, then saved. */
 import { make } from '../dom.js';
-import { piecesInFigures, piecesInWords, piecesOf, handySide, previewOf } from '../pieces.js';
+import { piecesInFigures, piecesInWords, previewOf } from '../pieces.js';
 import { plainly } from '../plain.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
 
-/** @import {Analyses} from '../analyses.js' */
 /** @import {Api} from '../api.js' */
-/** @import {Result} from '../session.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Depth of tabs in millimetres, at first. */
@@ -22,13 +20,22 @@ const REST = 300;
 const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS };
 
 /**
- * @param {Api} api
- * @param {Result} result
- * @param {Analyses} analyses
- * @param {string} stem of the file's name
+ * What is cut, and how.
+ * @typedef {object} Cutter
+ * @property {string} stem of the file's name
+ * @property {number} size vertices
+ * @property {number} side how long the longer side is to be at first, in millimetres
+ * @property {(options: { side: number, tabs?: number }) => Promise<Drawing>} cut in millimetres
+ * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
+ * @property {() => void} stop what is still being cut
  */
-export function offerSheets(api, result, analyses, stem) {
-  const side = numberField(handySide(result), 10, 5000);
+
+/**
+ * @param {Api} api
+ * @param {Cutter} cutter
+ */
+export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
+  const side = numberField(handy, 10, 5000);
   const depth = numberField(chosen.depth, 1, 50);
   const tabs = make('input', '');
   Object.assign(tabs, { type: 'checkbox', checked: chosen.tabs });
@@ -42,7 +49,7 @@ export function offerSheets(api, result, analyses, stem) {
   const waiting = waitingPanel(panel, () => {
     drawing = Promise.reject(new Error('it was cancelled'));
     drawing.catch(() => {});
-    analyses.stop();
+    stop();
     waiting.end();
     preview.setAttribute('aria-busy', 'false');
     words.textContent = 'Cancelled.';
@@ -54,7 +61,7 @@ export function offerSheets(api, result, analyses, stem) {
   Object.assign(again, { type: 'button', hidden: true });
   again.addEventListener('click', () => void draw());
   const about = make('div', '');
-  const slow = { words: 'Cutting it into sheets', kind: 'sheets', size: result.surface.heights.length, each: EACH };
+  const slow = { words: 'Cutting it into sheets', kind: 'sheets', size, each: EACH };
   /** @type {Promise<Drawing>} */
   let drawing = Promise.reject(new Error('nothing is drawn yet'));
   drawing.catch(() => {});
@@ -68,10 +75,10 @@ export function offerSheets(api, result, analyses, stem) {
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
     waiting.begin(slow);
-    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
+    const wanted = (drawing = cut({ side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
     offer.renew();
     try {
-      const image = await previewOf(analyses, await wanted);
+      const image = await previewOf(svg, await wanted);
       if (wanted !== drawing) return;
       const made = await wanted;
       waiting.end(slow);
@@ -105,10 +112,10 @@ export function offerSheets(api, result, analyses, stem) {
   const offer = offerToSave(api, {
     title: 'Cut-out sheets',
     stem: `${stem}-sheets`,
-    size: result.surface.heights.length,
+    size,
     ready: () => drawing,
     // What is still being cut would hold up the next question.
-    closed: () => analyses.stop(),
+    closed: stop,
     extra: [make('div', 'sheets',
       preview,
       make('div', 'sheets-options',

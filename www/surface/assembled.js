@@ -93,7 +93,7 @@ function moved([x, y, z], turn, shift) {
  * Singular values of each triangle's map to the plane, the larger one first.
  * @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh
  */
-function stretchesOf({ positions, places, triangles }) {
+export function stretchesOf({ positions, places, triangles }) {
   const stretches = new Float64Array((2 * triangles.length) / 3);
   for (let t = 0; t < triangles.length; t += 3) {
     const [i, j, k] = triangles.subarray(t, t + 3);

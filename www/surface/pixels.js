@@ -1,6 +1,7 @@
 /** What views show as colours: pixels as the canvas' bytes, 0 where there is nothing. */
 import { divergingPixel, logarithmic, magnitude } from './colours.js';
 import { interpolated, nearest } from './lattice.js';
+import { stretchesOf } from './assembled.js';
 import { extentOf, fillTriangles } from './triangles.js';
 import { strainOf } from './unfolding.js';
 
@@ -61,4 +62,9 @@ export function sheetPixels(triangles, places, stretches) {
   read.strains = new Float32Array(read.width * read.height).fill(NaN);
   fillTriangles(read, triangles, onImage.map((value) => value / READ), (pixel, triangle) => (read.strains[pixel] = strains[triangle]));
   return { extent, most, width, height, pixels, read };
+}
+
+/** The same of a mesh laid flat. @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh */
+export function flatPixels(mesh) {
+  return sheetPixels(mesh.triangles, mesh.places, stretchesOf(mesh));
 }

@@ -4,10 +4,11 @@ import { photographed } from '../views/print.js';
 import { assembled, bordersOf } from './assembled.js';
 import { meanAngle, rmsError } from './compare.js';
 import { interpolated } from './lattice.js';
+import { hiddenShare } from './hidden.js';
 import { firstLook, lookedAt } from './look.js';
 import { normalsOf } from './normals.js';
 import { photoAt, pictureOf } from './pictures.js';
-import { labelPixels, sheetPixels, valuePixels } from './pixels.js';
+import { flatPixels, labelPixels, sheetPixels, valuePixels } from './pixels.js';
 import { curvaturesOf, roundness } from './roundness.js';
 import { unfolding } from './unfolding.js';
 
@@ -25,7 +26,7 @@ function unfoldingInPieces(model, scale, most, offset) {
 
 /** What can be asked for, by name. Arrays of an answer are handed over. */
 export const tasks = {
-  confidenceOf, constraintsOf, curvaturesOf, firstLook, interpolated, labelPixels, lookedAt, lookedThrough, meanAngle, normalsOf,
+  confidenceOf, constraintsOf, curvaturesOf, firstLook, flatPixels, hiddenShare, interpolated, labelPixels, lookedAt, lookedThrough, meanAngle, normalsOf,
   photoAt, photographed, pictureOf, rmsError, roundness, sheetPixels, unfolding, unfoldingInPieces, valuePixels,
 };
 

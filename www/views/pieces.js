@@ -28,7 +28,7 @@ export async function flat(analyses, result) {
   // Where no cut helps, the whole with its strain is what there is to see.
   const drawing = await piecesOf(analyses, result, { side: handySide(result) }).catch(() => null);
   if (!drawing) return whole();
-  const image = await previewOf(analyses, drawing);
+  const image = await previewOf((made) => analyses.svg(made), drawing);
   const canvas = document.createElement('canvas');
   const scale = FINE / Math.max(image.naturalWidth, image.naturalHeight);
   Object.assign(canvas, { width: Math.round(image.naturalWidth * scale), height: Math.round(image.naturalHeight * scale) });

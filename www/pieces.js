@@ -5,6 +5,8 @@ import { count, number, percent } from './format.js';
 /** @import {Result} from './session.js' */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 
+/** @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor'>} Cut all in millimetres; `side`: the longer one */
+
 /** Strain that a sheet may have, and what is tried where no cut makes it so flat. */
 const STRAINS = [0.01, 0.1];
 /** Millimetres along the longer side, of what has no unit or could not be held. */
@@ -32,16 +34,16 @@ export function handyLength(length, unit) {
 /**
  * @param {Analyses} analyses
  * @param {Result} result
- * @param {{ side: number, tabs?: number }} options in millimetres
+ * @param {Cut} cut
  * @returns {Promise<Drawing>} with as little strain as it can be had with
  */
-export async function piecesOf(analyses, result, { side, tabs }) {
+export async function piecesOf(analyses, result, { side, ...options }) {
   const scale = side / longerSide(result);
   const { count: pieces } = await analyses.pieces(result);
   // Of what is creased all over no sheet is flat: to look for them takes a minute.
   for (const maxStrain of Number.isFinite(pieces) ? STRAINS : STRAINS.slice(-1)) {
     try {
-      return await analyses.pattern(result, { scale, tabs, maxStrain });
+      return await analyses.pattern(result, { scale, ...options, maxStrain });
     } catch (error) {
       const more = maxStrain !== STRAINS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
       if (!more) throw error;

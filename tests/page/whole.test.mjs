@@ -114,6 +114,19 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await page.locator('#whole-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.match(await page.locator('.sheets .said').innerText(), /sheet.*fold/);
+  /** @param {string} name */
+  const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
+  const [card, folds] = [parsed(await figure('Area')), parsed(await figure('To fold'))];
+  await page.getByLabel('Thickness, in mm').waitFor({ state: 'hidden' });
+  await page.getByLabel('Material').selectOption('metal');
+  await page.getByLabel('Thickness, in mm').fill('2');
+  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor();
+  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  // Of metal a bend by 90° takes a strip less: the setback on both sides, less the arc of its neutral line.
+  const strip = 2 * (2 + 2) - ((2 + 0.44 * 2) * Math.PI) / 2;
+  const less = card - parsed(await figure('Area'));
+  assert.ok(Math.abs(less / (10 * folds * strip) - 1) < 0.15, `${less} cm² less, for folds of ${folds} m`);
+  assert.equal(await page.getByLabel('Tabs to glue').isVisible(), false);
   assert.match((await saveAs(page, 'SVG')).bytes.toString(), /<svg/);
 
   // And back.

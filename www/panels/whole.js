@@ -207,7 +207,7 @@ export function wholePanel(session) {
       stem: stem(),
       size: surface.positions.length / 3,
       side: handyLength(longest, surface.unit),
-      cut: ({ side: length, tabs }) => whole.pattern(surface, { scale: length / longest, tabs }),
+      cut: ({ side: length, ...options }) => whole.pattern(surface, { scale: length / longest, ...options }),
       svg: (drawing) => whole.svg(drawing),
       stop: () => whole.stop(),
     });

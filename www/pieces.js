@@ -5,7 +5,7 @@ import { count, number, percent } from './format.js';
 /** @import {Result} from './session.js' */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 
-/** @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor'>} Cut all in millimetres; `side`: the longer one */
+/** @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>} Cut all in millimetres; `side`: the longer one */
 
 /** Strain that a sheet may have, and what is tried where no cut makes it so flat. */
 const STRAINS = [0.01, 0.1];

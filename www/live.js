@@ -7,6 +7,8 @@
  */
 import { settingsOf } from './design.js';
 import { coarse } from './surface/coarse.js';
+import { smallOf } from './surface/known.js';
+import { PREVIEW } from './surface/look.js';
 
 /** @import {Api, OpenSolver} from './api.js' */
 /** @import {Input, Settings} from './session.js' */
@@ -15,7 +17,7 @@ import { coarse } from './surface/coarse.js';
 /** @typedef {{ input: Input, pixelSize: number, solver: Promise<OpenSolver> }} Rung */
 
 /** Pixels along the longer side: some 30 ms of work, and four and four times as much. */
-const SIDES = [96, 192, 384];
+const SIDES = [96, 192, PREVIEW];
 /** A design has nothing to begin with but its pins, and takes longer: a small one, then itself, from the last one for so many iterations. */
 const DESIGN = [48, 100];
 const DESIGN_ITERATIONS = 8;
@@ -146,16 +148,6 @@ function isAlike(a, b) {
   return ['width', 'height', 'pixelSize', 'heightScale', 'design'].every((name) => a[/** @type {keyof Input} */ (name)] === b[/** @type {keyof Input} */ (name)]);
 }
 
-/** @type {WeakMap<ArrayLike<number>, import('./surface/coarse.js').Heights>} */
-const known = new WeakMap();
-
-/** On the pixels of the finest rung, from which the coarser ones are made: many pixels are gone through once. @param {import('./surface/coarse.js').Heights} image */
-function finest(image) {
-  const found = known.get(image.data) ?? coarse(image, SIDES[SIDES.length - 1]);
-  known.set(image.data, found);
-  return found;
-}
-
 /**
  * An input on fewer pixels, as the package takes it.
  * @param {Input} input
@@ -163,7 +155,7 @@ function finest(image) {
  */
 function reducedTo({ width, height, data, pixelSize: each, heightScale, design, confidence, constraints }, side) {
   /** @param {ArrayLike<number>} values */
-  const reduced = (values) => coarse(finest({ width, height, data: values }), side);
+  const reduced = (values) => coarse(smallOf({ width, height, data: values }), side);
   const heights = reduced(data);
   const pixelSize = (each * width) / heights.width;
   const frame = { width: heights.width, height: heights.height, pixelSize, heightScale };

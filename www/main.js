@@ -22,6 +22,7 @@ import { settingsPanel } from './panels/settings.js';
 import { sourcePanel } from './panels/source.js';
 import { stripPanel } from './panels/strip.js';
 import { viewsPanel } from './panels/views.js';
+import { wholePanel } from './panels/whole.js';
 import { Session } from './session.js';
 import { complaint } from './words.js';
 
@@ -34,6 +35,7 @@ async function start() {
   const { adopt } = settingsPanel(session);
   const strip = stripPanel(session, adopt);
   openingPanel(session);
+  wholePanel(session);
   besidePanel(session);
   runPanel(session);
   curvePanel(session);

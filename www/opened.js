@@ -1,6 +1,7 @@
 /** A file of heights as the input, with what else is known of it. */
 import { apart } from './apart.js';
 import { pixelsOf } from './pixels.js';
+import { keepLook } from './surface/known.js';
 import { handOver } from './surface/work.js';
 import { takenOver } from './understood.js';
 
@@ -35,7 +36,9 @@ export async function inputOf(api, file, signal, wanted, { photo: picture, ...ot
   });
   const { format, dataType } = read;
   const photo = picture && { name: picture.name, image: await pixelsOf(picture) };
-  const found = takenOver(await handOver('lookedThrough', [read.data], read, file.name));
+  const { look, ...through } = await handOver('lookedThrough', [read.data], read, file.name);
+  const found = takenOver(through);
+  keepLook(found, look);
   return {
     ...found,
     name: file.name.replace(/\.[^.]*$/, '') || 'heights',

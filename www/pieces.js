@@ -5,6 +5,8 @@ import { count, number, percent } from './format.js';
 /** @import {Result} from './session.js' */
 /** @typedef {import('../pkg/types.js').Drawing} Drawing */
 
+/** @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>} Cut all in millimetres; `side`: the longer one */
+
 /** Strain that a sheet may have, and what is tried where no cut makes it so flat. */
 const STRAINS = [0.01, 0.1];
 /** Millimetres along the longer side, of what has no unit or could not be held. */
@@ -20,24 +22,28 @@ export function longerSide({ input: { width, height, pixelSize } }) {
  * @param {Result} result
  */
 export function handySide(result) {
-  const { unit } = result.input;
-  const side = longerSide(result) * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
+  return handyLength(longerSide(result), result.input.unit);
+}
+
+/** @param {number} length @param {string | null} [unit] */
+export function handyLength(length, unit) {
+  const side = length * (unit === 'mm' ? 1 : unit === 'm' ? 1000 : NaN);
   return side >= 30 && side <= 1000 ? Number(side.toPrecision(4)) : HANDY;
 }
 
 /**
  * @param {Analyses} analyses
  * @param {Result} result
- * @param {{ side: number, tabs?: number }} options in millimetres
+ * @param {Cut} cut
  * @returns {Promise<Drawing>} with as little strain as it can be had with
  */
-export async function piecesOf(analyses, result, { side, tabs }) {
+export async function piecesOf(analyses, result, { side, ...options }) {
   const scale = side / longerSide(result);
   const { count: pieces } = await analyses.pieces(result);
   // Of what is creased all over no sheet is flat: to look for them takes a minute.
   for (const maxStrain of Number.isFinite(pieces) ? STRAINS : STRAINS.slice(-1)) {
     try {
-      return await analyses.pattern(result, { scale, tabs, maxStrain });
+      return await analyses.pattern(result, { scale, ...options, maxStrain });
     } catch (error) {
       const more = maxStrain !== STRAINS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
       if (!more) throw error;
@@ -80,14 +86,14 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
 
 /**
  * A drawing to be looked at, as the SVG that is saved.
- * @param {Analyses} analyses
+ * @param {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
  * @param {Drawing} drawing
  * @returns {Promise<HTMLImageElement>}
  */
-export async function previewOf(analyses, drawing) {
+export async function previewOf(svg, drawing) {
   const image = new Image();
   image.alt = piecesInWords(drawing);
-  const address = URL.createObjectURL(new Blob([await analyses.svg(drawing)], { type: 'image/svg+xml' }));
+  const address = URL.createObjectURL(new Blob([await svg(drawing)], { type: 'image/svg+xml' }));
   try {
     image.src = address;
     await image.decode();

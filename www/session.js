@@ -8,6 +8,7 @@
  * still being chosen, previews show what it is about (`live.js`).
  */
 import { settingsOf } from './design.js';
+import { breath } from './dom.js';
 import { Events } from './events.js';
 import { Live } from './live.js';
 import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
@@ -23,7 +24,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {number} height
  * @property {Float64Array} data steps of height, row by row, NaN for no data
  * @property {boolean} [design] the data are constraints, and there is nothing else
- * @property {Float64Array} [confidence] how far each height is to be trusted
+ * @property {Float64Array | Float32Array} [confidence] how far each height is to be trusted
  * @property {Float64Array} [constraints] steps of height to be met exactly, NaN for none
  * @property {number} pixelSize
  * @property {number} heightScale
@@ -93,6 +94,8 @@ const MANY = 150 ** 2;
 /** From so many pixels on, a solver that rests for so many milliseconds is given up. */
 const LARGE = 500 ** 2;
 const REST = 5000;
+/** Milliseconds that a cancelled run of so many pixels has for its last surface. */
+const SOON = 150;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
@@ -106,7 +109,7 @@ export class Session extends Events {
   /** @type {Phase} */
   phase = 'starting';
 
-  /** The run under way. @type {{ abort: AbortController, input: Input, settings: Settings } | null} */
+  /** The run under way, and whether it has come to the finest lattice. @type {{ abort: AbortController, input: Input, settings: Settings, finest: boolean } | null} */
   #job = null;
   /** Whether a setting is still being chosen. */
   #following = false;
@@ -161,13 +164,10 @@ export class Session extends Events {
    * @returns {Promise<boolean>} whether it is the input now
    */
   async open(doing, load, slow) {
-    this.giveUp();
-    const opening = (this.#opening = new AbortController());
-    if (slow) this.emit('opening', slow);
-    try {
-      const input = await load(opening.signal);
+    const opened = await this.obtain(doing, async (signal) => {
+      const input = await load(signal);
       await lookAt(input);
-      if (opening.signal.aborted) return false;
+      if (signal.aborted) return false;
       this.#stop();
       this.#forget();
       this.input = input;
@@ -177,12 +177,31 @@ export class Session extends Events {
       this.emit('cleared', null);
       void this.#look();
       return true;
+    }, slow);
+    if (this.phase === 'starting') this.#enter('idle');
+    return opened ?? false;
+  }
+
+  /**
+   * Something from a file, in the place of what is being opened.
+   * @template T
+   * @param {string} doing for the message if it fails
+   * @param {(signal: AbortSignal) => Promise<T>} load `signal`: it is given up
+   * @param {Slow} [slow] for what is said meanwhile
+   * @returns {Promise<T | undefined>} nothing where it failed, or was given up
+   */
+  async obtain(doing, load, slow) {
+    this.giveUp();
+    const opening = (this.#opening = new AbortController());
+    if (slow) this.emit('opening', slow);
+    try {
+      const found = await load(opening.signal);
+      return opening.signal.aborted ? undefined : found;
     } catch (error) {
       if (!opening.signal.aborted) this.fail(doing, error);
-      return false;
+      return undefined;
     } finally {
       if (this.#opening === opening) this.giveUp();
-      if (this.phase === 'starting') this.#enter('idle');
     }
   }
 
@@ -269,7 +288,7 @@ export class Session extends Events {
     const { input, settings } = this;
     if (!input) return;
     const abort = new AbortController();
-    const job = (this.#job = { abort, input, settings });
+    const job = (this.#job = { abort, input, settings, finest: /** @type {boolean} */ (false) });
     this.#tried = true;
     this.#following = false;
     clearTimeout(this.#resting);
@@ -278,6 +297,9 @@ export class Session extends Events {
     if (input.width * input.height > MANY) this.#wish(input);
     const { coarsening, ...options } = settingsOf(input, settings);
     try {
+      // A large input is copied for the solver: not within the same moment as all else that is done with it.
+      if (this.#kept?.input !== input) await breath();
+      if (this.#job !== job) return;
       const solver = await this.#solverOf(input);
       if (this.#job !== job) return;
       const surface = await solver.fit({
@@ -286,6 +308,7 @@ export class Session extends Events {
         signal: abort.signal,
         onAbort: 'keep',
         onProgress: (progress) => {
+          job.finest = progress.level === 0;
           if (this.#job === job && !abort.signal.aborted) this.emit('progress', progress);
         },
       });
@@ -372,12 +395,15 @@ export class Session extends Events {
     }
   }
 
-  /** Ends the run; its best surface so far becomes the result. */
+  /** Ends the run; its best surface so far becomes the result, if it can be had soon. */
   cancel() {
     this.#following = false;
     this.#live.stop();
-    if (this.#job) {
-      this.#job.abort.abort();
+    const job = this.#job;
+    if (job) {
+      job.abort.abort();
+      // Before the finest lattice is reached, that surface is no better than a preview, and takes long to be certified.
+      if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && this.#leave(), SOON);
     } else if (this.phase === 'running') {
       // There were previews only.
       this.#stop();
@@ -392,7 +418,14 @@ export class Session extends Events {
     job?.abort.abort();
   }
 
-  /** The same, and nothing else is to come. */
+  /** Ends the run with its worker. */
+  #leave() {
+    this.#giveBack();
+    this.#stop();
+    this.emit('unsolved', null);
+  }
+
+  /** Ends the run and forgets it; nothing else is to come. */
   #stop() {
     this.#drop();
     this.#following = false;

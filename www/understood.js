@@ -2,6 +2,7 @@
 import { coarseningFor, depthsIn, guessedPixel, isHexagonal, isNoDepth, zeroIsNothing } from './guess.js';
 import { number } from './format.js';
 import { gridOver, interpolated } from './surface/lattice.js';
+import { firstLook, small } from './surface/look.js';
 
 /** @import {Api} from './api.js' */
 /** @import {Input} from './session.js' */
@@ -48,10 +49,11 @@ function understoodFirst(read, name) {
 /** The same with what else takes a while to find of it, in the page's worker. @param {Parameters<typeof understoodFirst>} read */
 export function lookedThrough(...read) {
   const input = understoodFirst(...read);
-  return { ...input, reach: reachOf(input.data) };
+  const { data, width, height, heightScale, pixelSize } = input;
+  return { ...input, reach: reachOf(data), look: firstLook(data, width, height, heightScale, pixelSize) };
 }
 
-/** What the worker has found. @param {ReturnType<typeof lookedThrough>} found @returns {Understood} */
+/** What the worker has found. @param {Omit<ReturnType<typeof lookedThrough>, 'look'>} found @returns {Understood} */
 export function takenOver({ reach, ...input }) {
   reaches.set(input.data, reach);
   return input;
@@ -131,4 +133,21 @@ export function reachOf(data) {
 export function spanInWords({ data, width, height, pixelSize, heightScale }) {
   const depth = reachOf(data) * Math.abs(heightScale);
   return `Spans ${number(width * pixelSize)} × ${number(height * pixelSize)}, and ${number(depth)} in height.`;
+}
+
+/** An image of confidence: white is 1; other numbers than whole ones are taken as they are. @param {Read} image */
+export function confidenceOf({ width, height, data, dataType }) {
+  const [, bits] = /^u(\d+)$/.exec(dataType) ?? [];
+  const largest = bits ? 2 ** Number(bits) - 1 : 1;
+  // No more digits are needed.
+  const confidence = Float32Array.from(data, (value) => (Number.isNaN(value) ? 0 : value / largest));
+  if (confidence.some((value) => value < 0)) throw new Error('it has values below 0');
+  return { values: confidence, small: small({ width, height, data: confidence }) };
+}
+
+/** An image of heights to be met. @param {Read} image */
+export function constraintsOf({ width, height, data }) {
+  const constraints = data.map((value) => (value === 0 ? NaN : value));
+  if (constraints.every(Number.isNaN)) throw new Error('it holds nothing: every pixel is 0 or “no data”');
+  return { values: constraints, small: small({ width, height, data: constraints }) };
 }

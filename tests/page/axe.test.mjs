@@ -1,7 +1,9 @@
 /** What axe finds wrong with the page, view by view, in both colour schemes. */
 import assert from 'node:assert/strict';
 import axe from 'axe-core';
-import { drop, pageTest, painted, runBy } from './support/page.mjs';
+import { noisyBox } from './support/box.mjs';
+import { obj } from './support/files.mjs';
+import { drop, open, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -76,6 +78,18 @@ pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
   await unfold(page);
   // Handles lie where the page's corners and bends are, as close to each other as that may be.
   await soundEverywhere(page, 'a photo', { small: NARROW.filter((rule) => rule !== 'target-size') });
+});
+
+pageTest('axe finds nothing wrong with a whole mesh', async (page) => {
+  await open(page, 'box.obj', obj(noisyBox(5, 0.02)));
+  await soundEverywhere(page, 'a mesh');
+  await page.getByRole('radio', { name: 'Whole', exact: true }).check({ force: true });
+  for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {
+    await page.locator('#whole[aria-busy="false"]').waitFor();
+    await page.locator(`input[name="whole-view"][value="${view}"]`).check({ force: true });
+    await page.locator('#whole[aria-busy="false"]').waitFor();
+    await soundEverywhere(page, `whole, ${view}`);
+  }
 });
 
 pageTest('axe finds nothing wrong with surfaces in space, the gallery, dialogs and a design', async (page) => {

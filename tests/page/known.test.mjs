@@ -111,6 +111,28 @@ pageTest('heights without confidence do not count', async (page) => {
   assert.match(await page.locator('#confidence-name').innerText(), /white/);
 });
 
+pageTest('reading what is known besides can be done without', async (page) => {
+  await open(page, 'slope.npy', npy(WIDTH, plane));
+  await more(page);
+  // As long as the file has no end.
+  await page.evaluate(() => {
+    const own = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
+      if (String(message?.path) === 'read') return;
+      own.call(this, message, transfer);
+    };
+  });
+  for (const [button, name] of [['Confidence image', 'confidence'], ['Constraint image', 'constraints']]) {
+    await choose(page, button, 'known.npy', npy(WIDTH, plane.map(() => 1)));
+    const opening = page.getByRole('group', { name: 'Opening a file' });
+    await opening.getByText('Reading the file').waitFor();
+    await opening.getByRole('button', { name: 'Cancel' }).click();
+    assert.equal(await opening.isVisible(), false);
+    assert.equal(await page.locator(`#${name}-drop`).isVisible(), false);
+    assert.equal(await page.locator('#notice').isVisible(), false);
+  }
+});
+
 pageTest('constraints hold besides heights, and wrong ones are refused', async (page) => {
   await open(page, 'slope.npy', npy(WIDTH, plane));
   await run(page);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { downloaded, drop, look, pageTest, painted } from './support/page.mjs';
+import { drop, look, pageTest, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -52,8 +52,14 @@ async function drag(page, name, to) {
 
 /** @param {Page} page */
 async function flatPng(page) {
-  const { name, bytes } = await downloaded(page, () => page.getByRole('button', { name: 'Page PNG' }).click());
+  const { name, bytes } = await savedPage(page, 'PNG');
   return { name, ...parsePng(bytes) };
+}
+
+/** @param {Page} page @param {string} format */
+async function savedPage(page, format) {
+  await page.getByRole('button', { name: 'Save the flat page…' }).click();
+  return saveAs(page, format);
 }
 
 /** @param {Page} page @param {string} name */
@@ -82,7 +88,7 @@ pageTest('a page on a dark ground is found, and its dots come out evenly', async
   const [likely, bound] = [parsed(await told(page, 'Likely error')), parsed(await told(page, 'In 95 of 100'))];
   assert.ok(likely < bound && bound < 1 && 100 * error < 2 * bound, `${likely}, ${bound}, ${100 * error}`);
 
-  const jpeg = await downloaded(page, () => page.getByRole('button', { name: 'Page JPEG' }).click());
+  const jpeg = await savedPage(page, 'JPEG');
   assert.equal(jpeg.name, 'letter-flat.jpg');
   assert.deepEqual([...jpeg.bytes.subarray(0, 3)], [0xff, 0xd8, 0xff]);
 });
@@ -264,11 +270,12 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   const found = parsed(await told(page, 'Focal length'));
   assert.ok(Math.abs(found / camera.fx - 1) < 0.05, `${found}`);
 
-  const pdf = page.getByRole('button', { name: 'Page PDF' });
-  assert.ok(await pdf.isDisabled(), 'its size is not known');
+  await page.getByRole('button', { name: 'Save the flat page…' }).click();
+  assert.ok(await page.getByRole('radio', { name: /^PDF / }).isDisabled(), 'its size is not known');
+  await page.getByRole('button', { name: 'Close' }).click();
   await page.getByLabel('Format of each page').selectOption('a4');
   await flattened(page);
-  const { size } = await readPdfPicture((await downloaded(page, () => pdf.click())).bytes);
+  const { size } = await readPdfPicture((await savedPage(page, 'PDF')).bytes);
   assert.ok(Math.abs(size[0] - 210) < 1.5 && Math.abs(size[1] - 297) < 2, `a PDF of ${size} mm`);
   const [wide, high] = (await told(page, 'Size')).split('×').map(parsed);
   assert.ok(Math.abs(wide - 210) < 1.5 && Math.abs(high - 297) < 2, `${wide} × ${high}`);
@@ -285,7 +292,7 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   await flattened(page);
   assert.match(await page.locator('#flat-verdict').innerText(), /cannot be made flat/);
   assert.match(await page.locator('#flat-detail').innerText(), /format/);
-  assert.ok(await page.getByRole('button', { name: 'Page PNG' }).isDisabled());
+  assert.ok(await page.getByRole('button', { name: 'Save the flat page…' }).isDisabled());
 
   await page.getByLabel('Format of each page').selectOption('');
   await page.getByRole('radio', { name: 'Left, right' }).check({ force: true });
@@ -394,3 +401,26 @@ for (const width of [360, 768, 1280]) {
     assert.deepEqual(nameless, []);
   }, { viewport: { width, height: 800 } });
 }
+
+pageTest('what is written of a flat page can be done without, and asked for again', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  // In one go, for the file may be there in a moment.
+  const cancelled = await page.evaluate(async () => {
+    const dialog = /** @type {HTMLDialogElement} */ (document.querySelector('#save-dialog'));
+    /** @type {HTMLButtonElement} */ (document.querySelector('#page-save')).click();
+    const writing = /** @type {HTMLElement} */ (document.querySelector('#writing'));
+    // What takes no time would not be told of.
+    await new Promise((resolve) => {
+      new MutationObserver(() => !writing.hidden && resolve(null)).observe(writing, { attributes: true });
+      setTimeout(resolve, 1000);
+    });
+    /** @type {HTMLButtonElement} */ (document.querySelector('#writing-cancel')).click();
+    const size = document.querySelector('#save-size')?.textContent;
+    await new Promise((resolve) => setTimeout(resolve, 1500));
+    return dialog.open && { size, later: document.querySelector('#save-size')?.textContent, saves: !(/** @type {HTMLButtonElement} */ (document.querySelector('#save-now')).disabled) };
+  });
+  assert.deepEqual(cancelled, { size: 'Cancelled.', later: 'Cancelled.', saves: false });
+  await page.getByRole('button', { name: 'Write it' }).click();
+  const { bytes } = await saveAs(page, 'PNG');
+  assert.ok(misplaced(parsePng(bytes)) < 0.003);
+});

@@ -76,6 +76,29 @@ pageTest('progress moves the bar and the curve', async (page) => {
   assert.match(await page.locator('#curve-canvas').getAttribute('aria-label') ?? '', /^Gap from .* to .*%/);
 });
 
+pageTest('a large run ends even where its worker does not listen, and what was there stays', async (page) => {
+  await runBy(page, () => page.locator('#size').selectOption('700'));
+  const caption = await page.locator('#result-caption').innerText();
+  const running = page.locator('#page[data-phase="running"]');
+  await page.evaluate(() => {
+    const own = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
+      if (String(message?.path) !== 'stop') own.call(this, message, transfer);
+    };
+  });
+  await page.locator('#gap').evaluate((/** @type {HTMLSelectElement} */ select) => {
+    select.selectedIndex = select.options.length - 1;
+    select.dispatchEvent(new Event('change', { bubbles: true }));
+  });
+  await running.waitFor();
+  await page.evaluate(() => /** @type {HTMLButtonElement} */ (document.querySelector('#cancel')).click());
+  await settled(page);
+  assert.match(await page.locator('#verdict').innerText(), /^Not solved/);
+  assert.equal(await page.locator('#result-caption').innerText(), caption);
+  await runBy(page, () => page.getByRole('button', { name: /^medium/ }).click());
+  assert.match(await page.locator('#certificate').innerText(), /^Certified|^✓ Certified/);
+});
+
 pageTest('cancel is heard at once and keeps the best surface, marked', async (page) => {
   await startLongRun(page);
   const word = await page.evaluate(() => {

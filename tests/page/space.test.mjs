@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { pageTest, painted, runBy } from './support/page.mjs';
+import { pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -157,4 +157,47 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
   await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
+}, { arrangement: 'space' });
+
+pageTest('what rests is drawn finely, once; while λ is dragged there are pictures', async (page) => {
+  await page.evaluate(() => {
+    const { clear } = WebGL2RenderingContext.prototype;
+    const drawn = { times: 0 };
+    Object.assign(window, { drawn });
+    WebGL2RenderingContext.prototype.clear = function (mask) {
+      if (this.canvas instanceof HTMLCanvasElement && this.canvas.id === 'space-canvas') drawn.times++;
+      clear.call(this, mask);
+    };
+  });
+  const canvas = page.locator('#space-canvas');
+  const drawn = () => page.evaluate(() => /** @type {any} */ (window).drawn.times);
+  const fine = () => page.waitForFunction(() => {
+    const { width, clientWidth, height, clientHeight } = /** @type {HTMLCanvasElement} */ (document.querySelector('#space-canvas'));
+    return width >= clientWidth && height >= clientHeight;
+  });
+  await fine();
+  await canvas.press('ArrowLeft');
+  await page.waitForFunction(() => /** @type {any} */ (window).drawn.times > 1);
+  await fine();
+  // A graphics card may be found to be good for two finer pictures, and then nothing is drawn any more.
+  await page.waitForTimeout(1500);
+  const before = await drawn();
+  assert.ok(before <= 7, `${before} pictures after one key`);
+  await page.waitForTimeout(1500);
+  assert.equal(await drawn(), before, 'nothing moves');
+
+  const events = 30;
+  await page.evaluate(async (events) => {
+    const slider = /** @type {HTMLInputElement} */ (document.querySelector('#lambda'));
+    for (let i = 0; i < events; i++) {
+      slider.value = String(5 + i / 15);
+      slider.dispatchEvent(new Event('input', { bubbles: true }));
+      await new Promise((resolve) => setTimeout(resolve, 33));
+    }
+  }, events);
+  const pictures = await drawn() - before;
+  assert.ok(pictures >= events / 6, `${pictures} pictures of ${events} wishes`);
+  await page.locator('#lambda').dispatchEvent('change');
+  await settled(page);
+  await fine();
 }, { arrangement: 'space' });

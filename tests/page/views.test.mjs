@@ -221,7 +221,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
     await page.mouse.move(drawn.x + (i / 12) * drawn.width, drawn.y + 0.4 * drawn.height);
     read.add((await page.locator('#flat-reading').innerText()).trim());
   }
-  assert.match([...read].join('|'), /Sheet \d+, [\d.]+ × [\d.]+ mm/);
+  assert.match([...read].join('|'), /Sheet \d+, [\d.]+ × [\d.]+ mm · strain [+−]?[\d.]+(\S*10\S+)?\s%/);
 
   await page.locator('#end-sheets').click();
   await page.locator('.preview[aria-busy="false"] img').waitFor();
@@ -240,7 +240,7 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await side.fill(String(2 * Number(await side.inputValue())));
   await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor();
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
-  await page.locator('.sheets select').selectOption('a4');
+  await page.locator('.sheets label', { hasText: /^Paper/ }).locator('select').selectOption('a4');
   const pdf = await saveAs(page, 'PDF');
   assert.equal(pdf.bytes.toString('latin1', 0, 5), '%PDF-');
   await page.locator('#end-sheets').click();

@@ -50,11 +50,16 @@ export class Flattening {
     return next;
   }
 
-  /** @param {Wish} wish */
-  whole({ photo, traces, text, options }) {
-    const { width, height, data, film35 } = photo;
-    return this.worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, text, 1), { ...options, map: false });
-  }
+}
+
+/**
+ * All pixels of the photo.
+ * @param {InstanceType<Api['DevelopableWorker']>} worker
+ * @param {Wish} wish
+ */
+export function whole(worker, { photo, traces, text, options }) {
+  const { width, height, data, film35 } = photo;
+  return worker.dewarpPage({ width, height, data, film35 }, edgesOf(traces, text, 1), { ...options, map: false });
 }
 
 /**

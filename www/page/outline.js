@@ -50,11 +50,15 @@ export class Outline {
     return Outline.between([at(0.15, 0.15), at(0.85, 0.15)], [at(0.15, 0.85), at(0.85, 0.85)]);
   }
 
+  /** What another one was made of. @param {Pick<Outline, 'edges' | 'sideways'>} parts */
+  static of({ edges: [first, second], sideways }) {
+    const made = new Outline([first.map((node) => ({ ...node })), second.map((node) => ({ ...node }))]);
+    made.sideways = sideways;
+    return made;
+  }
+
   copy() {
-    const [first, second] = this.edges;
-    const copy = new Outline([first.map((node) => ({ ...node })), second.map((node) => ({ ...node }))]);
-    copy.sideways = this.sideways;
-    return copy;
+    return Outline.of(this);
   }
 
   get pages() {

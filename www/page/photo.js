@@ -1,9 +1,9 @@
 /** A photo that was opened: its pixels once, and a reduced copy of them to show and to look for edges in. */
-import { drawn, pixelsOf } from '../pixels.js';
-import { greyOf } from './grey.js';
+import { pixelsOf, reducedPhoto } from '../pixels.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {Grey} from './grey.js' */
+/** @import {Outline} from './outline.js' */
 
 /** Pixels along the longer side of the reduced copy, at most. */
 const SMALL = 1280;
@@ -17,6 +17,7 @@ const SMALL = 1280;
  * @property {number} [film35] focal length as for a film of 36 by 24 mm, where its file tells it
  * @property {ImageData} small
  * @property {Grey} grey the same, whose `scale` is its pixels for one of the photo
+ * @property {{ edges: Outline['edges'], sideways: boolean } | null} outline of a page, if one is beyond doubt
  */
 
 /**
@@ -40,9 +41,6 @@ export async function openPhoto(worker, file) {
  */
 export async function photoOf({ width, height, data, film35 }, name) {
   if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
-  const scale = Math.min(1, SMALL / Math.max(width, height));
-  const bitmap = await createImageBitmap(new ImageData(data, width, height));
-  const small = drawn(bitmap, width * scale, height * scale);
-  bitmap.close();
-  return { name, width, height, data, film35, small, grey: greyOf(small, scale) };
+  const { small, grey, outline } = await reducedPhoto({ width, height, data }, Math.min(1, SMALL / Math.max(width, height)));
+  return { name, width, height, data, film35, small, grey, outline };
 }

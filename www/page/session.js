@@ -1,6 +1,5 @@
 /** What the photo's side of the page is about, without its elements: a photo, the outline of the page in it, what is known. */
 import { Events } from '../events.js';
-import { suggested } from './detect.js';
 import { Flattening } from './flatten.js';
 import { gutterOf } from './gutter.js';
 import { rescaled } from './grey.js';
@@ -80,7 +79,7 @@ export class PageSession extends Events {
 
   /** @param {PagePhoto} photo @param {number} pages */
   #begin(photo, pages) {
-    this.outline = suggested(photo.grey) ?? Outline.within(photo);
+    this.outline = photo.outline ? Outline.of(photo.outline) : Outline.within(photo);
     if (pages === 2) this.#divide(photo);
   }
 
@@ -203,11 +202,6 @@ export class PageSession extends Events {
       if (Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) >= SHORT * photo.width) text[this.#leaf(ends)].push(points);
     }
     return { photo, traces: this.#traces(photo), text, options: { ...options, findLines: finding } };
-  }
-
-  /** @param {Wish} wish */
-  whole(wish) {
-    return this.#flattening.whole(wish);
   }
 
   /** @param {DewarpedPage} flat @param {Wish} wish */

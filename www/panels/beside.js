@@ -1,15 +1,17 @@
 /** Images of what is known besides the heights: how far they are to be trusted, and what must be met. */
+import { apart, readingOf } from '../apart.js';
 import { choosesFile, element } from '../dom.js';
+import { keepSmall } from '../surface/known.js';
+import { handOver } from '../surface/work.js';
 
 /** @import {Input, Session} from '../session.js' */
-/** @typedef {Awaited<ReturnType<Session['api']['read']>>} Image */
 
 /** @param {Session} session */
 export function besidePanel(session) {
   const panel = element('beside', HTMLElement);
   const rows = [
-    imageRow(session, 'confidence', (image) => ({ confidence: confidenceOf(image) })),
-    imageRow(session, 'constraints', (image) => ({ constraints: constraintsOf(image) })),
+    imageRow(session, 'confidence', 'confidenceOf'),
+    imageRow(session, 'constraints', 'constraintsOf'),
   ];
   session.on('input', (input) => {
     // A design is all constraints, and a mesh has no pixels.
@@ -22,9 +24,9 @@ export function besidePanel(session) {
  * A button to open an image, its name, and a button to do without it.
  * @param {Session} session
  * @param {'confidence' | 'constraints'} what
- * @param {(image: Image) => Partial<Pick<Input, 'confidence' | 'constraints'>>} take
+ * @param {'confidenceOf' | 'constraintsOf'} task by which it is understood
  */
-function imageRow(session, what, take) {
+function imageRow(session, what, task) {
   const file = element(`${what}-file`, HTMLInputElement);
   const open = element(`${what}-open`, HTMLButtonElement);
   const drop = element(`${what}-drop`, HTMLButtonElement);
@@ -39,37 +41,21 @@ function imageRow(session, what, take) {
   choosesFile(open, file, async (chosen) => {
     const { input } = session;
     if (!input) return;
-    try {
-      const image = await session.api.read(chosen);
-      if (session.input !== input) return;
+    const found = await session.obtain(`“${chosen.name}” could not be used`, async (signal) => {
+      const image = await apart(session.api, signal, (reader) => reader.read(chosen));
       if (image.width !== input.width || image.height !== input.height) {
         throw new Error(`it is ${image.width} × ${image.height} pixels, and the heights are ${input.width} × ${input.height}`);
       }
-      opened = chosen.name;
-      session.amend(take(image));
-    } catch (error) {
-      session.fail(`“${chosen.name}” could not be used`, error);
-    }
+      return handOver(task, [image.data], image);
+    }, readingOf(chosen));
+    if (!found || session.input !== input) return;
+    opened = chosen.name;
+    keepSmall(found.values, found.small);
+    session.amend({ [what]: found.values });
   });
   return (/** @type {Input} */ input) => {
     const there = input[what] !== undefined;
     drop.hidden = !there;
     name.textContent = there ? opened || 'by hand' : hint;
   };
-}
-
-/** White is 1; other numbers than whole ones are taken as they are. @param {Image} image */
-function confidenceOf({ data, dataType }) {
-  const [, bits] = /^u(\d+)$/.exec(dataType) ?? [];
-  const largest = bits ? 2 ** Number(bits) - 1 : 1;
-  const confidence = data.map((value) => (Number.isNaN(value) ? 0 : value / largest));
-  if (confidence.some((value) => value < 0)) throw new Error('it has values below 0');
-  return confidence;
-}
-
-/** @param {Image} image */
-function constraintsOf({ data }) {
-  const constraints = data.map((value) => (value === 0 ? NaN : value));
-  if (constraints.every(Number.isNaN)) throw new Error('it holds nothing: every pixel is 0 or “no data”');
-  return constraints;
 }

@@ -1,23 +1,18 @@
 /** The flat page beside its photo: what it is worth in words, its figures, and its files. */
-import { download, element, elements } from '../dom.js';
+import { element } from '../dom.js';
 import { degrees, number, percent } from '../format.js';
+import { whole } from '../page/flatten.js';
 import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
 import { pageErrors, pageVerdict } from '../words.js';
-import { showFailure } from './notice.js';
+import { offerToSave } from './save-dialog.js';
 
 /** @import {Api} from '../api.js' */
+/** @import {Worker} from '../apart.js' */
 /** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
-
-/** Kinds of files by their endings. @type {Record<string, { type: string, format: 'png' | 'jpeg' | 'pdf' }>} */
-const FILES = {
-  png: { type: 'image/png', format: 'png' },
-  jpg: { type: 'image/jpeg', format: 'jpeg' },
-  pdf: { type: 'application/pdf', format: 'pdf' },
-};
 
 /**
  * @param {Api} api
@@ -32,15 +27,14 @@ export function pageResultPanel(api, session, goOn) {
   const detail = element('flat-detail', HTMLElement);
   const about = element('flat-about', HTMLElement);
   const caption = element('flat-caption', HTMLElement);
-  const buttons = elements('button[data-flat]', HTMLButtonElement);
-  const pdf = element('flat-pdf', HTMLButtonElement);
+  const save = element('page-save', HTMLButtonElement);
   const surface = element('flat-surface', HTMLButtonElement);
   /** @type {DewarpedPage | null} */
   let shown = null;
 
   /** @param {boolean} ready */
   const enable = (ready) => {
-    for (const button of [...buttons, surface]) button.disabled = !ready;
+    save.disabled = surface.disabled = !ready;
   };
   session.on('photo', () => {
     shown = null;
@@ -62,8 +56,6 @@ export function pageResultPanel(api, session, goOn) {
     detail.textContent = pageErrors(report);
     about.replaceChildren(figures(factsOf(flat, session.photo?.grey.scale ?? 1)));
     enable(true);
-    pdf.disabled = flat.unit !== 'mm';
-    pdf.title = flat.unit === 'mm' ? 'In true size' : 'Of what size it is, a page format or a ruler would say';
   });
   session.on('problem', (error) => {
     shown = null;
@@ -77,22 +69,30 @@ export function pageResultPanel(api, session, goOn) {
     enable(false);
   });
 
-  for (const button of buttons) {
-    const { type, format } = FILES[button.dataset.flat ?? 'png'];
-    button.addEventListener('click', async () => {
-      const wish = session.wish();
-      if (!wish || !shown || button.getAttribute('aria-busy') === 'true') return;
-      button.setAttribute('aria-busy', 'true');
-      try {
-        const file = await api.writePhoto(await session.whole(wish), { format });
-        download(file, type, `${wish.photo.name}-flat.${button.dataset.flat}`);
-      } catch (error) {
-        showFailure('The flat page could not be written', error);
-      } finally {
-        button.setAttribute('aria-busy', 'false');
-      }
+  save.addEventListener('click', () => {
+    const wish = session.wish();
+    if (!wish || !shown) return;
+    /** With all pixels of the photo: made once for all formats. @type {DewarpedPage | null} */
+    let flat = null;
+    /** @param {'png' | 'jpeg' | 'pdf'} format */
+    const written = (format) => async (/** @type {Worker} */ worker) => {
+      flat ??= await whole(worker, wish);
+      return worker.writePhoto(flat, { format });
+    };
+    offerToSave(api, {
+      title: 'Flat page',
+      stem: `${wish.photo.name}-flat`,
+      size: wish.photo.width * wish.photo.height,
+      formats: [
+        { value: 'png', name: 'PNG', words: 'nothing is lost', type: 'image/png', write: written('png') },
+        { value: 'jpg', name: 'JPEG', words: 'a smaller file', type: 'image/jpeg', write: written('jpeg') },
+        {
+          value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf', write: written('pdf'),
+          without: shown.unit === 'mm' ? undefined : 'of what size it is, a page format or a ruler would say',
+        },
+      ],
     });
-  }
+  });
   surface.addEventListener('click', () => {
     if (shown) goOn(shown, session.photo?.name ?? 'page');
   });

@@ -1,4 +1,5 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
+import { readingOf } from '../apart.js';
 import { choosesFile, element } from '../dom.js';
 import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
@@ -70,14 +71,10 @@ export function photoPanel(session, analyses, changed) {
   choosesFile(open, file, async (chosen) => {
     const { result } = session;
     if (!result) return;
-    try {
-      const read = await pixelsOf(chosen);
-      if (session.input !== result.input) return;
-      use(chosen.name, read);
-      changed();
-    } catch (error) {
-      session.fail(`“${chosen.name}” could not be used`, error);
-    }
+    const read = await session.obtain(`“${chosen.name}” could not be used`, () => pixelsOf(chosen), readingOf(chosen));
+    if (!read || session.input !== result.input) return;
+    use(chosen.name, read);
+    changed();
   });
   dots.addEventListener('change', () => {
     const sound = dots.value === '' || dots.valueAsNumber > 0;

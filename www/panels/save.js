@@ -1,6 +1,7 @@
 /** What to do with the result, one click each: a 3D file, sheets to cut out, a flat photo. */
 import { element } from '../dom.js';
 import { shortest } from '../format.js';
+import { handySide, piecesOf } from '../pieces.js';
 import { resultImage } from '../surface/known.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -8,6 +9,7 @@ import { offerSheets } from './sheets.js';
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Api} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */
+/** @import {Cutter} from './sheets.js' */
 
 /**
  * @param {Session} session
@@ -21,7 +23,8 @@ export function savePanel(session, analyses, choose) {
     if (session.result) offerFile(session.api, session.result);
   });
   sheets.addEventListener('click', () => {
-    if (session.result) offerSheets(session.api, session.result, analyses, fileStem(session.result));
+    const { result } = session;
+    if (result) offerSheets(session.api, cutterOf(result, analyses));
   });
   photo.addEventListener('click', () => {
     choose('dewarped');
@@ -58,6 +61,18 @@ function offerFile(api, result) {
       { value: 'npy', name: 'NPY', words: 'heights as 64-bit floats, for NumPy', type: 'application/octet-stream', write: (worker) => worker.writeNpy(image()) },
     ],
   });
+}
+
+/** @param {Result} result @param {Analyses} analyses @returns {Cutter} */
+function cutterOf(result, analyses) {
+  return {
+    stem: fileStem(result),
+    size: result.surface.heights.length,
+    side: handySide(result),
+    cut: (options) => piecesOf(analyses, result, options),
+    svg: (drawing) => analyses.svg(drawing),
+    stop: () => analyses.stop(),
+  };
 }
 
 /** @param {Result} result */

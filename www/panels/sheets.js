@@ -1,14 +1,13 @@
 /** The result as sheets to cut out: how large, on what paper, with tabs or without; looked at, then saved. */
 import { make } from '../dom.js';
-import { piecesInFigures, piecesInWords, piecesOf, handySide, previewOf } from '../pieces.js';
+import { piecesInFigures, piecesInWords, previewOf } from '../pieces.js';
 import { plainly } from '../plain.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
 
-/** @import {Analyses} from '../analyses.js' */
 /** @import {Api} from '../api.js' */
-/** @import {Result} from '../session.js' */
+/** @import {Cut} from '../pieces.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Depth of tabs in millimetres, at first. */
@@ -19,19 +18,48 @@ const EACH = 0.02;
 const REST = 300;
 
 /** What was chosen last, for the next time. */
-const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS };
+const chosen = { paper: /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', tabs: true, depth: TABS, metal: false, thickness: 1, kFactor: 0.44 };
+
+/**
+ * What is cut, and how.
+ * @typedef {object} Cutter
+ * @property {string} stem of the file's name
+ * @property {number} size vertices
+ * @property {number} side how long the longer side is to be at first, in millimetres
+ * @property {(options: Cut) => Promise<Drawing>} cut
+ * @property {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
+ * @property {() => void} stop what is still being cut
+ */
 
 /**
  * @param {Api} api
- * @param {Result} result
- * @param {Analyses} analyses
- * @param {string} stem of the file's name
+ * @param {Cutter} cutter
  */
-export function offerSheets(api, result, analyses, stem) {
-  const side = numberField(handySide(result), 10, 5000);
+export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
+  const side = numberField(handy, 10, 5000);
   const depth = numberField(chosen.depth, 1, 50);
   const tabs = make('input', '');
   Object.assign(tabs, { type: 'checkbox', checked: chosen.tabs });
+  const metal = make('select', '', new Option('card or paper', ''), new Option('sheet metal', 'metal'));
+  metal.value = chosen.metal ? 'metal' : '';
+  const thickness = numberField(chosen.thickness, 0.05, 20);
+  const radius = numberField(NaN, 0, 100);
+  Object.assign(radius, { required: false, placeholder: 'as the thickness' });
+  const kFactor = numberField(chosen.kFactor, 0.1, 0.9);
+  const forCard = [make('label', 'check', tabs, 'Tabs to glue'), make('label', 'field', 'Depth of the tabs, in mm', depth)];
+  const forMetal = [
+    make('label', 'field', 'Thickness, in mm', thickness),
+    make('label', 'field', 'Inner radius of bends, in mm', radius),
+    make('label', 'field', 'K-factor: where the neutral line is', kFactor),
+  ];
+  /** @returns {Cut} */
+  const wish = () => (metal.value
+    ? { side: side.valueAsNumber, thickness: thickness.valueAsNumber, innerRadius: radius.value === '' ? undefined : radius.valueAsNumber, kFactor: kFactor.valueAsNumber }
+    : { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined });
+  const suit = () => {
+    for (const field of forCard) field.hidden = metal.value !== '';
+    for (const field of forMetal) field.hidden = metal.value === '';
+  };
   const paper = make('select', '', new Option('A4', 'a4'), new Option('Letter', 'letter'), new Option('one large page', ''));
   paper.value = chosen.paper;
   const preview = make('div', 'preview');
@@ -42,7 +70,7 @@ export function offerSheets(api, result, analyses, stem) {
   const waiting = waitingPanel(panel, () => {
     drawing = Promise.reject(new Error('it was cancelled'));
     drawing.catch(() => {});
-    analyses.stop();
+    stop();
     waiting.end();
     preview.setAttribute('aria-busy', 'false');
     words.textContent = 'Cancelled.';
@@ -54,24 +82,24 @@ export function offerSheets(api, result, analyses, stem) {
   Object.assign(again, { type: 'button', hidden: true });
   again.addEventListener('click', () => void draw());
   const about = make('div', '');
-  const slow = { words: 'Cutting it into sheets', kind: 'sheets', size: result.surface.heights.length, each: EACH };
+  const slow = { words: 'Cutting it into sheets', kind: 'sheets', size, each: EACH };
   /** @type {Promise<Drawing>} */
   let drawing = Promise.reject(new Error('nothing is drawn yet'));
   drawing.catch(() => {});
 
   const draw = async () => {
-    const sound = [side, depth].every((field) => field.reportValidity());
+    const sound = [side, ...(metal.value ? [thickness, radius, kFactor] : [depth])].every((field) => field.reportValidity());
     if (!sound) return;
-    Object.assign(chosen, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber });
+    Object.assign(chosen, { paper: paper.value, tabs: tabs.checked, depth: depth.valueAsNumber, metal: metal.value !== '', thickness: thickness.valueAsNumber, kFactor: kFactor.valueAsNumber });
     depth.disabled = !tabs.checked;
     words.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
     waiting.begin(slow);
-    const wanted = (drawing = piecesOf(analyses, result, { side: side.valueAsNumber, tabs: tabs.checked ? depth.valueAsNumber : undefined }));
+    const wanted = (drawing = cut(wish()));
     offer.renew();
     try {
-      const image = await previewOf(analyses, await wanted);
+      const image = await previewOf(svg, await wanted);
       if (wanted !== drawing) return;
       const made = await wanted;
       waiting.end(slow);
@@ -91,7 +119,9 @@ export function offerSheets(api, result, analyses, stem) {
     }
   };
   let rest = 0;
-  for (const field of [side, depth, tabs]) {
+  metal.addEventListener('change', suit);
+  suit();
+  for (const field of [side, depth, tabs, metal, thickness, radius, kFactor]) {
     field.addEventListener('input', () => {
       clearTimeout(rest);
       rest = window.setTimeout(() => void draw(), REST);
@@ -105,10 +135,10 @@ export function offerSheets(api, result, analyses, stem) {
   const offer = offerToSave(api, {
     title: 'Cut-out sheets',
     stem: `${stem}-sheets`,
-    size: result.surface.heights.length,
+    size,
     ready: () => drawing,
     // What is still being cut would hold up the next question.
-    closed: () => analyses.stop(),
+    closed: stop,
     extra: [make('div', 'sheets',
       preview,
       make('div', 'sheets-options',
@@ -117,8 +147,9 @@ export function offerSheets(api, result, analyses, stem) {
         again,
         make('label', 'field', 'Longer side of the finished piece, in mm', side),
         make('label', 'field', 'Paper', paper),
-        make('label', 'check', tabs, 'Tabs to glue'),
-        make('label', 'field', 'Depth of the tabs, in mm', depth),
+        make('label', 'field', 'Material', metal),
+        ...forCard,
+        ...forMetal,
         about))],
     formats: [
       { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
@@ -130,9 +161,9 @@ export function offerSheets(api, result, analyses, stem) {
   void draw();
 }
 
-/** @param {number} value @param {number} min @param {number} max */
+/** @param {number} value none where it is NaN @param {number} min @param {number} max */
 function numberField(value, min, max) {
   const field = make('input', '');
-  Object.assign(field, { type: 'number', value: String(value), min: String(min), max: String(max), step: 'any', required: true });
+  Object.assign(field, { type: 'number', value: Number.isNaN(value) ? '' : String(value), min: String(min), max: String(max), step: 'any', required: true });
   return field;
 }

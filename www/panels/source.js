@@ -109,16 +109,11 @@ export function sourcePanel(session, { choose, usePhoto }, opened) {
       showNotice(`“${file.name}” is a photo. Open the heights or depths that it shows, and it is laid on them; a photo of a page alone is made flat under “A photo of a page”.`);
       return true;
     }
-    try {
-      const image = await pixelsOf(file);
-      if (session.input !== input) return false;
-      if (result) usePhoto(file.name, image);
-      else session.amend({ photo: { name: file.name, image } });
-      return true;
-    } catch (error) {
-      session.fail(`“${file.name}” could not be used`, error);
-      return false;
-    }
+    const image = await session.obtain(`“${file.name}” could not be used`, () => pixelsOf(file), readingOf(file));
+    if (!image || session.input !== input) return false;
+    if (result) usePhoto(file.name, image);
+    else session.amend({ photo: { name: file.name, image } });
+    return true;
   };
 
   /** @param {number} step */

@@ -4,7 +4,7 @@ import { number, readingOf, strainInWords } from '../format.js';
 import { valueOnMesh } from '../surface/anchors.js';
 import { Camera } from '../surface/camera.js';
 import { takeInHand } from '../surface/hands.js';
-import { inputNormals, resultImage, resultNormals } from '../surface/known.js';
+import { inputNormals, resultImage, resultNormals, takenTexels } from '../surface/known.js';
 import { gridOf } from '../surface/lattice.js';
 import { normalsOf } from '../surface/normals.js';
 import { boxAround, boxOf, clamp, heightOn, lengthsOf, pointsOf, reliefOf } from '../surface/relief.js';
@@ -239,7 +239,7 @@ export function spacePanel(session, light) {
     if (!space) return;
     // A design that is being changed by hand is looked at from where it was.
     if (!input.drawn || session.phase !== 'running') camera.box = boxOf(input);
-    space.show('before', reliefOf(input, inputNormals(input), input.data, input.heightScale));
+    space.show('before', reliefOf(input, inputNormals(input), input.data, input.heightScale, takenTexels(input)));
     left.textContent = input.design ? '' : 'Input';
     cover();
   });
@@ -260,7 +260,7 @@ export function spacePanel(session, light) {
       drawSoon();
       return;
     }
-    space.show('after', reliefOf(result.input, resultNormals(result), resultImage(result).data, 1));
+    space.show('after', reliefOf(result.input, resultNormals(result), resultImage(result).data, 1, takenTexels(result)));
     right.textContent = result.surface.report.stopReason === 'cancelled' ? 'Result · cancelled' : 'Result';
     cover();
   };

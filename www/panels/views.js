@@ -171,9 +171,11 @@ function marksOf(input, torn, style) {
   const held = design ? data : constraints;
   /** @param {string} name @param {(pixel: number) => boolean} has @param {(number: number) => string} words */
   const marks = (name, has, words) => {
-    let number = 0;
-    for (let i = 0; i < width * height; i++) if (has(i)) number++;
-    return { width, height, has, colour: style.getPropertyValue(name).trim(), words: words(number) };
+    /** @type {number[]} */
+    const pixels = [];
+    const count = width * height;
+    for (let i = 0; i < count; i++) if (has(i)) pixels.push(i);
+    return { width, height, pixels, colour: style.getPropertyValue(name).trim(), words: words(pixels.length) };
   };
   const found = [];
   if (confidence) found.push(marks('--mark-doubt', (i) => confidence[i] < 0.5 && !Number.isNaN(data[i]), MARKS.doubted));

@@ -27,6 +27,9 @@ export function assembled(model, scale) {
   };
   /** @type {[number[], number[], number[]]} */
   const [positions, places, triangles] = [[], [], []];
+  /** Which sheet each vertex is of. @type {number[]} */
+  const sheets = [];
+  let sheet = 0;
   for (const [number, { translation, rotation, mesh }] of nodes.entries()) {
     if (mesh === undefined) continue;
     const { attributes, indices, targets } = meshes[mesh].primitives[0];
@@ -36,12 +39,14 @@ export function assembled(model, scale) {
     for (let i = 0; i < flat.length; i += 3) {
       const [x, y] = moved([flat[i], flat[i + 1], flat[i + 2]], rotation, translation);
       places.push(x / scale, y / scale);
+      sheets.push(sheet);
       positions.push(...moved([0, 1, 2].map((k) => flat[i + k] + bends[i + k]), turn, shift).map((value) => value / scale));
     }
     for (const corner of numbers(indices)) triangles.push(first + corner);
+    sheet++;
   }
   const mesh = { positions: Float64Array.from(positions), places: Float64Array.from(places), triangles: Uint32Array.from(triangles) };
-  return { ...mesh, stretches: stretchesOf(mesh) };
+  return { ...mesh, sheets: Uint32Array.from(sheets), stretches: stretchesOf(mesh) };
 }
 
 /**
@@ -93,7 +98,7 @@ function moved([x, y, z], turn, shift) {
  * Singular values of each triangle's map to the plane, the larger one first.
  * @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh
  */
-function stretchesOf({ positions, places, triangles }) {
+export function stretchesOf({ positions, places, triangles }) {
   const stretches = new Float64Array((2 * triangles.length) / 3);
   for (let t = 0; t < triangles.length; t += 3) {
     const [i, j, k] = triangles.subarray(t, t + 3);

@@ -1,15 +1,24 @@
 /** What several panels ask about an input or a result: worked out before they are told of it, once for each. */
 import { gridOf } from './lattice.js';
+import { small } from './look.js';
 import { normalsOf } from './normals.js';
 import { work } from './work.js';
 
 /** @import {Input, Result} from '../session.js' */
+/** @import {Heights} from './coarse.js' */
+/** @import {Look, Texels} from './look.js' */
 /** @import {Normals} from './normals.js' */
 /** @typedef {{ heights: { before: number, after: number }, normals: { before: number, after: number } }} Accuracy */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: Float64Array }} Image */
 
 /** @type {WeakMap<Input, Normals>} */
 const seen = new WeakMap();
+/** The last look at heights, for inputs that differ in something else. @type {WeakMap<ArrayLike<number>, { steepness: number, normals: Normals }>} */
+const looks = new WeakMap();
+/** Until somebody shows them. @type {WeakMap<object, Texels>} */
+const texels = new WeakMap();
+/** Of many pixels, so that they are gone through once. @type {WeakMap<ArrayLike<number>, Heights>} */
+const smalls = new WeakMap();
 /** @type {WeakMap<Float64Array, Promise<{ normals: Normals, heightError: number, normalError: number }>>} */
 const truths = new WeakMap();
 /** @type {WeakMap<Result, { image: Image, normals: Normals, accuracy: Accuracy | null }>} */
@@ -21,7 +30,45 @@ const normalsLike = ({ width, height, heightScale, pixelSize }, heights) =>
 
 /** @param {Input} input */
 export async function lookAt(input) {
-  if (!seen.has(input)) seen.set(input, await normalsLike(input, input.data));
+  if (seen.has(input)) return;
+  const { data, width, height, heightScale, pixelSize } = input;
+  if (looks.get(data)?.steepness !== heightScale / pixelSize) keepLook(input, await work('firstLook', data, width, height, heightScale, pixelSize));
+  const found = looks.get(data);
+  if (found) seen.set(input, found.normals);
+  // Those of the file, which another input may take over.
+  const drawn = texels.get(data);
+  if (drawn) texels.set(input, drawn);
+  texels.delete(data);
+}
+
+/**
+ * What was found about heights as they were read.
+ * @param {Pick<Input, 'data' | 'heightScale' | 'pixelSize'>} input
+ * @param {Look & { small: Heights }} look
+ */
+export function keepLook({ data, heightScale, pixelSize }, { normals, texels: drawn, small: reduced }) {
+  looks.set(data, { steepness: heightScale / pixelSize, normals });
+  texels.set(data, drawn);
+  keepSmall(data, reduced);
+}
+
+/** @param {ArrayLike<number>} values of pixels @param {Heights} reduced */
+export function keepSmall(values, reduced) {
+  smalls.set(values, reduced);
+}
+
+/** What previews are made of. @param {Heights} image */
+export function smallOf(image) {
+  const found = smalls.get(image.data) ?? small(image);
+  smalls.set(image.data, found);
+  return found;
+}
+
+/** Textures of what is shown for the first time. @param {Input | Result} of */
+export function takenTexels(of) {
+  const found = texels.get(of);
+  texels.delete(of);
+  return found;
 }
 
 /** For inputs that are small. @param {Input} input */
@@ -35,7 +82,8 @@ export async function lookInto(result) {
   const { input, surface } = result;
   const image = surface.image ?? await pixelsOf(result);
   const { width, height, pixelSize, data } = image;
-  const normals = await work('normalsOf', data, width, height, 1 / pixelSize);
+  const { normals, texels: drawn } = await work('lookedAt', data, width, height, 1, pixelSize);
+  texels.set(result, drawn);
   results.set(result, { image, normals, accuracy: await accuracy(input, data, normals) });
 }
 

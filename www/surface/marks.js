@@ -4,7 +4,7 @@
  * @typedef {object} Marks
  * @property {number} width
  * @property {number} height
- * @property {(pixel: number) => boolean} has
+ * @property {ArrayLike<number> & Iterable<number>} pixels
  * @property {string} colour
  */
 
@@ -24,12 +24,11 @@ export function markedCanvas(marks, width, height, ratio) {
   canvas.height = height;
   const context = canvas.getContext('2d');
   if (!context) return canvas;
-  for (const { width: cols, height: rows, has, colour } of marks) {
+  for (const { width: cols, height: rows, pixels, colour } of marks) {
     context.fillStyle = colour;
     const [across, down] = [width / cols, height / rows];
     const [w, h] = [Math.max(across, LEAST * ratio), Math.max(down, LEAST * ratio)];
-    for (let i = 0; i < cols * rows; i++) {
-      if (!has(i)) continue;
+    for (const i of pixels) {
       const [x, y] = [(i % cols + 0.5) * across, (Math.floor(i / cols) + 0.5) * down];
       context.fillRect(x - w / 2, y - h / 2, w, h);
     }

@@ -18,8 +18,10 @@ export class MeshView {
   #scene;
   #camera;
   #controls;
-  /** @type {any} */
-  #shown = null;
+  /** What is shown left and right of the divider. @type {any[]} */
+  #shown = [];
+  #divider = 1;
+  #material;
   /** It is not turned by hand now. */
   #looking = false;
   /** The direction at the last change. */
@@ -28,20 +30,23 @@ export class MeshView {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {(view: MeshView) => void} [turned] by hand or by keys
+   * @param {Record<string, unknown>} [material] of surfaces, as three.js has it
    * @throws where there is no WebGL
    */
-  static async on(canvas, turned = () => {}) {
+  static async on(canvas, turned = () => {}, material = {}) {
     const three = await import(new URL('../vendor/three.js', import.meta.url).href);
-    return new MeshView(canvas, three, turned);
+    return new MeshView(canvas, three, turned, material);
   }
 
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {any} three the library, which has no types
    * @param {(view: MeshView) => void} turned
+   * @param {Record<string, unknown>} material
    */
-  constructor(canvas, three, turned) {
+  constructor(canvas, three, turned, material) {
     this.canvas = canvas;
+    this.#material = material;
     this.#three = three;
     this.#renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#scene = new three.Scene();
@@ -72,26 +77,38 @@ export class MeshView {
     this.look([0, 0, -1]);
   }
 
-  /** @param {Mesh} mesh */
-  show({ positions, triangles, colors }) {
-    const three = this.#three;
-    if (this.#shown) {
-      this.#scene.remove(this.#shown);
-      this.#shown.geometry.dispose();
-      this.#shown.material.dispose();
+  /**
+   * @param {Mesh} mesh
+   * @param {Mesh} [after] at the same place, on the other side of the divider
+   */
+  show(mesh, after) {
+    for (const { geometry, material } of this.#shown) {
+      geometry.dispose();
+      material.dispose();
     }
+    this.#scene.remove(...this.#shown);
+    const frame = frameOf(mesh.positions);
+    this.#shown = [mesh, ...(after ? [after] : [])].map((one) => this.#made(one, frame));
+    this.#scene.add(...this.#shown);
+    this.#draw();
+  }
+
+  /** @param {Mesh} mesh @param {Frame} frame */
+  #made({ positions, triangles, colors }, frame) {
+    const three = this.#three;
     const geometry = new three.BufferGeometry();
-    geometry.setAttribute('position', new three.BufferAttribute(centred(positions), 3));
+    geometry.setAttribute('position', new three.BufferAttribute(within(frame, positions), 3));
     if (colors) geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
     const paint = colors ? { vertexColors: true } : { color: 0x9fb2c4 };
-    if (triangles.length > 0) {
-      geometry.setIndex(new three.BufferAttribute(triangles, 1));
-      geometry.computeVertexNormals();
-      this.#shown = new three.Mesh(geometry, new three.MeshLambertMaterial({ ...paint, side: three.DoubleSide }));
-    } else {
-      this.#shown = new three.Points(geometry, new three.PointsMaterial({ ...paint, size: 2, sizeAttenuation: false }));
-    }
-    this.#scene.add(this.#shown);
+    if (triangles.length === 0) return new three.Points(geometry, new three.PointsMaterial({ ...paint, size: 2, sizeAttenuation: false }));
+    geometry.setIndex(new three.BufferAttribute(triangles, 1));
+    geometry.computeVertexNormals();
+    return new three.Mesh(geometry, new three.MeshLambertMaterial({ ...paint, ...this.#material, side: three.DoubleSide }));
+  }
+
+  /** @param {number} share of the canvas that shows what was before */
+  divide(share) {
+    this.#divider = share;
     this.#draw();
   }
 
@@ -122,20 +139,31 @@ export class MeshView {
     const up = SEEN * Math.max(1, height / width);
     Object.assign(this.#camera, { left: -across, right: across, top: up, bottom: -up });
     this.#camera.updateProjectionMatrix();
-    this.#renderer.render(this.#scene, this.#camera);
+    const line = this.#shown.length > 1 ? Math.round(this.#divider * width) : width;
+    this.#renderer.setScissorTest(true);
+    for (const [i, from, to] of [[0, 0, line], [1, line, width]]) {
+      if (to <= from) continue;
+      this.#shown.forEach((one, which) => (one.visible = which === i));
+      this.#renderer.setScissor(from, 0, to - from, height);
+      this.#renderer.render(this.#scene, this.#camera);
+    }
   }
 }
 
-/**
- * Moved and scaled into the ball that is seen: 32-bit floats are enough for that.
- * @param {Float64Array} positions
- */
-function centred(positions) {
+/** @typedef {{ middle: number[], scale: number }} Frame into the ball that is seen */
+
+/** @param {Float64Array} positions @returns {Frame} */
+function frameOf(positions) {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   positions.forEach((value, i) => {
     low[i % 3] = Math.min(low[i % 3], value);
     high[i % 3] = Math.max(high[i % 3], value);
   });
   const scale = (2 * RADIUS) / (Math.hypot(...low.map((value, k) => high[k] - value)) || 1);
-  return Float32Array.from(positions, (value, i) => (value - (low[i % 3] + high[i % 3]) / 2) * scale);
+  return { middle: low.map((value, k) => (value + high[k]) / 2), scale };
+}
+
+/** Moved and scaled: 32-bit floats are enough for that. @param {Frame} frame @param {Float64Array} positions */
+function within({ middle, scale }, positions) {
+  return Float32Array.from(positions, (value, i) => (value - middle[i % 3]) * scale);
 }

@@ -1,6 +1,7 @@
 /** What views show as colours: pixels as the canvas' bytes, 0 where there is nothing. */
 import { divergingPixel, logarithmic, magnitude } from './colours.js';
 import { interpolated, nearest } from './lattice.js';
+import { assembled, stretchesOf } from './assembled.js';
 import { extentOf, fillTriangles } from './triangles.js';
 import { strainOf } from './unfolding.js';
 
@@ -61,4 +62,41 @@ export function sheetPixels(triangles, places, stretches) {
   read.strains = new Float32Array(read.width * read.height).fill(NaN);
   fillTriangles(read, triangles, onImage.map((value) => value / READ), (pixel, triangle) => (read.strains[pixel] = strains[triangle]));
   return { extent, most, width, height, pixels, read };
+}
+
+/** The same of a mesh laid flat. @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh */
+export function flatPixels(mesh) {
+  return sheetPixels(mesh.triangles, mesh.places, stretchesOf(mesh));
+}
+
+/**
+ * The strain of a drawing's sheets, in colours and as numbers, at its places.
+ * @param {Uint8Array} model the drawing's assembly, in metres
+ * @param {{ width: number, height: number, bounds: readonly (readonly [readonly [number, number], readonly [number, number]])[] }} drawing
+ *   in millimetres, `bounds` those of its sheets
+ */
+export function drawnStrains(model, { width: wide, height: high, bounds }) {
+  const { places, triangles, sheets, stretches } = assembled(model, 1 / 1000);
+  const middles = bounds.map(() => [Infinity, Infinity, -Infinity, -Infinity]);
+  sheets.forEach((sheet, i) => {
+    const [x, y, box] = [places[2 * i], places[2 * i + 1], middles[sheet]];
+    middles[sheet] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
+  });
+  const dots = SHEET / Math.max(wide, high);
+  const [width, height] = [Math.ceil(wide * dots), Math.ceil(high * dots)];
+  const onImage = places.map((value, i) => {
+    const [k, box, [low, most]] = [i % 2, middles[sheets[i >> 1]], bounds[sheets[i >> 1]]];
+    const place = value + (low[k] + most[k] - box[k] - box[k + 2]) / 2;
+    return (k === 0 ? place : high - place) * dots;
+  });
+  const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => strainOf(stretches, t));
+  const most = Math.max(FAINTEST, magnitude([strains], 0.99));
+  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / most));
+  const pixels = new Uint32Array(width * height);
+  const values = new Float32Array(width * height).fill(NaN);
+  fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => {
+    pixels[pixel] = colours[triangle];
+    values[pixel] = strains[triangle];
+  });
+  return { width, height, pixels, values, most };
 }

@@ -6,10 +6,12 @@
 const LEVELS = [
   { density: 2, cells: 400 },
   { density: 1, cells: 320 },
-  { density: 0.7, cells: 160 },
+  { density: 1, cells: 160 },
   { density: 0.5, cells: 96 },
   { density: 0.35, cells: 64 },
 ];
+/** Of what rests, at least: nobody waits for the next picture, but the page should not be held up by it either. */
+const RESTING = 2;
 /** Milliseconds that a picture may take, and below which a finer one is tried. */
 const MOST = 24;
 const LITTLE = 7;
@@ -18,8 +20,9 @@ const EVERY = 12;
 
 export class Quality {
   // From below: what is too much would be felt.
-  #level = 3;
+  #moving = 3;
   #drawn = 0;
+  #resting = false;
   #measuring = false;
   #finer;
 
@@ -28,14 +31,18 @@ export class Quality {
     this.#finer = finer;
   }
 
-  /** @returns {Level} */
+  get #level() {
+    return this.#resting ? Math.min(RESTING, this.#moving) : this.#moving;
+  }
+
+  /** @returns {Level} of the next picture */
   get level() {
     return LEVELS[this.#level];
   }
 
-  /** The next picture is measured: nothing else is going on. */
+  /** The next picture stays for a while: nothing else is going on. */
   rest() {
-    this.#drawn = 1;
+    this.#resting = true;
   }
 
   /**
@@ -44,25 +51,31 @@ export class Quality {
    * @param {() => Promise<void>} finished when it is drawn
    */
   draw(draw, finished) {
-    const measured = this.#drawn++ % EVERY < 2 && !this.#measuring;
+    const [level, resting] = [this.#level, this.#resting];
+    // The first picture is also when shaders are made ready.
+    const measured = (resting || this.#drawn % EVERY === 1) && this.#drawn > 0 && !this.#measuring;
+    this.#drawn++;
     const start = performance.now();
     draw();
-    if (measured) void this.#measure(start, finished());
+    this.#resting = false;
+    if (measured) void this.#measure(level, resting, start, finished());
   }
 
-  /** @param {number} start @param {Promise<void>} finished */
-  async #measure(start, finished) {
-    // The first picture is also when shaders are made ready.
-    const first = this.#drawn === 1;
+  /**
+   * @param {number} level of the picture
+   * @param {boolean} resting
+   * @param {number} start
+   * @param {Promise<void>} finished
+   */
+  async #measure(level, resting, start, finished) {
     this.#measuring = true;
     await finished;
     this.#measuring = false;
     const time = performance.now() - start;
-    if (time > MOST) this.#level = Math.min(LEVELS.length - 1, this.#level + 1);
-    else if (time < LITTLE && !first && this.#level > 0) {
-      this.#level--;
-      this.#drawn = 0;
-      this.#finer();
-    }
+    if (time < LITTLE && level > 0) {
+      this.#moving = level - 1;
+      if (resting) this.#finer();
+    } else if (time < MOST) this.#moving = Math.min(level, this.#moving);
+    else if (!resting) this.#moving = Math.min(LEVELS.length - 1, level + 1);
   }
 }

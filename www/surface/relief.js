@@ -7,6 +7,7 @@ import { extentOf } from './triangles.js';
 /** @import {Box} from './camera.js' */
 /** @import {Line} from './layer.js' */
 /** @import {Marks} from './marks.js' */
+/** @import {Texels} from './look.js' */
 /** @import {Normals} from './normals.js' */
 /** @import {Relief, Sheet} from './space.js' */
 
@@ -35,11 +36,12 @@ export function clamp(value) {
  * @param {Normals} normals
  * @param {ArrayLike<number>} heights
  * @param {number} heightScale
+ * @param {Texels} [texels]
  * @returns {Relief}
  */
-export function reliefOf(input, normals, heights, heightScale) {
+export function reliefOf(input, normals, heights, heightScale, texels) {
   const { width, height, pixelSize, left, top } = gridOf(input);
-  return { normals, heights, heightScale, extent: { left, top, width: width * pixelSize, height: height * pixelSize } };
+  return { normals, heights, heightScale, texels, extent: { left, top, width: width * pixelSize, height: height * pixelSize } };
 }
 
 /** @param {Relief} relief @param {number} x @param {number} y */
@@ -93,13 +95,13 @@ export function pointsOf(marks, input) {
   const { left, top, pixelSize } = gridOf(input);
   /** @type {Line[]} */
   const points = [];
-  for (const { width, height, has, colour } of marks) {
+  for (const { width, pixels, colour } of marks) {
     /** @param {number} at */
     const byte = (at) => Number.parseInt(colour.slice(at, at + 2), 16);
     const rgb = /** @type {const} */ ([byte(1), byte(3), byte(5)]);
-    for (let i = 0; i < width * height; i++) {
+    for (const i of pixels) {
       const z = input.data[i] * input.heightScale;
-      if (!has(i) || Number.isNaN(z)) continue;
+      if (Number.isNaN(z)) continue;
       const place = /** @type {const} */ ([left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize, z]);
       points.push({ points: [place], colour: rgb, width: MARK });
     }

@@ -1,15 +1,16 @@
 /** Surfaces in space, drawn by WebGL 2: heights and normals are textures, so that no mesh is made of them. */
 import { linesAt } from './anchors.js';
 import { finished, Lines, Mesh, programOf, textureOf } from './gl.js';
-import { HOLE, UNIT } from './normals.js';
+import { texelsOf } from './look.js';
 import { Quality } from './quality.js';
-import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceFragment, surfaceVertex } from './shaders.js';
+import { lineFragment, lineVertex, meshFragment, meshVertex, surfaceFragment, surfaceVertex } from './shaders.js';
 
 /** @import {Anchored} from './anchors.js' */
 /** @import {Camera} from './camera.js' */
 /** @import {Program} from './gl.js' */
 /** @import {Light} from './light.js' */
 /** @import {Line} from './layer.js' */
+/** @import {Texels} from './look.js' */
 /** @import {Normals} from './normals.js' */
 
 /**
@@ -18,6 +19,7 @@ import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceF
  * @property {ArrayLike<number>} heights of the same pixels, NaN for none
  * @property {number} heightScale
  * @property {{ left: number, top: number, width: number, height: number }} extent in lengths
+ * @property {Texels} [texels] until they were shown
  */
 
 /**
@@ -31,9 +33,6 @@ import { lineFragment, lineVertex, meshFragment, meshVertex, NO_HEIGHT, surfaceF
  */
 
 /** @typedef {{ relief: Relief, textures: WebGLTexture[], colours: WebGLTexture | null, lines: Lines | null }} Side */
-
-/** Texels along the longer side of a surface. */
-const MOST = 2048;
 
 export class Space {
   #gl;
@@ -69,31 +68,24 @@ export class Space {
   show(side, relief) {
     const gl = this.#gl;
     const old = this.#sides[side];
+    if (old && relief && isSame(old.relief, relief)) {
+      this.#sides[side] = { ...old, relief };
+      return;
+    }
     for (const texture of [...(old?.textures ?? []), old?.colours ?? null]) gl.deleteTexture(texture);
     old?.lines?.dispose();
     if (!relief) {
       this.#sides[side] = null;
       return;
     }
-    const { normals, heights, heightScale } = relief;
-    // No screen shows more, and a larger texture may be refused.
-    const step = Math.ceil(Math.max(normals.width, normals.height) / MOST);
-    const [width, height] = [Math.floor(normals.width / step), Math.floor(normals.height / step)];
-    const { xy } = normals;
-    const values = new Float32Array(width * height);
-    const slopes = new Float32Array(2 * width * height);
-    for (let i = 0; i < values.length; i++) {
-      const from = step === 1 ? i : Math.floor(i / width) * step * normals.width + (i % width) * step;
-      const hole = xy[2 * from] === HOLE;
-      values[i] = hole ? NO_HEIGHT : heights[from] * heightScale;
-      if (hole) continue;
-      slopes[2 * i] = xy[2 * from] / UNIT;
-      slopes[2 * i + 1] = xy[2 * from + 1] / UNIT;
-    }
+    const { normals, heights: all, heightScale } = relief;
+    const { width, height, heights, slopes } = relief.texels ?? texelsOf(normals, all, heightScale);
+    // On the graphics card they are kept.
+    delete relief.texels;
     this.#sides[side] = {
       relief,
       textures: [
-        textureOf(gl, gl.NEAREST, () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, width, height, 0, gl.RED, gl.FLOAT, values)),
+        textureOf(gl, gl.NEAREST, () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, width, height, 0, gl.RED, gl.FLOAT, heights)),
         textureOf(gl, gl.LINEAR, () => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG16F, width, height, 0, gl.RG, gl.FLOAT, slopes)),
       ],
       colours: null,
@@ -232,4 +224,9 @@ export class Space {
     const [c, s] = [Math.cos(2 * camera.tip), Math.sin(2 * camera.tip)];
     gl.uniform3f(at('light'), light.x, c * y + s * z, c * z - s * y);
   }
+}
+
+/** Whether textures of the one show the other. @param {Relief} a @param {Relief} b */
+function isSame(a, b) {
+  return a.heights === b.heights && a.normals === b.normals && a.heightScale === b.heightScale;
 }

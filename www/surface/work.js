@@ -13,7 +13,7 @@ const open = new Map();
  * @template {keyof Tasks} T
  * @param {T} task
  * @param {Parameters<Tasks[T]>} args
- * @returns {Promise<ReturnType<Tasks[T]>>}
+ * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
  */
 export function work(task, ...args) {
   return handOver(task, [], ...args);
@@ -25,7 +25,7 @@ export function work(task, ...args) {
  * @param {T} task
  * @param {readonly { buffer: ArrayBufferLike }[]} arrays
  * @param {Parameters<Tasks[T]>} args
- * @returns {Promise<ReturnType<Tasks[T]>>}
+ * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
  */
 export function handOver(task, arrays, ...args) {
   worker ??= started();

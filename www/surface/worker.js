@@ -1,11 +1,14 @@
 /** The worker in which the page works out what it shows; `work.js` is its other end. */
-import { lookedThrough } from '../understood.js';
+import { confidenceOf, constraintsOf, lookedThrough } from '../understood.js';
 import { photographed } from '../views/print.js';
 import { assembled, bordersOf } from './assembled.js';
 import { meanAngle, rmsError } from './compare.js';
 import { interpolated } from './lattice.js';
+import { hiddenShare } from './hidden.js';
+import { firstLook, lookedAt } from './look.js';
 import { normalsOf } from './normals.js';
-import { labelPixels, sheetPixels, valuePixels } from './pixels.js';
+import { photoAt, pictureOf } from './pictures.js';
+import { drawnStrains, flatPixels, labelPixels, sheetPixels, valuePixels } from './pixels.js';
 import { curvaturesOf, roundness } from './roundness.js';
 import { unfolding } from './unfolding.js';
 
@@ -23,20 +26,24 @@ function unfoldingInPieces(model, scale, most, offset) {
 
 /** What can be asked for, by name. Arrays of an answer are handed over. */
 export const tasks = {
-  curvaturesOf, interpolated, labelPixels, lookedThrough, meanAngle, normalsOf, photographed, rmsError, roundness, sheetPixels,
-  unfolding, unfoldingInPieces, valuePixels,
+  confidenceOf, constraintsOf, curvaturesOf, drawnStrains, firstLook, flatPixels, hiddenShare, interpolated, labelPixels, lookedAt, lookedThrough, meanAngle, normalsOf,
+  photoAt, photographed, pictureOf, rmsError, roundness, sheetPixels, unfolding, unfoldingInPieces, valuePixels,
 };
 
-globalThis.addEventListener('message', ({ data: { id, task, args } }) => {
+globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {
   /** @type {{ id: number, value?: unknown, error?: string }} */
   let answer;
   try {
     const work = /** @type {(...args: unknown[]) => unknown} */ (tasks[/** @type {keyof typeof tasks} */ (task)]);
-    answer = { id, value: work(...args) };
+    answer = { id, value: await work(...args) };
   } catch (error) {
     answer = { id, error: error instanceof Error ? error.message : String(error) };
   }
-  const { value } = answer;
-  const arrays = Object.values(/** @type {object} */ (ArrayBuffer.isView(value) ? { value } : (value ?? {}))).filter(ArrayBuffer.isView);
-  globalThis.postMessage(answer, { transfer: arrays.map(({ buffer }) => buffer) });
+  globalThis.postMessage(answer, { transfer: [...new Set(buffersOf(answer))] });
 });
+
+/** @param {unknown} value @returns {Generator<ArrayBufferLike>} */
+function* buffersOf(value) {
+  if (ArrayBuffer.isView(value)) yield value.buffer;
+  else if (value && Object.getPrototypeOf(value) === Object.prototype) for (const one of Object.values(value)) yield* buffersOf(one);
+}

@@ -1,10 +1,12 @@
 /** What cannot be laid flat whole, as the sheets that it can be cut into. */
 import { make } from '../dom.js';
-import { number } from '../format.js';
-import { CREASE, css, FOLDS } from '../surface/colours.js';
+import { number, signed, strainInWords } from '../format.js';
+import { CREASE, css, FOLDS, linear } from '../surface/colours.js';
+import { canvasOf } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture.js';
+import { work } from '../surface/work.js';
 import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf, strainOf } from '../pieces.js';
-import { figures, key, say } from './legend.js';
+import { colourBar, figures, key, say } from './legend.js';
 import { sheet } from './sheet.js';
 
 /** @import {Analyses} from '../analyses.js' */
@@ -26,9 +28,11 @@ export async function flat(analyses, result) {
   const whole = () => sheet(analyses, result);
   if (verdict !== 'stretched' || !Number.isFinite((await analyses.pieces(result)).count)) return whole();
   // Where no cut helps, the whole with its strain is what there is to see.
-  const drawing = await piecesOf(analyses, result, { side: handySide(result) }).catch(() => null);
+  const drawing = await piecesOf(analyses, result, { side: handySide(result), assembly: true }).catch(() => null);
   if (!drawing) return whole();
-  const image = await previewOf(analyses, drawing);
+  const { width, height } = drawing;
+  const strain = drawing.assembly && await work('drawnStrains', drawing.assembly.model, { width, height, bounds: drawing.sheets.map(({ bounds }) => bounds) });
+  const image = await previewOf((made) => analyses.svg(made), drawing);
   const canvas = document.createElement('canvas');
   const scale = FINE / Math.max(image.naturalWidth, image.naturalHeight);
   Object.assign(canvas, { width: Math.round(image.naturalWidth * scale), height: Math.round(image.naturalHeight * scale) });
@@ -36,6 +40,7 @@ export async function flat(analyses, result) {
   if (!context) return whole();
   context.fillStyle = '#fff';
   context.fillRect(0, 0, canvas.width, canvas.height);
+  if (strain) context.drawImage(canvasOf(strain, strain.pixels), 0, 0, canvas.width, canvas.height);
   context.drawImage(image, 0, 0, canvas.width, canvas.height);
   // Creases are numbered alike only where they were found on the same lattice, and patches left whole.
   const known = analyses.cutsAsItIs(result) && drawing.summary.slits === 0;
@@ -52,10 +57,16 @@ export async function flat(analyses, result) {
   );
   return {
     unfolding,
-    after: imagePicture(canvas, 'Laid flat, in pieces', piecesInWords(drawing), (x, y) => sheetAt(drawing, (x / canvas.width) * drawing.width, (1 - y / canvas.height) * drawing.height)),
+    after: imagePicture(canvas, 'Laid flat, in pieces', piecesInWords(drawing), (x, y) => {
+      const [across, down] = [x / canvas.width, y / canvas.height];
+      const value = strain?.values[Math.floor(down * strain.height) * strain.width + Math.floor(across * strain.width)] ?? NaN;
+      const sheet = sheetAt(drawing, across * width, (1 - down) * height);
+      return sheet && [sheet, strainInWords(value)].filter(Boolean).join(' · ');
+    }),
     about: [
       say(`In one piece it would stretch; cut along its creases it lies flat. ${piecesInWords(drawing)}`),
       ...(folds.size > 0 ? [make('p', 'keys', key(css(CREASE), 'cut'), key(css(FOLDS.mountain), 'folded to a ridge'), key(css(FOLDS.valley), 'folded to a valley'))] : []),
+      ...(strain ? [colourBar('Strain: blue is compressed, red is stretched', linear(strain.most, signed))] : []),
       figures(piecesInFigures(drawing)),
     ],
   };

@@ -1,0 +1,241 @@
+/** A mesh solved whole: before and after in space, what is known of it, and its files. */
+import { element, elements, make } from '../dom.js';
+import { percent } from '../format.js';
+import { handyLength } from '../pieces.js';
+import { plainly } from '../plain.js';
+import { MeshView } from '../surface/mesh-view.js';
+import { PictureView } from '../surface/picture.js';
+import { work } from '../surface/work.js';
+import { Zoom } from '../surface/zoom.js';
+import { gaussian, patches, shaded, sheet, wholeInWords } from '../views/whole.js';
+import { Whole } from '../whole.js';
+import { offerToSave } from './save-dialog.js';
+import { offerSheets } from './sheets.js';
+import { waitingPanel } from './waiting.js';
+
+/** @import {Mesh} from '../api.js' */
+/** @import {Session} from '../session.js' */
+/** @import {MeshSurface} from '../whole.js' */
+/** @import {WholeShown} from '../views/whole.js' */
+
+/** Milliseconds for a vertex, until that was measured. */
+const EACH = 0.1;
+/** Share of a mesh behind what is seen of it, from which on it is better solved whole. */
+const MUCH = 0.1;
+/** Where the viewer looks at first: no side is seen straight. */
+const OBLIQUE = /** @type {const} */ ([-0.5, -0.45, -0.75]);
+/** @type {Record<string, (whole: Whole, mesh: Mesh, surface: MeshSurface) => Promise<WholeShown>>} */
+const VIEWS = { shaded, gaussian, patches, sheet };
+
+/** @param {Session} session */
+export function wholePanel(session) {
+  const side = element('heights-side', HTMLElement);
+  const stage = element('whole', HTMLElement);
+  const canvas = element('whole-canvas', HTMLCanvasElement);
+  const missing = element('whole-missing', HTMLElement);
+  const divider = element('whole-divider', HTMLInputElement);
+  const divided = element('whole-divided', HTMLElement);
+  const verdict = element('whole-verdict', HTMLElement);
+  const detail = element('whole-detail', HTMLElement);
+  const about = element('whole-about', HTMLElement);
+  const hint = element('whole-hint', HTMLElement);
+  const again = element('whole-again', HTMLButtonElement);
+  const reading = element('whole-reading', HTMLElement);
+  const ways = elements('input[name="mesh-way"]', HTMLInputElement);
+  const radios = elements('input[name="whole-view"]', HTMLInputElement);
+  const [file, sheets, flat] = ['file', 'sheets', 'flat'].map((name) => element(`whole-${name}`, HTMLButtonElement));
+  const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
+  const whole = new Whole(session.api);
+  /** @type {Promise<MeshView | null> | null} */
+  let viewer = null;
+  /** Counts what was asked for, to tell the newest. */
+  let asked = 0;
+  /** The mesh that the input is seen of. @type {Mesh | null} */
+  let present = null;
+
+  const waiting = waitingPanel(element('whole-waiting', HTMLElement), () => {
+    asked++;
+    whole.stop();
+    waiting.end();
+    again.hidden = false;
+    if (!whole.surface) say('Cancelled.', '');
+    else about.replaceChildren(make('p', 'muted', 'Cancelled.'));
+    stage.setAttribute('aria-busy', 'false');
+    again.focus();
+  });
+  /** @param {Mesh} mesh @param {string} words @param {string} kind */
+  const slow = (mesh, words, kind) => ({ words, kind, size: mesh.positions.length / 3, each: EACH });
+  /** @param {string} words @param {string} more */
+  const say = (words, more) => {
+    verdict.textContent = words;
+    detail.textContent = more;
+  };
+
+  /** @param {WholeShown} shown */
+  const put = async ({ before, after, flat: laid, about: nodes }) => {
+    about.replaceChildren(...nodes);
+    picture.show(laid ?? null);
+    reading.textContent = '';
+    viewer ??= MeshView.on(canvas, () => {}, { flatShading: true }).catch(() => null);
+    const view = await viewer;
+    missing.hidden = view !== null || laid !== undefined;
+    canvas.hidden = view === null || laid !== undefined;
+    divided.hidden = !after || canvas.hidden;
+    for (const badge of stage.querySelectorAll('.badge')) badge.toggleAttribute('hidden', divided.hidden);
+    if (laid || !view) return;
+    view.show(before, after);
+    view.divide(after ? divider.valueAsNumber : 1);
+  };
+
+  const update = async () => {
+    const turn = ++asked;
+    const { mesh, surface } = whole;
+    if (!mesh || !surface) return;
+    const name = radios.find(({ checked }) => checked)?.value ?? 'shaded';
+    const doing = slow(mesh, 'Working it out', `whole ${name}`);
+    stage.setAttribute('aria-busy', 'true');
+    again.hidden = true;
+    if (name !== 'shaded') waiting.begin(doing);
+    try {
+      const shown = await VIEWS[name](whole, mesh, surface);
+      if (turn !== asked) return;
+      waiting.end(name === 'shaded' ? undefined : doing);
+      await put(shown);
+    } catch (error) {
+      if (turn !== asked) return;
+      waiting.end();
+      session.fail('This view could not be worked out', error);
+    } finally {
+      if (turn === asked) stage.setAttribute('aria-busy', 'false');
+    }
+  };
+
+  /** @param {boolean} ready */
+  const enable = (ready) => {
+    for (const end of [file, sheets, flat]) end.disabled = !ready;
+    for (const radio of radios) radio.disabled = !ready;
+  };
+
+  const solve = () => {
+    if (!present) return;
+    side.dataset.whole = '';
+    stage.hidden = false;
+    void whole.solve(present);
+  };
+  const leave = () => {
+    asked++;
+    whole.leave();
+    waiting.end();
+    stage.hidden = true;
+    delete side.dataset.whole;
+    for (const radio of ways) radio.checked = radio.value === 'seen';
+  };
+
+  whole.on('start', (mesh) => {
+    asked++;
+    say('Solving the whole mesh…', '');
+    enable(false);
+    again.hidden = true;
+    radios[0].checked = true;
+    stage.setAttribute('aria-busy', 'true');
+    waiting.begin(slow(mesh, 'Solving it', 'whole'));
+    void put({ before: mesh, about: [] }).then(async () => (await viewer)?.look(OBLIQUE));
+  });
+  whole.on('progress', ({ iteration, gap }) => {
+    detail.textContent = `Iteration ${iteration}${gap !== undefined && gap < 1 ? `, gap ${percent(gap)}` : ''}.`;
+  });
+  whole.on('result', (surface) => {
+    if (!whole.mesh) return;
+    waiting.end(slow(whole.mesh, '', 'whole'));
+    say('Solved whole, from all sides.', wholeInWords(whole.mesh, surface));
+    enable(true);
+    void update();
+  });
+  whole.on('failure', (error) => {
+    waiting.end();
+    stage.setAttribute('aria-busy', 'false');
+    const words = plainly(error instanceof Error ? error.message : String(error));
+    say('It cannot be solved whole.', `${words[0].toUpperCase()}${words.slice(1)}.`);
+  });
+
+  divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
+  for (const radio of radios) radio.addEventListener('change', () => void update());
+  again.addEventListener('click', () => (whole.surface ? void update() : solve()));
+  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? solve() : leave()));
+  picture.canvas.addEventListener('pointermove', (event) => (reading.textContent = picture.read(event)));
+  picture.canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
+
+  const stem = () => `${session.input?.name ?? 'mesh'}-developable`;
+  file.addEventListener('click', () => {
+    const { surface } = whole;
+    if (!surface) return;
+    offerToSave(session.api, {
+      title: '3D file',
+      stem: stem(),
+      size: surface.positions.length / 3,
+      formats: [
+        { value: 'obj', name: 'OBJ', words: 'a mesh that nearly every program reads', type: 'model/obj', write: (worker) => worker.writeObj(surface) },
+        { value: 'stl', name: 'STL', words: 'a mesh for 3D printing', type: 'model/stl', write: (worker) => worker.writeStl(surface) },
+        { value: 'glb', name: 'GLB', words: 'a mesh for the web and for phones, with colours', type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
+        { value: 'ply', name: 'PLY', words: 'a mesh in double precision', type: 'model/ply', write: (worker) => worker.writePly(surface) },
+      ],
+    });
+  });
+  flat.addEventListener('click', () => {
+    const { surface } = whole;
+    if (!surface) return;
+    offerToSave(session.api, {
+      title: 'Laid flat',
+      stem: `${stem()}-flat`,
+      size: surface.positions.length / 3,
+      formats: [{
+        value: 'obj', name: 'OBJ', words: 'its sheets as a flat mesh', type: 'model/obj',
+        write: async (worker) => {
+          const { places, triangles } = await whole.unrolled(surface);
+          const positions = Float64Array.from({ length: (places.length / 2) * 3 }, (_, i) => (i % 3 === 2 ? 0 : places[2 * Math.floor(i / 3) + (i % 3)]));
+          return worker.writeObj({ positions, triangles });
+        },
+      }],
+      closed: () => whole.stop(),
+    });
+  });
+  sheets.addEventListener('click', () => {
+    const { surface } = whole;
+    if (!surface) return;
+    const longest = longestSide(surface);
+    offerSheets(session.api, {
+      stem: stem(),
+      size: surface.positions.length / 3,
+      side: handyLength(longest, surface.unit),
+      cut: ({ side: length, ...options }) => whole.pattern(surface, { scale: length / longest, ...options }),
+      svg: (drawing) => whole.svg(drawing),
+      stop: () => whole.stop(),
+    });
+  });
+
+  session.on('input', async ({ seen, lattice }) => {
+    const mesh = seen?.mesh ?? null;
+    if (mesh !== present && !stage.hidden) leave();
+    present = mesh && mesh.triangles.length > 0 ? mesh : null;
+    element('mesh-ways', HTMLElement).hidden = present === null;
+    hint.textContent = '';
+    if (!mesh || !present || !lattice?.frame) return;
+    const { rows, cols, spacing, origin = [0, 0], heights, frame } = lattice;
+    const { positions, triangles } = mesh;
+    const hidden = await work('hiddenShare', { positions, triangles }, { rows, cols, spacing, origin, heights, frame });
+    if (session.input?.lattice !== lattice || hidden < MUCH) return;
+    hint.textContent = `Heights from this side leave out ${percent(hidden)} of its surface, which is behind what is seen: “Whole” takes all of it.`;
+  });
+}
+
+/** @param {Mesh} mesh */
+function longestSide({ positions }) {
+  return Math.max(...[0, 1, 2].map((k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return high - low;
+  }));
+}

@@ -125,11 +125,14 @@ const UNFOLDING: usize = 40;
 /// of their neighbours, along the surface. Those that are `held` stay.
 pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
     let mut folded = vec![false; x.len()];
+    let mut moved = vec![true; x.len()];
     for _ in 0..UNFOLDING {
         folded.fill(false);
         let mut any = false;
         for triangle in &topology.triangles {
-            if faces_away(x, up, triangle) {
+            // Those that stayed face as they did.
+            let may = triangle.iter().any(|i| moved[*i as usize]);
+            if may && faces_away(x, up, triangle) {
                 any = true;
                 for corner in triangle {
                     folded[*corner as usize] = true;
@@ -139,6 +142,7 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
         if !any {
             return;
         }
+        moved.copy_from_slice(&folded);
         for vertex in 0..x.len() {
             if !folded[vertex] || held[vertex] || !topology.inside[vertex] {
                 continue;

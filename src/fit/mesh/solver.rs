@@ -156,7 +156,7 @@ impl MeshSolver {
                 reason: "its points have no triangles; fit what is seen of it along a view".into(),
             });
         }
-        let topology = Topology::new(&mesh)?;
+        let topology = Topology::in_order_of_place(&mesh)?;
         let bounds = Ball::around(&mesh)?;
         let noisy: Vec<Point> = topology
             .source

@@ -266,7 +266,7 @@ impl MeshSolver {
 
     /// Starts to solve the linearised problem, where there is one before from its dual.
     fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised)>) -> Result<()> {
-        let plan = Plan::new(&self.options.common());
+        let plan = Plan::new(&self.options.common()).without_cycles();
         let start = self.linear.start();
         let problem = &mut self.linear.problem;
         let mut state = State::new(problem, plan.first_rho(problem))?;

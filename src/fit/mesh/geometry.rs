@@ -144,13 +144,19 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
         }
         moved.copy_from_slice(&folded);
         for vertex in 0..x.len() {
-            if !folded[vertex] || held[vertex] || !topology.inside[vertex] {
+            let ring = topology.around(vertex);
+            // A vertex with one triangle only goes to the other side of its neighbours.
+            let share = match (topology.inside[vertex], ring.len()) {
+                (true, _) => 0.5,
+                (false, 2) => 1.5,
+                _ => continue,
+            };
+            if !folded[vertex] || held[vertex] {
                 continue;
             }
-            let ring = topology.around(vertex);
             let sum: Point = ring.iter().map(|other| x[*other as usize]).sum();
             let towards = sum / ring.len() as f64 - x[vertex];
-            x[vertex] += 0.5 * (towards - up[vertex] * up[vertex].dot(&towards));
+            x[vertex] += share * (towards - up[vertex] * up[vertex].dot(&towards));
         }
     }
 }

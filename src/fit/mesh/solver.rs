@@ -342,7 +342,11 @@ impl MeshSolver {
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
         if done && self.options.crease_passes > 0 {
+            let topology = &self.given.topology;
             sharpen(&self.given, &mut self.surface, &self.linear.frames)?;
+            // Normals beside creases are others now.
+            let up = normals(topology, &self.surface, Some(&old));
+            unfold(topology, &mut self.surface, &up, &self.given.held);
         }
         if done {
             self.reason = Some(reason);

@@ -3,7 +3,11 @@
 
     cargo build --release --example surface
     python -m venv env && env/bin/pip install -r benches/pymeshlab/requirements.txt
-    env/bin/python benches/pymeshlab/whole.py target/release/examples/surface > benches/whole.md
+    env/bin/python benches/pymeshlab/whole.py target/release/examples/surface 2000:0.5:normals:3 2000:1:all:3
+
+makes the rows of benches/whole.md: vertices, noise in per cent of the diagonal, along normals or in all
+directions, and how many seeds. Figures are means over the seeds, ratios and what is lost the worst of them.
+With `--stein` the flow of Stein et al. is among the filters, which takes minutes for each row.
 
 The shapes are made here and remeshed to uneven triangles with the creases kept. Noise is along the normals or
 in all directions, as a share of the diagonal. What is told: the root mean square of the vertices' distances
@@ -184,6 +188,7 @@ class Truth:
             beside[a].append(b)
             beside[b].append(a)
         creases = pairs[creased]
+        self.creased = np.unique(edges[twin[creased]])
         some = np.random.default_rng(0).permutation(len(creases))[:400]
         self.sides = [[self.grown(beside, face) for face in creases[i]] for i in some]
 
@@ -255,36 +260,81 @@ def oracle(path, truth):
     return least
 
 
-def main(program, count=8000, noises=((0.005, "normals", 1), (0.01, "normals", 2), (0.005, "all", 3))):
-    print("# Whole meshes beside pymeshlab\n")
-    print(
-        "Written by `benches/pymeshlab/whole.py`, which says what is compared. Ours has no parameters (λ by itself); of "
-        "pymeshlab's filters each figure is the best over all values of theirs, by the truth. Errors: ours, the best of "
-        "theirs and which that is, and the ratio.\n"
-    )
-    print("| shape | noise | distance, ‰ | | normals, ° | | fold kept | folded over | seconds |")
-    print("| :--- | :--- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+def angle_defects(vertices, faces):
+    """Gaussian curvature at vertices by what angles lack of a full turn, and each vertex's share of the area."""
+    turns, areas = np.full(len(vertices), 2 * np.pi), np.zeros(len(vertices))
+    own = np.linalg.norm(area_vectors(vertices, faces), axis=1) / 3
+    for k in range(3):
+        a, b, c = (vertices[faces[:, (k + i) % 3]] for i in range(3))
+        along = np.arctan2(np.linalg.norm(np.cross(b - a, c - a), axis=1), ((b - a) * (c - a)).sum(axis=1))
+        np.subtract.at(turns, faces[:, k], along)
+        np.add.at(areas, faces[:, k], own)
+    return turns / np.maximum(areas, 1e-300), areas
+
+
+def curved(truth, vertices, rings=3, threshold=1.0):
+    """The share of the area that is curved in both directions: |K| above the paper's threshold where the
+    surface has the size 1, no nearer to creases and the border than some rings."""
+    faces = truth.faces
+    edges = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    unique, uses = np.unique(edges, axis=0, return_counts=True)
+    near = np.zeros(len(vertices), bool)
+    near[unique[uses == 1]] = True
+    near[truth.creased] = True
+    for _ in range(rings):
+        near[faces[near[faces].any(axis=1)]] = True
+    size = np.linalg.norm(vertices - vertices.mean(axis=0), axis=1).max() * 2
+    found, areas = angle_defects(vertices / size, faces)
+    return areas[~near & (np.abs(found) > threshold)].sum() / max(areas[~near].sum(), 1e-300)
+
+
+def crossings(vertices, faces):
+    """How many triangles cross others."""
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(vertices, faces))
+    meshes.compute_selection_by_self_intersections_per_face()
+    return meshes.current_mesh().selected_face_number()
+
+
+def main(program, rows, stein):
+    """Each of the `rows` is a number of vertices, the noise in per cent, its kind and how many seeds."""
+    if not stein:
+        del FILTERS["Stein et al. 2018"]
+    print("| shape | vertices | noise | distance, ‰ | | normals, ° | | fold kept | curved, % | folded | crossing | seconds |")
+    print("| :--- | ---: | :--- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         before, after = Path(folder) / "before.ply", Path(folder) / "after.ply"
-        for shape, make in SHAPES.items():
-            truth = Truth(*remeshed(*make(), count))
-            for share, kind, seed in noises:
-                save(before, noisy(truth, share, kind, seed), truth.faces)
-                done = subprocess.run([program, before, after], capture_output=True, text=True, check=True)
-                report = json.loads(done.stdout)
-                vertices = load(after)[0]
-                ours, theirs = truth.errors(vertices), oracle(before, truth)
-                cells = []
-                for k in range(2):
-                    title = min(theirs, key=lambda t: theirs[t][k])
-                    ratios.append((k, ours[k] / theirs[title][k]))
-                    cells += [f"{ours[k]:.2f}, {theirs[title][k]:.2f} ({title})", f"{ratios[-1][1]:.2f}"]
+        for row in rows:
+            count, percent, kind, seeds = row.split(":")
+            for shape, make in SHAPES.items():
+                truth = Truth(*remeshed(*make(), int(count)))
+                figures, names = [], []
+                for seed in range(1, int(seeds) + 1):
+                    save(before, noisy(truth, float(percent) / 100, kind, seed), truth.faces)
+                    done = subprocess.run([program, before, after], capture_output=True, text=True, check=True)
+                    report = json.loads(done.stdout)
+                    vertices = load(after)[0]
+                    ours, theirs = truth.errors(vertices), oracle(before, truth)
+                    best = [min(theirs, key=lambda t: theirs[t][k]) for k in range(2)]
+                    names.append(best)
+                    least = [theirs[best[k]][k] for k in range(2)]
+                    figures.append([
+                        *ours, *least, *(ours / least), truth.kept(vertices), 100 * curved(truth, vertices),
+                        report["flipped"][1], crossings(vertices, truth.faces), report["seconds"]["total"],
+                    ])
+                figures = np.array(figures)
+                mean, most = figures.mean(axis=0), figures.max(axis=0)
+                ratios += [(k, r) for k in range(2) for r in figures[:, 4 + k]]
+                kept = figures[:, 6].min()
+                own = 100 * curved(truth, truth.vertices)
                 where = "along normals" if kind == "normals" else "in all directions"
-                kept = truth.kept(vertices)
                 print(
-                    f"| {shape} | {100 * share:g} % {where} | " + " | ".join(cells)
-                    + f" | {'' if np.isnan(kept) else f'{kept:.2f}'} | {report['flipped'][1]} | {report['seconds']['total']:.2f} |",
+                    f"| {shape} | {len(truth.vertices):,} | {percent} % {where} "
+                    + "".join(
+                        f"| {mean[k]:.2f}, {mean[2 + k]:.2f} ({names[0][k]}) | {most[4 + k]:.2f} " for k in range(2)
+                    )
+                    + f"| {'' if np.isnan(kept) else f'{kept:.2f}'} | {most[7]:.1f} ({own:.1f}) | {most[8]:.0f} | {most[9]:.0f} | {mean[10]:.2f} |",
                     flush=True,
                 )
     for k, name in enumerate(["distances", "normals"]):
@@ -293,4 +343,4 @@ def main(program, count=8000, noises=((0.005, "normals", 1), (0.01, "normals", 2
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], [arg for arg in sys.argv[2:] if arg != "--stein"], "--stein" in sys.argv)

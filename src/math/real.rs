@@ -16,22 +16,44 @@ pub(crate) trait Real:
     + Neg<Output = Self>
 {
     const HALF: Self;
+    /// Four of them, for what loops do not vectorise by themselves.
+    type Four: Copy + Add<Output = Self::Four> + Mul<Output = Self::Four>;
     fn sqrt(self) -> Self;
+    fn four(lanes: [Self; 4]) -> Self::Four;
+    fn lanes(four: Self::Four) -> [Self; 4];
 }
 
 impl Real for f64 {
     const HALF: Self = 0.5;
+    type Four = wide::f64x4;
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
+    }
+    #[inline(always)]
+    fn four(lanes: [Self; 4]) -> Self::Four {
+        lanes.into()
+    }
+    #[inline(always)]
+    fn lanes(four: Self::Four) -> [Self; 4] {
+        four.to_array()
     }
 }
 
 impl Real for f32 {
     const HALF: Self = 0.5;
+    type Four = wide::f32x4;
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
+    }
+    #[inline(always)]
+    fn four(lanes: [Self; 4]) -> Self::Four {
+        lanes.into()
+    }
+    #[inline(always)]
+    fn lanes(four: Self::Four) -> [Self; 4] {
+        four.to_array()
     }
 }
 

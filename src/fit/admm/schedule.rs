@@ -29,6 +29,8 @@ pub(crate) struct Plan {
     check_first: usize,
     /// ρ changes when one relative residual exceeds the other by this factor.
     imbalance: f64,
+    /// It changes by what the residuals cost alone.
+    by_costs: bool,
     gap: f64,
     /// Whether there are finer levels.
     coarse: bool,
@@ -55,6 +57,9 @@ const BALANCE: f64 = 0.025;
 /// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
 /// the former is less than this share of it, and does not fall.
 const SMALL_SHARE: f64 = 0.2;
+
+/// Beyond this share the dual residual costs too much, where ρ goes by costs alone.
+const LARGE_SHARE: f64 = 0.7;
 
 /// The same where vertices are free, and the dual residual is the change of the Hessians.
 const FREE_BALANCE: f64 = 10.0;
@@ -116,6 +121,7 @@ impl Plan {
             check_every: 10,
             check_first: 5,
             imbalance: 3.0,
+            by_costs: false,
             gap: options.gap,
             coarse: false,
             max_iterations: options.max_iterations,
@@ -134,6 +140,15 @@ impl Plan {
                 imbalance: 5000.0,
                 ..common
             },
+        }
+    }
+
+    /// For z-steps by conjugate gradients without a V-cycle. They leave low frequencies of the residual,
+    /// which cost the bound most, and the more the larger ρ is: what both residuals cost has to be alike.
+    pub(crate) fn without_cycles(self) -> Self {
+        Plan {
+            by_costs: true,
+            ..self
         }
     }
 
@@ -354,7 +369,10 @@ impl Plan {
         if self.schedule == Schedule::Default && !problem.loose {
             let gap = certificate.objective() - certificate.dual_bound;
             let cheap = certificate.dual_cost < SMALL_SHARE * gap;
-            (up, down) = (up || cheap, down && !cheap);
+            (up, down) = match self.by_costs {
+                true => (cheap, certificate.dual_cost > LARGE_SHARE * gap),
+                false => (up || cheap, down && !cheap),
+            };
         }
         let next = match (up, down) {
             (_, true) => rho / 2.0,

@@ -125,11 +125,14 @@ const UNFOLDING: usize = 40;
 /// of their neighbours, along the surface. Those that are `held` stay.
 pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
     let mut folded = vec![false; x.len()];
+    let mut moved = vec![true; x.len()];
     for _ in 0..UNFOLDING {
         folded.fill(false);
         let mut any = false;
         for triangle in &topology.triangles {
-            if faces_away(x, up, triangle) {
+            // Those that stayed face as they did.
+            let may = triangle.iter().any(|i| moved[*i as usize]);
+            if may && faces_away(x, up, triangle) {
                 any = true;
                 for corner in triangle {
                     folded[*corner as usize] = true;
@@ -139,14 +142,21 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
         if !any {
             return;
         }
+        moved.copy_from_slice(&folded);
         for vertex in 0..x.len() {
-            if !folded[vertex] || held[vertex] || !topology.inside[vertex] {
+            let ring = topology.around(vertex);
+            // A vertex with one triangle only goes to the other side of its neighbours.
+            let share = match (topology.inside[vertex], ring.len()) {
+                (true, _) => 0.5,
+                (false, 2) => 1.5,
+                _ => continue,
+            };
+            if !folded[vertex] || held[vertex] {
                 continue;
             }
-            let ring = topology.around(vertex);
             let sum: Point = ring.iter().map(|other| x[*other as usize]).sum();
             let towards = sum / ring.len() as f64 - x[vertex];
-            x[vertex] += 0.5 * (towards - up[vertex] * up[vertex].dot(&towards));
+            x[vertex] += share * (towards - up[vertex] * up[vertex].dot(&towards));
         }
     }
 }

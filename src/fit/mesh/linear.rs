@@ -220,14 +220,17 @@ pub(crate) fn fit_at(
         offset: x[*other as usize] - x[vertex],
         weight,
     };
-    let mut vertices = topology.around(vertex).to_vec();
-    let mut neighbours: Vec<_> = vertices.iter().map(|other| offset(other, 1.0)).collect();
+    let ring = topology.around(vertex);
+    let mut vertices = Vec::with_capacity(4 * ring.len());
+    vertices.extend_from_slice(ring);
+    let mut neighbours = Vec::with_capacity(4 * ring.len());
+    neighbours.extend(ring.iter().map(|other| offset(other, 1.0)));
     let mut fit = match vertices.len() >= DETERMINED {
         true => Quadratic::fit(frame, &neighbours).filter(|fit| fit.amplification() <= AMPLIFIED),
         false => None,
     };
     if fit.is_none() {
-        let mut second = Vec::new();
+        let mut second = Vec::with_capacity(8 * ring.len());
         topology.second_ring(vertex, &mut second);
         neighbours.extend(second.iter().map(|other| offset(other, SECOND)));
         vertices.extend(second);

@@ -5,6 +5,7 @@
 //! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
 
 mod border;
+mod curve;
 pub(crate) mod geometry;
 pub(crate) mod linear;
 mod load;

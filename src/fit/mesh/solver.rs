@@ -156,7 +156,7 @@ impl MeshSolver {
                 reason: "its points have no triangles; fit what is seen of it along a view".into(),
             });
         }
-        let topology = Topology::new(&mesh)?;
+        let topology = Topology::in_order_of_place(&mesh)?;
         let bounds = Ball::around(&mesh)?;
         let noisy: Vec<Point> = topology
             .source
@@ -266,7 +266,7 @@ impl MeshSolver {
 
     /// Starts to solve the linearised problem, where there is one before from its dual.
     fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised)>) -> Result<()> {
-        let plan = Plan::new(&self.options.common());
+        let plan = Plan::new(&self.options.common()).without_cycles();
         let start = self.linear.start();
         let problem = &mut self.linear.problem;
         let mut state = State::new(problem, plan.first_rho(problem))?;
@@ -342,7 +342,11 @@ impl MeshSolver {
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
         if done && self.options.crease_passes > 0 {
+            let topology = &self.given.topology;
             sharpen(&self.given, &mut self.surface, &self.linear.frames)?;
+            // Normals beside creases are others now.
+            let up = normals(topology, &self.surface, Some(&old));
+            unfold(topology, &mut self.surface, &up, &self.given.held);
         }
         if done {
             self.reason = Some(reason);

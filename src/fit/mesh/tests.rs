@@ -571,3 +571,15 @@ fn bent_strip_keeps_its_ends() {
     assert!(without > 1e-3, "{without}");
     assert!(with < 0.5 * without, "{with} for {without}");
 }
+
+/// A square with a triangle on its border that is folded over onto it.
+#[test]
+fn a_folded_triangle_on_the_border_is_turned_back() {
+    let mut soup = grid(10, 10, |u, v| [10.0 * u, 10.0 * v, 0.0]);
+    soup.push([[4.0, 0.0, 0.0], [4.4, 0.6, 0.0], [5.0, 0.0, 0.0]]);
+    let report = fit_mesh(&indexed(&soup), &MeshOptions::default())
+        .unwrap()
+        .report()
+        .clone();
+    assert_eq!(report.flipped, [1, 0]);
+}

@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use crate::error::{Error, Result, try_filled};
 use crate::scene::mesh::Mesh;
 
+use super::curve;
 use super::report::Repairs;
+use crate::scene::twins::{NONE, next, twins};
 
 /// The triangles of a mesh, joined where its vertices coincide and all facing the same side.
 #[derive(Debug, Clone)]
@@ -32,28 +34,49 @@ pub(crate) struct Topology {
 }
 
 impl Topology {
+    /// Vertices and triangles in the order of the mesh.
+    ///
     /// # Errors
     /// [`Error::Topology`] where an edge has more than two triangles, or where no choice of sides fits
     /// together.
     pub(crate) fn new(mesh: &Mesh) -> Result<Self> {
+        let vertices = join(mesh)?;
         let mut repairs = Repairs::default();
-        let (joined, source) = join(mesh)?;
-        let (mut triangles, mut from) = (Vec::new(), Vec::new());
-        let mut seen = std::collections::HashSet::new();
-        for (number, triangle) in mesh.triangles().iter().enumerate() {
-            let [a, b, c] = triangle.map(|i| joined[i as usize]);
-            let mut key = [a, b, c];
-            key.sort_unstable();
-            if a == b || b == c || c == a {
-                repairs.degenerate += 1;
-            } else if !seen.insert(key) {
-                repairs.repeated += 1;
-            } else {
-                triangles.push([a, b, c]);
-                from.push(number as u32);
-            }
+        let mut from = proper(mesh, &vertices.0, &mut repairs);
+        from.sort_unstable();
+        Self::of(mesh, vertices, from, repairs)
+    }
+
+    /// Vertices and triangles that are near each other in space have near numbers, so that what is next to
+    /// each other on a large mesh is in the cache together.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn in_order_of_place(mesh: &Mesh) -> Result<Self> {
+        let (mut joined, mut source) = join(mesh)?;
+        let order = curve::order(source.iter().map(|i| mesh.positions()[*i as usize]));
+        let mut place = try_filled("vertices", source.len(), 0)?;
+        for (new, old) in (0..).zip(&order) {
+            place[*old as usize] = new;
         }
-        drop(seen);
+        source = order.iter().map(|old| source[*old as usize]).collect();
+        for vertex in &mut joined {
+            *vertex = place[*vertex as usize];
+        }
+        let mut repairs = Repairs::default();
+        let from = proper(mesh, &joined, &mut repairs);
+        Self::of(mesh, (joined, source), from, repairs)
+    }
+
+    fn of(
+        mesh: &Mesh,
+        (joined, source): (Vec<u32>, Vec<u32>),
+        from: Vec<u32>,
+        mut repairs: Repairs,
+    ) -> Result<Self> {
+        let triangles: Vec<[u32; 3]> = (from.iter())
+            .map(|t| mesh.triangles()[*t as usize].map(|i| joined[i as usize]))
+            .collect();
         let mut used = try_filled("vertices", source.len(), false)?;
         for vertex in triangles.as_flattened() {
             used[*vertex as usize] = true;
@@ -245,35 +268,27 @@ impl Topology {
 
     /// Where one fan of triangles closes around a vertex.
     fn find_inside(&mut self) {
-        let mut next: HashMap<(u32, u32), u32> = HashMap::with_capacity(3 * self.triangles.len());
-        let mut triangles = vec![0u32; self.len()];
-        for corners in &self.triangles {
-            for k in 0..3 {
-                let (i, a, b) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
-                next.insert((i, a), b);
-                triangles[i as usize] += 1;
-            }
+        let twins = twins(&self.triangles);
+        let mut count = vec![0u32; self.len()];
+        let mut leaving = vec![NONE; self.len()];
+        for (side, corner) in (0..).zip(self.triangles.as_flattened()) {
+            count[*corner as usize] += 1;
+            leaving[*corner as usize] = side;
         }
-        for (vertex, number) in triangles.into_iter().enumerate() {
-            if number == 0 {
+        for vertex in 0..self.len() {
+            let start = leaving[vertex];
+            if start == NONE {
                 continue;
             }
-            let ring = &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize];
-            let start = ring[0];
-            let (mut at, mut steps) = (start, 0);
-            let closes = loop {
-                match next.get(&(vertex as u32, at)) {
-                    Some(other) => (at, steps) = (*other, steps + 1),
-                    None => break false,
+            let (mut side, mut steps) = (start, 0);
+            loop {
+                side = twins[next(next(side)) as usize];
+                steps += 1;
+                if side == start || side == NONE {
+                    break;
                 }
-                if at == start {
-                    break true;
-                }
-                if steps > number {
-                    break false;
-                }
-            };
-            self.inside[vertex] = closes && steps == number;
+            }
+            self.inside[vertex] = side == start && steps == count[vertex];
             let rims = self.along_rim(vertex).count();
             self.pinched += usize::from(rims > 2 || (!self.inside[vertex] && rims == 0));
         }
@@ -283,6 +298,24 @@ impl Topology {
 fn place(mesh: &Mesh, vertex: u32) -> String {
     let [x, y, z] = mesh.positions()[vertex as usize];
     format!("vertex {vertex} ({x}, {y}, {z})")
+}
+
+/// The triangles with three corners, each once, by their corners.
+fn proper(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u32> {
+    let keys = mesh.triangles().iter().map(|triangle| {
+        let mut key = triangle.map(|i| joined[i as usize]);
+        key.sort_unstable();
+        key
+    });
+    let mut sorted: Vec<([u32; 3], u32)> = keys.zip(0..).collect();
+    let all = sorted.len();
+    sorted.retain(|([a, b, c], _)| a != b && b != c);
+    repairs.degenerate = all - sorted.len();
+    sorted.sort_unstable();
+    let some = sorted.len();
+    sorted.dedup_by_key(|(key, _)| *key);
+    repairs.repeated = some - sorted.len();
+    sorted.into_iter().map(|(_, number)| number).collect()
 }
 
 /// Vertices at the very same place are one, as those of files without indices and of seams between

@@ -20,35 +20,66 @@ const LONGEST: usize = 256;
 const POWER: usize = 15;
 const MARGIN: f32 = 1.1;
 
-/// `C` by stencils: the vertices of each, with what their heights count in the coordinates of [`Sym2`].
+/// What is computed together of a row: as many as there are numbers in a vector of single precision.
+const LANES: usize = 4;
+
+/// `C` by stencils: the vertices of each, with what their heights count in the coordinates of [`Sym2`],
+/// by fours. Rows are filled up with zeros.
 ///
 /// The adjoint is computed from the same rows, by adding to its vertices one stencil after the other:
 /// half the memory, and `CᵀC` takes one pass.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows<T> {
-    first: Vec<usize>,
-    entries: Vec<(u32, [T; 3])>,
+    /// Where each begins.
+    first: Vec<u32>,
+    fours: Vec<Four<T>>,
+}
+
+#[derive(Debug, Clone)]
+struct Four<T> {
+    vertices: [u32; LANES],
+    entries: [[T; LANES]; 3],
 }
 
 impl<T: Real> Rows<T> {
     pub(crate) fn new() -> Self {
         Rows {
             first: vec![0],
-            entries: Vec::new(),
+            fours: Vec::new(),
         }
     }
 
     /// One stencil more.
     pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (u32, [T; 3])>) {
-        self.entries.extend(entries);
-        self.first.push(self.entries.len());
+        let mut lane = LANES;
+        for (vertex, entry) in entries {
+            if lane == LANES {
+                lane = 0;
+                self.fours.push(Four {
+                    vertices: [vertex; LANES],
+                    entries: [[T::default(); LANES]; 3],
+                });
+            }
+            if let Some(four) = self.fours.last_mut() {
+                four.vertices[lane] = vertex;
+                for (row, entry) in four.entries.iter_mut().zip(entry) {
+                    row[lane] = entry;
+                }
+            }
+            lane += 1;
+        }
+        self.first.push(self.fours.len() as u32);
     }
 
     /// Multiplies what each vertex counts.
     pub(crate) fn scale_columns(&mut self, factor: impl Fn(u32) -> T) {
-        for (vertex, entry) in &mut self.entries {
-            let factor = factor(*vertex);
-            *entry = entry.map(|x| factor * x);
+        for Four { vertices, entries } in &mut self.fours {
+            for lane in 0..LANES {
+                let factor = factor(vertices[lane]);
+                for row in entries.iter_mut() {
+                    row[lane] = factor * row[lane];
+                }
+            }
         }
     }
 
@@ -56,27 +87,54 @@ impl<T: Real> Rows<T> {
         self.first.len() - 1
     }
 
+    /// Those of all rows, some of them several times.
+    fn vertices(&self) -> impl Iterator<Item = u32> + '_ {
+        self.fours.iter().flat_map(|four| four.vertices)
+    }
+
     #[inline(always)]
-    pub(crate) fn row(&self, stencil: usize) -> &[(u32, [T; 3])] {
-        &self.entries[self.first[stencil]..self.first[stencil + 1]]
+    fn row(&self, stencil: usize) -> &[Four<T>] {
+        &self.fours[self.first[stencil] as usize..self.first[stencil + 1] as usize]
     }
 
     #[inline(always)]
     fn apply(&self, stencil: usize, x: &[T]) -> [T; 3] {
-        let [mut mean, mut diff, mut off] = [T::default(); 3];
-        for (vertex, [a, b, c]) in self.row(stencil) {
-            let x = x[*vertex as usize];
-            (mean, diff, off) = (mean + *a * x, diff + *b * x, off + *c * x);
+        let zero = T::four([T::default(); LANES]);
+        let (mut mean, mut diff, mut off) = (zero, zero, zero);
+        for Four { vertices, entries } in self.row(stencil) {
+            let [v0, v1, v2, v3] = *vertices;
+            let x = [
+                x[v0 as usize],
+                x[v1 as usize],
+                x[v2 as usize],
+                x[v3 as usize],
+            ];
+            let x = T::four(x);
+            let [a, b, c] = entries;
+            mean = mean + T::four(*a) * x;
+            diff = diff + T::four(*b) * x;
+            off = off + T::four(*c) * x;
         }
-        [mean, diff, off]
+        [mean, diff, off].map(|sum| {
+            let [a, b, c, d] = T::lanes(sum);
+            (a + b) + (c + d)
+        })
     }
 
     /// Adds `Cᵀ` of one matrix, which has its weight already.
     #[inline(always)]
     fn add_adjoint(&self, stencil: usize, [mean, diff, off]: [T; 3], to: &mut [T]) {
-        for (vertex, [a, b, c]) in self.row(stencil) {
-            let to = &mut to[*vertex as usize];
-            *to = *to + (*a * mean + *b * diff + *c * off);
+        let [mean, diff, off] = [mean, diff, off].map(|y| T::four([y; LANES]));
+        for Four { vertices, entries } in self.row(stencil) {
+            let [a, b, c] = entries;
+            let more = T::four(*a) * mean + T::four(*b) * diff + T::four(*c) * off;
+            let [v0, v1, v2, v3] = *vertices;
+            let [v0, v1, v2, v3] = [v0 as usize, v1 as usize, v2 as usize, v3 as usize];
+            let [m0, m1, m2, m3] = T::lanes(more);
+            to[v0] = to[v0] + m0;
+            to[v1] = to[v1] + m1;
+            to[v2] = to[v2] + m2;
+            to[v3] = to[v3] + m3;
         }
     }
 }
@@ -131,8 +189,8 @@ impl SparseOperator {
             size,
         } = parts;
         let mut touched = try_filled("vertices", places.len(), false)?;
-        for (vertex, _) in &rows.entries {
-            touched[*vertex as usize] = true;
+        for vertex in rows.vertices() {
+            touched[vertex as usize] = true;
         }
         let all = try_filled("stencils", rows.len(), true)?;
         let weights: Vec<f64> = if areas.is_empty() {
@@ -141,13 +199,16 @@ impl SparseOperator {
             areas.iter().map(|area| 2.0 * area).collect()
         };
         let unit = spacing * spacing;
-        let narrow = |(vertex, entry): &(u32, [f64; 3])| {
-            (*vertex, entry.map(|entry| lanes::single(unit * entry)))
+        let narrow = |four: &Four<f64>| Four {
+            vertices: four.vertices,
+            entries: four
+                .entries
+                .map(|row| row.map(|entry| lanes::single(unit * entry))),
         };
         let mut operator = SparseOperator {
             single: Rows {
                 first: rows.first.clone(),
-                entries: rows.entries.iter().map(narrow).collect(),
+                fours: rows.fours.iter().map(narrow).collect(),
             },
             double: rows,
             single_weights: weights
@@ -193,8 +254,11 @@ impl SparseOperator {
     fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
         for (stencil, weight) in self.weights.iter().enumerate() {
-            for (vertex, [a, b, c]) in self.double.row(stencil) {
-                diagonal[*vertex as usize] += weight * (a * a + b * b + c * c);
+            for Four { vertices, entries } in self.double.row(stencil) {
+                for (lane, vertex) in vertices.iter().enumerate() {
+                    let squares = entries.iter().map(|row| row[lane] * row[lane]);
+                    diagonal[*vertex as usize] += weight * squares.sum::<f64>();
+                }
             }
         }
         Ok(diagonal)

@@ -73,28 +73,46 @@ impl Body {
             .collect()
     }
 
+    /// A part by itself, as part 0.
+    pub(super) fn alone(&self, members: &[u32]) -> Body {
+        let mut numbers: NumberMap<u32, u32> = NumberMap::default();
+        let mut places = Vec::new();
+        let mut number = |v: u32| {
+            *numbers.entry(v).or_insert_with(|| {
+                places.push(self.places[v as usize]);
+                places.len() as u32 - 1
+            })
+        };
+        let triangles: Vec<[u32; 3]> = (members.iter())
+            .map(|t| self.triangles[*t as usize].map(&mut number))
+            .collect();
+        Body {
+            places,
+            triangles,
+            patches: members.iter().map(|t| self.patches[*t as usize]).collect(),
+            parts: vec![0; members.len()],
+            count: 1,
+            spacing: self.spacing,
+        }
+    }
+
     /// Makes a part of each connected piece with one label of some triangles, which leave theirs; the first
     /// takes the number of the first triangle's, where `count` has it.
     fn part(&mut self, members: &[u32], labels: &[u32]) -> Result<Vec<u32>> {
-        let twins = twins(&self.triangles);
-        let mut forest = Forest::new("pattern", self.triangles.len())?;
-        let mut own = vec![false; self.triangles.len()];
-        members.iter().for_each(|t| own[*t as usize] = true);
-        for t in members {
-            for side in 3 * t..3 * t + 3 {
-                let other = twins[side as usize];
-                if other != NONE
-                    && own[other as usize / 3]
-                    && labels[*t as usize] == labels[other as usize / 3]
-                {
-                    forest.join(*t, other / 3);
-                }
+        let own: Vec<[u32; 3]> = (members.iter())
+            .map(|t| self.triangles[*t as usize])
+            .collect();
+        let label = |side: usize| labels[members[side / 3] as usize];
+        let mut forest = Forest::new("pattern", own.len())?;
+        for (side, twin) in twins(&own).into_iter().enumerate() {
+            if twin != NONE && label(side) == label(twin as usize) {
+                forest.join(side as u32 / 3, twin / 3);
             }
         }
         let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
         let before = self.parts[members[0] as usize];
-        for t in members {
-            let root = forest.root(*t);
+        for (own, t) in (0..).zip(members) {
+            let root = forest.root(own);
             let number = match numbers.get(&root) {
                 Some(number) => *number,
                 None if numbers.is_empty() && self.count > 0 => before,

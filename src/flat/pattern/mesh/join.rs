@@ -299,17 +299,15 @@ fn laid(
     at: &Corners,
     limits: Limits,
 ) -> Result<Option<Laid>> {
-    let members = || {
-        let all = body.parts.iter().zip(0..);
-        let own = all.filter(|(part, _)| parts.binary_search(part).is_ok());
-        own.map(|(_, t)| t).collect::<Vec<u32>>()
-    };
+    let all = body.parts.iter().zip(0..);
+    let own = all.filter(|(part, _)| parts.binary_search(part).is_ok());
+    let members = own.map(|(_, t)| t).collect();
     let is_cut = |side: u32| seams.of(side).is_some_and(|seam| !whole.contains(&seam));
     let as_it_is = Until {
         steps: 0,
         ..limits.until
     };
-    let rough = Laid::new(body, members(), is_cut, Some(at), as_it_is)?;
+    let rough = Laid::new(body, members, is_cut, Some(at), as_it_is)?;
     let sound = |laid: &Laid| laid.strain <= limits.strain && !laid.overlaps();
     if rough.strain <= NO_STRAIN {
         return Ok(Some(rough).filter(sound));
@@ -317,7 +315,7 @@ fn laid(
     if rough.overlaps() {
         return Ok(None);
     }
-    Ok(Some(Laid::new(body, members(), is_cut, Some(at), limits.until)?).filter(sound))
+    Ok(Some(rough.relaxed(body, limits.until)?).filter(sound))
 }
 
 fn corner(side: u32) -> (u32, u32) {

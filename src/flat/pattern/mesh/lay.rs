@@ -74,9 +74,7 @@ impl Laid {
             }
             triangles[corner / 3][corner % 3] = numbers[root];
         }
-        let pieces: Vec<Piece> = (own.iter())
-            .map(|t| Piece::between(t.map(|v| body.places[v as usize].into())))
-            .collect();
+        let pieces: Vec<Piece> = own.iter().map(|t| piece(body, *t)).collect();
         let mut laid = Laid {
             area: pieces.iter().map(Piece::area).sum(),
             places: vec![Point::default(); source.len()],
@@ -97,21 +95,38 @@ impl Laid {
                 }
             }
         }
-        let whole = pieces.iter().copied().zip(laid.triangles.iter().copied());
+        laid.relax(&pieces, until)?;
+        Ok(laid)
+    }
+
+    /// Goes on from where it lies.
+    pub(super) fn relaxed(mut self, body: &Body, until: Until) -> Result<Laid> {
+        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
+        let pieces: Vec<Piece> = own.map(|t| piece(body, t)).collect();
+        self.relax(&pieces, until)?;
+        Ok(self)
+    }
+
+    fn relax(&mut self, pieces: &[Piece], until: Until) -> Result<()> {
+        if until.steps == 0 {
+            self.measure(pieces);
+            return Ok(());
+        }
+        let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        let joint = Joint::new(laid.places.len(), whole, Vec::new())?;
+        let joint = Joint::new(self.places.len(), whole, Vec::new())?;
         // Steps that hardly change anything say little before what is wrong at one end has come to the other.
         let start = Until {
             steps: until.steps.min(START),
             hopeless: f64::INFINITY,
             ..until
         };
-        let steps = joint.relax(&mut laid.places, start)?;
+        let steps = joint.relax(&mut self.places, start)?;
         if steps == START && until.steps > START {
-            joint.relax(&mut laid.places, until)?;
+            joint.relax(&mut self.places, until)?;
         }
-        laid.measure(&pieces);
-        Ok(laid)
+        self.measure(pieces);
+        Ok(())
     }
 
     /// One triangle after the other, as they are, beside those that lie already.
@@ -231,6 +246,10 @@ impl Laid {
             (0..3).map(|k| ((*t, k as u32), self.places[corners[k] as usize]))
         })
     }
+}
+
+fn piece(body: &Body, corners: [u32; 3]) -> Piece {
+    Piece::between(corners.map(|v| body.places[v as usize].into()))
 }
 
 /// So many triangles are asked whether others lie on them.

@@ -17,7 +17,7 @@ use crate::fit::mesh::topology::Topology;
 use crate::flat::unroll::joint::Until;
 use crate::scene::mesh::Mesh;
 use crate::shape::patches::{Crease, MeshPatches, Patch};
-use body::{Body, Place};
+use body::{Body, Place, Plane};
 use draw::drawn;
 use join::{Limits, Seams, joined};
 use lay::{Laid, TRIAL};
@@ -116,11 +116,12 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
         flat.remove(&part);
         let worst = body.triangles[laid.members[laid.worst] as usize];
         let worst = worst.map(|v| body.places[v as usize]).iter().sum::<Place>() / 3.0;
-        let mut best: Option<(f64, Body, Vec<u32>)> = None;
+        let mut best: Option<(f64, Plane)> = None;
+        let alone = body.alone(&laid.members);
         for plane in body.planes(&laid.members, worst) {
-            let mut trial = body.clone();
-            let parts = trial.cut(part, &plane)?;
-            if parts.len() < 2 || trial.count > MOST_PARTS {
+            let mut trial = alone.clone();
+            let parts = trial.cut(0, &plane)?;
+            if parts.len() < 2 || body.count - 1 + trial.count > MOST_PARTS {
                 continue;
             }
             let mut energy = 0.0;
@@ -133,10 +134,10 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
                 energy += laid.area * laid.strain * laid.strain;
             }
             if best.as_ref().is_none_or(|(least, ..)| energy < *least) {
-                best = Some((energy, trial, parts));
+                best = Some((energy, plane));
             }
         }
-        let Some((_, cut, parts)) = best else {
+        let Some((_, plane)) = best else {
             let [x, y, z]: [f64; 3] = worst.into();
             return Err(Error::Unsupported {
                 format: "pattern",
@@ -146,8 +147,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
                 ),
             });
         };
-        body = cut;
-        open.extend(parts);
+        open.extend(body.cut(part, &plane)?);
     }
     let numbers = body.sort();
     let mut parts: Vec<(u32, Laid)> = (flat.into_iter())

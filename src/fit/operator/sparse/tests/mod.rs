@@ -72,10 +72,7 @@ fn operator_of(
         }));
     }
     let extent = |k: usize| {
-        let along = rows
-            .entries
-            .iter()
-            .map(|(vertex, _)| places[*vertex as usize][k]);
+        let along = rows.vertices().map(|vertex| places[vertex as usize][k]);
         let [least, most] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
             [a.min(x), b.max(x)]
         });

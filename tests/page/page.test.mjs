@@ -424,3 +424,35 @@ pageTest('what is written of a flat page can be done without, and asked for agai
   const { bytes } = await saveAs(page, 'PNG');
   assert.ok(misplaced(parsePng(bytes)) < 0.003);
 });
+
+pageTest('a photo that is being read can be done without', async (page) => {
+  /** Opens a large photo, and gives it up as soon as that is offered. @param {boolean} cancel */
+  const open = (cancel) => page.evaluate(async (cancel) => {
+    const canvas = new OffscreenCanvas(4000, 3000);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    for (let i = 0; i < 4000; i++) {
+      context.fillStyle = `hsl(${(i * 37) % 360} 60% 50%)`;
+      context.fillRect((i * 131) % 4000, (i * 71) % 3000, 90, 60);
+    }
+    const blob = await canvas.convertToBlob({ type: 'image/png' });
+    const files = new DataTransfer();
+    files.items.add(new File([blob], 'large.png', { type: 'image/png' }));
+    const input = /** @type {HTMLInputElement} */ (document.querySelector('#page-file'));
+    const panel = /** @type {HTMLElement} */ (document.querySelector('#page-opening'));
+    const offered = new Promise((resolve) => new MutationObserver(() => !panel.hidden && resolve(null)).observe(panel, { attributes: true }));
+    input.files = files.files;
+    input.dispatchEvent(new Event('change', { bubbles: true }));
+    await offered;
+    if (cancel) /** @type {HTMLButtonElement} */ (document.querySelector('#page-opening-cancel')).click();
+    return panel.hidden;
+  }, cancel);
+  await openPhoto(page, 'letter.png', photo);
+  const caption = page.locator('#page-caption');
+  assert.equal(await open(true), true);
+  // It would have been there by now.
+  await page.waitForTimeout(3000);
+  assert.match(await caption.innerText(), /letter/);
+  assert.equal(await open(false), false);
+  await caption.filter({ hasText: 'large' }).waitFor();
+  await page.locator('#page-opening').waitFor({ state: 'hidden' });
+});

@@ -1,4 +1,5 @@
 /** A photo that was opened: its pixels once, and a reduced copy of them to show and to look for edges in. */
+import { apart } from '../apart.js';
 import { pixelsOf, reducedPhoto } from '../pixels.js';
 
 /** @import {Api} from '../api.js' */
@@ -21,16 +22,20 @@ const SMALL = 1280;
  */
 
 /**
- * @param {InstanceType<Api['DevelopableWorker']>} worker
+ * @param {Api} api
  * @param {File} file
+ * @param {AbortSignal} signal it is given up
  * @returns {Promise<PagePhoto>}
  */
-export async function openPhoto(worker, file) {
-  const photo = await worker.readPhoto(file).catch((/** @type {unknown} */ error) =>
+export async function openPhoto(api, file, signal) {
+  const photo = await apart(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
+    signal.throwIfAborted();
     // The browser may know kinds of pictures that the package does not.
-    pixelsOf(file).catch(() => {
+    return pixelsOf(file).catch(() => {
       throw error;
-    }));
+    });
+  });
+  signal.throwIfAborted();
   return photoOf(photo, file.name.replace(/\.[^.]*$/, '') || 'photo');
 }
 

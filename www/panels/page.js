@@ -1,4 +1,5 @@
 /** From a photo of a page alone to the flat page: opened or an example, its outline, what is known, what comes of it. */
+import { readingOf } from '../apart.js';
 import { choosesFile, element, elements } from '../dom.js';
 import { examplePhoto } from '../page/example.js';
 import { openPhoto, photoOf } from '../page/photo.js';
@@ -7,11 +8,13 @@ import { hideNotice, showFailure } from './notice.js';
 import { pageKnownPanel } from './page-known.js';
 import { pagePhotoPanel } from './page-photo.js';
 import { pageResultPanel } from './page-result.js';
+import { SOON, waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
 /** @import {ExampleName} from '../page/example.js' */
 /** @import {PagePhoto} from '../page/photo.js' */
 /** @import {DewarpedPage} from '../page/flatten.js' */
+/** @import {Slow} from '../session.js' */
 
 /**
  * @param {Api} api
@@ -21,7 +24,12 @@ export function pagePanel(api, goOn) {
   /** Made with the first photo, for most visitors come for something else. @type {PageSession | null} */
   let session = null;
   const examples = elements('input[name="page-example"]', HTMLInputElement);
-  let opened = 0;
+  /** What is being opened, or was opened last. @type {AbortController | null} */
+  let opening = null;
+  const waiting = waitingPanel(element('page-opening', HTMLElement), () => {
+    opening?.abort();
+    waiting.end();
+  }, SOON);
 
   const begun = () => {
     if (session) return session;
@@ -34,29 +42,35 @@ export function pagePanel(api, goOn) {
 
   /**
    * @param {string} doing
-   * @param {(session: PageSession) => Promise<PagePhoto>} load
+   * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
    * @param {number} [pages]
+   * @param {Slow} [slow] for what is said meanwhile
    */
-  const show = async (doing, load, pages) => {
-    const turn = ++opened;
+  const show = async (doing, load, pages, slow) => {
+    opening?.abort();
+    const { signal } = (opening = new AbortController());
     const to = begun();
+    waiting.end();
+    if (slow) waiting.begin(slow);
     try {
-      const photo = await load(to);
-      if (turn !== opened) return;
+      const photo = await load(signal);
+      if (signal.aborted) return;
       hideNotice();
       to.show(photo, pages);
     } catch (error) {
-      if (turn === opened) showFailure(doing, error);
+      if (!signal.aborted) showFailure(doing, error);
+    } finally {
+      if (!signal.aborted) waiting.end(slow);
     }
   };
 
   /** @param {File} file */
   const open = async (file) => {
-    await show(`“${file.name}” could not be opened`, async ({ worker }) => {
-      const photo = await openPhoto(worker, file);
-      for (const radio of examples) radio.checked = false;
+    await show(`“${file.name}” could not be opened`, async (signal) => {
+      const photo = await openPhoto(api, file, signal);
+      for (const radio of examples) radio.checked = radio.checked && signal.aborted;
       return photo;
-    }, 1);
+    }, 1, readingOf(file));
   };
   const openExample = async () => {
     const name = /** @type {ExampleName} */ (examples.find((radio) => radio.checked)?.value ?? 'curled');
@@ -69,7 +83,7 @@ export function pagePanel(api, goOn) {
     open,
     /** Something to see, where nothing was opened yet. */
     begin() {
-      if (opened === 0) void openExample();
+      if (!opening) void openExample();
     },
   };
 }

@@ -621,16 +621,23 @@ fn joints_of_a_noisy_roof_are_drawn_equally_long() {
     assert!(joints.contains_key(&worst.crease));
 }
 
-/// Distances of a sheet's outline from a line that it is laid upon, the largest one.
-fn off(sheet: &Sheet, exact: &[[f64; 2]]) -> f64 {
-    let pieces = sheet.outlines[0]
-        .iter()
-        .flat_map(|run| run.points.windows(2));
-    let mut here: Vec<[f64; 2]> = pieces
-        .flat_map(|p| {
-            let [from, to] = [p[0], p[1]];
-            (0..20).map(move |k| {
-                let t = f64::from(k) / 20.0;
+/// The outlines of sheets as they are cut, in the surface's units.
+fn drawn(sheets: &[Sheet]) -> Vec<Vec<[f64; 2]>> {
+    let drawing = Drawing::new(sheets, &DrawingOptions::default().scale(1e3)).unwrap();
+    let cut = |points: &Vec<[f64; 2]>| points.iter().map(|p| p.map(|x| 1e-3 * x)).collect();
+    (drawing.sheets.iter())
+        .map(|sheet| cut(&sheet.cuts[0]))
+        .collect()
+}
+
+/// Distances of a closed line from another one that it is laid upon, the largest one.
+fn off(outline: &[[f64; 2]], exact: &[[f64; 2]]) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    let mut here: Vec<[f64; 2]> = (outline.iter().zip(next))
+        .flat_map(|(from, to)| {
+            let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / 0.01).ceil();
+            (0..steps as usize).map(move |k| {
+                let t = k as f64 / steps;
                 [0, 1].map(|i| from[i] + t * (to[i] - from[i]))
             })
         })
@@ -640,7 +647,7 @@ fn off(sheet: &Sheet, exact: &[[f64; 2]]) -> f64 {
     };
     let mut most = f64::INFINITY;
     // Nearest points, and the motion that brings them nearest, in turn.
-    for _ in 0..30 {
+    for _ in 0..150 {
         let away = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
         let nearest = |p: &[f64; 2]| {
             let by = exact
@@ -703,13 +710,7 @@ fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
         let solved = fit(&input, &options).unwrap();
         let (_, sheets) = sheets(solved.heightfield());
         assert_eq!(sheets.len(), 1, "{name}");
-        // Every second row is shifted by half a spacing: its border is halfway.
-        let lattice = truth.lattice();
-        let [left, top] = lattice.position(0, 0);
-        let [right, bottom] = lattice.position(lattice.rows() - 1, lattice.cols() - 1);
-        let shift = |row: usize| if row % 2 == 1 { 0.5 } else { 0.0 };
-        let right = right + shift(lattice.rows() - 1) * lattice.spacing();
-        let [left, right] = [left, right].map(|x| x - 0.25 * lattice.spacing());
+        let [[left, bottom], [right, top]] = covered(truth.lattice());
         let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
         let exact: Vec<[f64; 2]> = (0..4)
             .flat_map(|k| {
@@ -720,14 +721,94 @@ fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
                 })
             })
             .collect();
-        let extent = |k: usize| {
-            let values = || exact.iter().map(|p| p[k]);
-            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
-        };
-        let error = off(&sheets[0], &exact) / extent(0).max(extent(1));
+        let error = off(&drawn(&sheets)[0], &exact) / size(&exact);
         println!("{name}: {:.3} %", 100.0 * error);
         assert!(error < 0.004, "{name}: {error}");
     }
+}
+
+/// The longer side of the box around a line.
+fn size(line: &[[f64; 2]]) -> f64 {
+    let extent = |k: usize| {
+        let values = || line.iter().map(|p| p[k]);
+        values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+    };
+    extent(0).max(extent(1))
+}
+
+/// Two surfaces with a curved crease: a cylinder whose upper part is mirrored in a slanting plane, which stays one
+/// sheet, and a cylinder above which a cone rises, which becomes two.
+#[test]
+fn curved_creases_have_their_developments() {
+    let arc = |x: f64| 0.7 * ((x - 0.5) / 0.7).asin();
+    let round = |x: f64| (0.49 - (x - 0.5).powi(2)).sqrt();
+    let line = |ends: [[f64; 2]; 2]| {
+        (0..500).map(move |i| {
+            let t = f64::from(i) / 500.0;
+            [0, 1].map(|k| ends[0][k] + t * (ends[1][k] - ends[0][k]))
+        })
+    };
+    // Mirrored in y = 0.5 + 2 (z - z₀), rulings rise by 4/3.
+    let crease = |x: f64| 0.5 + 2.0 * (round(x) - round(0.25));
+    let folded = unit_square(100, |x, y| {
+        round(x) + (4.0 / 3.0) * (y - crease(x)).max(0.0)
+    });
+    let [[left, bottom], [right, top]] = covered(folded.lattice());
+    let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+    let exact: Vec<[f64; 2]> = (0..4)
+        .flat_map(|k| line([corners[k], corners[(k + 1) % 4]]))
+        .map(|[x, y]| [arc(x), y + (2.0 / 3.0) * (y - crease(x)).max(0.0)])
+        .collect();
+    let (_, found) = sheets(&folded);
+    assert_eq!((found.len(), found[0].folds.len()), (1, 1));
+    let error = off(&drawn(&found)[0], &exact) / size(&exact);
+    println!("curved fold: {:.3} %", 100.0 * error);
+    assert!(error < 0.003, "{error}");
+
+    // The cone's point is below the square; where both are equally high, y is known for each x.
+    let cone = |x: f64, y: f64| 1.32 - 0.8 * (x - 0.5).hypot(y + 0.4);
+    let crease = |x: f64| (((1.32 - round(x)) / 0.8).powi(2) - (x - 0.5).powi(2)).sqrt() - 0.4;
+    let both = unit_square(100, |x, y| round(x).max(cone(x, y)));
+    let unrolled = |[x, y]: [f64; 2]| {
+        let steep = 1.64f64.sqrt();
+        let (sin, cos) = ((x - 0.5).atan2(y + 0.4) / steep).sin_cos();
+        let far = (x - 0.5).hypot(y + 0.4) * steep;
+        [far * sin, far * cos]
+    };
+    let curve: Vec<[f64; 2]> = line([[left, 0.0], [right, 0.0]])
+        .map(|[x, _]| [x, crease(x)])
+        .collect();
+    let around = |y: f64| {
+        let ends = [left, right].map(|x| [x, crease(x)]);
+        let sides = line([ends[0], [left, y]]).chain(line([[left, y], [right, y]]));
+        let sides = sides.chain(line([[right, y], ends[1]]));
+        sides.chain(curve.iter().copied()).collect::<Vec<_>>()
+    };
+    let below: Vec<[f64; 2]> = around(bottom).into_iter().map(unrolled).collect();
+    let above: Vec<[f64; 2]> = (around(top).into_iter())
+        .map(|[x, y]| [arc(x), y])
+        .collect();
+    let (_, found) = sheets(&both);
+    assert_eq!(found.len(), 2);
+    let mut errors: Vec<[f64; 2]> = (drawn(&found).iter())
+        .map(|outline| [&below, &above].map(|exact| off(outline, exact) / size(exact)))
+        .collect();
+    errors.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    println!("cone and cylinder: {errors:?}");
+    assert!(errors[0][0] < 0.003 && errors[1][1] < 0.003, "{errors:?}");
+}
+
+/// The lower left and the upper right corner of what a lattice's whole triangles cover. Every second row is shifted by
+/// half a spacing: its border is halfway.
+fn covered(lattice: &Lattice) -> [[f64; 2]; 2] {
+    let [left, top] = lattice.position(0, 0);
+    let [right, bottom] = lattice.position(lattice.rows() - 1, lattice.cols() - 1);
+    let shift = f64::from(u8::from(lattice.rows() % 2 == 0)) * 0.5;
+    let quarter = 0.25 * lattice.spacing();
+    [
+        [left - quarter, bottom],
+        [right + shift * lattice.spacing() - quarter, top],
+    ]
 }
 
 /// A height over a plane that is linear between rays from a point: by how far each rises along its direction.

@@ -803,7 +803,7 @@ fn curved_creases_have_their_developments() {
 fn covered(lattice: &Lattice) -> [[f64; 2]; 2] {
     let [left, top] = lattice.position(0, 0);
     let [right, bottom] = lattice.position(lattice.rows() - 1, lattice.cols() - 1);
-    let shift = f64::from(u8::from(lattice.rows() % 2 == 0)) * 0.5;
+    let shift = f64::from(u8::from(lattice.rows().is_multiple_of(2))) * 0.5;
     let quarter = 0.25 * lattice.spacing();
     [
         [left - quarter, bottom],

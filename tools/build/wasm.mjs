@@ -20,7 +20,7 @@ const files = [
   { name: 'files', limit: 275_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
-  { name: 'fitmesh', limit: 150_500 },
+  { name: 'fitmesh', limit: 156_000 },
   { name: 'unroll', limit: 272_000 },
   { name: 'patterns', limit: 497_000 },
 ];

@@ -268,8 +268,8 @@ impl Outlines {
                 }
                 let (along, bow) = side.slopes();
                 for (corner, way) in side.corners.into_iter().zip([-sign, sign]) {
-                    for k in 0..2 {
-                        *row.entry(2 * corner + k).or_default() += way * along[k];
+                    for (k, slope) in along.iter().enumerate() {
+                        *row.entry(2 * corner + k).or_default() += way * slope;
                     }
                 }
                 *row.entry(2 * self.corners + number).or_default() += sign * bow;

@@ -124,7 +124,12 @@ pub(super) fn settle(
             .filter_map(|p| net.leaves[*p as usize].as_ref());
         let rough = leaves.clone().any(Leaf::is_rough);
         if rough || !are_close(net, layout, &folded) {
-            Tied::new(net, layout, &members, &folded)?.relax(net, layout, SETTLING)?;
+            let mut tied = Tied::new(net, layout, &members, &folded)?;
+            tied.relax(net, layout, SETTLING)?;
+            // Most lie well by now.
+            if strains(net, &members).0.rms() > limit {
+                tied.relax(net, layout, EFFORT)?;
+            }
         } else if folded.is_empty() {
             members.iter().for_each(|patch| net.lay_alone(*patch));
         }

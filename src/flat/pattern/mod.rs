@@ -294,7 +294,7 @@ pub fn pattern(
 
 /// What a sheet may be strained by on a coarse lattice, as shares of the limit: less where that was too
 /// much on the fine one.
-const MARGINS: [f64; 2] = [0.95, 0.75];
+const MARGINS: [f64; 2] = [0.9, 0.7];
 
 /// The finest thing of outlines, in spacings, where nothing is refined: where larger loops are cut off, both sides
 /// of a joint differ.

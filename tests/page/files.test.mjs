@@ -166,8 +166,12 @@ for (const { what, name, bytes, says } of broken) {
       input: (await look(page, '#input-canvas')).hash,
       result: (await look(page, '#result-canvas')).hash,
     };
+    // Wherever the page is scrolled to.
+    await page.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));
     await drop(page, name, bytes);
     const message = await page.getByRole('alert').innerText();
+    const { top, bottom } = await page.getByRole('alert').evaluate((alert) => alert.getBoundingClientRect());
+    assert.ok(top >= 0 && bottom <= (page.viewportSize()?.height ?? 0), `the message is from ${top} to ${bottom}`);
     assert.ok(message.includes(name), message);
     assert.match(message, says);
     assert.deepEqual({

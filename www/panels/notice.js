@@ -7,9 +7,12 @@ import { complaint } from '../words.js';
  * @param {'alert' | 'note'} [kind]
  */
 export function showNotice(message, kind = 'alert') {
+  const notice = element('notice', HTMLElement);
   element('notice-text', HTMLElement).textContent = message;
-  element('notice', HTMLElement).dataset.kind = kind;
-  element('notice', HTMLElement).hidden = false;
+  notice.dataset.kind = kind;
+  notice.hidden = false;
+  // Whoever is further down would not know.
+  if (kind === 'alert') notice.scrollIntoView({ block: 'nearest' });
 }
 
 /** @param {string} doing what could not be done @param {unknown} error */

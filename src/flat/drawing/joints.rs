@@ -107,6 +107,9 @@ pub(super) fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &Drawin
         return;
     }
     let mut outlines = Outlines::new(sheets, lines, options);
+    if outlines.joints.is_empty() {
+        return;
+    }
     let before: Vec<Curve> = outlines.sides.iter().map(|s| s.curve.clone()).collect();
     let usual = outlines.crossing(&before);
     for _ in 0..TRIALS {

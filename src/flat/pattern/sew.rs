@@ -12,7 +12,8 @@ use crate::error::Result;
 use crate::flat::unroll::joint::Until;
 use crate::flat::unroll::pieces::Point;
 
-/// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it are strained more already.
+/// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it
+/// are strained more already.
 const CREASE: f64 = 0.1;
 
 /// What the mean of a sheet's squared strains may grow by, in squares of the limit, for a length that is closed as long

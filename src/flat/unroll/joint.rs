@@ -26,9 +26,9 @@ pub(crate) type Mean = [(u32, f64); 3];
 pub(crate) struct Joint {
     pieces: Vec<(Piece, [u32; 3])>,
     ties: Vec<[Mean; 2]>,
-    /// The global step's, its diagonal apart.
     matrix: CsMat<f64>,
-    diagonal: Vec<f64>,
+    /// Inverse of its diagonal.
+    inverse: Vec<f64>,
     area: f64,
 }
 
@@ -55,20 +55,24 @@ impl Joint {
         ties: Vec<[Mean; 2]>,
     ) -> Result<Joint> {
         let area = pieces.iter().map(|(piece, _)| piece.area()).sum();
-        let mut diagonal = try_filled("unrolling", count, 0.0)?;
-        let matrix = matrix(&mut diagonal, &pieces, &ties);
+        let matrix = matrix(count, &pieces, &ties);
+        let mut inverse = try_filled("unrolling", count, 0.0)?;
+        for (row, entries) in matrix.outer_iterator().enumerate() {
+            let own = entries.get(row).copied().unwrap_or(0.0);
+            inverse[row] = if own > 0.0 { 1.0 / own } else { 0.0 };
+        }
         Ok(Joint {
             pieces,
             ties,
             matrix,
-            diagonal,
+            inverse,
             area,
         })
     }
 
     /// Moves the vertices to where pieces and ties fit best; the number of steps that took.
     pub(crate) fn relax(&self, places: &mut [Point], until: Until) -> Result<usize> {
-        let mut gradients = Gradients::new(&self.matrix, &self.diagonal)?;
+        let mut gradients = Gradients::new(&self.matrix, &self.inverse)?;
         let area = self.area;
         let mut last = places.to_vec();
         let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
@@ -109,7 +113,7 @@ impl Joint {
     /// Bends what the pieces make up to where these fit best in space: from places that are near to
     /// those.
     pub(crate) fn bend(&self, places: &mut [Vector3<f64>], until: Until) -> Result<()> {
-        let mut gradients = Gradients::new(&self.matrix, &self.diagonal)?;
+        let mut gradients = Gradients::new(&self.matrix, &self.inverse)?;
         let mut pull = try_filled("refolding", places.len(), Vector3::zeros())?;
         let mut last = places.to_vec();
         let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
@@ -202,16 +206,14 @@ impl Joint {
     }
 }
 
-/// The matrix without its diagonal, which is filled in.
-fn matrix(diagonal: &mut [f64], pieces: &[(Piece, [u32; 3])], ties: &[[Mean; 2]]) -> CsMat<f64> {
-    let count = diagonal.len();
-    let room = 6 * pieces.len() + 30 * ties.len();
+fn matrix(count: usize, pieces: &[(Piece, [u32; 3])], ties: &[[Mean; 2]]) -> CsMat<f64> {
+    let room = 12 * pieces.len() + 36 * ties.len();
     let mut entries = TriMat::with_capacity((count, count), room);
     for (piece, corners) in pieces {
         for (k, weight) in piece.weights.into_iter().enumerate() {
             let [a, b] = [k, (k + 1) % 3].map(|k| corners[k] as usize);
-            diagonal[a] += weight;
-            diagonal[b] += weight;
+            entries.add_triplet(a, a, weight);
+            entries.add_triplet(b, b, weight);
             entries.add_triplet(a, b, -weight);
             entries.add_triplet(b, a, -weight);
         }
@@ -220,12 +222,8 @@ fn matrix(diagonal: &mut [f64], pieces: &[(Piece, [u32; 3])], ties: &[[Mean; 2]]
         let terms = difference(tie);
         for (a, wa) in terms {
             for (b, wb) in terms {
-                if wa == 0.0 || wb == 0.0 {
-                    continue;
-                }
-                match a == b {
-                    true => diagonal[a as usize] += TIE * wa * wb,
-                    false => entries.add_triplet(a as usize, b as usize, TIE * wa * wb),
+                if wa != 0.0 && wb != 0.0 {
+                    entries.add_triplet(a as usize, b as usize, TIE * wa * wb);
                 }
             }
         }
@@ -244,8 +242,7 @@ fn difference([one, other]: &[Mean; 2]) -> [(u32, f64); 6] {
 /// of the complex numbers, and the matrix is real.
 struct Gradients<'a> {
     matrix: &'a CsMat<f64>,
-    diagonal: &'a [f64],
-    inverse: Vec<f64>,
+    inverse: &'a [f64],
     right: Vec<Point>,
     solution: Vec<Point>,
     direction: Vec<Point>,
@@ -253,19 +250,14 @@ struct Gradients<'a> {
 }
 
 impl<'a> Gradients<'a> {
-    fn new(matrix: &'a CsMat<f64>, diagonal: &'a [f64]) -> Result<Self> {
-        let blank = || try_filled("unrolling", diagonal.len(), Point::default());
-        let mut inverse = try_filled("unrolling", diagonal.len(), 0.0)?;
-        for (inverse, own) in inverse.iter_mut().zip(diagonal) {
-            *inverse = if *own > 0.0 { 1.0 / own } else { 0.0 };
-        }
+    fn new(matrix: &'a CsMat<f64>, inverse: &'a [f64]) -> Result<Self> {
+        let blank = || try_filled("unrolling", inverse.len(), Point::default());
         Ok(Gradients {
             right: blank()?,
             solution: blank()?,
             direction: blank()?,
             image: blank()?,
             matrix,
-            diagonal,
             inverse,
         })
     }
@@ -276,7 +268,7 @@ impl<'a> Gradients<'a> {
         self.direction.fill(Point::default());
         let (mut last, mut first) = (0.0, None);
         for _ in 0..INNER {
-            let pairs = self.right.iter().zip(&self.inverse);
+            let pairs = self.right.iter().zip(self.inverse);
             let square: f64 = pairs.clone().map(|(r, d)| r.norm_sqr() * d).sum();
             let goal = *first.get_or_insert(REDUCTION * REDUCTION * square);
             if square <= goal || square <= f64::MIN_POSITIVE {
@@ -289,12 +281,8 @@ impl<'a> Gradients<'a> {
             }
             let mut curvature = 0.0;
             for (row, entries) in self.matrix.outer_iterator().enumerate() {
-                let own = self.direction[row];
-                let mut sum = own * self.diagonal[row];
-                for (k, w) in entries.iter() {
-                    sum += self.direction[k] * *w;
-                }
-                curvature += (own.conj() * sum).re;
+                let sum: Point = entries.iter().map(|(k, w)| self.direction[k] * *w).sum();
+                curvature += (self.direction[row].conj() * sum).re;
                 self.image[row] = sum;
             }
             if curvature <= 0.0 {

@@ -147,8 +147,9 @@ export class Handles {
    * @param {PointerEvent} event
    * @param {Element} holder of the pointer
    * @param {number} handle
+   * @param {PointerEvent} [since] where the pointer is by now
    */
-  #drag(event, holder, handle) {
+  #drag(event, holder, handle, since) {
     const { x, y } = this.#drawing.handles[handle];
     const [px, py] = this.place(event);
     /** @param {PointerEvent} moved @returns {[number, number]} */
@@ -180,6 +181,8 @@ export class Handles {
     const { signal } = over;
     holder.addEventListener('pointermove', follow, { signal });
     for (const type of ['pointerup', 'pointercancel']) holder.addEventListener(type, end, { signal });
+    // A quick finger is heard of once before it leaves.
+    if (since) follow(since);
     event.preventDefault();
   }
 
@@ -202,7 +205,7 @@ export class Handles {
         if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < PULL) return;
         over.abort();
         const handle = make(this.place(event));
-        if (handle >= 0) this.#drag(event, svg, handle);
+        if (handle >= 0) this.#drag(event, svg, handle, moved);
       }, { signal });
       for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => over.abort(), { signal });
       event.preventDefault();

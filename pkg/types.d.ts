@@ -1215,7 +1215,7 @@ export interface Drawing {
     refolding?: number;
     /** What of the surface is on no sheet; areas in square millimetres. */
     missing?: {
-      /** Left out because nothing around them lies flat with them: ragged steep borders, mostly; a fiftieth of all at most. */
+      /** Left out because nothing around them lies flat with them: ragged steep borders and torn points of them, mostly; a fiftieth of all at most. */
       vertices: number;
       area: number;
       /** Steps of the surface, whose sides are cut apart: what would stand between them is not there. */

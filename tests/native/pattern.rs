@@ -505,6 +505,39 @@ fn a_steep_ragged_border_gives_way_and_that_is_told() {
     }
 }
 
+/// A part of a cylinder whose border is drawn down at a vertex that is not on the lattice of twice the spacing, where
+/// it is cut. The developed part is an arc times the width.
+#[test]
+fn a_torn_point_of_a_border_is_left_out_rather_than_cut() {
+    let spacing = 1.0 / 159.0;
+    let lattice = Lattice::new(160, 160, spacing).unwrap();
+    let [left, bottom] = lattice.position(0, 81);
+    let radius = 1.5f64.sqrt();
+    let surface = Heightfield::from_fn(lattice, |x, y| {
+        let away = (x - left).hypot(y - bottom) / spacing;
+        (1.5 - (x - 0.5).powi(2)).sqrt() - 12.0 * spacing * (1.0 - away).max(0.0)
+    })
+    .unwrap();
+    let patches = Patches::new(&surface, &PatchOptions::default()).unwrap();
+    let options = PatternOptions::default().max_strain(0.003);
+    let found = pattern(&surface, &patches, &options).unwrap();
+    let [sheet] = &found.sheets[..] else {
+        panic!("{} sheets", found.sheets.len());
+    };
+    assert_eq!(sheet.patches.len(), 1);
+    assert_eq!((sheet.outlines.len(), found.missing.steps), (1, 0));
+    assert!(
+        (1..=12).contains(&found.missing.vertices),
+        "{:?}",
+        found.missing
+    );
+    assert!(sheet.strain < 1e-4, "{}", sheet.strain);
+    let [low, high] = [[0, 0], [0, 159]].map(|[row, col]| lattice.position(row, col)[0]);
+    let arc = |x: f64| radius * ((x - 0.5) / radius).asin();
+    let exact = (arc(high) - arc(low)) * 159.0 * 0.75f64.sqrt() * spacing;
+    near(enclosed(&lines(sheet)) / exact, 1.0, 0.002);
+}
+
 #[test]
 fn walls_of_steps_are_told() {
     // A block on a plane: its walls are on no sheet.

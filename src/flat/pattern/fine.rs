@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, VecDeque};
 use super::assembly::{Assembled, settle};
 use super::labels::Labels;
 use super::layout::Arrangement;
-use super::leaf::{Leaf, Window};
+use super::leaf::Leaf;
 use super::net::Net;
 use super::outline::Layout;
 use super::parts::Parts;
@@ -95,6 +95,21 @@ pub(super) fn refined(
             origins,
         },
     )?;
+    // Sheets of one part are laid flat by themselves, without specks that the coarse lattice does not show.
+    let known = rough.net.leaves.len();
+    let several = rough
+        .arrangement
+        .sheets
+        .iter()
+        .filter(|members| members.len() > 1);
+    let mut alone = vec![true; parts.labels.origins.len()];
+    several
+        .flatten()
+        .for_each(|part| alone[*part as usize] = false);
+    let single: Vec<u32> = (0..alone.len() as u32)
+        .filter(|part| alone[*part as usize])
+        .collect();
+    parts.lay_flat_trimmed(&single)?;
     // Sorted by their areas, as all patches are.
     let (found, order) = patches.divided(&parts.surface, parts.labels.of.clone())?;
     parts.renumber(&found, &order);
@@ -106,20 +121,12 @@ pub(super) fn refined(
     let mut sheets: Vec<Vec<u32>> = (rough.arrangement.sheets.iter())
         .map(|members| members.iter().map(|part| numbers[*part as usize]).collect())
         .collect();
-    let known: usize = rough.net.leaves.len();
     sheets.extend((known..order.len()).map(|part| vec![numbers[part]]));
-    let mut alone = vec![true; order.len()];
-    for members in sheets.iter().filter(|members| members.len() > 1) {
-        members
-            .iter()
-            .for_each(|part| alone[*part as usize] = false);
-    }
     let mut leaves = Vec::with_capacity(order.len());
     for (number, old) in order.iter().enumerate() {
-        let window = parts.window(number as u32);
-        let leaf = match alone[number] {
-            true => None,
-            false => placed(&parts, number as u32, window, *old, rough)?,
+        let leaf = match alone[*old] {
+            true => parts.leaves[number].take(),
+            false => placed(&parts, number as u32, *old, rough)?,
         };
         leaves.push(match leaf {
             Some(leaf) => Some(leaf),
@@ -212,13 +219,7 @@ fn carried(
 }
 
 /// A part of the fine lattice, lying where it lies on the coarse one.
-fn placed(
-    parts: &Parts,
-    part: u32,
-    window: Window,
-    old: usize,
-    rough: &Assembled,
-) -> Result<Option<Leaf>> {
+fn placed(parts: &Parts, part: u32, old: usize, rough: &Assembled) -> Result<Option<Leaf>> {
     let Some(leaf) = rough.net.leaves.get(old).and_then(Option::as_ref) else {
         return Ok(None);
     };
@@ -231,7 +232,13 @@ fn placed(
         });
         Some(motion.of(0.5 * (one? + other?)))
     };
-    Leaf::at(&parts.surface, &parts.labels, part, window, start)
+    Leaf::at(
+        &parts.surface,
+        &parts.labels,
+        part,
+        parts.window(part),
+        start,
+    )
 }
 
 /// Folds creases where they are folded on the coarse lattice.

@@ -42,6 +42,7 @@ mod sew;
 mod shape;
 mod simple;
 mod spots;
+mod trim;
 
 use super::unroll::UnrollOptions;
 use crate::error::{Error, Result, positive};
@@ -129,7 +130,7 @@ pub struct Pattern {
 #[non_exhaustive]
 pub struct Missing {
     /// Vertices that were left out because nothing around them lies flat with them: ragged steep
-    /// borders, mostly, and a fiftieth of all at most.
+    /// borders and torn points of them, mostly, and a fiftieth of all at most.
     pub vertices: usize,
     /// The area around them.
     pub area: f64,

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use super::PatternOptions;
 use super::labels::Labels;
 use super::leaf::{CRUMB, Leaf, Window};
+use super::trim::specks;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -43,6 +44,11 @@ pub(super) struct Parts {
     most_left_out: usize,
 }
 
+fn most_left_out(surface: &Heightfield) -> usize {
+    let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
+    (LEFT_OUT * valid as f64) as usize
+}
+
 impl Parts {
     pub(super) fn new(
         surface: &Heightfield,
@@ -50,7 +56,6 @@ impl Parts {
         options: &PatternOptions,
     ) -> Result<Self> {
         let count = patches.patches().len();
-        let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
         let labels = Labels::new(patches.labels(), count);
         let lattice = surface.lattice();
         let mut parts = Parts {
@@ -62,7 +67,7 @@ impl Parts {
             finest: 1.0,
             pending: Vec::new(),
             left_out: 0,
-            most_left_out: (LEFT_OUT * valid as f64) as usize,
+            most_left_out: most_left_out(surface),
         };
         parts.lay_flat(&(0..count as u32).collect::<Vec<_>>())?;
         Ok(parts)
@@ -79,7 +84,7 @@ impl Parts {
             windows: Vec::new(),
             pending: Vec::new(),
             left_out: 0,
-            most_left_out: 0,
+            most_left_out: most_left_out(surface),
         }
     }
 
@@ -143,6 +148,22 @@ impl Parts {
         Ok(())
     }
 
+    /// Lays parts flat without the specks that they are strained too much by.
+    pub(super) fn lay_flat_trimmed(&mut self, parts: &[u32]) -> Result<()> {
+        self.lay_flat(parts)?;
+        while let Some(part) = self.pending.pop() {
+            if self.is_strained(part) {
+                self.trim(part)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn is_strained(&self, part: u32) -> bool {
+        let leaf = self.leaves[part as usize].as_ref();
+        leaf.is_some_and(|leaf| leaf.strain().rms() > self.options.max_strain)
+    }
+
     pub(super) fn leaf(&self, part: &u32) -> Result<Option<Leaf>> {
         Leaf::new(
             &self.surface,
@@ -168,7 +189,8 @@ impl Parts {
             };
             let strain = leaf.strain();
             // What is too small to be cut may still do as a part of a sheet.
-            if strain.rms() > self.options.max_strain || strain.flipped > 0 {
+            let strained = strain.rms() > self.options.max_strain;
+            if (strained || strain.flipped > 0) && !(strained && self.trim(part)?) {
                 self.cut(part)?;
             }
         }
@@ -253,22 +275,11 @@ impl Parts {
     /// it was. Numbers of parts may change.
     pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
-        if own.len() > SCRAP || self.left_out + own.len() > self.most_left_out {
+        if own.len() > self.scrap() {
             return Ok(false);
         }
-        self.left_out += own.len();
         let mut beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
-        let lattice = *self.surface.lattice();
-        let mut keep = vec![1u8; lattice.len()];
-        for i in own {
-            keep[i] = 0;
-            self.labels.of[i] = NO_PATCH;
-        }
-        let surface = std::mem::replace(
-            &mut self.surface,
-            Heightfield::new(Lattice::new(1, 1, 1.0)?, vec![0.0])?,
-        );
-        self.surface = surface.masked(&keep)?;
+        self.without(own)?;
         let last = self.labels.origins.len() as u32 - 1;
         self.remove(part);
         beside
@@ -278,6 +289,39 @@ impl Parts {
         // Their borders are others now.
         self.lay_flat(&beside)?;
         Ok(true)
+    }
+
+    /// Leaves out the few vertices at the border of a part that nearly all of its strain is in; whether there were
+    /// any.
+    pub(super) fn trim(&mut self, part: u32) -> Result<bool> {
+        let Some(leaf) = self.leaves[part as usize].as_ref() else {
+            return Ok(false);
+        };
+        let (lattice, limit) = (self.surface.lattice(), self.options.max_strain);
+        let Some(own) = specks(lattice, &self.labels, part, leaf, limit, self.scrap()) else {
+            return Ok(false);
+        };
+        let beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
+        self.without(own)?;
+        self.lay_flat(&[&[part], &beside[..]].concat())?;
+        Ok(true)
+    }
+
+    /// So many vertices may be left out at once.
+    fn scrap(&self) -> usize {
+        SCRAP.min(self.most_left_out.saturating_sub(self.left_out))
+    }
+
+    fn without(&mut self, vertices: Vec<usize>) -> Result<()> {
+        self.left_out += vertices.len();
+        let mut keep = vec![1u8; self.surface.lattice().len()];
+        for i in vertices {
+            keep[i] = 0;
+            self.labels.of[i] = NO_PATCH;
+        }
+        let nothing = Heightfield::new(Lattice::new(1, 1, 1.0)?, vec![0.0])?;
+        self.surface = std::mem::replace(&mut self.surface, nothing).masked(&keep)?;
+        Ok(())
     }
 
     /// How many edges lead from a part to each other one.

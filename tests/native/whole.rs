@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 use developable::Mesh;
 use developable::analysis::MeshCurvatures;
+use developable::drawing::{Drawing, DrawingOptions, Totals};
 use developable::patches::{MeshPatches, PatchOptions};
 use developable::pattern::{MeshPattern, PatternOptions, Sheet, pattern_mesh};
 
@@ -204,6 +205,90 @@ fn a_cone_gets_one_slit_and_its_angle() {
         (long - 2.0 * SQRT_2).abs() < 0.05,
         "both sides of the slit: {long}"
     );
+}
+
+fn drawn(mesh: &Mesh) -> Totals {
+    let (_, pattern) = pattern_of(mesh);
+    let options = DrawingOptions::default().scale(100.0);
+    Drawing::new(&pattern.sheets, &options).unwrap().summary
+}
+
+/// The faces of a polyhedron, each a triangle divided into squares of its parameters.
+fn solid(corners: &[[f64; 3]], faces: &[[usize; 3]], count: usize) -> Mesh {
+    let face = |[a, b, c]: [usize; 3]| {
+        let [a, b, c] = [a, b, c].map(|i| corners[i]);
+        move |u: f64, v: f64| {
+            [0, 1, 2].map(|k| (1.0 - u) * a[k] + u * ((1.0 - v) * b[k] + v * c[k]))
+        }
+    };
+    let faces: Vec<_> = faces.iter().map(|f| face(*f)).collect();
+    let maps: Vec<&dyn Fn(f64, f64) -> [f64; 3]> = faces.iter().map(|f| f as _).collect();
+    surface(&maps, count, count)
+}
+
+#[test]
+fn angles_at_the_corners_of_solids_close_up() {
+    for count in [1, 12] {
+        let cube = drawn(&cuboid([1.0; 3], count));
+        // A tetrahedron's corner is three of a regular triangle, an octahedron's four.
+        let corners = [
+            [1.0, 1.0, 1.0],
+            [1.0, -1.0, -1.0],
+            [-1.0, 1.0, -1.0],
+            [-1.0, -1.0, 1.0],
+        ];
+        let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
+        let tetrahedron = drawn(&solid(&corners, &faces, count));
+        let (x, y, z) = (
+            [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]],
+            [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]],
+            [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]],
+        );
+        let corners = [x[0], x[1], y[0], y[1], z[0], z[1]];
+        let faces = [
+            [4, 0, 2],
+            [4, 2, 1],
+            [4, 1, 3],
+            [4, 3, 0],
+            [5, 2, 0],
+            [5, 1, 2],
+            [5, 3, 1],
+            [5, 0, 3],
+        ];
+        let octahedron = drawn(&solid(&corners, &faces, count));
+        for (summary, points, angle) in [
+            (cube, 8, 270.0),
+            (tetrahedron, 4, 180.0),
+            (octahedron, 6, 240.0),
+        ] {
+            assert_eq!(summary.sheets, 1);
+            assert_eq!(summary.points, points, "{angle} {count}");
+            let worst = summary.worst_angle.unwrap();
+            assert!((worst.surface - angle).abs() < 1e-6, "{worst:?}");
+            assert!((worst.flat - angle).abs() < 0.1, "{worst:?}");
+            assert!(worst.crease.is_some());
+        }
+    }
+}
+
+#[test]
+fn the_angle_of_a_cone_closes_up() {
+    let cone = surface(
+        &[&|u, v| {
+            let angle = TAU * u;
+            [v * angle.cos(), v * angle.sin(), 1.0 - v]
+        }],
+        64,
+        24,
+    );
+    let summary = drawn(&cone);
+    let worst = summary.worst_angle.unwrap();
+    assert_eq!((summary.sheets, summary.points), (1, 1));
+    // Of the inscribed pyramid of 64 sides.
+    let side = (PI / 64.0).sin() * SQRT_2;
+    let angle = (64.0 * 2.0 * (0.5 * side).asin()).to_degrees();
+    assert!((worst.surface - angle).abs() < 1e-6, "{worst:?} {angle}");
+    assert!((worst.flat - angle).abs() < 1.0, "{worst:?} {angle}");
 }
 
 /// Two circles of radius 1 in planes at right angles, each through the other's centre, and their common

@@ -1,4 +1,8 @@
-/** Patterns of one input at several λ and sizes of patches, to choose from. */
+/**
+ * Patterns of one input at several λ and sizes of patches, to choose from. The loop is here and not in Rust's `explore`, which
+ * goes by the same numbers in the same order: solves and patterns run in two wasm files, and plans are told and broken off
+ * between them.
+ */
 import { DevelopableError } from './errors.js';
 import { optionsOf } from './options.js';
 

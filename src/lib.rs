@@ -100,7 +100,7 @@ pub use fit::report::{
 };
 pub use fit::solver::{Solver, fit, fit_with};
 pub use fit::surface::Surface;
-pub use flat::{assembly, dewarp, drawing, page, pattern, unroll};
+pub use flat::{assembly, dewarp, drawing, explore, page, pattern, unroll};
 pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;

@@ -3,6 +3,7 @@
 pub mod assembly;
 pub mod dewarp;
 pub mod drawing;
+pub mod explore;
 pub mod page;
 pub mod pattern;
 pub mod unroll;

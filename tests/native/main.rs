@@ -20,6 +20,7 @@ mod drawing;
 mod dropouts;
 mod energies;
 mod examples;
+mod explore;
 mod fixtures;
 #[cfg(feature = "formats")]
 mod formats;

@@ -5,8 +5,10 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 use developable::Mesh;
 use developable::analysis::MeshCurvatures;
+use developable::drawing::{Drawing, DrawingOptions, Totals};
 use developable::patches::{MeshPatches, PatchOptions};
 use developable::pattern::{MeshPattern, PatternOptions, Sheet, pattern_mesh};
+use developable::rulings::{MeshRulings, Ruling, TraceOptions};
 
 /// The triangles of a map from the unit square, corners at one place being one vertex, and those without an
 /// area left out.
@@ -206,6 +208,90 @@ fn a_cone_gets_one_slit_and_its_angle() {
     );
 }
 
+fn drawn(mesh: &Mesh) -> Totals {
+    let (_, pattern) = pattern_of(mesh);
+    let options = DrawingOptions::default().scale(100.0);
+    Drawing::new(&pattern.sheets, &options).unwrap().summary
+}
+
+/// The faces of a polyhedron, each a triangle divided into squares of its parameters.
+fn solid(corners: &[[f64; 3]], faces: &[[usize; 3]], count: usize) -> Mesh {
+    let face = |[a, b, c]: [usize; 3]| {
+        let [a, b, c] = [a, b, c].map(|i| corners[i]);
+        move |u: f64, v: f64| {
+            [0, 1, 2].map(|k| (1.0 - u) * a[k] + u * ((1.0 - v) * b[k] + v * c[k]))
+        }
+    };
+    let faces: Vec<_> = faces.iter().map(|f| face(*f)).collect();
+    let maps: Vec<&dyn Fn(f64, f64) -> [f64; 3]> = faces.iter().map(|f| f as _).collect();
+    surface(&maps, count, count)
+}
+
+#[test]
+fn angles_at_the_corners_of_solids_close_up() {
+    for count in [1, 12] {
+        let cube = drawn(&cuboid([1.0; 3], count));
+        // A tetrahedron's corner is three of a regular triangle, an octahedron's four.
+        let corners = [
+            [1.0, 1.0, 1.0],
+            [1.0, -1.0, -1.0],
+            [-1.0, 1.0, -1.0],
+            [-1.0, -1.0, 1.0],
+        ];
+        let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
+        let tetrahedron = drawn(&solid(&corners, &faces, count));
+        let (x, y, z) = (
+            [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]],
+            [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]],
+            [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]],
+        );
+        let corners = [x[0], x[1], y[0], y[1], z[0], z[1]];
+        let faces = [
+            [4, 0, 2],
+            [4, 2, 1],
+            [4, 1, 3],
+            [4, 3, 0],
+            [5, 2, 0],
+            [5, 1, 2],
+            [5, 3, 1],
+            [5, 0, 3],
+        ];
+        let octahedron = drawn(&solid(&corners, &faces, count));
+        for (summary, points, angle) in [
+            (cube, 8, 270.0),
+            (tetrahedron, 4, 180.0),
+            (octahedron, 6, 240.0),
+        ] {
+            assert_eq!(summary.sheets, 1);
+            assert_eq!(summary.points, points, "{angle} {count}");
+            let worst = summary.worst_angle.unwrap();
+            assert!((worst.surface - angle).abs() < 1e-6, "{worst:?}");
+            assert!((worst.flat - angle).abs() < 0.1, "{worst:?}");
+            assert!(worst.crease.is_some());
+        }
+    }
+}
+
+#[test]
+fn the_angle_of_a_cone_closes_up() {
+    let cone = surface(
+        &[&|u, v| {
+            let angle = TAU * u;
+            [v * angle.cos(), v * angle.sin(), 1.0 - v]
+        }],
+        64,
+        24,
+    );
+    let summary = drawn(&cone);
+    let worst = summary.worst_angle.unwrap();
+    assert_eq!((summary.sheets, summary.points), (1, 1));
+    // Of the inscribed pyramid of 64 sides.
+    let side = (PI / 64.0).sin() * SQRT_2;
+    let angle = (64.0 * 2.0 * (0.5 * side).asin()).to_degrees();
+    assert!((worst.surface - angle).abs() < 1e-6, "{worst:?} {angle}");
+    assert!((worst.flat - angle).abs() < 1.0, "{worst:?} {angle}");
+}
+
 /// Two circles of radius 1 in planes at right angles, each through the other's centre, and their common
 /// tangent planes (Dirnböck and Stachel 1997).
 fn oloid(cols: usize, rows: usize) -> Mesh {
@@ -294,6 +380,137 @@ fn curvatures_are_those_of_tubes_and_balls() {
         summary.median_kappa2
     );
     assert_eq!(summary.gaussian_above, 1.0);
+}
+
+/// A cone about a slanting axis, or a tube about it, of irregular triangles: its radius goes from 1 to `end`.
+fn frustum(end: f64) -> (Mesh, [[f64; 3]; 3]) {
+    let (cols, rows) = (90, 30);
+    let (sin, cos) = 0.6f64.sin_cos();
+    // Along, and two across.
+    let axes = [[0.0, sin, cos], [0.0, cos, -sin], [1.0, 0.0, 0.0]];
+    let off = |i: f64, j: f64, seed: f64| {
+        let far = 43758.5453 * (12.9898 * i + 78.233 * j + seed).sin();
+        0.6 * (far - far.floor() - 0.5)
+    };
+    let mesh = surface(
+        &[&|u, v| {
+            let (i, j) = (
+                (u * cols as f64).round() % cols as f64,
+                (v * rows as f64).round(),
+            );
+            let rim = j == 0.0 || j == rows as f64;
+            let v = if rim {
+                v
+            } else {
+                v + off(i, j, 1.0) / rows as f64
+            };
+            let angle = TAU * (u + off(i, j, 2.0) / cols as f64);
+            let radius = 1.0 + (end - 1.0) * v;
+            let at = [2.0 * v, radius * angle.cos(), radius * angle.sin()];
+            [0, 1, 2].map(|k| (0..3).map(|n| at[n] * axes[n][k]).sum())
+        }],
+        cols,
+        rows,
+    );
+    (mesh, axes)
+}
+
+fn traced(mesh: &Mesh, separation: f64) -> (MeshRulings, Vec<Ruling>) {
+    let rulings = MeshRulings::new(mesh).unwrap();
+    let options = TraceOptions::default().separation(separation);
+    let lines = rulings.trace(&options).unwrap();
+    (rulings, lines)
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+#[test]
+fn the_rulings_of_a_tube_are_parallel_to_its_axis() {
+    let (mesh, [axis, ..]) = frustum(1.0);
+    let (rulings, lines) = traced(&mesh, 0.3);
+    let inside = rulings.directions().iter().filter(|d| !d[0].is_nan());
+    let off = |d: &[f64; 3]| dot(*d, axis).abs().min(1.0).acos().to_degrees();
+    let all: Vec<f64> = inside.map(off).collect();
+    let worst = all.iter().copied().fold(0.0, f64::max);
+    println!(
+        "{} vertices, off by {worst}°, {} lines",
+        all.len(),
+        lines.len()
+    );
+    assert_eq!(all.len(), 90 * 29);
+    assert!(worst < 2.0);
+    // As many as there is room for around it, and at least half as many.
+    assert!((10..=42).contains(&lines.len()), "{}", lines.len());
+    let whole = lines.iter().filter(|line| line.length > 1.7).count();
+    assert!(2 * whole > lines.len(), "{whole} of {}", lines.len());
+    for line in &lines {
+        let ends = apart(line.points[line.points.len() - 1], line.points[0]);
+        assert!(
+            off(&ends.map(|x| x / line.length)) < 2.0 && line.deviation < 0.02,
+            "{line:?}"
+        );
+        for point in &line.points {
+            let along = dot(*point, axis);
+            let radius = (dot(*point, *point) - along * along).sqrt();
+            assert!((radius - 1.0).abs() < 0.005, "{radius}");
+        }
+    }
+}
+
+#[test]
+fn the_rulings_of_a_cone_run_through_its_apex() {
+    let (mesh, [axis, ..]) = frustum(0.25);
+    let apex = axis.map(|x| x * 2.0 / 0.75);
+    let (rulings, lines) = traced(&mesh, 0.3);
+    let mut worst = 0.0f64;
+    for (place, direction) in mesh.positions().iter().zip(rulings.directions()) {
+        if !direction[0].is_nan() {
+            let to = apart(apex, *place);
+            let cos = dot(to, *direction).abs() / dot(to, to).sqrt();
+            worst = worst.max(cos.min(1.0).acos().to_degrees());
+        }
+    }
+    println!("off by {worst}°, {} lines", lines.len());
+    assert!(worst < 2.0);
+    assert!(lines.len() > 8);
+    for line in &lines {
+        let [first, last] = [line.points[0], line.points[line.points.len() - 1]];
+        let (along, to) = (apart(last, first), apart(apex, first));
+        let ahead = dot(along, to) / line.length;
+        let past = (dot(to, to) - ahead * ahead).max(0.0).sqrt();
+        assert!(past < 0.035 * dot(to, to).sqrt(), "{past} {line:?}");
+    }
+}
+
+#[test]
+fn what_does_not_bend_one_way_has_no_rulings() {
+    let ball = surface(
+        &[&|u, v| {
+            let (angle, high) = (TAU * u, PI * v);
+            [
+                high.sin() * angle.cos(),
+                high.sin() * angle.sin(),
+                -high.cos(),
+            ]
+        }],
+        60,
+        30,
+    );
+    let separation = 0.2;
+    assert!(traced(&ball, separation).1.is_empty());
+    let plate = surface(&[&|u, v| [u, v, 0.3 * u - 0.1 * v]], 20, 20);
+    assert!(traced(&plate, separation).1.is_empty());
+    let rulings = MeshRulings::new(&ball).unwrap();
+    let options = TraceOptions::default();
+    assert!(rulings.trace(&options.separation(0.0)).is_err());
+    assert!(rulings.trace(&options.confidence(1.5)).is_err());
+    assert!(rulings.trace(&options.crease(f64::NAN)).is_err());
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //! the Hessian. Of a Hessian that is estimated, the direction in which the surface bends least
 //! around a vertex is taken: the eigenvector of the smaller eigenvalue of `Σ H²` over its
 //! neighbourhood, which does not care about signs. Where the surface is nearly a plane, or bends
-//! in both directions, that means little, and the confidence is low.
+//! in both directions, that means little, and the confidence is low. [`MeshRulings`] are the same of meshes as
+//! they are.
 //!
 //! ```
 //! use developable::rulings::{Rulings, TraceOptions};
@@ -25,13 +26,17 @@
 //! # }
 //! ```
 
+mod mesh;
+mod taken;
 mod trace;
+mod walk;
 
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 use crate::lattice::hessian::HessianOperator;
 use crate::math::sym2::Sym2;
+pub use mesh::MeshRulings;
 pub use trace::{Ruling, TraceOptions};
 
 /// Passes of averaging `H²` with the neighbours'.
@@ -96,14 +101,7 @@ impl Rulings {
         for (row, col) in operator.vertices() {
             let i = lattice.index(row, col);
             directions[i] = least(squares[i]);
-            let [large, small] = squares[i].eigenvalues().map(|v| v.max(0.0).sqrt());
-            let bend = large * lattice.spacing();
-            let share = if large > 0.0 {
-                1.0 - small / large
-            } else {
-                0.0
-            };
-            confidence[i] = share * bend / (bend + FAINT);
+            confidence[i] = trusted(squares[i].eigenvalues(), lattice.spacing());
         }
         Ok(Rulings {
             surface: surface.clone(),
@@ -137,6 +135,18 @@ impl Rulings {
         let length = (1.0 + z * z).sqrt();
         Some([x / length, y / length, z / length])
     }
+}
+
+/// How far a direction is to be trusted, by the eigenvalues of `Σ H²`, the larger one first.
+fn trusted(squares: [f64; 2], spacing: f64) -> f64 {
+    let [large, small] = squares.map(|v| v.max(0.0).sqrt());
+    let bend = large * spacing;
+    let share = if large > 0.0 {
+        1.0 - small / large
+    } else {
+        0.0
+    };
+    share * bend / (bend + FAINT)
 }
 
 /// Gradient of the best-fit quadratic at a vertex that has all six neighbours.

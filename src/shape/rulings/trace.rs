@@ -1,7 +1,6 @@
 //! Rulings as lines, evenly spaced.
 
-use std::collections::HashMap;
-
+use super::taken::Taken;
 use super::{Rulings, least};
 use crate::error::{Error, Result, positive};
 use crate::math::sym2::Sym2;
@@ -10,7 +9,8 @@ use crate::math::sym2::Sym2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TraceOptions {
-    /// Distance between lines, as seen from above, in the surface's units. `None`: ten spacings.
+    /// Distance between lines, in the surface's units: as seen from above, or in space on a mesh. `None`: ten
+    /// spacings, or lengths of an edge.
     pub separation: Option<f64>,
     /// A line ends where the direction is trusted by less, from 0 to 1. Default 0.3.
     pub confidence: f64,
@@ -47,6 +47,19 @@ impl TraceOptions {
     pub fn crease(self, crease: f64) -> Self {
         TraceOptions { crease, ..self }
     }
+
+    /// The distance between lines where neighbours have one of `spacing`.
+    pub(super) fn checked(&self, spacing: f64) -> Result<f64> {
+        positive("crease", self.crease)?;
+        if !(0.0..=1.0).contains(&self.confidence) {
+            let requirement = "must be from 0 to 1";
+            return Err(Error::option("confidence", self.confidence, requirement));
+        }
+        match self.separation {
+            Some(separation) => positive("separation", separation),
+            None => Ok(10.0 * spacing),
+        }
+    }
 }
 
 /// A ruling, traced.
@@ -54,7 +67,7 @@ impl TraceOptions {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Ruling {
-    /// Its course on the surface, a point about every spacing.
+    /// Its course on the surface, a point about every spacing, or one on each edge that it crosses.
     pub points: Vec<[f64; 3]>,
     /// The distance between its ends.
     pub length: f64,
@@ -64,7 +77,7 @@ pub struct Ruling {
 }
 
 /// Lines of fewer separations are left out.
-const SHORTEST: f64 = 1.0;
+pub(super) const SHORTEST: f64 = 1.0;
 
 /// Where a line is on the surface, and which way it goes.
 type Step = ([f64; 2], [f64; 2]);
@@ -79,27 +92,16 @@ impl Rulings {
     /// from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
         let lattice = self.surface.lattice();
-        let separation = match options.separation {
-            Some(separation) => positive("separation", separation)?,
-            None => 10.0 * lattice.spacing(),
-        };
-        positive("crease", options.crease)?;
-        if !(0.0..=1.0).contains(&options.confidence) {
-            let requirement = "must be from 0 to 1";
-            return Err(Error::option("confidence", options.confidence, requirement));
-        }
+        let separation = options.checked(lattice.spacing())?;
         let mut seeds: Vec<usize> = (0..lattice.len())
             .filter(|i| self.confidence[*i] >= options.confidence)
             .collect();
         seeds.sort_by(|a, b| self.confidence[*b].total_cmp(&self.confidence[*a]));
-        let mut taken = Taken {
-            size: separation,
-            cells: HashMap::new(),
-        };
+        let mut taken = Taken::new(separation);
         let mut lines = Vec::new();
         for seed in seeds {
             let start = lattice.position(seed / lattice.cols(), seed % lattice.cols());
-            if taken.within(start, separation) {
+            if taken.within(start, separation, |()| true) {
                 continue;
             }
             let direction = self.directions[seed];
@@ -111,7 +113,7 @@ impl Rulings {
             let points: Vec<[f64; 3]> = (course.iter())
                 .filter_map(|p| self.height(*p).map(|z| [p[0], p[1], z]))
                 .collect();
-            course.iter().for_each(|p| taken.add(*p));
+            course.iter().for_each(|p| taken.add(*p, ()));
             if let Some(line) = Ruling::new(points)
                 && line.length >= SHORTEST * separation
             {
@@ -127,7 +129,7 @@ impl Rulings {
         (mut place, mut towards): Step,
         separation: f64,
         options: &TraceOptions,
-        taken: &Taken,
+        taken: &Taken<2, ()>,
     ) -> Vec<[f64; 2]> {
         let h = self.surface.lattice().spacing();
         let mut course = Vec::new();
@@ -141,7 +143,7 @@ impl Rulings {
             let Some(direction) = self.along(next, middle, options) else {
                 break;
             };
-            if taken.within(next, 0.5 * separation) {
+            if taken.within(next, 0.5 * separation, |()| true) {
                 break;
             }
             course.push(next);
@@ -191,7 +193,7 @@ impl Rulings {
 }
 
 impl Ruling {
-    fn new(points: Vec<[f64; 3]>) -> Option<Self> {
+    pub(super) fn new(points: Vec<[f64; 3]>) -> Option<Self> {
         let (first, last) = (*points.first()?, *points.last()?);
         let difference = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
         let norm = |v: [f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
@@ -211,32 +213,5 @@ impl Ruling {
             length,
             deviation,
         })
-    }
-}
-
-/// Points of lines, in square cells.
-struct Taken {
-    size: f64,
-    cells: HashMap<[i64; 2], Vec<[f64; 2]>>,
-}
-
-impl Taken {
-    fn cell(&self, place: [f64; 2]) -> [i64; 2] {
-        place.map(|v| (v / self.size).floor() as i64)
-    }
-
-    fn add(&mut self, place: [f64; 2]) {
-        let cell = self.cell(place);
-        self.cells.entry(cell).or_default().push(place);
-    }
-
-    /// Whether there is a point within a distance of at most the size of a cell.
-    fn within(&self, place: [f64; 2], distance: f64) -> bool {
-        let [x, y] = self.cell(place);
-        (x - 1..=x + 1)
-            .flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]))
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .any(|p| (p[0] - place[0]).hypot(p[1] - place[1]) < distance)
     }
 }

@@ -4,6 +4,7 @@ use super::MeshPattern;
 use super::body::Body;
 use super::join::{Joined, Seams};
 use super::lay::Laid;
+use super::meeting::Meetings;
 use crate::error::Result;
 use crate::flat::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
 use crate::flat::unroll::pieces::Point;
@@ -19,9 +20,10 @@ pub(super) fn drawn(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<Mes
         length: seam.length,
         fold: seam.angle.abs(),
     });
+    let meetings = Meetings::new(body, seams, sheets);
     let mut sheets: Vec<Sheet> = sheets
         .iter()
-        .map(|sheet| draw(body, seams, sheet))
+        .map(|sheet| draw(body, seams, &meetings, sheet))
         .collect();
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     Ok(MeshPattern {
@@ -50,7 +52,7 @@ fn patches(body: &Body) -> Vec<Patch> {
     counted.collect()
 }
 
-fn draw(body: &Body, seams: &Seams, sheet: &Joined) -> Sheet {
+fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Sheet {
     let laid = &sheet.laid;
     let seam = |number: usize| {
         let own = &seams.all[number];
@@ -85,8 +87,12 @@ fn draw(body: &Body, seams: &Seams, sheet: &Joined) -> Sheet {
                     .collect();
                 points.push(place(ends(&laid.triangles, sides[sides.len() - 1])[1]));
                 let part = body.parts[laid.members[sides[0] as usize / 3] as usize];
+                let [first, last] = [sides[0], sides[sides.len() - 1]];
+                let [from, to] = [(first, 0), (last, 1)]
+                    .map(|(side, end)| laid.source[ends(&laid.triangles, side)[end] as usize]);
                 Run {
-                    ends: [None; 2],
+                    // What is all of an outline begins anywhere.
+                    ends: [from, to].map(|v| meetings.at(v).filter(|_| from != to)),
                     seam: number.map(seam),
                     patch: number.map(|_| part),
                     points,
@@ -101,10 +107,14 @@ fn draw(body: &Body, seams: &Seams, sheet: &Joined) -> Sheet {
         .iter()
         .filter(|number| !seams.all[**number].smooth);
     let mut folds: Vec<Fold> = folded
-        .map(|number| Fold {
-            ends: [None; 2],
-            seam: seam(*number),
-            points: along(seams, laid, *number).into_iter().map(place).collect(),
+        .map(|number| {
+            let vertices = &seams.all[*number].vertices;
+            let (from, to) = (vertices[0], vertices[vertices.len() - 1]);
+            Fold {
+                ends: [from, to].map(|v| meetings.at(v).filter(|_| from != to)),
+                seam: seam(*number),
+                points: along(seams, laid, *number).into_iter().map(place).collect(),
+            }
         })
         .collect();
     folds.sort_by_key(|fold| fold.seam.crease);

@@ -8,6 +8,7 @@ mod body;
 mod draw;
 mod join;
 mod lay;
+mod meeting;
 
 use std::collections::BTreeMap;
 

@@ -1,0 +1,174 @@
+//! The rulings of a mesh as it is.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{PASSES, trusted};
+use crate::error::{Result, try_filled};
+use crate::fit::mesh::geometry::{Frame, normals};
+use crate::fit::mesh::linear::fit_at;
+use crate::fit::mesh::topology::Topology;
+use crate::math::sym2::Sym2;
+use crate::scene::mesh::Mesh;
+use crate::scene::twins::twins;
+
+/// What bends by more from vertex to vertex, in radians, says nothing of what lies beside it.
+const CREASE: f64 = 0.2;
+
+/// The direction of the ruling at every vertex of a mesh, of whatever shape.
+///
+/// ```
+/// use developable::Mesh;
+/// use developable::rulings::{MeshRulings, TraceOptions};
+/// # fn main() -> developable::Result<()> {
+/// // A tube about the axis z, of 60 by 30 vertices.
+/// let corner = |i: u32, j: u32| i % 60 + 60 * j;
+/// let place = |n: u32| (f64::from(n % 60) * 6f64.to_radians()).sin_cos();
+/// let positions = (0..1800).map(|n| [place(n).1, place(n).0, 0.1 * f64::from(n / 60)]);
+/// let triangles = (0..1740).flat_map(|n| {
+///     let (i, j) = (n % 60, n / 60);
+///     let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+///     [[a, b, c], [a, c, d]]
+/// });
+/// let rulings = MeshRulings::new(&Mesh::new(positions.collect(), triangles.collect())?)?;
+/// assert!(rulings.directions()[15 * 60 + 7][2].abs() > 0.999);
+/// let lines = rulings.trace(&TraceOptions::default().separation(0.5))?;
+/// assert!(lines.len() > 5);
+/// assert!(lines.iter().all(|line| line.deviation < 0.01 && line.length > 2.0));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct MeshRulings {
+    /// Vertices at one place are one, as in all that follows but for what is told.
+    pub(super) places: Vec<Vector3<f64>>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) twins: Vec<u32>,
+    /// `Σ II²` about each vertex, and how far its smaller axis in the tangent plane is to be trusted; NaN where
+    /// there is no second fundamental form.
+    pub(super) squares: Vec<Matrix3<f64>>,
+    pub(super) trust: Vec<f64>,
+    /// Angle by which the surface bends from vertex to vertex; NaN likewise.
+    pub(super) bends: Vec<f64>,
+    /// Length of an edge, on average.
+    pub(super) spacing: f64,
+    directions: Vec<[f64; 3]>,
+    confidence: Vec<f64>,
+}
+
+impl MeshRulings {
+    /// The rulings of a mesh; costs `O(vertices)`.
+    ///
+    /// # Errors
+    /// [`Error::Topology`](crate::Error::Topology) if it is no surface,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn new(mesh: &Mesh) -> Result<Self> {
+        let topology = Topology::new(mesh)?;
+        let place = |vertex: &u32| Vector3::from(mesh.positions()[*vertex as usize]);
+        let places: Vec<_> = topology.source.iter().map(place).collect();
+        let up = normals(&topology, &places, None);
+        let count = places.len();
+        let mut squares = try_filled("rulings", count, Matrix3::zeros())?;
+        let mut bends = try_filled("rulings", count, f64::NAN)?;
+        let mut frames: Vec<Frame> = (up.iter())
+            .map(|normal| Frame::about(*normal, Vector3::x()))
+            .collect();
+        for vertex in topology.vertices_inside() {
+            let Some((fit, _, frame)) = fit_at(&topology, &places, &frames[vertex], vertex) else {
+                continue;
+            };
+            let bend = fit.hessian();
+            let [xx, xy, yy] = bend.entries();
+            let [t1, t2] = &frame.tangents;
+            let cross = t1 * t2.transpose();
+            let form = t1 * t1.transpose() * xx
+                + (cross + cross.transpose()) * xy
+                + t2 * t2.transpose() * yy;
+            squares[vertex] = form * form;
+            bends[vertex] = bend.nuclear_norm() * around(&topology, &places, vertex);
+            frames[vertex] = frame;
+        }
+        for _ in 0..PASSES {
+            let last = squares.clone();
+            for vertex in 0..count {
+                if bends[vertex].is_nan() {
+                    continue;
+                }
+                let (mut sum, mut weight) = (last[vertex] * 2.0, 2.0);
+                let most = bends[vertex].max(CREASE);
+                for other in topology.around(vertex).iter().map(|v| *v as usize) {
+                    if bends[other] <= most {
+                        sum += last[other];
+                        weight += 1.0;
+                    }
+                }
+                squares[vertex] = sum / weight;
+            }
+        }
+        let blank = try_filled("rulings", mesh.positions().len(), [f64::NAN; 3])?;
+        let unknown = try_filled("rulings", mesh.positions().len(), f64::NAN)?;
+        let mut rulings = MeshRulings {
+            twins: twins(&topology.triangles),
+            trust: try_filled("rulings", count, f64::NAN)?,
+            spacing: spacing(&topology, &places),
+            squares,
+            bends,
+            directions: blank,
+            confidence: unknown,
+            places,
+            triangles: topology.triangles.clone(),
+        };
+        let mut along = try_filled("rulings", count, [f64::NAN; 3])?;
+        for vertex in 0..count {
+            if rulings.bends[vertex].is_nan() {
+                continue;
+            }
+            let square = within(&rulings.squares[vertex], &frames[vertex].tangents);
+            let spacing = around(&topology, &rulings.places, vertex);
+            rulings.trust[vertex] = trusted(square.eigenvalues(), spacing);
+            along[vertex] = least(square, &frames[vertex].tangents).into();
+        }
+        for (i, vertex) in topology.joined.iter().enumerate() {
+            rulings.directions[i] = along[*vertex as usize];
+            rulings.confidence[i] = rulings.trust[*vertex as usize];
+        }
+        Ok(rulings)
+    }
+
+    /// Unit vectors along the rulings, for each vertex of the mesh, up to their sign; NaN where triangles do not
+    /// go all around one.
+    pub fn directions(&self) -> &[[f64; 3]] {
+        &self.directions
+    }
+
+    /// How far each direction is to be trusted, from 0 to 1: low where the surface is nearly a plane, and where
+    /// it bends in both directions.
+    pub fn confidence(&self) -> &[f64] {
+        &self.confidence
+    }
+}
+
+/// A tensor in a plane.
+pub(super) fn within(square: &Matrix3<f64>, [t1, t2]: &[Vector3<f64>; 2]) -> Sym2 {
+    let [a, b] = [square * t1, square * t2];
+    Sym2::new(t1.dot(&a), t1.dot(&b), t2.dot(&b))
+}
+
+/// The eigenvector of the smaller eigenvalue, in space.
+pub(super) fn least(square: Sym2, [t1, t2]: &[Vector3<f64>; 2]) -> Vector3<f64> {
+    let [x, y] = super::least(square);
+    t1 * x + t2 * y
+}
+
+/// Mean length of the edges at a vertex.
+fn around(topology: &Topology, places: &[Vector3<f64>], vertex: usize) -> f64 {
+    let ring = topology.around(vertex);
+    let lengths = ring
+        .iter()
+        .map(|other| (places[*other as usize] - places[vertex]).norm());
+    lengths.sum::<f64>() / ring.len().max(1) as f64
+}
+
+fn spacing(topology: &Topology, places: &[Vector3<f64>]) -> f64 {
+    let all = (0..places.len()).map(|vertex| around(topology, places, vertex));
+    all.sum::<f64>() / places.len().max(1) as f64
+}

@@ -1,0 +1,47 @@
+//! Where lines are already.
+
+use std::collections::HashMap;
+
+/// Points of lines, in cubic cells, with what is told apart by.
+pub(super) struct Taken<const N: usize, T> {
+    pub size: f64,
+    cells: HashMap<[i64; N], Vec<([f64; N], T)>>,
+}
+
+impl<const N: usize, T> Taken<N, T> {
+    pub(super) fn new(size: f64) -> Self {
+        Taken {
+            size,
+            cells: HashMap::new(),
+        }
+    }
+
+    fn cell(&self, place: [f64; N]) -> [i64; N] {
+        place.map(|v| (v / self.size).floor() as i64)
+    }
+
+    pub(super) fn add(&mut self, place: [f64; N], kind: T) {
+        let cell = self.cell(place);
+        self.cells.entry(cell).or_default().push((place, kind));
+    }
+
+    /// Whether there is a point that counts within a distance of at most the size of a cell.
+    pub(super) fn within(
+        &self,
+        place: [f64; N],
+        distance: f64,
+        counts: impl Fn(&T) -> bool,
+    ) -> bool {
+        let middle = self.cell(place);
+        let far = |p: &[f64; N]| (0..N).map(|k| (p[k] - place[k]).powi(2)).sum::<f64>();
+        (0..3usize.pow(N as u32)).any(|number| {
+            let mut cell = middle;
+            for (k, index) in cell.iter_mut().enumerate() {
+                *index += (number / 3usize.pow(k as u32) % 3) as i64 - 1;
+            }
+            let there = self.cells.get(&cell).into_iter().flatten();
+            let mut near = there.filter(|(p, _)| far(p) < distance * distance);
+            near.any(|(_, kind)| counts(kind))
+        })
+    }
+}

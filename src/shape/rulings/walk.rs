@@ -1,0 +1,191 @@
+//! Rulings of a mesh as lines, from triangle to triangle.
+
+use nalgebra::Vector3;
+
+use super::mesh::{MeshRulings, least, within};
+use super::taken::Taken;
+use super::trace::{Ruling, SHORTEST, TraceOptions};
+use crate::error::Result;
+use crate::scene::twins::NONE;
+
+type Place = Vector3<f64>;
+
+/// Points of lines with the normal there: what lies on the other side of a thin thing is not near.
+type Lines = Taken<3, Place>;
+
+/// A line leaves a triangle no nearer to a corner than this share of a side, and passes none by mistake.
+const ASIDE: f64 = 1e-6;
+
+/// Where a line is: in which triangle, by which of its sides it came, and which way it goes.
+#[derive(Clone, Copy)]
+struct Step {
+    triangle: usize,
+    side: Option<usize>,
+    place: Place,
+    towards: Place,
+}
+
+impl MeshRulings {
+    /// Lines along the rulings, from where these are surest, no closer together than half the separation; each
+    /// ends at the border of the mesh, at a crease or where it would come too close to another one, as on
+    /// [lattices](super::Rulings::trace). Beside a crease of flat faces lines may run along it.
+    ///
+    /// # Errors
+    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the
+    /// confidence is from 0 to 1.
+    pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
+        let separation = options.checked(self.spacing)?;
+        let third = |t: usize| {
+            let corners = self.triangles[t].iter();
+            corners.map(|v| self.trust[*v as usize]).sum::<f64>() / 3.0
+        };
+        let mut seeds: Vec<(usize, f64)> = (0..self.triangles.len())
+            .map(|t| (t, third(t)))
+            .filter(|(_, trust)| *trust >= options.confidence)
+            .collect();
+        seeds.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut taken = Lines::new(separation);
+        let mut lines = Vec::new();
+        for (triangle, _) in seeds {
+            let place = self.corners(triangle).iter().sum::<Place>() / 3.0;
+            let normal = self.normal(triangle);
+            if taken.within(place.into(), separation, |other| other.dot(&normal) > 0.0) {
+                continue;
+            }
+            let Some(towards) = self.along(triangle, place, None, options) else {
+                continue;
+            };
+            let start = |towards| Step {
+                triangle,
+                side: None,
+                place,
+                towards,
+            };
+            let mut course = self.follow(start(-towards), options, &taken);
+            course.reverse();
+            course.push((place, normal));
+            course.extend(self.follow(start(towards), options, &taken));
+            for (place, normal) in &course {
+                taken.add((*place).into(), *normal);
+            }
+            let points = course.into_iter().map(|(place, _)| place.into());
+            if let Some(line) = Ruling::new(points.collect())
+                && line.length >= SHORTEST * separation
+            {
+                lines.push(line);
+            }
+        }
+        Ok(lines)
+    }
+
+    /// The points after a first one, on the sides that are crossed, with the normals there.
+    fn follow(&self, mut step: Step, options: &TraceOptions, taken: &Lines) -> Vec<(Place, Place)> {
+        let mut course = Vec::new();
+        // A line that crosses more triangles than there are goes in circles.
+        while course.len() < self.triangles.len() {
+            let normal = self.normal(step.triangle);
+            let Some((side, place, towards)) = self.across(&step, options) else {
+                break;
+            };
+            let near = |other: &Place| other.dot(&normal) > 0.0;
+            if taken.within(place.into(), 0.5 * taken.size, near) {
+                break;
+            }
+            course.push((place, normal));
+            let twin = self.twins[3 * step.triangle + side];
+            if twin == NONE {
+                break;
+            }
+            step = Step {
+                triangle: twin as usize / 3,
+                side: Some(twin as usize % 3),
+                place,
+                towards,
+            };
+        }
+        course
+    }
+
+    /// The side by which a line leaves a triangle, where, and which way; straight within it, in the direction
+    /// halfway.
+    fn across(&self, step: &Step, options: &TraceOptions) -> Option<(usize, Place, Place)> {
+        let near = Some(step.towards);
+        let first = self.along(step.triangle, step.place, near, options)?;
+        let (side, end) = self.exit(step, first)?;
+        let middle = 0.5 * (step.place + end);
+        let better = self.along(step.triangle, middle, Some(first), options)?;
+        match self.exit(step, better) {
+            Some((side, end)) => Some((side, end, better)),
+            None => Some((side, end, first)),
+        }
+    }
+
+    /// Where a straight line in a triangle leaves it.
+    fn exit(&self, step: &Step, towards: Place) -> Option<(usize, Place)> {
+        let corners = self.corners(step.triangle);
+        let normal = self.normal(step.triangle);
+        let left = normal.cross(&towards);
+        let others = (0..3).filter(|side| Some(*side) != step.side);
+        let mut best: Option<(f64, usize, Place)> = None;
+        for side in others {
+            let (a, b) = (corners[side], corners[(side + 1) % 3]);
+            let [from, to] = [a, b].map(|p| left.dot(&(p - step.place)));
+            // Triangles are run around to the left: sides are left from the inside with `to` to the left.
+            if !(from <= 0.0 && to >= 0.0 && to > from) {
+                continue;
+            }
+            let share = (from / (from - to)).clamp(ASIDE, 1.0 - ASIDE);
+            let place = a.lerp(&b, share);
+            let ahead = towards.dot(&(place - step.place));
+            if ahead > 0.0 && best.is_none_or(|(most, ..)| ahead > most) {
+                best = Some((ahead, side, place));
+            }
+        }
+        best.map(|(_, side, place)| (side, place))
+    }
+
+    /// The direction at a place of a triangle, whichever way is closer to one that is given.
+    fn along(
+        &self,
+        triangle: usize,
+        place: Place,
+        near: Option<Place>,
+        options: &TraceOptions,
+    ) -> Option<Place> {
+        let corners = self.triangles[triangle].map(|v| v as usize);
+        let bends = corners.map(|v| self.bends[v]);
+        if !bends.iter().all(|bend| *bend <= options.crease) {
+            return None;
+        }
+        let [a, b, c] = self.corners(triangle);
+        let normal = (b - a).cross(&(c - a));
+        let size = normal.norm_squared();
+        if size == 0.0 {
+            return None;
+        }
+        let share = |p: Place, q: Place| normal.dot(&(p - place).cross(&(q - place))) / size;
+        let weights = [share(b, c), share(c, a), share(a, b)];
+        let all = corners.iter().zip(weights);
+        let square = all.clone().map(|(v, w)| self.squares[*v] * w).sum();
+        let trust: f64 = all.map(|(v, w)| self.trust[*v] * w).sum();
+        let along = (b - a).normalize();
+        let tangents = [along, normal.normalize().cross(&along)];
+        let found = least(within(&square, &tangents), &tangents);
+        let found = match near {
+            Some(near) if found.dot(&near) < 0.0 => -found,
+            _ => found,
+        };
+        (trust >= options.confidence).then_some(found)
+    }
+
+    fn corners(&self, triangle: usize) -> [Place; 3] {
+        self.triangles[triangle].map(|v| self.places[v as usize])
+    }
+
+    /// Of length 1; zero where there is no area.
+    fn normal(&self, triangle: usize) -> Place {
+        let [a, b, c] = self.corners(triangle);
+        let normal = (b - a).cross(&(c - a));
+        normal.try_normalize(0.0).unwrap_or_default()
+    }
+}

@@ -190,6 +190,33 @@ fn tabs_are_added_outside_and_touch_nothing() {
 }
 
 #[test]
+fn a_step_has_no_tabs() {
+    // A pyramid on a block on a plane: the block's walls are steps.
+    let roof = sheets(&unit_square(80, |x, y| {
+        let inside = (x - 0.503).abs().max((y - 0.502).abs()) < 0.3;
+        f64::from(inside) * (0.8 - 0.8 * (x - 0.503).abs().max((y - 0.502).abs()))
+    }));
+    let seams = roof
+        .iter()
+        .flat_map(|sheet| sheet.outlines.iter().flatten());
+    let seams = seams.filter_map(|run| run.seam);
+    let torn: Vec<usize> = seams
+        .filter(|seam| seam.torn)
+        .map(|seam| seam.crease)
+        .collect();
+    assert!(!torn.is_empty());
+    let tabbed = drawn(&roof, DrawingOptions::default().scale(150.0).tabs(8.0));
+    let tabs: Vec<_> = tabbed.sheets.iter().flat_map(|sheet| &sheet.tabs).collect();
+    // Those of the cut edge of the pyramid.
+    assert!(!tabs.is_empty());
+    assert!(
+        tabs.iter().all(|tab| !torn.contains(&tab.crease)),
+        "{} tabs",
+        tabs.len()
+    );
+}
+
+#[test]
 fn a_curved_edge_has_a_comb_of_short_tabs() {
     let options = DrawingOptions::default().scale(200.0);
     let (plain, tabbed) = (

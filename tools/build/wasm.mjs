@@ -22,7 +22,7 @@ const files = [
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 156_000 },
   { name: 'unroll', limit: 272_000 },
-  { name: 'patterns', limit: 510_000 },
+  { name: 'patterns', limit: 515_000 },
 ];
 
 /**

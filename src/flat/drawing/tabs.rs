@@ -37,9 +37,11 @@ type Outline<'a> = Vec<(&'a Run, Curve)>;
 /// The lines to cut, with tabs where there is room for them, and these.
 pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
-    // Of the two sides of a crease that of the patch with the lower number has the tabs.
+    // Of the two sides of a crease that of the patch with the lower number has the tabs. Those of a step are not
+    // glued to each other.
     let tabbed = |run: &Run| {
-        let own = run.seam.filter(|seam| run.patch == Some(seam.patches[0]));
+        let first = |seam: &Seam| run.patch == Some(seam.patches[0]) && !seam.torn;
+        let own = run.seam.filter(first);
         depth.zip(own)
     };
     let parts = |(run, curve): &(&Run, Curve)| match tabbed(run) {

@@ -107,14 +107,11 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         .iter()
         .filter(|number| !seams.all[**number].smooth);
     let mut folds: Vec<Fold> = folded
-        .map(|number| {
-            let vertices = &seams.all[*number].vertices;
-            let (from, to) = (vertices[0], vertices[vertices.len() - 1]);
-            Fold {
-                ends: [from, to].map(|v| meetings.at(v).filter(|_| from != to)),
-                seam: seam(*number),
-                points: along(seams, laid, *number).into_iter().map(place).collect(),
-            }
+        .map(|number| Fold {
+            // All cuts of a mesh that is closed hang together: a fold ends on the outline.
+            ends: [None; 2],
+            seam: seam(*number),
+            points: along(seams, laid, *number).into_iter().map(place).collect(),
         })
         .collect();
     folds.sort_by_key(|fold| fold.seam.crease);

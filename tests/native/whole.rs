@@ -176,17 +176,21 @@ fn a_tube_with_a_slanting_cut_unrolls_to_a_sine() {
     }
 }
 
-#[test]
-fn a_cone_gets_one_slit_and_its_angle() {
-    // As high as its radius is long.
-    let cone = surface(
+/// A cone as high as its radius is long, a pyramid of 64 sides, in so many rings.
+fn cone(rings: usize) -> Mesh {
+    surface(
         &[&|u, v| {
             let angle = TAU * u;
             [v * angle.cos(), v * angle.sin(), 1.0 - v]
         }],
         64,
-        16,
-    );
+        rings,
+    )
+}
+
+#[test]
+fn a_cone_gets_one_slit_and_its_angle() {
+    let cone = cone(16);
     let (_, pattern) = pattern_of(&cone);
     let [sheet] = &pattern.sheets[..] else {
         panic!("{} sheets", pattern.sheets.len());
@@ -274,14 +278,7 @@ fn angles_at_the_corners_of_solids_close_up() {
 
 #[test]
 fn the_angle_of_a_cone_closes_up() {
-    let cone = surface(
-        &[&|u, v| {
-            let angle = TAU * u;
-            [v * angle.cos(), v * angle.sin(), 1.0 - v]
-        }],
-        64,
-        24,
-    );
+    let cone = cone(24);
     let summary = drawn(&cone);
     let worst = summary.worst_angle.unwrap();
     assert_eq!((summary.sheets, summary.points), (1, 1));

@@ -108,36 +108,13 @@ impl Labels {
         joined: impl Fn(usize, usize) -> bool,
     ) -> Option<Vec<u32>> {
         let first = self.origins.len() as u32;
-        let mut side = NumberMap::with_capacity_and_hasher(burden.len(), Default::default());
-        for (i, _) in burden {
-            side.insert(*i, beyond(*i));
-        }
-        let around = |i: usize| {
-            let neighbours = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-            let inside = neighbours.into_iter().flatten();
-            inside.map(|(row, col)| lattice.index(row, col))
-        };
-        // What hangs together on either side.
+        let members = || burden.iter().map(|(i, _)| *i);
+        let side: NumberMap<usize, bool> = members().map(|i| (i, beyond(i))).collect();
+        let same = |i: usize, k: usize| side[&i] == side[&k] && joined(i, k);
+        let groups = hanging_together(lattice, members(), same);
         let mut numbers = NumberMap::with_capacity_and_hasher(burden.len(), Default::default());
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        for (first, _) in burden {
-            if numbers.contains_key(first) {
-                continue;
-            }
-            let mut members = vec![*first];
-            numbers.insert(*first, groups.len());
-            let mut next = 0;
-            while let Some(i) = members.get(next).copied() {
-                next += 1;
-                for k in around(i) {
-                    let same = side.get(&k) == side.get(&i) && joined(i, k);
-                    if same && !numbers.contains_key(&k) {
-                        numbers.insert(k, groups.len());
-                        members.push(k);
-                    }
-                }
-            }
-            groups.push(members);
+        for (number, group) in groups.iter().enumerate() {
+            numbers.extend(group.iter().map(|i| (*i, number)));
         }
         // Scraps stay with the largest group beside them.
         let least = SCRAP.max((SHARE * burden.len() as f64) as usize);
@@ -161,7 +138,7 @@ impl Labels {
         while !pending.is_empty() {
             let before = pending.len();
             pending.retain(|group| {
-                let beside = groups[*group].iter().flat_map(|i| around(*i));
+                let beside = groups[*group].iter().flat_map(|i| around(lattice, *i));
                 let found = beside
                     .filter_map(|k| named.get(numbers.get(&k)?))
                     .min()
@@ -189,6 +166,45 @@ impl Labels {
                 .collect(),
         )
     }
+}
+
+/// The vertices beside one.
+pub(super) fn around(lattice: &Lattice, i: usize) -> impl Iterator<Item = usize> {
+    let neighbours = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
+    let lattice = *lattice;
+    (neighbours.into_iter().flatten()).map(move |(row, col)| lattice.index(row, col))
+}
+
+/// Groups of vertices that hang together by edges between them that are `joined`.
+pub(super) fn hanging_together(
+    lattice: &Lattice,
+    vertices: impl Iterator<Item = usize>,
+    joined: impl Fn(usize, usize) -> bool,
+) -> Vec<Vec<usize>> {
+    let order: Vec<usize> = vertices.collect();
+    let mut seen: NumberMap<usize, bool> = order.iter().map(|i| (*i, false)).collect();
+    let mut groups = Vec::new();
+    for first in order {
+        if seen.insert(first, true) == Some(true) {
+            continue;
+        }
+        let mut group = vec![first];
+        let mut next = 0;
+        while let Some(i) = group.get(next).copied() {
+            next += 1;
+            for k in around(lattice, i) {
+                if let Some(seen) = seen.get_mut(&k)
+                    && !*seen
+                    && joined(i, k)
+                {
+                    *seen = true;
+                    group.push(k);
+                }
+            }
+        }
+        groups.push(group);
+    }
+    groups
 }
 
 /// A vertex: where it is, its normal, and how much it is strained.

@@ -152,9 +152,7 @@ impl Parts {
     pub(super) fn lay_flat_trimmed(&mut self, parts: &[u32]) -> Result<()> {
         self.lay_flat(parts)?;
         while let Some(part) = self.pending.pop() {
-            if self.is_strained(part) {
-                self.trim(part)?;
-            }
+            self.trim(part)?;
         }
         Ok(())
     }
@@ -184,13 +182,10 @@ impl Parts {
     /// Cuts what is strained by more than the limit, or upside down.
     pub(super) fn cut_strained(&mut self) -> Result<()> {
         while let Some(part) = self.pending.pop() {
-            let Some(leaf) = self.leaves[part as usize].as_ref() else {
-                continue;
-            };
-            let strain = leaf.strain();
+            let leaf = self.leaves[part as usize].as_ref();
+            let flipped = leaf.is_some_and(|leaf| leaf.strain().flipped > 0);
             // What is too small to be cut may still do as a part of a sheet.
-            let strained = strain.rms() > self.options.max_strain;
-            if (strained || strain.flipped > 0) && !(strained && self.trim(part)?) {
+            if (self.is_strained(part) || flipped) && !self.trim(part)? {
                 self.cut(part)?;
             }
         }
@@ -291,10 +286,10 @@ impl Parts {
         Ok(true)
     }
 
-    /// Leaves out the few vertices at the border of a part that nearly all of its strain is in; whether there were
-    /// any.
+    /// Leaves out the few vertices at the border of a part that it is strained too much by; whether there were any.
     pub(super) fn trim(&mut self, part: u32) -> Result<bool> {
-        let Some(leaf) = self.leaves[part as usize].as_ref() else {
+        let leaf = self.leaves[part as usize].as_ref();
+        let Some(leaf) = leaf.filter(|_| self.is_strained(part)) else {
             return Ok(false);
         };
         let (lattice, limit) = (self.surface.lattice(), self.options.max_strain);

@@ -1,9 +1,7 @@
 //! Specks at a border that nearly all strain of a part is in: where a surface ends in a steep point, a
 //! few vertices may be torn apart however the part is cut.
 
-use std::collections::VecDeque;
-
-use super::labels::Labels;
+use super::labels::{Labels, around, hanging_together};
 use super::leaf::Leaf;
 use crate::lattice::hexagonal::Lattice;
 use crate::math::hash::NumberMap;
@@ -11,11 +9,14 @@ use crate::math::hash::NumberMap;
 /// The share of a part's vertices that a speck has at most.
 const SHARE: f64 = 0.002;
 
+/// Those of a vertex inside a lattice.
+const NEIGHBOURS: usize = 6;
+
 /// What a part without its specks is to be strained by at most, as a share of the limit.
 const REST: f64 = 0.5;
 
 /// The fewest vertices without which a part would surely be strained less than the limit; nothing if
-/// these are more than `most`, away from its border, or all that holds it together.
+/// there are none, or more than `most`, or away from its border, or all that holds it together.
 pub(super) fn specks(
     lattice: &Lattice,
     labels: &Labels,
@@ -39,40 +40,19 @@ pub(super) fn specks(
         left -= square;
         speck.insert(*i, ());
     }
-    if speck.len() > most {
+    if speck.is_empty() || speck.len() > most {
         return None;
     }
-    let around = |i: usize| {
-        let neighbours = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-        neighbours.map(|vertex| vertex.map(|(row, col)| lattice.index(row, col)))
+    let together = |inside: &dyn Fn(usize) -> bool| {
+        let members = burden.iter().map(|(i, _)| *i).filter(|i| inside(*i));
+        hanging_together(lattice, members, |_, _| true)
     };
-    let own = |i: &usize| labels.of[*i] == part;
-    let groups = |inside: &dyn Fn(&usize) -> bool| {
-        let mut seen = NumberMap::default();
-        let mut groups = Vec::new();
-        for (first, _) in burden.iter().filter(|(i, _)| inside(i)) {
-            if seen.insert(*first, ()).is_some() {
-                continue;
-            }
-            let mut group = vec![*first];
-            let mut queue = VecDeque::from([*first]);
-            while let Some(i) = queue.pop_front() {
-                for k in around(i).into_iter().flatten() {
-                    if own(&k) && inside(&k) && seen.insert(k, ()).is_none() {
-                        group.push(k);
-                        queue.push_back(k);
-                    }
-                }
-            }
-            groups.push(group);
-        }
-        groups
+    let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
+    let is_outermost = |i: usize| {
+        let own = around(lattice, i).filter(|k| labels.of[*k] == part);
+        own.count() < NEIGHBOURS
     };
-    let whole = groups(&|i| !speck.contains_key(i)).len() == 1;
-    let at_border = |group: &Vec<usize>| {
-        let out = |k: Option<usize>| k.is_none_or(|k| !own(&k));
-        group.iter().any(|i| around(*i).into_iter().any(out))
-    };
-    let specks = groups(&|i| speck.contains_key(i));
+    let specks = together(&|i| speck.contains_key(&i));
+    let at_border = |group: &Vec<usize>| group.iter().any(|i| is_outermost(*i));
     (whole && specks.iter().all(at_border)).then(|| specks.concat())
 }

@@ -13,6 +13,7 @@ use super::refold::refolded;
 use super::sew::sewn;
 use super::shape::{folds, lines, outlines};
 use super::spots::spots;
+use super::trim::Trouble;
 use super::{Direction, Missing, Pattern, PatternOptions, Seam, Sheet};
 use crate::error::Result;
 use crate::flat::unroll::joint::Until;
@@ -23,7 +24,7 @@ use crate::shape::patches::Patches;
 
 pub(super) enum Assembly {
     Whole(Box<Assembled>),
-    /// The parts, the numbers of those that cannot be sheets as they are, and why.
+    /// The parts, the numbers of those that cannot be sheets as they are, and why; none if specks were left out.
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
@@ -59,6 +60,15 @@ pub(super) enum Fault {
 }
 
 impl Fault {
+    /// The parts that are in trouble, and which that is.
+    fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
+        match self {
+            Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
+            Fault::Flipped(parts) => Some((parts, Trouble::Flipped)),
+            Fault::Crossing(_) => None,
+        }
+    }
+
     fn reason(&self, limit: f64) -> String {
         match self {
             Fault::Strain(strain, _) => format!(
@@ -86,13 +96,21 @@ pub(super) fn assembled(
     // What is wrong with a part by itself needs no joint unrolling to be seen.
     let limit = options.max_strain;
     let loose = Layout::loose(&net);
-    let alone = (0..net.leaves.len() as u32).filter(|part| net.leaves[*part as usize].is_some());
+    let by_itself = |leaf: &Option<Leaf>| leaf.as_ref().is_some_and(|leaf| !leaf.is_rough());
+    let alone = (0..net.leaves.len() as u32).filter(|part| by_itself(&net.leaves[*part as usize]));
     let mut wrong: Vec<(u32, String)> = alone
         .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
         .collect();
     if wrong.is_empty() {
         let mut arrangement = arranged(&net, options.gap);
-        wrong = settle(&mut net, &mut arrangement, limit)?;
+        match settle(&parts, &mut net, &mut arrangement)? {
+            Settled::Opened(found) => wrong = found,
+            Settled::Specks(part, specks) => {
+                parts.leaves = net.leaves;
+                parts.leave_out_specks(part, specks)?;
+                return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
+            }
+        }
         if wrong.is_empty() {
             sewn(&mut net, &mut arrangement, limit)?;
             return Ok(Assembly::Whole(Box::new(Assembled {
@@ -107,13 +125,22 @@ pub(super) fn assembled(
     Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
+/// What became of sheets that were laid flat.
+pub(super) enum Settled {
+    /// Folds of those that were not as they should be are open; the patches that are not even so, and why.
+    Opened(Vec<(u32, String)>),
+    /// They would be as they should be without these vertices of a part.
+    Specks(u32, Vec<usize>),
+}
+
 /// Lays the patches of each sheet flat together, and opens folds of those that are not as they should
-/// be. Returns the patches that are not by themselves, and why.
+/// be for another reason than specks.
 pub(super) fn settle(
+    parts: &Parts,
     net: &mut Net,
     arrangement: &mut Arrangement,
-    limit: f64,
-) -> Result<Vec<(u32, String)>> {
+) -> Result<Settled> {
+    let limit = parts.options.max_strain;
     let mut pending = std::mem::take(&mut arrangement.sheets);
     let layout = &mut arrangement.layout;
     let mut wrong = Vec::new();
@@ -133,7 +160,12 @@ pub(super) fn settle(
         } else if folded.is_empty() {
             members.iter().for_each(|patch| net.lay_alone(*patch));
         }
-        match fault(net, layout, &members, limit) {
+        let fault = fault(net, layout, &members, limit);
+        let specks = fault.as_ref().and_then(|fault| specks(parts, net, fault));
+        if let Some((part, specks)) = specks {
+            return Ok(Settled::Specks(part, specks));
+        }
+        match fault {
             Some(fault) if !folded.is_empty() => {
                 for seam in worst(net, layout, &folded, &fault) {
                     layout.folded[seam] = false;
@@ -147,7 +179,16 @@ pub(super) fn settle(
             }
         }
     }
-    Ok(wrong)
+    Ok(Settled::Opened(wrong))
+}
+
+/// The few vertices of one of its parts that a sheet has its fault from.
+fn specks(parts: &Parts, net: &Net, fault: &Fault) -> Option<(u32, Vec<usize>)> {
+    let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
+    troubled.iter().find_map(|part| {
+        let leaf = net.leaves[*part as usize].as_ref()?;
+        Some((*part, parts.specks(*part, leaf, trouble)?))
+    })
 }
 
 /// What folds hold together.

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::assembly::{Assembled, settle};
+use super::assembly::{Assembled, Settled, settle};
 use super::labels::Labels;
 use super::layout::Arrangement;
 use super::leaf::Leaf;
@@ -110,49 +110,67 @@ pub(super) fn refined(
         .filter(|part| alone[*part as usize])
         .collect();
     parts.lay_flat_trimmed(&single)?;
-    // Sorted by their areas, as all patches are.
-    let (found, order) = patches.divided(&parts.surface, parts.labels.of.clone())?;
-    parts.renumber(&found, &order);
-    let mut numbers = vec![0u32; order.len()];
+    // Patches of sheets of several begin where they lie on the coarse lattice.
+    for part in (0..known).filter(|part| !alone[*part]) {
+        let leaf = match placed(&parts, part, rough)? {
+            None => parts.leaf(&(part as u32))?,
+            found => found,
+        };
+        parts.leaves[part] = leaf;
+    }
+    let mut sheets = rough.arrangement.sheets.clone();
+    sheets.extend((known..parts.leaves.len()).map(|part| vec![part as u32]));
+    let mut before: Vec<usize> = (0..parts.leaves.len()).collect();
+    loop {
+        // Sorted by their areas, as all patches are.
+        let (found, order) = patches.divided(&parts.surface, parts.labels.of.clone())?;
+        parts.renumber(&found, &order);
+        before = order.iter().map(|old| before[*old]).collect();
+        let numbers = inverse(&order);
+        for members in &mut sheets {
+            let renumbered = members.iter().map(|part| numbers[*part as usize]);
+            *members = renumbered
+                .filter(|part| parts.leaves[*part as usize].is_some())
+                .collect();
+            members.sort_unstable();
+        }
+        sheets.retain(|members| !members.is_empty());
+        let leaves = std::mem::take(&mut parts.leaves);
+        let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
+        net.decided = rough.net.decided;
+        let mut layout = Layout::loose(&net);
+        fold_alike(&mut net, &mut layout, &before, rough);
+        let mut arrangement = Arrangement {
+            layout,
+            sheets: sheets.clone(),
+        };
+        match settle(&parts, &mut net, &mut arrangement)? {
+            Settled::Opened(wrong) => {
+                return Ok(match wrong.into_iter().next() {
+                    Some((_, reason)) => Err(reason),
+                    None => Ok(Assembled {
+                        parts,
+                        patches: found,
+                        net,
+                        arrangement,
+                    }),
+                });
+            }
+            Settled::Specks(part, specks) => {
+                parts.leaves = net.leaves;
+                parts.leave_out_specks(part, specks)?;
+            }
+        }
+    }
+}
+
+/// The new number of each part, from the old ones in their new order.
+fn inverse(order: &[usize]) -> Vec<u32> {
+    let mut numbers = vec![0; order.len()];
     for (number, old) in order.iter().enumerate() {
         numbers[*old] = number as u32;
     }
-    // Patches of sheets of several begin where they lie on the coarse lattice.
-    let mut sheets: Vec<Vec<u32>> = (rough.arrangement.sheets.iter())
-        .map(|members| members.iter().map(|part| numbers[*part as usize]).collect())
-        .collect();
-    sheets.extend((known..order.len()).map(|part| vec![numbers[part]]));
-    let mut leaves = Vec::with_capacity(order.len());
-    for (number, old) in order.iter().enumerate() {
-        let leaf = match alone[*old] {
-            true => parts.leaves[number].take(),
-            false => placed(&parts, number as u32, *old, rough)?,
-        };
-        leaves.push(match leaf {
-            Some(leaf) => Some(leaf),
-            None => parts.leaf(&(number as u32))?,
-        });
-    }
-    let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
-    net.decided = rough.net.decided;
-    let mut layout = Layout::loose(&net);
-    fold_alike(&mut net, &mut layout, &order, rough);
-    for members in &mut sheets {
-        members.retain(|part| net.leaves[*part as usize].is_some());
-        members.sort_unstable();
-    }
-    sheets.retain(|members| !members.is_empty());
-    let mut arrangement = Arrangement { layout, sheets };
-    let wrong = settle(&mut net, &mut arrangement, parts.options.max_strain)?;
-    Ok(match wrong.into_iter().next() {
-        Some((_, reason)) => Err(reason),
-        None => Ok(Assembled {
-            parts,
-            patches: found,
-            net,
-            arrangement,
-        }),
-    })
+    numbers
 }
 
 /// The part of each vertex of the fine lattice, and the patch of each part. What no part of the coarse
@@ -219,11 +237,11 @@ fn carried(
 }
 
 /// A part of the fine lattice, lying where it lies on the coarse one.
-fn placed(parts: &Parts, part: u32, old: usize, rough: &Assembled) -> Result<Option<Leaf>> {
-    let Some(leaf) = rough.net.leaves.get(old).and_then(Option::as_ref) else {
+fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<Leaf>> {
+    let Some(leaf) = rough.net.leaves[part].as_ref() else {
         return Ok(None);
     };
-    let motion = rough.arrangement.layout.motions[old];
+    let motion = rough.arrangement.layout.motions[part];
     let start = |[row, col]: [usize; 2]| {
         let [one, other] = parents(row, col).map(|(row, col)| {
             let vertex = [usize::try_from(row).ok()?, usize::try_from(col).ok()?];
@@ -235,8 +253,8 @@ fn placed(parts: &Parts, part: u32, old: usize, rough: &Assembled) -> Result<Opt
     Leaf::at(
         &parts.surface,
         &parts.labels,
-        part,
-        parts.window(part),
+        part as u32,
+        parts.window(part as u32),
         start,
     )
 }
@@ -276,5 +294,33 @@ fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assem
         for (part, folded) in divided {
             layout.folded[part] = folded;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flat::pattern::{FINEST, PatternOptions, whole};
+    use crate::shape::patches::PatchOptions;
+
+    #[test]
+    fn what_only_the_fine_lattice_shows_torn_is_left_out_there() {
+        // A folded card, drawn down at a vertex of its border that is on no coarse lattice.
+        let lattice = Lattice::new(120, 160, 1.0).unwrap();
+        let [left, bottom] = lattice.position(0, 81);
+        let surface = Heightfield::from_fn(lattice, |x, y| {
+            -0.5 * (x - 60.3).abs() - 12.0 * (1.0 - (x - left).hypot(y - bottom)).max(0.0)
+        });
+        let surface = surface.unwrap();
+        let patches = Patches::new(&surface, &PatchOptions::default()).unwrap();
+        let options = PatternOptions::default().max_strain(0.003);
+        let coarse = Coarse::new(&surface, &patches).unwrap().unwrap();
+        let rough = whole(&coarse.surface, &coarse.patches, &options, FINEST).unwrap();
+        let parts = Parts::none(&surface, &options);
+        let found = refined(&surface, &patches, &coarse, &rough, parts).unwrap();
+        let found = found.unwrap_or_else(|reason| panic!("{reason}"));
+        assert_eq!(found.arrangement.sheets, [[0, 1]]);
+        let out = found.parts.left_out();
+        assert!((1..=16).contains(&out), "{out}");
     }
 }

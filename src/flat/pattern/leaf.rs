@@ -327,14 +327,26 @@ impl Leaf {
                 shares[v as usize] += square;
             }
         }
-        let lattice = self.mesh.lattice();
-        let index = |v: u32| {
-            let (row, col) = (v as usize / lattice.cols(), v as usize % lattice.cols());
-            whole.index(self.window.top + row, self.window.left + col)
+        let own = (0..shares.len()).filter(|v| self.own[*v]);
+        own.map(|v| (self.index(whole, v), shares[v])).collect()
+    }
+
+    /// Those of its vertices that are corners of triangles upside down, by the lattice's index in the whole.
+    pub(super) fn flipped(&self, whole: &Lattice) -> Vec<usize> {
+        let upside_down = |(piece, corners): &(Piece, [u32; 3])| {
+            let [_, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            piece.exists() && (short <= 0.0 || short.is_nan())
         };
-        let vertices = self.mesh.vertices().iter().map(|v| index(*v));
-        let all = vertices.zip(shares).zip(&self.own);
-        all.filter(|(_, own)| **own).map(|(pair, _)| pair).collect()
+        let pieces = self.pieces().filter(upside_down);
+        let corners = pieces.flat_map(|(_, corners)| corners);
+        let own = corners.map(|v| v as usize).filter(|v| self.own[*v]);
+        own.map(|v| self.index(whole, v)).collect()
+    }
+
+    /// Index in the whole lattice of one of its vertices.
+    fn index(&self, whole: &Lattice, number: usize) -> usize {
+        let [row, col] = self.vertex(number);
+        whole.index(row, col)
     }
 
     /// Row and column in the whole lattice of one of its vertices.

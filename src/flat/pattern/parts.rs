@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::PatternOptions;
 use super::labels::Labels;
 use super::leaf::{CRUMB, Leaf, Window};
-use super::trim::specks;
+use super::trim::{Trouble, specks};
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -286,20 +286,45 @@ impl Parts {
         Ok(true)
     }
 
-    /// Leaves out the few vertices at the border of a part that it is strained too much by; whether there were any.
-    pub(super) fn trim(&mut self, part: u32) -> Result<bool> {
-        let leaf = self.leaves[part as usize].as_ref();
-        let Some(leaf) = leaf.filter(|_| self.is_strained(part)) else {
+    /// Leaves out the few vertices at the border of a part that it is strained too much by, or that lie upside
+    /// down; whether there were any.
+    fn trim(&mut self, part: u32) -> Result<bool> {
+        let Some(leaf) = self.leaves[part as usize].as_ref() else {
             return Ok(false);
         };
-        let (lattice, limit) = (self.surface.lattice(), self.options.max_strain);
-        let Some(own) = specks(lattice, &self.labels, part, leaf, limit, self.scrap()) else {
+        let trouble = match self.is_strained(part) {
+            true => Trouble::Strain(self.options.max_strain),
+            false => Trouble::Flipped,
+        };
+        let Some(own) = self.specks(part, leaf, trouble) else {
             return Ok(false);
         };
         let beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
         self.without(own)?;
         self.lay_flat(&[&[part], &beside[..]].concat())?;
         Ok(true)
+    }
+
+    /// The few vertices that a part has its trouble from as it lies, if they may be left out.
+    pub(super) fn specks(&self, part: u32, leaf: &Leaf, trouble: Trouble) -> Option<Vec<usize>> {
+        let lattice = self.surface.lattice();
+        specks(lattice, &self.labels, part, leaf, trouble, self.scrap())
+    }
+
+    /// Leaves out specks of a part; what goes on into it or is beside it stays where it lies.
+    pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
+        let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
+        changed.push(part);
+        self.without(specks)?;
+        for part in changed {
+            let Some(before) = self.leaves[part as usize].take() else {
+                continue;
+            };
+            let place = |vertex| Some(before.place(vertex)).filter(|place| !place.re.is_nan());
+            let leaf = Leaf::at(&self.surface, &self.labels, part, self.window(part), place)?;
+            self.leaves[part as usize] = leaf;
+        }
+        Ok(())
     }
 
     /// So many vertices may be left out at once.

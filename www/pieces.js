@@ -11,6 +11,8 @@ import { count, number, percent } from './format.js';
 const STRAINS = [0.01, 0.1];
 /** Millimetres along the longer side, of what has no unit or could not be held. */
 const HANDY = 180;
+/** Pixels along the longer side of the numbered picture. */
+const PICTURE = 2000;
 
 /** Of the result's plan. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
@@ -88,12 +90,46 @@ export function piecesInFigures({ width, height, summary: { cutLength, mountainL
  * A drawing to be looked at, as the SVG that is saved.
  * @param {(drawing: Drawing) => Promise<Uint8Array<ArrayBuffer>>} svg
  * @param {Drawing} drawing
- * @returns {Promise<HTMLImageElement>}
  */
 export async function previewOf(svg, drawing) {
-  const image = new Image();
+  const image = await imageOf(await svg(drawing));
   image.alt = piecesInWords(drawing);
-  const address = URL.createObjectURL(new Blob([await svg(drawing)], { type: 'image/svg+xml' }));
+  return image;
+}
+
+/** How sheets are put together, as a GLB file. @param {Drawing} drawing */
+export function modelOf(drawing) {
+  return assemblyOf(drawing).model;
+}
+
+/**
+ * The same as a picture with the numbers of sheets and the letters of joints: a PNG file on white.
+ * @param {Drawing} drawing
+ * @returns {Promise<Uint8Array<ArrayBuffer>>}
+ */
+export async function numberedPicture(drawing) {
+  const image = await imageOf(assemblyOf(drawing).picture);
+  const scale = PICTURE / Math.max(image.naturalWidth, image.naturalHeight);
+  const canvas = new OffscreenCanvas(Math.round(scale * image.naturalWidth), Math.round(scale * image.naturalHeight));
+  const context = canvas.getContext('2d');
+  if (!context) throw new Error('this browser draws no pictures');
+  context.fillStyle = 'white';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  const png = await canvas.convertToBlob({ type: 'image/png' });
+  return new Uint8Array(await png.arrayBuffer());
+}
+
+/** @param {Drawing} drawing */
+function assemblyOf({ assembly }) {
+  if (!assembly) throw new Error('nothing is said of how it is put together');
+  return assembly;
+}
+
+/** @param {Uint8Array<ArrayBuffer>} svg */
+async function imageOf(svg) {
+  const image = new Image();
+  const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {
     image.src = address;
     await image.decode();

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
+import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -260,6 +261,32 @@ pageTest('what cannot be laid flat whole is laid flat in pieces, which are saved
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   assert.equal(await page.locator('#cutting').isVisible(), false);
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);
+});
+
+pageTest('how sheets are put together is saved as a numbered picture and as a model that moves', async (page) => {
+  await example(page, 'roof');
+  const offered = async () => {
+    await page.locator('#end-sheets').click();
+    await page.locator('.preview[aria-busy="false"] img').waitFor();
+    return parsed(await page.locator('.sheets-options .said').innerText());
+  };
+  const sheets = await offered();
+  assert.ok(sheets > 1);
+  const { width, height, data } = parsePng((await saveAs(page, 'PNG')).bytes);
+  assert.equal(Math.max(width, height), 2000);
+  // From above, every sheet in a colour of its own.
+  const pixels = new Uint32Array(data.buffer, data.byteOffset, width * height);
+  const counts = new Map();
+  for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+  const large = [...counts.values()].filter((amount) => amount > 0.02 * pixels.length);
+  assert.equal(large.length, sheets + 1, 'sheets, and white around them');
+
+  await offered();
+  const { bytes } = await saveAs(page, 'GLB');
+  assert.equal(bytes.toString('latin1', 0, 4), 'glTF');
+  const { animations, meshes } = JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
+  assert.equal(animations[0].name, 'Assembly');
+  assert.ok(meshes.length >= sheets, `${meshes.length} meshes of ${sheets} sheets`);
 });
 
 pageTest('the printed page is made flat: an A4 sheet, with its pixels and its map', async (page) => {

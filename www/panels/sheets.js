@@ -1,6 +1,6 @@
 /** The result as sheets to cut out: how large, on what paper, with tabs or without; looked at, then saved. */
 import { make } from '../dom.js';
-import { piecesInFigures, piecesInWords, previewOf } from '../pieces.js';
+import { modelOf, numberedPicture, piecesInFigures, piecesInWords, previewOf } from '../pieces.js';
 import { plainly } from '../plain.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
@@ -96,7 +96,7 @@ export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
     waiting.begin(slow);
-    const wanted = (drawing = cut(wish()));
+    const wanted = (drawing = cut({ ...wish(), assembly: true }));
     offer.renew();
     try {
       const image = await previewOf(svg, await wanted);
@@ -156,6 +156,8 @@ export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
         write: async (worker) => worker.writePdf(await drawing, { paper: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
       { value: 'svg', name: 'SVG', words: 'for a cutting plotter or a drawing program', type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
       { value: 'dxf', name: 'DXF', words: 'for a laser cutter or CAD', type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
+      { value: 'png', name: 'PNG', words: 'a picture of it built, with the numbers of the sheets and the letters of what is joined', type: 'image/png', write: async () => numberedPicture(await drawing) },
+      { value: 'glb', name: 'GLB', words: 'flat sheets that go to their places one after the other, to be watched in 3D', type: 'model/gltf-binary', write: async () => modelOf(await drawing) },
     ],
   });
   void draw();

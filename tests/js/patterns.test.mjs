@@ -402,6 +402,7 @@ test('sheets go from flat to built, as three.js has it', async () => {
   assert.ok(kept.length > 0.95 * edges.length, `${kept.length} of ${edges.length}`);
   const svg = new TextDecoder().decode(picture);
   assert.equal(svg.match(/<path /g)?.length, sheets.length);
+  assert.equal(svg.match(/<polyline /g)?.length ?? 0, sheets.reduce((sum, { folds }) => sum + folds.length, 0));
   assert.ok(/class="patch"[^>]*>\s*3\s*</.test(svg) && /class="seam"[^>]*>\s*a\s*</.test(svg), svg.slice(-900));
   assert.equal(direct.pattern(vaults).assembly, undefined);
 });

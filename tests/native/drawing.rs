@@ -3,6 +3,7 @@
 
 use crate::common::{noisy, unit_square};
 use developable::drawing::{Bending, Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
+use developable::files::assembly::write_assembly_svg;
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{PatternOptions, Sheet, pattern};
@@ -525,4 +526,39 @@ fn bends_take_the_length_of_their_neutral_line() {
     ] {
         assert!(refused(&narrow, bending).contains(name), "{bending:?}");
     }
+}
+
+#[test]
+fn the_picture_of_an_assembly_has_its_lines_where_the_creases_are() {
+    let sheets = pyramid();
+    let svg = String::from_utf8(write_assembly_svg(&sheets).unwrap()).unwrap();
+    let all = || sheets.iter().flat_map(|sheet| &sheet.faces.built);
+    let low = all().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+    let high = all().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+    let wide = all().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max) - low;
+    let tall = high - all().map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let scale = 1000.0 / wide.max(tall);
+    let (mut on_crease, mut along) = (0, 0.0f64);
+    let lists = svg
+        .split(['"', 'Z'])
+        .filter(|text| text.starts_with('M') || text.contains(".") && text.contains(','));
+    for list in lists {
+        let numbers: Vec<f64> = (list.split(|c: char| !c.is_ascii_digit() && c != '.'))
+            .filter_map(|number| number.parse().ok())
+            .collect();
+        for pixel in numbers.chunks_exact(2) {
+            let [x, y] = [
+                low + (pixel[0] - 20.0) / scale - 0.503,
+                high - (pixel[1] - 20.0) / scale - 0.502,
+            ];
+            // Away from the apex, which is round, and from the border all that is drawn are creases.
+            if (0.03..0.45).contains(&x.abs().max(y.abs())) {
+                let off = (x.abs() - y.abs()).abs() / 2f64.sqrt();
+                assert!(off < 0.2 / 80.0, "{x} {y}");
+                on_crease += 1;
+                along = along.max(x.hypot(y));
+            }
+        }
+    }
+    assert!(on_crease >= 4 && along > 0.5, "{on_crease} {along}");
 }

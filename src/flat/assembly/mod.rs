@@ -18,11 +18,13 @@
 //! # }
 //! ```
 
+mod built;
 mod order;
 mod pose;
 
 use super::drawing::letters;
 use super::pattern::Sheet;
+pub(crate) use built::Built;
 use order::ordered;
 pub use pose::Pose;
 

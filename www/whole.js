@@ -10,6 +10,9 @@ import { Events } from './events.js';
 /** @typedef {import('../pkg/types.js').MeshSurface} MeshSurface */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
 
+/** Of rulings as far apart as they are drawn, so many go along the longest side, however coarse the mesh. */
+const RULINGS = 30;
+
 /**
  * @typedef {object} WholeEvents
  * @property {Mesh} start it is being solved
@@ -73,6 +76,11 @@ export class Whole extends Events {
   }
 
   /** @param {Mesh} mesh */
+  rulings(mesh) {
+    return this.#once(mesh, 'rulings', (worker) => worker.meshRulings(shapeOf(mesh), { separation: longestSide(mesh) / RULINGS }));
+  }
+
+  /** @param {Mesh} mesh */
   unrolled(mesh) {
     return this.#once(mesh, 'unrolled', (worker) => worker.unrollMesh(shapeOf(mesh)));
   }
@@ -126,4 +134,16 @@ export class Whole extends Events {
 /** @param {Mesh} mesh */
 function shapeOf({ positions, triangles, unit }) {
   return { positions, triangles, unit };
+}
+
+/** @param {Mesh} mesh */
+export function longestSide({ positions }) {
+  return Math.max(...[0, 1, 2].map((k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return high - low;
+  }));
 }

@@ -30,6 +30,62 @@ async function view(page, view) {
 /** @param {Page} page @param {string} name */
 const told = (page, name) => page.locator('#whole-about .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
 
+/** The lengths of the tube, and its radius. */
+const TUBE = { length: 3, radius: 1 };
+/** Where the viewer looks at first. */
+const OBLIQUE = [-0.5, -0.45, -0.75];
+
+/** An open tube about the axis x, whose vertices are off by noise. @param {number} around @param {number} noise */
+function noisyTube(around, noise) {
+  let seed = 1;
+  const random = () => (seed = (seed * 16807) % 2147483647) / 1073741823.5 - 1;
+  const rings = Math.round((around * TUBE.length) / (2 * Math.PI * TUBE.radius));
+  /** @type {[number, number, number][]} */
+  const points = [];
+  /** @type {[number, number, number][]} */
+  const triangles = [];
+  for (let j = 0; j <= rings; j++) {
+    for (let i = 0; i < around; i++) {
+      const angle = (2 * Math.PI * i) / around;
+      const r = TUBE.radius + noise * random();
+      points.push([(TUBE.length * j) / rings, r * Math.cos(angle), r * Math.sin(angle)]);
+      if (j === rings) continue;
+      const [a, b] = [j * around + i, j * around + ((i + 1) % around)];
+      triangles.push([a, b, a + around], [b, b + around, a + around]);
+    }
+  }
+  return { points, triangles };
+}
+
+/**
+ * Of what is drawn in the colour of rulings: how many pixels, and at what angle to the right most of it runs, up counting up.
+ * @param {Page} page
+ */
+async function drawnRulings(page) {
+  const { width, height, data } = parsePng(await page.locator('#whole-canvas').screenshot());
+  /** @param {number} row @param {number} col */
+  const orange = (row, col) => {
+    const [r, g, b] = data.subarray(4 * (row * width + col));
+    return Math.abs(r - 232) + Math.abs(g - 89) + Math.abs(b - 12) < 60;
+  };
+  /** @type {[number, number][]} */
+  const seen = [];
+  for (let row = 0; row < height; row++) for (let col = 0; col < width; col++) if (orange(row, col)) seen.push([col, -row]);
+  // Seen along the lines, they are on the fewest pixels.
+  let [best, angle] = [0, 0];
+  for (let turned = 0; turned < Math.PI; turned += 0.005) {
+    /** @type {Map<number, number>} */
+    const bins = new Map();
+    for (const [x, y] of seen) {
+      const aside = Math.round(y * Math.cos(turned) - x * Math.sin(turned));
+      bins.set(aside, (bins.get(aside) ?? 0) + 1);
+    }
+    const sum = [...bins.values()].reduce((total, n) => total + n * n, 0);
+    if (sum > best) [best, angle] = [sum, turned];
+  }
+  return { pixels: seen.length, angle };
+}
+
 /** The vertices and triangles of an OBJ. @param {Buffer} bytes */
 function parseObj(bytes) {
   const lines = bytes.toString().split('\n').map((line) => line.split(/\s+/));
@@ -161,4 +217,31 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved whole/);
   assert.match(await page.locator('#whole-detail').innerText(), /edge/);
+});
+
+pageTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
+  await open(page, 'tube.obj', obj(noisyTube(60, 0.01)));
+  await solve(page);
+  const divider = page.locator('#whole-divider');
+  await divider.fill('0');
+  assert.equal((await drawnRulings(page)).pixels, 0);
+  await view(page, 'rulings');
+  assert.ok(parsed(await told(page, 'Lines')) >= 8);
+  assert.ok(parsed(await told(page, 'Off straight')) < 3);
+  const longest = parsed(await told(page, 'Longest'));
+  // From ring to ring, but for the ends, of whose vertices no neighbourhood tells a direction.
+  assert.ok(longest > 0.8 * TUBE.length && longest < TUBE.length + 0.05, `${longest}`);
+  const { pixels, angle } = await drawnRulings(page);
+  assert.ok(pixels > 300, `${pixels}`);
+  // The axis as it is seen from there, with y upwards.
+  const towards = OBLIQUE.map((x) => -x / Math.hypot(...OBLIQUE));
+  const level = Math.hypot(towards[0], towards[2]);
+  const axis = [towards[2] / level, (-towards[0] * towards[1]) / level];
+  const off = Math.abs(Math.sin(angle - Math.atan2(axis[1], axis[0])));
+  assert.ok(off < 0.02, `${off}`);
+  await divider.fill('1');
+  assert.equal((await drawnRulings(page)).pixels, 0, 'none on the input');
+  await divider.fill('0');
+  await view(page, 'gaussian');
+  assert.equal((await drawnRulings(page)).pixels, 0);
 });

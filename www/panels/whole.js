@@ -7,8 +7,8 @@ import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture.js';
 import { work } from '../surface/work.js';
 import { Zoom } from '../surface/zoom.js';
-import { gaussian, patches, shaded, sheet, wholeInWords } from '../views/whole.js';
-import { Whole } from '../whole.js';
+import { gaussian, patches, rulings, shaded, sheet, wholeInWords } from '../views/whole.js';
+import { longestSide, Whole } from '../whole.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 import { waitingPanel } from './waiting.js';
@@ -25,7 +25,7 @@ const MUCH = 0.1;
 /** Where the viewer looks at first: no side is seen straight. */
 const OBLIQUE = /** @type {const} */ ([-0.5, -0.45, -0.75]);
 /** @type {Record<string, (whole: Whole, mesh: Mesh, surface: MeshSurface) => Promise<WholeShown>>} */
-const VIEWS = { shaded, gaussian, patches, sheet };
+const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
 /** @param {Session} session */
 export function wholePanel(session) {
@@ -72,7 +72,7 @@ export function wholePanel(session) {
   };
 
   /** @param {WholeShown} shown */
-  const put = async ({ before, after, flat: laid, about: nodes }) => {
+  const put = async ({ before, after, lines, flat: laid, about: nodes }) => {
     about.replaceChildren(...nodes);
     picture.show(laid ?? null);
     reading.textContent = '';
@@ -83,7 +83,7 @@ export function wholePanel(session) {
     divided.hidden = !after || canvas.hidden;
     for (const badge of stage.querySelectorAll('.badge')) badge.toggleAttribute('hidden', divided.hidden);
     if (laid || !view) return;
-    view.show(before, after);
+    view.show(before, after, lines);
     view.divide(after ? divider.valueAsNumber : 1);
   };
 
@@ -226,16 +226,4 @@ export function wholePanel(session) {
     if (session.input?.lattice !== lattice || hidden < MUCH) return;
     hint.textContent = `Heights from this side leave out ${percent(hidden)} of its surface, which is behind what is seen: “Whole” takes all of it.`;
   });
-}
-
-/** @param {Mesh} mesh */
-function longestSide({ positions }) {
-  return Math.max(...[0, 1, 2].map((k) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = k; i < positions.length; i += 3) {
-      low = Math.min(low, positions[i]);
-      high = Math.max(high, positions[i]);
-    }
-    return high - low;
-  }));
 }

@@ -5,10 +5,12 @@ import { canvasOf } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture.js';
 import { work } from '../surface/work.js';
 import { colourBar, figures, key, say } from './legend.js';
+import { ruledBy } from './rulings.js';
 import { make } from '../dom.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
+/** @import {Line} from '../surface/layer.js' */
 /** @import {Picture} from '../surface/picture.js' */
 /** @import {MeshSurface, Whole} from '../whole.js' */
 
@@ -16,6 +18,7 @@ import { make } from '../dom.js';
  * @typedef {object} WholeShown
  * @property {Mesh} before
  * @property {Mesh} [after]
+ * @property {readonly Line[]} [lines] on what is after
  * @property {Picture} [flat] in the place of both
  * @property {readonly Node[]} about
  */
@@ -50,6 +53,12 @@ export async function gaussian(whole, mesh, surface) {
       ]),
     ],
   };
+}
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function rulings(whole, mesh, surface) {
+  const { lines } = await whole.rulings(surface);
+  return { before: mesh, after: surface, ...ruledBy(lines, mesh.unit) };
 }
 
 /** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { look, open, pageTest, saveAs, settled } from './support/page.mjs';
+import { look, open, pageTest, reported, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -244,4 +244,64 @@ pageTest('rulings of a whole mesh are drawn on its result only, along the axis o
   await divider.fill('0');
   await view(page, 'gaussian');
   assert.equal((await drawnRulings(page)).pixels, 0);
+});
+
+/** Root mean square of how far places are off the tube. @param {readonly (readonly number[])[]} points */
+const offTube = (points) => Math.sqrt(points.reduce((sum, [, y, z]) => sum + (Math.hypot(y, z) - TUBE.radius) ** 2, 0) / points.length);
+
+pageTest('a whole mesh is solved with the λ that is chosen, which stands in the address, and Back undoes it', async (page) => {
+  const tube = noisyTube(40, 0.02);
+  await open(page, 'tube.obj', obj(tube));
+  const saved = async () => {
+    await page.locator('#whole-file').click();
+    return offTube(parseObj((await saveAs(page, 'OBJ')).bytes).points);
+  };
+  /** @param {() => Promise<unknown>} act @param {RegExp} address */
+  const solvedBy = async (act, address) => {
+    const solved = page.locator('#whole[aria-busy="true"]').waitFor();
+    await act();
+    await solved;
+    await done(page);
+    await page.waitForURL(address);
+  };
+  const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');
+  const field = page.getByLabel('λ as a number');
+
+  await solvedBy(() => page.getByRole('radio', { name: 'Whole', exact: true }).check({ force: true }), /whole=1$/);
+  const hint = await page.locator('#lambda-hint').innerText();
+  // Evenly distributed, up to 0.02 to either side.
+  const sigma = parsed(/noise of ([\d.]+)/.exec(hint)?.[1] ?? '');
+  assert.ok(Math.abs(sigma / (0.02 / Math.sqrt(3)) - 1) < 0.2, hint);
+  const auto = parsed(await told(page, 'λ'));
+  assert.ok(Math.abs(Number(await field.inputValue()) / auto - 1) < 0.05);
+  const smooth = await saved();
+  assert.ok(smooth < 0.5 * offTube(tube.points), `${smooth}`);
+
+  await solvedBy(async () => {
+    await field.fill('1e9');
+    await field.press('Tab');
+  }, /lambda=1e9&whole=1$/);
+  assert.equal(parsed(await told(page, 'λ')), 1e9);
+  const rough = await saved();
+  assert.ok(rough > 0.9 * offTube(tube.points), `it keeps its noise: ${rough}`);
+  await view(page, 'rulings');
+  await page.waitForURL(/lambda=1e9&whole=1&view=rulings$/);
+
+  await solvedBy(() => page.goBack(), /whole=1$/);
+  assert.deepEqual([await pressed(), parsed(await told(page, 'λ'))], ['true', auto]);
+  await page.goBack();
+  await page.locator('section[aria-label="Surfaces"]').waitFor();
+  assert.ok(await page.getByRole('radio', { name: 'As seen', exact: true }).isChecked());
+  await solvedBy(() => page.goForward(), /whole=1$/);
+  await solvedBy(() => page.goForward(), /view=rulings$/);
+  await page.reload();
+  await done(page);
+  await page.locator('#whole-about .figures dt', { hasText: 'Longest' }).waitFor();
+  assert.equal(await field.inputValue(), '1e9');
+
+  // As seen, heights follow the λ that was chosen meanwhile.
+  await page.getByRole('radio', { name: 'As seen', exact: true }).check({ force: true });
+  await settled(page);
+  await page.waitForURL(/lambda=1e9$/);
+  assert.equal(parsed(await reported(page, 'λ')), 1e9);
 });

@@ -8,14 +8,14 @@ import { PictureView } from '../surface/picture.js';
 import { work } from '../surface/work.js';
 import { Zoom } from '../surface/zoom.js';
 import { gaussian, patches, rulings, shaded, sheet, wholeInWords } from '../views/whole.js';
-import { longestSide, Whole } from '../whole.js';
+import { longestSide } from '../whole.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {MeshSurface} from '../whole.js' */
+/** @import {MeshSurface, Whole} from '../whole.js' */
 /** @import {WholeShown} from '../views/whole.js' */
 
 /** Milliseconds for a vertex, until that was measured. */
@@ -27,8 +27,8 @@ const OBLIQUE = /** @type {const} */ ([-0.5, -0.45, -0.75]);
 /** @type {Record<string, (whole: Whole, mesh: Mesh, surface: MeshSurface) => Promise<WholeShown>>} */
 const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
-/** @param {Session} session */
-export function wholePanel(session) {
+/** @param {Session} session @param {Whole} whole */
+export function wholePanel(session, whole) {
   const side = element('heights-side', HTMLElement);
   const stage = element('whole', HTMLElement);
   const canvas = element('whole-canvas', HTMLCanvasElement);
@@ -45,13 +45,14 @@ export function wholePanel(session) {
   const radios = elements('input[name="whole-view"]', HTMLInputElement);
   const [file, sheets, flat] = ['file', 'sheets', 'flat'].map((name) => element(`whole-${name}`, HTMLButtonElement));
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
-  const whole = new Whole(session.api);
   /** @type {Promise<MeshView | null> | null} */
   let viewer = null;
   /** Counts what was asked for, to tell the newest. */
   let asked = 0;
   /** The mesh that the input is seen of. @type {Mesh | null} */
   let present = null;
+  /** The one that was turned. @type {Mesh | null} */
+  let looked = null;
 
   const waiting = waitingPanel(element('whole-waiting', HTMLElement), () => {
     asked++;
@@ -118,28 +119,49 @@ export function wholePanel(session) {
 
   const solve = () => {
     if (!present) return;
+    session.watch(false);
     side.dataset.whole = '';
     stage.hidden = false;
-    void whole.solve(present);
+    for (const radio of ways) radio.checked = radio.value === 'whole';
+    void whole.solve(present, session.settings.lambda);
   };
   const leave = () => {
+    if (stage.hidden) return;
     asked++;
     whole.leave();
+    session.watch(true);
     waiting.end();
     stage.hidden = true;
     delete side.dataset.whole;
     for (const radio of ways) radio.checked = radio.value === 'seen';
   };
+  /** @param {string} view */
+  const choose = (view) => {
+    for (const radio of radios) radio.checked = radio.value === view;
+    if (!radios.some(({ checked }) => checked)) radios[0].checked = true;
+  };
+  /** @param {string} view */
+  const enter = (view) => {
+    choose(view);
+    if (whole.mesh === null || whole.mesh !== present) solve();
+    else if (whole.surface) void update();
+  };
+  session.on('settings', ({ lambda }) => {
+    if (whole.mesh && lambda !== whole.lambda) solve();
+  });
 
   whole.on('start', (mesh) => {
     asked++;
     say('Solving the whole mesh…', '');
     enable(false);
     again.hidden = true;
-    radios[0].checked = true;
     stage.setAttribute('aria-busy', 'true');
     waiting.begin(slow(mesh, 'Solving it', 'whole'));
-    void put({ before: mesh, about: [] }).then(async () => (await viewer)?.look(OBLIQUE));
+    void put({ before: mesh, about: [] }).then(async () => {
+      // Solved once more, it stays as it was turned.
+      if (looked !== mesh) (await viewer)?.look(OBLIQUE);
+      looked = mesh;
+    });
   });
   whole.on('progress', ({ iteration, gap }) => {
     detail.textContent = `Iteration ${iteration}${gap !== undefined && gap < 1 ? `, gap ${percent(gap)}` : ''}.`;
@@ -161,7 +183,7 @@ export function wholePanel(session) {
   divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
   again.addEventListener('click', () => (whole.surface ? void update() : solve()));
-  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? solve() : leave()));
+  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
   picture.canvas.addEventListener('pointermove', (event) => (reading.textContent = picture.read(event)));
   picture.canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 
@@ -226,4 +248,13 @@ export function wholePanel(session) {
     if (session.input?.lattice !== lattice || hidden < MUCH) return;
     hint.textContent = `Heights from this side leave out ${percent(hidden)} of its surface, which is behind what is seen: “Whole” takes all of it.`;
   });
+
+  return {
+    /** What is shown of it, if it is shown. */
+    get view() {
+      return whole.mesh ? radios.find(({ checked }) => checked)?.value : undefined;
+    },
+    enter,
+    leave,
+  };
 }

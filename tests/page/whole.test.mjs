@@ -306,3 +306,47 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e6);
 });
+
+pageTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
+  await open(page, 'tube.obj', obj(noisyTube(60, 0.01)));
+  await solve(page);
+  await page.locator('#whole-divider').fill('0');
+  const canvas = page.locator('#whole-canvas');
+  const { width, height } = /** @type {{ width: number, height: number }} */ (await canvas.boundingBox());
+  /** @param {number} x @param {number} y in shares of the canvas */
+  const pointAt = async (x, y) => {
+    await page.mouse.move(0, 0);
+    await page.locator('#whole-reading', { hasNotText: /./ }).waitFor({ state: 'attached' });
+    await canvas.hover({ position: { x: x * width, y: y * height } });
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    return page.locator('#whole-reading').innerText();
+  };
+  const towards = OBLIQUE.map((x) => -x / Math.hypot(...OBLIQUE));
+  const level = Math.hypot(towards[0], towards[2]);
+  const right = [towards[2] / level, 0, -towards[0] / level];
+  const up = [0, 1, 2].map((k) => towards[(k + 1) % 3] * right[(k + 2) % 3] - towards[(k + 2) % 3] * right[(k + 1) % 3]);
+  // The ball about the tube has room in the canvas' shorter side, and 4 % more.
+  const pixel = (1.04 * Math.hypot(TUBE.length, 2 * TUBE.radius, 2 * TUBE.radius)) / Math.min(width, height);
+  for (const [x, y] of [[0.5, 0.5], [0.42, 0.56]]) {
+    const aside = [(x - 0.5) * width * pixel, (0.5 - y) * height * pixel];
+    const line = [TUBE.length / 2, 0, 0].map((middle, k) => middle + aside[0] * right[k] + aside[1] * up[k]);
+    // Where that line of sight comes to the tube first.
+    const [a, b, c] = [towards[1] ** 2 + towards[2] ** 2, line[1] * towards[1] + line[2] * towards[2], line[1] ** 2 + line[2] ** 2 - TUBE.radius ** 2];
+    const far = (-b + Math.sqrt(b * b - a * c)) / a;
+    const expected = line.map((value, k) => value + far * towards[k]);
+    const shown = await pointAt(x, y);
+    const [, ...xyz] = (/^x (\S+), y (\S+), z (\S+) units · moved by (\S+)$/.exec(shown) ?? []).map(parsed);
+    expected.forEach((value, k) => assert.ok(Math.abs(xyz[k] - value) < 0.02, `${shown}, and not ${expected}`));
+    assert.ok(xyz[3] > 0 && xyz[3] < 0.02, shown);
+  }
+  assert.equal(await pointAt(0.03, 0.5), '', 'beside it');
+  await view(page, 'gaussian');
+  const curved = /· K (\S+) 1\/unit²$/.exec(await pointAt(0.5, 0.5));
+  assert.ok(curved && Math.abs(parsed(curved[1])) < 0.1, String(curved));
+  await page.locator('#whole-divider').fill('1');
+  const rough = /· K (\S+) 1\/unit²$/.exec(await pointAt(0.5, 0.5));
+  assert.ok(rough && Math.abs(parsed(rough[1])) > 10 * Math.abs(parsed(/** @type {RegExpExecArray} */ (curved)[1])), `${rough} against ${curved}`);
+  await page.locator('#whole-divider').fill('0');
+  await view(page, 'patches');
+  assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
+});

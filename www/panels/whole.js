@@ -7,7 +7,7 @@ import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture.js';
 import { work } from '../surface/work.js';
 import { Zoom } from '../surface/zoom.js';
-import { gaussian, patches, rulings, shaded, sheet, wholeInWords } from '../views/whole.js';
+import { gaussian, patches, readingAt, rulings, shaded, sheet, wholeInWords } from '../views/whole.js';
 import { longestSide } from '../whole.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -53,6 +53,8 @@ export function wholePanel(session, whole) {
   let present = null;
   /** The one that was turned. @type {Mesh | null} */
   let looked = null;
+  /** What is told of a place. @type {WholeShown['read']} */
+  let read;
 
   const waiting = waitingPanel(element('whole-waiting', HTMLElement), () => {
     asked++;
@@ -73,7 +75,8 @@ export function wholePanel(session, whole) {
   };
 
   /** @param {WholeShown} shown */
-  const put = async ({ before, after, lines, flat: laid, about: nodes }) => {
+  const put = async ({ before, after, lines, flat: laid, read: told, about: nodes }) => {
+    read = told;
     about.replaceChildren(...nodes);
     picture.show(laid ?? null);
     reading.textContent = '';
@@ -184,6 +187,24 @@ export function wholePanel(session, whole) {
   for (const radio of radios) radio.addEventListener('change', () => void update());
   again.addEventListener('click', () => (whole.surface ? void update() : solve()));
   for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
+  /** The newest place of the pointer, which is looked at once in a frame. @type {{ offsetX: number, offsetY: number } | null} */
+  let pointed = null;
+  let frame = 0;
+  const point = async () => {
+    frame = 0;
+    const view = await viewer;
+    const { mesh, surface } = whole;
+    const place = pointed && view?.under(pointed);
+    reading.textContent = place && mesh && surface ? readingAt(mesh, surface, place, read?.(place)) : '';
+  };
+  /** @param {PointerEvent} event */
+  const pointAt = ({ type, buttons, offsetX, offsetY }) => {
+    // While it is turned, there is nothing to be read.
+    pointed = type === 'pointermove' && buttons === 0 ? { offsetX, offsetY } : null;
+    frame ||= requestAnimationFrame(() => void point());
+  };
+  canvas.addEventListener('pointermove', pointAt);
+  canvas.addEventListener('pointerleave', pointAt);
   picture.canvas.addEventListener('pointermove', (event) => (reading.textContent = picture.read(event)));
   picture.canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 

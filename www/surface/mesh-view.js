@@ -32,6 +32,8 @@ export class MeshView {
   #lines = null;
   /** @type {Program | null} */
   #liner = null;
+  /** @type {any} */
+  #ray = null;
   /** It is not turned by hand now. */
   #looking = false;
   /** The direction at the last change. */
@@ -138,6 +140,24 @@ export class MeshView {
   divide(share) {
     this.#divider = share;
     this.#draw();
+  }
+
+  /**
+   * What is seen at a place of the canvas: which side of the divider, and where on which triangle.
+   * @param {{ offsetX: number, offsetY: number }} place
+   * @returns {{ after: boolean, triangle: number, shares: Vector } | null} `shares`: of its three corners
+   */
+  under({ offsetX, offsetY }) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const after = this.#shown.length > 1 && offsetX >= this.#divider * width;
+    const shown = this.#shown[after ? 1 : 0];
+    if (!shown?.isMesh || width === 0) return null;
+    this.#ray ??= new this.#three.Raycaster();
+    this.#ray.setFromCamera({ x: (2 * offsetX) / width - 1, y: 1 - (2 * offsetY) / height }, this.#camera);
+    const [first] = this.#ray.intersectObject(shown, false);
+    if (!first) return null;
+    const { x, y, z } = first.barycoord;
+    return { after, triangle: first.faceIndex, shares: [x, y, z] };
   }
 
   /** Where the viewer looks. @returns {[number, number, number]} */

@@ -214,6 +214,16 @@ export class DevelopableWorker {
 
   /**
    * @param {import('./types.js').Mesh} mesh
+   * @param {import('./types.js').MeshRulingOptions} [given]
+   */
+  async meshRulings(mesh, given) {
+    const options = optionsOf('meshRulings', given);
+    const { shape } = wholeOf(mesh);
+    return this.#request((remote) => remote.meshRulings(shape, options));
+  }
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
    * @param {import('./types.js').MeshUnrollOptions} [given]
    */
   async unrollMesh(mesh, given) {

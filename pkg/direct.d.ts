@@ -2,7 +2,7 @@
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
-  MeshPatternOptions, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
+  MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -23,7 +23,7 @@ export function init(input?: InitInput): Promise<void>;
  *   mesh with textures;
  * - `images`: all other height images, and photos in JPEG and WebP;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl` and `writeGlb`;
- * - `fitmesh`: `fitMesh`, `MeshSolver` and `analyzeMesh`;
+ * - `fitmesh`: `fitMesh`, `MeshSolver`, `analyzeMesh` and `meshRulings`;
  * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
  * - `patterns`: `pattern`, `patternMesh`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
  *
@@ -174,6 +174,8 @@ export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Drawing;
 /** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): MeshAnalysis;
+/** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
+export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): MeshRulings;
 /** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
 export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): MeshUnrolling;
 /** The same drawn in millimetres, as `pattern` does for heights. */

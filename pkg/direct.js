@@ -333,6 +333,13 @@ export function analyzeMesh(mesh, given) {
   return meshFits.call((wasm) => wasm.analyzeMesh(shape, options));
 }
 
+/** @type {typeof import('./direct.js').meshRulings} */
+export function meshRulings(mesh, given) {
+  const { shape } = wholeOf(mesh);
+  const options = optionsOf('meshRulings', given);
+  return meshFits.call((wasm) => wasm.meshRulings(shape, options));
+}
+
 /** @type {typeof import('./direct.js').unrollMesh} */
 export function unrollMesh(mesh, given) {
   const { shape } = wholeOf(mesh);

@@ -2,7 +2,7 @@
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
-  MeshPatternOptions, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
+  MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
   ExploredPatterns, OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
@@ -174,6 +174,8 @@ export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
 /** How developable a mesh is, as it is: curvatures and rulings at its vertices, and what they come to. */
 export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
+/** The rulings of a mesh, as it is: along what its surface does not bend, and straight lines along that. */
+export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
 /** Lays a mesh flat, as it is: in sheets, cut along its creases and where it does not lie flat otherwise. */
 export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
 /** The same drawn in millimetres, as `pattern` does for heights. */
@@ -243,6 +245,7 @@ export class DevelopableWorker {
   unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
   pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
   analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
+  meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
   unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
   patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
   explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;

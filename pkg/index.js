@@ -59,6 +59,8 @@ export const fitMesh = (mesh, options) => worker().fitMesh(mesh, options);
 export const backProject = (input, camera, options) => worker().backProject(input, camera, options);
 /** @type {typeof import('./index.js').analyzeMesh} */
 export const analyzeMesh = (mesh, options) => worker().analyzeMesh(mesh, options);
+/** @type {typeof import('./index.js').meshRulings} */
+export const meshRulings = (mesh, options) => worker().meshRulings(mesh, options);
 /** @type {typeof import('./index.js').unrollMesh} */
 export const unrollMesh = (mesh, options) => worker().unrollMesh(mesh, options);
 /** @type {typeof import('./index.js').patternMesh} */

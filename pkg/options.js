@@ -178,6 +178,8 @@ const drawing = {
   assembly: flag,
 };
 
+const tracing = { separation: number, confidence: number, crease: number };
+
 const directions = ['-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'];
 
 /** What each call takes. @satisfies {Record<string, Record<string, Kind>>} */
@@ -218,10 +220,11 @@ export const OPTIONS = {
     width: whole,
     extent,
   },
-  rulings: { ...resampled, separation: number, confidence: number, crease: number },
+  rulings: { ...resampled, ...tracing },
   unroll: { ...resampled, ...unrolling },
   pattern: { ...resampled, ...patching, ...unrolling, ...drawing, gap: number, maxStrain: number, refold: flag },
   analyzeMesh: { threshold: number },
+  meshRulings: tracing,
   unrollMesh: { ...patching, ...unrolling, gap: number, maxStrain: number },
   patternMesh: { ...patching, ...unrolling, ...drawing, gap: number, maxStrain: number },
   explorePattern: {

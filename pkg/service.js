@@ -241,6 +241,13 @@ export const service = {
     return transfer(result, buffersOf(result.gaussian, result.kappa1, result.kappa2, result.nuclearNorm, result.rulings));
   },
 
+  /** @type {(mesh: import('./types.js').Mesh, options?: import('./types.js').MeshRulingOptions) => Promise<import('./types.js').MeshRulings>} */
+  async meshRulings(mesh, options) {
+    await loaded('fitmesh');
+    const result = direct.meshRulings(mesh, options);
+    return transfer(result, buffersOf(result.directions, result.confidence));
+  },
+
   /** @type {(mesh: import('./types.js').Mesh, options?: import('./types.js').MeshUnrollOptions) => Promise<import('./types.js').MeshUnrolling>} */
   async unrollMesh(mesh, options) {
     await loaded('patterns');

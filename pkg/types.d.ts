@@ -774,6 +774,15 @@ export interface RulingOptions {
   spacing?: number;
 }
 
+export interface MeshRulingOptions {
+  /** Distance between lines, in space. Default: ten times the mean length of an edge. */
+  separation?: number;
+  /** As of `RulingOptions`. */
+  confidence?: number;
+  /** As of `RulingOptions`. */
+  crease?: number;
+}
+
 /** A ruling that was traced. */
 export interface Ruling {
   points: [number, number, number][];
@@ -793,6 +802,16 @@ export interface RulingField {
   directions: Float64Array;
   /** How far each is to be trusted, from 0 to 1. */
   confidence: Float64Array;
+  lines: Ruling[];
+}
+
+/** The same of a mesh as it is. */
+export interface MeshRulings {
+  /** x, y, z of a unit vector for each vertex, up to its sign; NaN where triangles do not go all around one. */
+  directions: Float64Array<ArrayBuffer>;
+  /** How far each is to be trusted, from 0 to 1. */
+  confidence: Float64Array<ArrayBuffer>;
+  /** Each has a point on every edge that it crosses. */
   lines: Ruling[];
 }
 
@@ -876,7 +895,10 @@ export interface MeshAnalysis {
   kappa2: Float64Array<ArrayBuffer>;
   /** `|kappa1| + |kappa2|`: the energy's density. */
   nuclearNorm: Float64Array<ArrayBuffer>;
-  /** x, y, z of the unit vector along which it bends by `kappa2`: that of the ruling, up to its sign. */
+  /**
+   * x, y, z of the unit vector along which it bends by `kappa2`: that of the ruling, up to its sign.
+   * `meshRulings` has them averaged with those around, and how far they are to be trusted.
+   */
   rulings: Float64Array<ArrayBuffer>;
   /** `size` is the diameter of the ball about the mesh; the sum of nuclear norms is by area. */
   summary: AnalysisSummary;

@@ -12,6 +12,7 @@ import { ENERGIES, VIEWS } from './words.js';
  * @property {number} [file] by its number among those that are kept
  * @property {{ pixelSize?: number, heightScale?: number, zeros?: boolean, hexagonal?: boolean }} [stored] how it is understood
  * @property {Partial<Settings>} settings that are not the defaults
+ * @property {boolean} [whole] a mesh is solved whole
  * @property {string} [view]
  */
 
@@ -23,7 +24,7 @@ const NUMBERS = ['gap', 'coarsening', 'reweighting', 'occlusionThreshold'];
  * @param {Readonly<Settings>} defaults
  * @returns {string} with its #
  */
-export function addressOf({ card, example, file, stored, settings, view }, defaults) {
+export function addressOf({ card, example, file, stored, settings, whole, view }, defaults) {
   const words = new URLSearchParams();
   if (example) {
     words.set('example', example.name);
@@ -36,6 +37,7 @@ export function addressOf({ card, example, file, stored, settings, view }, defau
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     words.set(name, typeof value === 'number' && name === 'lambda' ? shortest(value) : String(value));
   }
+  if (whole) words.set('whole', '1');
   if (view && view !== 'shaded') words.set('view', view);
   return `#${[...(card ? [card] : []), ...(words.size > 0 ? [words] : [])].join('&')}`;
 }
@@ -74,6 +76,7 @@ export function stateOf(hash) {
     file: positive('file'),
     stored: flags.length + scales.length > 0 ? Object.fromEntries([...flags, ...scales]) : undefined,
     settings,
+    whole: words.get('whole') === '1' || undefined,
     view: view && Object.hasOwn(VIEWS, view) ? view : undefined,
   };
 }

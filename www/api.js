@@ -11,6 +11,7 @@
 /** @typedef {import('../pkg/types.js').PageReport} PageReport */
 /** @typedef {import('../pkg/types.js').PhotoCamera} PhotoCamera */
 /** @typedef {import('../pkg/types.js').Report} Report */
+/** @typedef {import('../pkg/types.js').Ruling} Ruling */
 /** @typedef {import('../pkg/types.js').StopReason} StopReason */
 /** @typedef {import('../pkg/types.js').Surface} Surface */
 /** @typedef {import('../pkg/types.js').Verdict} Verdict */

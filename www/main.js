@@ -24,18 +24,20 @@ import { stripPanel } from './panels/strip.js';
 import { viewsPanel } from './panels/views.js';
 import { wholePanel } from './panels/whole.js';
 import { Session } from './session.js';
+import { Whole } from './whole.js';
 import { complaint } from './words.js';
 
 async function start() {
   const session = new Session(await connect());
   const analyses = new Analyses(session.api);
+  const whole = new Whole(session.api);
   const { show, space } = viewsPanel(session);
   designPanel(session, space);
   editPanel(session, space);
-  const { adopt } = settingsPanel(session);
+  const { adopt } = settingsPanel(session, whole);
   const strip = stripPanel(session, adopt);
   openingPanel(session);
-  wholePanel(session);
+  const solvedWhole = wholePanel(session, whole);
   besidePanel(session);
   runPanel(session);
   curvePanel(session);
@@ -59,7 +61,7 @@ async function start() {
     mode.enter('heights');
     void openFiles(files);
   });
-  const keep = keepPanel(session, { adopt, choose: views.choose, openExample: openNamed, openFiles, understand, gallery });
+  const keep = keepPanel(session, { adopt, choose: views.choose, openExample: openNamed, openFiles, understand, gallery, whole, solvedWhole });
   await keep.begin();
 }
 

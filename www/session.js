@@ -75,6 +75,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 /**
  * @typedef {object} SessionEvents
  * @property {Input} input another input, or the same understood otherwise
+ * @property {Settings} settings they have changed
  * @property {Settings} start a run has begun
  * @property {Progress} progress
  * @property {Preview} preview of the result to come, on a coarser lattice
@@ -125,6 +126,8 @@ export class Session extends Events {
   #looked = 0;
   /** Whether the present input has been run. */
   #tried = false;
+  /** Whether heights are looked at. */
+  #watched = true;
 
   /** @param {Api} api */
   constructor(api) {
@@ -231,8 +234,9 @@ export class Session extends Events {
   /** @param {Partial<Settings>} change */
   set(change) {
     this.settings = { ...this.settings, ...change };
+    this.emit('settings', this.settings);
     if ('occlusionThreshold' in change || 'coarsening' in change) void this.#look();
-    if (!this.#tried) return;
+    if (!this.#tried || !this.#watched) return;
     // It may have been run, or be under way, since it was first thought of.
     if (this.#job?.input === this.input && isSame(this.#job.settings, this.settings)) this.#following = false;
     else void this.run();
@@ -246,9 +250,17 @@ export class Session extends Events {
   follow({ lambda }) {
     const { input } = this;
     this.settings = { ...this.settings, lambda };
-    if (!input || !this.#tried) return;
+    if (!input || !this.#tried || !this.#watched) return;
     if (this.#job && !isClose(this.#job.settings.lambda, lambda)) this.#drop();
     this.#awaitRest(input);
+  }
+
+  /** While heights are not looked at, settings are taken for later. @param {boolean} watched */
+  watch(watched) {
+    if (this.#watched === watched) return;
+    this.#watched = watched;
+    const last = this.#job?.settings ?? this.result?.settings;
+    if (watched && this.#tried && last && !isSame(last, this.settings)) void this.run();
   }
 
   /**

@@ -10,20 +10,28 @@ import { Events } from './events.js';
 /** @typedef {import('../pkg/types.js').MeshSurface} MeshSurface */
 /** @typedef {import('../pkg/types.js').Progress} Progress */
 
+/** Of rulings as far apart as they are drawn, so many go along the longest side, however coarse the mesh. */
+const RULINGS = 30;
+
 /**
  * @typedef {object} WholeEvents
  * @property {Mesh} start it is being solved
  * @property {Progress} progress
  * @property {MeshSurface} result
  * @property {unknown} failure why there is none
+ * @property {null} left nothing of it is wanted any more
  */
 
 /** @extends {Events<WholeEvents>} */
 export class Whole extends Events {
   /** @type {Mesh | null} */
   mesh = null;
+  /** What it is solved with. @type {number | 'auto'} */
+  lambda = 'auto';
   /** @type {MeshSurface | null} */
   surface = null;
+  /** The solve under way, or the last one. @type {object | null} */
+  #turn = null;
   /** What is worked out now. @type {Set<AbortController>} */
   #open = new Set();
   /** Answers by their question. @type {WeakMap<object, Map<string, Promise<any>>>} */
@@ -35,23 +43,26 @@ export class Whole extends Events {
     this.api = api;
   }
 
-  /** @param {Mesh} mesh */
-  async solve(mesh) {
+  /** @param {Mesh} mesh @param {number | 'auto'} lambda */
+  async solve(mesh, lambda) {
     this.stop();
+    const turn = (this.#turn = {});
     this.mesh = mesh;
+    this.lambda = lambda;
     this.surface = null;
     this.emit('start', mesh);
     try {
       const surface = await this.#apart((worker, signal) => worker.fitMesh(mesh, {
+        lambda,
         onProgress: (progress) => {
           if (!signal.aborted) this.emit('progress', progress);
         },
       }));
-      if (!surface || this.mesh !== mesh) return;
+      if (!surface || this.#turn !== turn) return;
       this.surface = surface;
       this.emit('result', surface);
     } catch (error) {
-      if (this.mesh === mesh) this.emit('failure', error);
+      if (this.#turn === turn) this.emit('failure', error);
     }
   }
 
@@ -61,15 +72,22 @@ export class Whole extends Events {
     this.#open.clear();
   }
 
-  /** Nothing of it is wanted any more. */
   leave() {
     this.stop();
+    if (!this.mesh) return;
+    this.#turn = null;
     this.mesh = this.surface = null;
+    this.emit('left', null);
   }
 
   /** @param {Mesh} mesh */
   curvatures(mesh) {
     return this.#once(mesh, 'curvatures', (worker) => worker.analyzeMesh(shapeOf(mesh)));
+  }
+
+  /** @param {Mesh} mesh */
+  rulings(mesh) {
+    return this.#once(mesh, 'rulings', (worker) => worker.meshRulings(shapeOf(mesh), { separation: longestSide(mesh) / RULINGS }));
   }
 
   /** @param {Mesh} mesh */
@@ -126,4 +144,16 @@ export class Whole extends Events {
 /** @param {Mesh} mesh */
 function shapeOf({ positions, triangles, unit }) {
   return { positions, triangles, unit };
+}
+
+/** @param {Mesh} mesh */
+export function longestSide({ positions }) {
+  return Math.max(...[0, 1, 2].map((k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return high - low;
+  }));
 }

@@ -2,6 +2,7 @@
 import { count, number, percent, percentAtMost, seconds, shortest } from './format.js';
 import { plainly } from './plain.js';
 
+/** @import {MeshSurface} from './whole.js' */
 /** @import {Energy, PageReport, Report, StopReason, Verdict} from './api.js' */
 
 /** @type {Record<StopReason, string>} */
@@ -165,6 +166,12 @@ export function lambdaFound({ lambda, lambdaChoice }) {
     case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
     default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;
   }
+}
+
+/** The same of a mesh solved whole. @param {MeshSurface['report']} report */
+export function wholeLambdaFound({ lambda, sigma }) {
+  if (sigma === undefined) return `There are too few vertices to tell their noise: λ = ${shortest(lambda)}.`;
+  return `The mesh has noise of ${number(sigma)} along its normals, in its own unit: λ = ${shortest(lambda)} follows from that.`;
 }
 
 /** In the place of a hint, where there are only constraints. */

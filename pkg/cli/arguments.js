@@ -66,7 +66,7 @@ import { split, usage } from './flags.js';
  * }} PageTask
  * @typedef {{
  *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], report?: string,
- *   asIs: boolean, threshold?: number, laying: import('../types.js').PatchOptions & { maxStrain?: number },
+ *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, laying: import('../types.js').PatchOptions & { maxStrain?: number },
  *   drawing: Omit<import('../types.js').MeshPatternOptions, 'assembly'>, assembly?: string,
  *   options: import('../types.js').MeshSolverOptions,
  * }} MeshTask
@@ -217,11 +217,7 @@ export function parse(args) {
         command,
         ...fitting,
         asIs,
-        tracing: {
-          separation: number('separation', values),
-          confidence: number('min-confidence', values),
-          crease: number('crease', values),
-        },
+        tracing: tracing(values),
       };
     case 'unroll':
       return { command, ...fitting, asIs };
@@ -271,6 +267,7 @@ const wholeFlags = [
 const wholeCommands = {
   fit: [],
   analyze: ['as-is', 'threshold'],
+  rulings: ['as-is', 'separation', 'min-confidence', 'crease'],
   unroll: ['as-is'],
   pattern: [
     'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor',
@@ -306,6 +303,7 @@ function whole(make, { input, output, written, extension: kind }, values) {
     report: values.report,
     asIs: values['as-is'] === true,
     threshold: number('threshold', values),
+    tracing: tracing(values),
     laying: { ...patching(values), maxStrain },
     drawing: drawn,
     assembly,
@@ -383,6 +381,11 @@ function format(text) {
 /** Where patches end. @param {Values} values */
 function patching(values) {
   return { bend: number('bend', values), fold: number('fold', values), smallest: number('smallest', values) };
+}
+
+/** How rulings are traced. @param {Values} values */
+function tracing(values) {
+  return { separation: number('separation', values), confidence: number('min-confidence', values), crease: number('crease', values) };
 }
 
 /**

@@ -115,9 +115,9 @@ export const commands = {
       INPUT,
       RULINGS: '.json: the points of each line, its length and how straight it is (default: standard output); .obj: lines',
     },
-    flags: [...shaped, 'report', 'separation', 'min-confidence', 'crease'],
+    flags: [...shaped, 'surface', 'report', 'separation', 'min-confidence', 'crease'],
     words: { report: 'JSON file for the lines, beside another output' },
-    examples: ['rulings page.tif -o rulings.obj --separation 20', 'rulings page.tif'],
+    examples: ['rulings page.tif -o rulings.obj --separation 20', 'rulings page.tif', 'rulings scan.ply -o rulings.obj --surface'],
   },
   unroll: {
     usage: 'INPUT -o SHEET [options]',

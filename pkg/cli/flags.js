@@ -194,7 +194,7 @@ export const sections = {
       },
       fold: { value: 'A', help: 'patches that fold by less, in radians, are one (default 0.15)' },
       smallest: { value: 'S', help: 'share of all vertices that a patch has at least (default 0.005)' },
-      separation: { value: 'D', help: 'distance between lines, as seen from above (default: ten lattice spacings)' },
+      separation: { value: 'D', help: 'distance between lines, as seen from above, with --surface in space (default: ten lattice spacings, or lengths of an edge)' },
       'min-confidence': {
         value: 'C',
         option: 'confidence',

@@ -362,6 +362,26 @@ export function plainArrays(object) {
   return Object.fromEntries(entries.map(([name, value]) => [name, ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value]));
 }
 
+/**
+ * Lines as an OBJ, in the axes that the surface's mesh has.
+ * @param {import('../types.js').Ruling[]} lines
+ * @param {import('../types.js').Frame} [frame]
+ */
+export function linesObj(lines, frame) {
+  const { right = [1, 0, 0], up = [0, 1, 0], towards = [0, 0, 1] } = frame ?? {};
+  const text = ['# rulings'];
+  let count = 0;
+  for (const { points } of lines) {
+    for (const [x, y, z] of points) {
+      text.push(`v ${[0, 1, 2].map((k) => x * right[k] + y * up[k] + z * towards[k]).join(' ')}`);
+    }
+    // The file counts from 1.
+    text.push(`l ${points.map((_, i) => count + i + 1).join(' ')}`);
+    count += points.length;
+  }
+  return new TextEncoder().encode(`${text.join('\n')}\n`);
+}
+
 /** The sheet as a flat mesh. @param {Pick<Unrolling, 'places' | 'triangles'>} sheet */
 export function flatObj({ places, triangles }) {
   const lines = ['# a surface laid flat'];

@@ -3,7 +3,7 @@ import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { readInput } from './inputs.js';
-import { flattened, json, spacing } from './sheets.js';
+import { flattened, json, linesObj, spacing } from './sheets.js';
 import { print } from './terminal.js';
 
 /**
@@ -93,24 +93,4 @@ function coloursOf(labels) {
     const label = labels[Math.floor(i / 3)];
     return label < 0 ? 0.5 : 0.55 + 0.4 * Math.cos(2 * Math.PI * (label * golden + (i % 3) / 3));
   });
-}
-
-/**
- * Lines as an OBJ, in the axes that the surface's mesh has.
- * @param {import('../types.js').Ruling[]} lines
- * @param {import('../types.js').Frame} [frame]
- */
-function linesObj(lines, frame) {
-  const { right = [1, 0, 0], up = [0, 1, 0], towards = [0, 0, 1] } = frame ?? {};
-  const text = ['# rulings'];
-  let count = 0;
-  for (const { points } of lines) {
-    for (const [x, y, z] of points) {
-      text.push(`v ${[0, 1, 2].map((k) => x * right[k] + y * up[k] + z * towards[k]).join(' ')}`);
-    }
-    // The file counts from 1.
-    text.push(`l ${points.map((_, i) => count + i + 1).join(' ')}`);
-    count += points.length;
-  }
-  return new TextEncoder().encode(`${text.join('\n')}\n`);
 }

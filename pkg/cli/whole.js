@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { drawn, flatObj, json, plainArrays, reportFit, reportSlits } from './sheets.js';
+import { drawn, flatObj, json, linesObj, plainArrays, reportFit, reportSlits } from './sheets.js';
 import { announceMesh, percent, print, progressLine } from './terminal.js';
 
 /**
@@ -49,6 +49,13 @@ const made = {
     const figures = { input: (await developable.analyzeMesh(mesh, { threshold })).summary };
     const after = asIs ? {} : { output: (await developable.analyzeMesh(surface, { threshold })).summary };
     return [{ path: output, bytes: json({ ...figures, ...after }) }];
+  },
+
+  async rulings({ output, extension, report: path, tracing }, surface) {
+    const { lines } = await developable.meshRulings(surface, tracing);
+    const report = json({ lines });
+    const bytes = extension === '.obj' ? linesObj(lines) : report;
+    return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: report }])];
   },
 
   async unroll({ output, extension, report: path, laying }, surface) {

@@ -180,6 +180,9 @@ test('the command fits whole meshes, and says so where a view would lose much', 
   assert.match((await run(folder, ['fit', 'scan.png', '-o', 'x.ply', '--surface'])).stderr, /--surface is for meshes/);
 });
 
+/** Three triangles at one edge. */
+const branched = { positions: new Float64Array(15).map((_, i) => (i * 7) % 5), triangles: Uint32Array.of(0, 1, 2, 0, 1, 3, 0, 1, 4) };
+
 /** Areas of the bottle's two parts. */
 const [pipe, cone] = [4 * Math.PI, 1.5 * Math.PI * Math.hypot(1, 0.5)];
 
@@ -206,8 +209,84 @@ test('a whole mesh is measured, laid flat and drawn', async () => {
   assert.match(new TextDecoder().decode(direct.writeSvg(drawing)), /<svg/);
   assert.deepEqual(direct.patternMesh(surface, { scale: 10, tabs: 4, assembly: true }).sheets, drawing.sheets);
   assert.throws(() => direct.unrollMesh(surface, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
-  const edges = { positions: new Float64Array(15).map((_, i) => (i * 7) % 5), triangles: Uint32Array.of(0, 1, 2, 0, 1, 3, 0, 1, 4) };
-  assert.throws(() => direct.patternMesh(edges), error('TOPOLOGY', /3 triangles/));
+  assert.throws(() => direct.patternMesh(branched), error('TOPOLOGY', /3 triangles/));
+});
+
+/** How far a line through two points passes by a third. @param {number[]} a @param {number[]} b @param {number[]} c */
+function beside(a, b, c) {
+  const [u, v] = [b, c].map((p) => p.map((x, k) => x - a[k]));
+  const cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+  return Math.hypot(...cross) / Math.hypot(...u);
+}
+
+/**
+ * Of rulings of the bottle, how far those of the pipe are from parallel to its axis, and how far those of the cone pass by its
+ * apex; and how many there are of each.
+ * @param {import('../../pkg/types.js').Ruling[]} lines
+ */
+function offRulings(lines) {
+  const apex = [0, 0, 4];
+  const [onPipe, onCone] = [(/** @type {number} */ z) => z <= 2, (/** @type {number} */ z) => z >= 2]
+    .map((part) => lines.filter(({ points }) => points.every(([, , z]) => part(z))).map(({ points }) => [points[0], /** @type {number[]} */ (points.at(-1))]));
+  return {
+    pipe: onPipe.length,
+    cone: onCone.length,
+    tilt: Math.max(...onPipe.map(([a, b]) => Math.hypot(a[0] - b[0], a[1] - b[1]) / Math.abs(a[2] - b[2]))),
+    past: Math.max(...onCone.map(([a, b]) => beside(a, b, apex))),
+  };
+}
+
+test('rulings of a pipe are parallel to its axis, those of a cone meet at its apex', async () => {
+  await direct.load('fitmesh');
+  const exact = bottle(60, 0);
+  const found = direct.meshRulings(exact, { separation: 0.4 });
+  assert.deepEqual(await developable.meshRulings(exact, { separation: 0.4 }), found);
+  const { directions, confidence, lines } = found;
+  assert.deepEqual([directions.length, confidence.length], [exact.positions.length, exact.positions.length / 3]);
+  let known = 0;
+  for (let i = 0; i < confidence.length; i++) {
+    const z = exact.positions[3 * i + 2];
+    // Beside the crease the fit has some of both.
+    if (!(confidence[i] >= 0.3 && z < 1.7)) continue;
+    known++;
+    assert.ok(Math.abs(directions[3 * i + 2]) > 0.9999, `${directions.slice(3 * i, 3 * i + 3)} at ${z}`);
+  }
+  assert.ok(known > 900 && Number.isNaN(confidence[0]), `${known}, and none on the border`);
+  const { pipe: straight, cone: pointed, tilt, past } = offRulings(lines);
+  assert.equal(straight + pointed, lines.length, 'none crosses the crease');
+  // As many as there is room for around each.
+  assert.ok(straight >= 8 && straight <= 31 && pointed >= 4, `${straight} and ${pointed}`);
+  assert.ok(tilt < 0.01 && past < 0.02, `${tilt}, ${past}`);
+  for (const { points, length, deviation } of lines) {
+    assert.ok(deviation < 0.02 && Math.abs(Math.hypot(...points[0].map((x, k) => x - points[points.length - 1][k])) - length) < 1e-12);
+  }
+  assert.ok(direct.meshRulings(exact, { separation: 0.8 }).lines.length < lines.length);
+  assert.equal(direct.meshRulings(exact, { confidence: 1 }).lines.length, 0);
+  // It bends by a sixtieth of a turn from vertex to vertex.
+  assert.equal(direct.meshRulings(exact, { crease: 0.05 }).lines.length, 0);
+  assert.throws(() => direct.meshRulings(exact, { separation: -1 }), error('OPTION', /separation/));
+  assert.throws(() => direct.meshRulings(exact, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
+  await assert.rejects(developable.meshRulings(branched), error('TOPOLOGY', /3 triangles/));
+  await assert.rejects(developable.meshRulings({ positions: exact.positions, triangles: new Uint32Array() }), error('UNSUPPORTED', /no triangles/));
+});
+
+test('the command traces rulings of whole meshes', async () => {
+  await direct.load('meshes');
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
+  const done = await run(folder, ['rulings', 'scan.ply', '-o', 'r.obj', '--surface', '--separation', '0.4', '--report', 'r.json']);
+  assert.deepEqual(done, { status: 0, stdout: '', stderr: '' });
+  /** @type {{ lines: import('../../pkg/types.js').Ruling[] }} */
+  const { lines } = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
+  const { pipe: straight, cone: pointed, tilt, past } = offRulings(lines);
+  assert.ok(straight >= 8 && pointed >= 4 && tilt < 0.2 && past < 0.3, `${straight} and ${pointed}: ${tilt}, ${past}`);
+  const obj = await readFile(join(folder, 'r.obj'), 'utf8');
+  const points = [...obj.matchAll(/^v (\S+) (\S+) (\S+)$/gm)].map((match) => match.slice(1).map(Number));
+  const drawn = [...obj.matchAll(/^l (.*)$/gm)].map(([, numbers]) => numbers.split(' ').map((n) => points[Number(n) - 1]));
+  assert.deepEqual(drawn, lines.map((line) => line.points));
+  const told = await run(folder, ['rulings', 'scan.ply', '--surface', '--as-is', '--separation', '0.8']);
+  assert.deepEqual([told.status, Object.keys(JSON.parse(told.stdout))], [0, ['lines']]);
+  assert.match((await run(folder, ['rulings', 'scan.ply', '--surface', '--min-confidence', '7'])).stderr, /--min-confidence is 7/);
 });
 
 test('the command lays whole meshes flat', async () => {

@@ -74,6 +74,7 @@ const calls = {
   sampleMesh: { args: { mesh }, options: 'sampleMesh' },
   fitMesh: { args: { mesh: whole }, options: 'meshSolver' },
   analyzeMesh: { args: { mesh: whole }, options: 'analyzeMesh' },
+  meshRulings: { args: { mesh: whole }, options: 'meshRulings' },
   unrollMesh: { args: { mesh: whole }, options: 'unrollMesh' },
   patternMesh: { args: { mesh: whole }, options: 'patternMesh' },
   backProject: { args: { input: bent, camera } },

@@ -508,6 +508,8 @@ fn what_does_not_bend_one_way_has_no_rulings() {
     assert!(rulings.trace(&options.separation(0.0)).is_err());
     assert!(rulings.trace(&options.confidence(1.5)).is_err());
     assert!(rulings.trace(&options.crease(f64::NAN)).is_err());
+    let cloud = Mesh::cloud(ball.positions().to_vec()).unwrap();
+    assert_eq!(MeshRulings::new(&cloud).unwrap_err().code(), "UNSUPPORTED");
 }
 
 #[test]

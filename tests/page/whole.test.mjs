@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { look, open, pageTest, saveAs, settled } from './support/page.mjs';
+import { look, open, pageTest, reported, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -29,6 +29,62 @@ async function view(page, view) {
 
 /** @param {Page} page @param {string} name */
 const told = (page, name) => page.locator('#whole-about .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
+
+/** The lengths of the tube, and its radius. */
+const TUBE = { length: 3, radius: 1 };
+/** Where the viewer looks at first. */
+const OBLIQUE = [-0.5, -0.45, -0.75];
+
+/** An open tube about the axis x, whose vertices are off by noise. @param {number} around @param {number} noise */
+function noisyTube(around, noise) {
+  let seed = 1;
+  const random = () => (seed = (seed * 16807) % 2147483647) / 1073741823.5 - 1;
+  const rings = Math.round((around * TUBE.length) / (2 * Math.PI * TUBE.radius));
+  /** @type {[number, number, number][]} */
+  const points = [];
+  /** @type {[number, number, number][]} */
+  const triangles = [];
+  for (let j = 0; j <= rings; j++) {
+    for (let i = 0; i < around; i++) {
+      const angle = (2 * Math.PI * i) / around;
+      const r = TUBE.radius + noise * random();
+      points.push([(TUBE.length * j) / rings, r * Math.cos(angle), r * Math.sin(angle)]);
+      if (j === rings) continue;
+      const [a, b] = [j * around + i, j * around + ((i + 1) % around)];
+      triangles.push([a, b, a + around], [b, b + around, a + around]);
+    }
+  }
+  return { points, triangles };
+}
+
+/**
+ * Of what is drawn in the colour of rulings: how many pixels, and at what angle to the right most of it runs, up counting up.
+ * @param {Page} page
+ */
+async function drawnRulings(page) {
+  const { width, height, data } = parsePng(await page.locator('#whole-canvas').screenshot());
+  /** @param {number} row @param {number} col */
+  const orange = (row, col) => {
+    const [r, g, b] = data.subarray(4 * (row * width + col));
+    return Math.abs(r - 232) + Math.abs(g - 89) + Math.abs(b - 12) < 60;
+  };
+  /** @type {[number, number][]} */
+  const seen = [];
+  for (let row = 0; row < height; row++) for (let col = 0; col < width; col++) if (orange(row, col)) seen.push([col, -row]);
+  // Seen along the lines, they are on the fewest pixels.
+  let [best, angle] = [0, 0];
+  for (let turned = 0; turned < Math.PI; turned += 0.005) {
+    /** @type {Map<number, number>} */
+    const bins = new Map();
+    for (const [x, y] of seen) {
+      const aside = Math.round(y * Math.cos(turned) - x * Math.sin(turned));
+      bins.set(aside, (bins.get(aside) ?? 0) + 1);
+    }
+    const sum = [...bins.values()].reduce((total, n) => total + n * n, 0);
+    if (sum > best) [best, angle] = [sum, turned];
+  }
+  return { pixels: seen.length, angle };
+}
 
 /** The vertices and triangles of an OBJ. @param {Buffer} bytes */
 function parseObj(bytes) {
@@ -69,7 +125,8 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.match(await page.locator('#whole-verdict').innerText(), /^Solved whole/);
   assert.match(await page.locator('#whole-detail').innerText(), /linearised problems .* nothing is certified of the shape/);
   assert.equal(await page.locator('section[aria-label="Surfaces"]').isVisible(), false, 'no heights');
-  assert.equal(await page.locator('#lambda').isVisible(), false, 'nor their settings');
+  assert.equal(await page.locator('.controls .more').isVisible(), false, 'nor their settings');
+  assert.ok(await page.locator('#lambda').isVisible(), 'but for λ');
   assert.equal(await told(page, 'On the border'), 'none: it is closed');
   const [before, after] = (await told(page, 'Volume')).split('→').map(parsed);
   assert.ok(Math.abs(before / (a * b * c) - 1) < 0.02 && Math.abs(after / (a * b * c) - 1) < 0.03, `${before} → ${after}`);
@@ -161,4 +218,136 @@ pageTest('a whole solve tells how far it is and can be done without; what is no 
   await solve(page);
   assert.match(await page.locator('#whole-verdict').innerText(), /cannot be solved whole/);
   assert.match(await page.locator('#whole-detail').innerText(), /edge/);
+});
+
+pageTest('rulings of a whole mesh are drawn on its result only, along the axis of a tube', async (page) => {
+  await open(page, 'tube.obj', obj(noisyTube(60, 0.01)));
+  await solve(page);
+  const divider = page.locator('#whole-divider');
+  await divider.fill('0');
+  assert.equal((await drawnRulings(page)).pixels, 0);
+  await view(page, 'rulings');
+  assert.ok(parsed(await told(page, 'Lines')) >= 8);
+  assert.ok(parsed(await told(page, 'Off straight')) < 3);
+  const longest = parsed(await told(page, 'Longest'));
+  // From ring to ring, but for the ends, of whose vertices no neighbourhood tells a direction.
+  assert.ok(longest > 0.8 * TUBE.length && longest < TUBE.length + 0.05, `${longest}`);
+  const { pixels, angle } = await drawnRulings(page);
+  assert.ok(pixels > 300, `${pixels}`);
+  // The axis as it is seen from there, with y upwards.
+  const towards = OBLIQUE.map((x) => -x / Math.hypot(...OBLIQUE));
+  const level = Math.hypot(towards[0], towards[2]);
+  const axis = [towards[2] / level, (-towards[0] * towards[1]) / level];
+  const off = Math.abs(Math.sin(angle - Math.atan2(axis[1], axis[0])));
+  assert.ok(off < 0.02, `${off}`);
+  await divider.fill('1');
+  assert.equal((await drawnRulings(page)).pixels, 0, 'none on the input');
+  await divider.fill('0');
+  await view(page, 'gaussian');
+  assert.equal((await drawnRulings(page)).pixels, 0);
+});
+
+/** Root mean square of how far places are off the tube. @param {readonly (readonly number[])[]} points */
+const offTube = (points) => Math.sqrt(points.reduce((sum, [, y, z]) => sum + (Math.hypot(y, z) - TUBE.radius) ** 2, 0) / points.length);
+
+pageTest('a whole mesh is solved with the λ that is chosen, which stands in the address, and Back undoes it', async (page) => {
+  const tube = noisyTube(40, 0.02);
+  await open(page, 'tube.obj', obj(tube));
+  const saved = async () => {
+    await page.locator('#whole-file').click();
+    return offTube(parseObj((await saveAs(page, 'OBJ')).bytes).points);
+  };
+  /** @param {() => Promise<unknown>} act @param {RegExp} address */
+  const solvedBy = async (act, address) => {
+    const solved = page.locator('#whole[aria-busy="true"]').waitFor();
+    await act();
+    await solved;
+    await done(page);
+    await page.waitForURL(address);
+  };
+  const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');
+  const field = page.getByLabel('λ as a number');
+
+  await solvedBy(() => page.getByRole('radio', { name: 'Whole', exact: true }).check({ force: true }), /whole=1$/);
+  const hint = await page.locator('#lambda-hint').innerText();
+  // Evenly distributed, up to 0.02 to either side.
+  const sigma = parsed(/noise of ([\d.]+)/.exec(hint)?.[1] ?? '');
+  assert.ok(Math.abs(sigma / (0.02 / Math.sqrt(3)) - 1) < 0.2, hint);
+  const auto = parsed(await told(page, 'λ'));
+  assert.ok(Math.abs(Number(await field.inputValue()) / auto - 1) < 0.05);
+  const smooth = await saved();
+  assert.ok(smooth < 0.5 * offTube(tube.points), `${smooth}`);
+
+  await solvedBy(async () => {
+    await field.fill('1e9');
+    await field.press('Tab');
+  }, /lambda=1e9&whole=1$/);
+  assert.equal(parsed(await told(page, 'λ')), 1e9);
+  const rough = await saved();
+  assert.ok(rough > 0.9 * offTube(tube.points), `it keeps its noise: ${rough}`);
+  await view(page, 'rulings');
+  await page.waitForURL(/lambda=1e9&whole=1&view=rulings$/);
+
+  await solvedBy(() => page.goBack(), /whole=1$/);
+  assert.deepEqual([await pressed(), parsed(await told(page, 'λ'))], ['true', auto]);
+  await page.goBack();
+  await page.locator('section[aria-label="Surfaces"]').waitFor();
+  assert.ok(await page.getByRole('radio', { name: 'As seen', exact: true }).isChecked());
+  await solvedBy(() => page.goForward(), /whole=1$/);
+  await solvedBy(() => page.goForward(), /view=rulings$/);
+  await page.reload();
+  await done(page);
+  await page.locator('#whole-about .figures dt', { hasText: 'Longest' }).waitFor();
+  assert.equal(await field.inputValue(), '1e9');
+
+  // As seen, heights follow the λ that was chosen meanwhile.
+  await solvedBy(() => page.getByRole('button', { name: /^medium/ }).click(), /lambda=1e6&whole=1&view=rulings$/);
+  await page.getByRole('radio', { name: 'As seen', exact: true }).check({ force: true });
+  await page.waitForURL(/lambda=1e6$/);
+  await settled(page);
+  assert.equal(parsed(await reported(page, 'λ')), 1e6);
+});
+
+pageTest('where a whole mesh is under the pointer, how far it was moved, and what the view knows there', async (page) => {
+  await open(page, 'tube.obj', obj(noisyTube(60, 0.01)));
+  await solve(page);
+  await page.locator('#whole-divider').fill('0');
+  const canvas = page.locator('#whole-canvas');
+  const { width, height } = /** @type {{ width: number, height: number }} */ (await canvas.boundingBox());
+  /** @param {number} x @param {number} y in shares of the canvas */
+  const pointAt = async (x, y) => {
+    await page.mouse.move(0, 0);
+    await page.locator('#whole-reading', { hasNotText: /./ }).waitFor({ state: 'attached' });
+    await canvas.hover({ position: { x: x * width, y: y * height } });
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    return page.locator('#whole-reading').innerText();
+  };
+  const towards = OBLIQUE.map((x) => -x / Math.hypot(...OBLIQUE));
+  const level = Math.hypot(towards[0], towards[2]);
+  const right = [towards[2] / level, 0, -towards[0] / level];
+  const up = [0, 1, 2].map((k) => towards[(k + 1) % 3] * right[(k + 2) % 3] - towards[(k + 2) % 3] * right[(k + 1) % 3]);
+  // The ball about the tube has room in the canvas' shorter side, and 4 % more.
+  const pixel = (1.04 * Math.hypot(TUBE.length, 2 * TUBE.radius, 2 * TUBE.radius)) / Math.min(width, height);
+  for (const [x, y] of [[0.5, 0.5], [0.42, 0.56]]) {
+    const aside = [(x - 0.5) * width * pixel, (0.5 - y) * height * pixel];
+    const line = [TUBE.length / 2, 0, 0].map((middle, k) => middle + aside[0] * right[k] + aside[1] * up[k]);
+    // Where that line of sight comes to the tube first.
+    const [a, b, c] = [towards[1] ** 2 + towards[2] ** 2, line[1] * towards[1] + line[2] * towards[2], line[1] ** 2 + line[2] ** 2 - TUBE.radius ** 2];
+    const far = (-b + Math.sqrt(b * b - a * c)) / a;
+    const expected = line.map((value, k) => value + far * towards[k]);
+    const shown = await pointAt(x, y);
+    const [, ...xyz] = (/^x (\S+), y (\S+), z (\S+) units · moved by (\S+)$/.exec(shown) ?? []).map(parsed);
+    expected.forEach((value, k) => assert.ok(Math.abs(xyz[k] - value) < 0.02, `${shown}, and not ${expected}`));
+    assert.ok(xyz[3] > 0 && xyz[3] < 0.02, shown);
+  }
+  assert.equal(await pointAt(0.03, 0.5), '', 'beside it');
+  await view(page, 'gaussian');
+  const curved = /· K (\S+) 1\/unit²$/.exec(await pointAt(0.5, 0.5));
+  assert.ok(curved && Math.abs(parsed(curved[1])) < 0.1, String(curved));
+  await page.locator('#whole-divider').fill('1');
+  const rough = /· K (\S+) 1\/unit²$/.exec(await pointAt(0.5, 0.5));
+  assert.ok(rough && Math.abs(parsed(rough[1])) > 10 * Math.abs(parsed(/** @type {RegExpExecArray} */ (curved)[1])), `${rough} against ${curved}`);
+  await page.locator('#whole-divider').fill('0');
+  await view(page, 'patches');
+  assert.match(await pointAt(0.5, 0.5), /moved by \S+ · patch 1$/);
 });

@@ -8,6 +8,7 @@ import { showNotice } from './notice.js';
 /** @import {Card} from '../gallery/cards.js' */
 /** @import {Session, Settings} from '../session.js' */
 /** @import {Stored} from '../understood.js' */
+/** @import {Whole} from '../whole.js' */
 
 /** How long a result stands, in milliseconds, before it is worth going back to. */
 const REST = 400;
@@ -22,6 +23,8 @@ const LOST = 'The file of this address is not kept in this browser: open it agai
  * @param {(files: File[]) => Promise<unknown>} page.openFiles
  * @param {(change: Partial<Stored>) => void} page.understand
  * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
+ * @param {Whole} page.whole a mesh solved whole, and how that is shown
+ * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.solvedWhole
  */
 export function keepPanel(session, page) {
   const views = elements('input[name="view"]', HTMLInputElement);
@@ -43,7 +46,9 @@ export function keepPanel(session, page) {
     }
     if (input?.kind !== undefined) {
       const { pixelSize, heightScale, zeros, hexagonal } = input.stored ?? {};
-      return { file, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, view: view() };
+      const { view: wholly } = page.solvedWhole;
+      const whole = wholly === undefined ? undefined : true;
+      return { file, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: wholly ?? view() };
     }
     const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
     return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
@@ -56,15 +61,20 @@ export function keepPanel(session, page) {
     if (push && location.hash !== '') history.pushState(null, '', address);
     else history.replaceState(null, '', address);
   };
-  session.on('result', () => {
+  const writeSoon = () => {
     clearTimeout(rest);
     rest = window.setTimeout(write, REST);
-  });
+  };
+  session.on('result', writeSoon);
+  page.whole.on('result', writeSoon);
+  page.whole.on('left', writeSoon);
   session.on('input', ({ kind }) => {
     if (kind === undefined) file = undefined;
   });
   // Another look is nothing to undo.
-  for (const radio of views) radio.addEventListener('change', () => write(false));
+  for (const radio of [...views, ...elements('input[name="whole-view"]', HTMLInputElement)]) {
+    radio.addEventListener('change', () => write(false));
+  }
 
   /** Shows what an address says. @param {State} state */
   const take = async (state) => {
@@ -89,6 +99,8 @@ export function keepPanel(session, page) {
         const other = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'zeros'} */ (name)] !== value);
         if (other) page.understand(state.stored);
       }
+      if (state.whole) return page.solvedWhole.enter(state.view ?? 'shaded');
+      page.solvedWhole.leave();
       page.choose(state.view ?? 'shaded');
     } finally {
       taking = false;
@@ -109,8 +121,7 @@ export function keepPanel(session, page) {
   };
   void tell();
 
-  const share = element('share', HTMLButtonElement);
-  share.addEventListener('click', async () => {
+  const share = async () => {
     write(false);
     const state = present();
     // A file stays on this machine: its number means nothing elsewhere.
@@ -122,7 +133,8 @@ export function keepPanel(session, page) {
     } catch {
       showNotice(`${address} – copy this link.${told}`, 'note');
     }
-  });
+  };
+  for (const id of ['share', 'whole-share']) element(id, HTMLButtonElement).addEventListener('click', share);
 
   return {
     /** Shows what the address asks for, or an example. */

@@ -1,13 +1,14 @@
 /** λ on a logarithmic slider with the paper's presets, and the further options. */
 import { element, elements } from '../dom.js';
 import { shortest } from '../format.js';
-import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint } from '../words.js';
+import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint, wholeLambdaFound } from '../words.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session, Settings} from '../session.js' */
+/** @import {Whole} from '../whole.js' */
 
-/** @param {Session} session */
-export function settingsPanel(session) {
+/** @param {Session} session @param {Whole} whole */
+export function settingsPanel(session, whole) {
   const slider = element('lambda', HTMLInputElement);
   const field = element('lambda-value', HTMLInputElement);
   const hint = element('lambda-hint', HTMLElement);
@@ -21,6 +22,7 @@ export function settingsPanel(session) {
     const { input, result, settings: { lambda } } = session;
     if (input?.design) hint.textContent = NO_FIDELITY;
     else if (lambda !== 'auto') hint.textContent = lambdaHint(lambda);
+    else if (whole.mesh) hint.textContent = (whole.surface && wholeLambdaFound(whole.surface.report)) || BY_NOISE;
     else hint.textContent = (result?.settings.lambda === 'auto' && lambdaFound(result.surface.report)) || BY_NOISE;
   };
   /** @param {number} lambda */
@@ -77,7 +79,16 @@ export function settingsPanel(session) {
   session.on('cleared', explain);
   session.on('result', ({ settings, surface }) => {
     // Where the slider goes on from.
-    if (settings.lambda === 'auto' && session.settings.lambda === 'auto') display(surface.report.lambda);
+    if (settings.lambda === 'auto' && session.settings.lambda === 'auto' && !whole.mesh) display(surface.report.lambda);
+    explain();
+  });
+  whole.on('start', explain);
+  whole.on('result', ({ report }) => {
+    if (whole.lambda === 'auto' && session.settings.lambda === 'auto') display(report.lambda);
+    explain();
+  });
+  whole.on('left', () => {
+    if (session.result && session.settings.lambda === 'auto') display(session.result.surface.report.lambda);
     explain();
   });
 

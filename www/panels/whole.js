@@ -7,15 +7,15 @@ import { MeshView } from '../surface/mesh-view.js';
 import { PictureView } from '../surface/picture.js';
 import { work } from '../surface/work.js';
 import { Zoom } from '../surface/zoom.js';
-import { gaussian, patches, shaded, sheet, wholeInWords } from '../views/whole.js';
-import { Whole } from '../whole.js';
+import { gaussian, patches, readingAt, rulings, shaded, sheet, wholeInWords } from '../views/whole.js';
+import { longestSide } from '../whole.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {MeshSurface} from '../whole.js' */
+/** @import {MeshSurface, Whole} from '../whole.js' */
 /** @import {WholeShown} from '../views/whole.js' */
 
 /** Milliseconds for a vertex, until that was measured. */
@@ -25,10 +25,10 @@ const MUCH = 0.1;
 /** Where the viewer looks at first: no side is seen straight. */
 const OBLIQUE = /** @type {const} */ ([-0.5, -0.45, -0.75]);
 /** @type {Record<string, (whole: Whole, mesh: Mesh, surface: MeshSurface) => Promise<WholeShown>>} */
-const VIEWS = { shaded, gaussian, patches, sheet };
+const VIEWS = { shaded, gaussian, rulings, patches, sheet };
 
-/** @param {Session} session */
-export function wholePanel(session) {
+/** @param {Session} session @param {Whole} whole */
+export function wholePanel(session, whole) {
   const side = element('heights-side', HTMLElement);
   const stage = element('whole', HTMLElement);
   const canvas = element('whole-canvas', HTMLCanvasElement);
@@ -45,13 +45,16 @@ export function wholePanel(session) {
   const radios = elements('input[name="whole-view"]', HTMLInputElement);
   const [file, sheets, flat] = ['file', 'sheets', 'flat'].map((name) => element(`whole-${name}`, HTMLButtonElement));
   const picture = new PictureView(element('whole-picture', HTMLCanvasElement), new Zoom());
-  const whole = new Whole(session.api);
   /** @type {Promise<MeshView | null> | null} */
   let viewer = null;
   /** Counts what was asked for, to tell the newest. */
   let asked = 0;
   /** The mesh that the input is seen of. @type {Mesh | null} */
   let present = null;
+  /** The one that was turned. @type {Mesh | null} */
+  let looked = null;
+  /** What is told of a place. @type {WholeShown['read']} */
+  let read;
 
   const waiting = waitingPanel(element('whole-waiting', HTMLElement), () => {
     asked++;
@@ -72,7 +75,8 @@ export function wholePanel(session) {
   };
 
   /** @param {WholeShown} shown */
-  const put = async ({ before, after, flat: laid, about: nodes }) => {
+  const put = async ({ before, after, lines, flat: laid, read: told, about: nodes }) => {
+    read = told;
     about.replaceChildren(...nodes);
     picture.show(laid ?? null);
     reading.textContent = '';
@@ -83,7 +87,7 @@ export function wholePanel(session) {
     divided.hidden = !after || canvas.hidden;
     for (const badge of stage.querySelectorAll('.badge')) badge.toggleAttribute('hidden', divided.hidden);
     if (laid || !view) return;
-    view.show(before, after);
+    view.show(before, after, lines);
     view.divide(after ? divider.valueAsNumber : 1);
   };
 
@@ -118,28 +122,49 @@ export function wholePanel(session) {
 
   const solve = () => {
     if (!present) return;
+    session.watch(false);
     side.dataset.whole = '';
     stage.hidden = false;
-    void whole.solve(present);
+    for (const radio of ways) radio.checked = radio.value === 'whole';
+    void whole.solve(present, session.settings.lambda);
   };
   const leave = () => {
+    if (stage.hidden) return;
     asked++;
     whole.leave();
+    session.watch(true);
     waiting.end();
     stage.hidden = true;
     delete side.dataset.whole;
     for (const radio of ways) radio.checked = radio.value === 'seen';
   };
+  /** @param {string} view */
+  const choose = (view) => {
+    for (const radio of radios) radio.checked = radio.value === view;
+    if (!radios.some(({ checked }) => checked)) radios[0].checked = true;
+  };
+  /** @param {string} view */
+  const enter = (view) => {
+    choose(view);
+    if (whole.mesh === null || whole.mesh !== present) solve();
+    else if (whole.surface) void update();
+  };
+  session.on('settings', ({ lambda }) => {
+    if (whole.mesh && lambda !== whole.lambda) solve();
+  });
 
   whole.on('start', (mesh) => {
     asked++;
     say('Solving the whole mesh…', '');
     enable(false);
     again.hidden = true;
-    radios[0].checked = true;
     stage.setAttribute('aria-busy', 'true');
     waiting.begin(slow(mesh, 'Solving it', 'whole'));
-    void put({ before: mesh, about: [] }).then(async () => (await viewer)?.look(OBLIQUE));
+    void put({ before: mesh, about: [] }).then(async () => {
+      // Solved once more, it stays as it was turned.
+      if (looked !== mesh) (await viewer)?.look(OBLIQUE);
+      looked = mesh;
+    });
   });
   whole.on('progress', ({ iteration, gap }) => {
     detail.textContent = `Iteration ${iteration}${gap !== undefined && gap < 1 ? `, gap ${percent(gap)}` : ''}.`;
@@ -161,7 +186,25 @@ export function wholePanel(session) {
   divider.addEventListener('input', async () => (await viewer)?.divide(divider.valueAsNumber));
   for (const radio of radios) radio.addEventListener('change', () => void update());
   again.addEventListener('click', () => (whole.surface ? void update() : solve()));
-  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? solve() : leave()));
+  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter('shaded') : leave()));
+  /** The newest place of the pointer, which is looked at once in a frame. @type {{ offsetX: number, offsetY: number } | null} */
+  let pointed = null;
+  let frame = 0;
+  const point = async () => {
+    frame = 0;
+    const view = await viewer;
+    const { mesh, surface } = whole;
+    const place = pointed && view?.under(pointed);
+    reading.textContent = place && mesh && surface ? readingAt(mesh, surface, place, read?.(place)) : '';
+  };
+  /** @param {PointerEvent} event */
+  const pointAt = ({ type, buttons, offsetX, offsetY }) => {
+    // While it is turned, there is nothing to be read.
+    pointed = type === 'pointermove' && buttons === 0 ? { offsetX, offsetY } : null;
+    frame ||= requestAnimationFrame(() => void point());
+  };
+  canvas.addEventListener('pointermove', pointAt);
+  canvas.addEventListener('pointerleave', pointAt);
   picture.canvas.addEventListener('pointermove', (event) => (reading.textContent = picture.read(event)));
   picture.canvas.addEventListener('pointerleave', () => (reading.textContent = ''));
 
@@ -226,16 +269,13 @@ export function wholePanel(session) {
     if (session.input?.lattice !== lattice || hidden < MUCH) return;
     hint.textContent = `Heights from this side leave out ${percent(hidden)} of its surface, which is behind what is seen: “Whole” takes all of it.`;
   });
-}
 
-/** @param {Mesh} mesh */
-function longestSide({ positions }) {
-  return Math.max(...[0, 1, 2].map((k) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = k; i < positions.length; i += 3) {
-      low = Math.min(low, positions[i]);
-      high = Math.max(high, positions[i]);
-    }
-    return high - low;
-  }));
+  return {
+    /** What is shown of it, if it is shown. */
+    get view() {
+      return whole.mesh ? radios.find(({ checked }) => checked)?.value : undefined;
+    },
+    enter,
+    leave,
+  };
 }

@@ -1,12 +1,18 @@
 /** A mesh to be turned, drawn by three.js, which is loaded when the first mesh is there. */
+import { Lines, programOf } from './gl.js';
+import { lineFragment, lineVertex } from './shaders.js';
 
 /** @import {Mesh} from '../api.js' */
+/** @import {Program} from './gl.js' */
+/** @import {Line} from './layer.js' */
 /** @typedef {readonly [number, number, number]} Vector */
 
 /** Radius of the mesh as it is drawn, and of what is seen at first. */
 const RADIUS = 1;
 const SEEN = 1.04;
 const DISTANCE = 10;
+/** What is seen lies so far before and behind the middle; the less, the nearer lines lie to what they are drawn on. */
+const DEPTH = 2;
 /** Turned by each press of an arrow key, in radians. */
 const KEY_STEP = Math.PI / 24;
 /** @type {Record<string, readonly [number, number]>} left and up */
@@ -22,6 +28,12 @@ export class MeshView {
   #shown = [];
   #divider = 1;
   #material;
+  /** On what is right of the divider. @type {Lines | null} */
+  #lines = null;
+  /** @type {Program | null} */
+  #liner = null;
+  /** @type {any} */
+  #ray = null;
   /** It is not turned by hand now. */
   #looking = false;
   /** The direction at the last change. */
@@ -50,7 +62,7 @@ export class MeshView {
     this.#three = three;
     this.#renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#scene = new three.Scene();
-    this.#camera = new three.OrthographicCamera(-SEEN, SEEN, SEEN, -SEEN, 0, 2 * DISTANCE);
+    this.#camera = new three.OrthographicCamera(-SEEN, SEEN, SEEN, -SEEN, DISTANCE - DEPTH, DISTANCE + DEPTH);
     // The light comes along with the viewer.
     const light = new three.DirectionalLight(0xffffff, 2.6);
     light.position.set(-0.9, 0.8, 0.7);
@@ -80,8 +92,9 @@ export class MeshView {
   /**
    * @param {Mesh} mesh
    * @param {Mesh} [after] at the same place, on the other side of the divider
+   * @param {readonly Line[]} [lines] on what is after
    */
-  show(mesh, after) {
+  show(mesh, after, lines = []) {
     for (const { geometry, material } of this.#shown) {
       geometry.dispose();
       material.dispose();
@@ -90,7 +103,24 @@ export class MeshView {
     const frame = frameOf(mesh.positions);
     this.#shown = [mesh, ...(after ? [after] : [])].map((one) => this.#made(one, frame));
     this.#scene.add(...this.#shown);
+    this.#rule(lines, frame);
     this.#draw();
+  }
+
+  /** @param {readonly Line[]} lines @param {Frame} frame */
+  #rule(lines, frame) {
+    this.#lines?.dispose();
+    this.#lines = null;
+    if (lines.length > 0) {
+      const gl = this.#renderer.getContext();
+      this.#liner ??= programOf(gl, lineVertex, lineFragment);
+      const { middle, scale } = frame;
+      /** @param {readonly number[]} point */
+      const placed = (point) => /** @type {[number, number, number]} */ (point.map((value, k) => (value - middle[k]) * scale));
+      this.#lines = new Lines(gl, this.#liner, lines.map((line) => ({ ...line, points: line.points.map(placed) })));
+    }
+    // three.js keeps in mind what was bound.
+    this.#renderer.resetState();
   }
 
   /** @param {Mesh} mesh @param {Frame} frame */
@@ -110,6 +140,24 @@ export class MeshView {
   divide(share) {
     this.#divider = share;
     this.#draw();
+  }
+
+  /**
+   * What is seen at a place of the canvas: which side of the divider, and where on which triangle.
+   * @param {{ offsetX: number, offsetY: number }} place
+   * @returns {{ after: boolean, triangle: number, shares: Vector } | null} `shares`: of its three corners
+   */
+  under({ offsetX, offsetY }) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const after = this.#shown.length > 1 && offsetX >= this.#divider * width;
+    const shown = this.#shown[after ? 1 : 0];
+    if (!shown?.isMesh || width === 0) return null;
+    this.#ray ??= new this.#three.Raycaster();
+    this.#ray.setFromCamera({ x: (2 * offsetX) / width - 1, y: 1 - (2 * offsetY) / height }, this.#camera);
+    const [first] = this.#ray.intersectObject(shown, false);
+    if (!first) return null;
+    const { x, y, z } = first.barycoord;
+    return { after, triangle: first.faceIndex, shares: [x, y, z] };
   }
 
   /** Where the viewer looks. @returns {[number, number, number]} */
@@ -146,7 +194,30 @@ export class MeshView {
       this.#shown.forEach((one, which) => (one.visible = which === i));
       this.#renderer.setScissor(from, 0, to - from, height);
       this.#renderer.render(this.#scene, this.#camera);
+      if (i === 1) this.#drawLines();
     }
+  }
+
+  /** Over what three.js has drawn, by the same camera. */
+  #drawLines() {
+    if (!this.#lines || !this.#liner) return;
+    const gl = this.#renderer.getContext();
+    const { program, at } = this.#liner;
+    const [right, up, towards] = [0, 4, 8].map((column) => this.#camera.matrixWorld.elements.slice(column, column + 3));
+    const { elements: projection } = this.#camera.projectionMatrix;
+    gl.enable(gl.DEPTH_TEST);
+    gl.disable(gl.BLEND);
+    gl.disable(gl.CULL_FACE);
+    gl.useProgram(program);
+    gl.uniformMatrix3fv(at('axes'), false, [...right, ...up, ...towards]);
+    gl.uniform3f(at('middle'), 0, 0, 0);
+    gl.uniform1f(at('exaggeration'), 1);
+    gl.uniform3f(at('scale'), projection[0], projection[5], -projection[10]);
+    gl.uniform2f(at('shift'), 0, 0);
+    gl.uniform2f(at('canvas'), this.canvas.width, this.canvas.height);
+    gl.uniform1f(at('ratio'), window.devicePixelRatio);
+    this.#lines.draw();
+    this.#renderer.resetState();
   }
 }
 

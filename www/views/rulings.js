@@ -7,7 +7,9 @@ import { figures, key } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */
 /** @import {Result} from '../session.js' */
+/** @import {Ruling} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
+/** @import {Line} from '../surface/layer.js' */
 /** @import {Shown} from './shown.js' */
 
 /** Seen on bright steel as on dark. @type {Colour} */
@@ -22,18 +24,25 @@ export async function rulings(analyses, result) {
   const { lines } = await analyses.rulings(result);
   await breath();
   const { input } = result;
-  const unit = input.unit ?? 'units';
+  const ruled = ruledBy(lines, input.unit);
+  return { result: { grid: gridOf(input), lines: ruled.lines }, about: ruled.about };
+}
+
+/**
+ * Rulings of whatever surface: how they are drawn, and what is told of them.
+ * @param {readonly Ruling[]} lines
+ * @param {string | null} [unit]
+ * @returns {{ lines: Line[], about: Node[] }}
+ */
+export function ruledBy(lines, unit) {
   const bent = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
   return {
-    result: {
-      grid: gridOf(input),
-      lines: lines.map(({ points }) => ({ points, colour: COLOUR, width: 1.25 })),
-    },
+    lines: lines.map(({ points }) => ({ points, colour: COLOUR, width: 1.25 })),
     about: [
       key(css(COLOUR), 'rulings: straight lines on the surface, across which alone it bends'),
       figures([
         ['Lines', count(lines.length)],
-        ['Longest', lines.length > 0 ? `${number(Math.max(...lines.map(({ length }) => length)))} ${unit}` : '–'],
+        ['Longest', lines.length > 0 ? `${number(lines.reduce((most, { length }) => Math.max(most, length), 0))} ${unit ?? 'units'}` : '–'],
         ['Off straight, median', bent.length > 0 ? `${percent(bent[bent.length >> 1])} of length` : '–'],
       ]),
     ],

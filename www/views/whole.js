@@ -5,18 +5,24 @@ import { canvasOf } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture.js';
 import { work } from '../surface/work.js';
 import { colourBar, figures, key, say } from './legend.js';
+import { ruledBy } from './rulings.js';
 import { make } from '../dom.js';
 
 /** @import {Mesh} from '../api.js' */
 /** @import {Colour} from '../surface/colours.js' */
+/** @import {Line} from '../surface/layer.js' */
 /** @import {Picture} from '../surface/picture.js' */
 /** @import {MeshSurface, Whole} from '../whole.js' */
+
+/** @typedef {NonNullable<ReturnType<import('../surface/mesh-view.js').MeshView['under']>>} Place */
 
 /**
  * @typedef {object} WholeShown
  * @property {Mesh} before
  * @property {Mesh} [after]
+ * @property {readonly Line[]} [lines] on what is after
  * @property {Picture} [flat] in the place of both
+ * @property {(place: Place) => string} [read] the value at a place, with its name and unit
  * @property {readonly Node[]} about
  */
 
@@ -42,6 +48,11 @@ export async function gaussian(whole, mesh, surface) {
   return {
     before: coloured(before.gaussian, mesh),
     after: coloured(after.gaussian, surface),
+    read: (place) => {
+      // Beside a border it is known at some corners only.
+      const value = between(mesh, place, (vertex) => (place.after ? after : before).gaussian[vertex]);
+      return Number.isNaN(value) ? '' : `K ${number(value)} ${inverse}`;
+    },
     about: [
       colourBar(`Gaussian curvature K in ${inverse}`, scale),
       figures([
@@ -50,6 +61,12 @@ export async function gaussian(whole, mesh, surface) {
       ]),
     ],
   };
+}
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function rulings(whole, mesh, surface) {
+  const { lines } = await whole.rulings(surface);
+  return { before: mesh, after: surface, ...ruledBy(lines, mesh.unit) };
 }
 
 /** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
@@ -69,6 +86,7 @@ export async function patches(whole, mesh, surface) {
   return {
     before: mesh,
     after: corners,
+    read: ({ after, triangle }) => (after && labels[triangle] >= 0 ? `patch ${count(labels[triangle] + 1)}` : ''),
     about: [
       figures([['Patches', count(found.length)], ['Creases', count(creases.length)], ['Area', `${number(total)} ${mesh.unit ? `${mesh.unit}²` : 'square units'}`]]),
       make('p', 'keys', ...found.slice(0, MOST).map(({ area }, i) => key(css(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
@@ -95,6 +113,33 @@ export async function sheet(whole, mesh, surface) {
       figures([['Strain of the worst sheet', percent(strain)], ['Sides of folds are apart by', `${number(gap, 2)} ${unit}`]]),
     ],
   };
+}
+
+/**
+ * What is under the pointer: the place, how far its vertices were moved on average, and what the view knows there.
+ * @param {Mesh} mesh
+ * @param {MeshSurface} surface
+ * @param {Place} place
+ * @param {string} [value]
+ */
+export function readingAt(mesh, surface, place, value = '') {
+  const unit = mesh.unit ?? 'units';
+  /** @param {Mesh} of */
+  const at = (of) => [0, 1, 2].map((k) => between(mesh, place, (vertex) => of.positions[3 * vertex + k]));
+  const [before, after] = [at(mesh), at(surface)];
+  const xyz = (place.after ? after : before).map((coordinate, k) => `${'xyz'[k]} ${number(coordinate)}`).join(', ');
+  const moved = Math.hypot(...after.map((coordinate, k) => coordinate - before[k]));
+  return [`${xyz} ${unit}`, `moved by ${number(moved, 2)}`, value].filter(Boolean).join(' · ');
+}
+
+/**
+ * A value of vertices at a place between them.
+ * @param {Mesh} mesh
+ * @param {Place} place
+ * @param {(vertex: number) => number} value
+ */
+function between({ triangles }, { triangle, shares }, value) {
+  return shares.reduce((sum, share, corner) => sum + share * value(triangles[3 * triangle + corner]), 0);
 }
 
 /** What is said first. @param {Mesh} mesh @param {MeshSurface} surface */

@@ -150,12 +150,6 @@ impl MeshSolver {
     pub fn new(mesh: Mesh, known: MeshKnown, options: &MeshOptions) -> Result<Self> {
         let start = Instant::now();
         options.validate()?;
-        if mesh.is_cloud() {
-            return Err(Error::Unsupported {
-                format: "point cloud",
-                reason: "its points have no triangles; fit what is seen of it along a view".into(),
-            });
-        }
         let topology = Topology::in_order_of_place(&mesh)?;
         let bounds = Ball::around(&mesh)?;
         let noisy: Vec<Point> = topology

@@ -38,7 +38,7 @@ impl Topology {
     ///
     /// # Errors
     /// [`Error::Topology`] where an edge has more than two triangles, or where no choice of sides fits
-    /// together.
+    /// together; [`Error::Unsupported`] for a cloud of points.
     pub(crate) fn new(mesh: &Mesh) -> Result<Self> {
         let vertices = join(mesh)?;
         let mut repairs = Repairs::default();
@@ -321,6 +321,12 @@ fn proper(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u32> {
 /// Vertices at the very same place are one, as those of files without indices and of seams between
 /// textures are.
 fn join(mesh: &Mesh) -> Result<(Vec<u32>, Vec<u32>)> {
+    if mesh.is_cloud() {
+        return Err(Error::Unsupported {
+            format: "point cloud",
+            reason: "its points have no triangles; fit what is seen of it along a view".into(),
+        });
+    }
     let positions = mesh.positions();
     let mut joined = try_filled("vertices", positions.len(), 0)?;
     let mut source = Vec::new();

@@ -40,6 +40,7 @@ impl MeshCurvatures {
     ///
     /// # Errors
     /// [`Error::Topology`](crate::Error::Topology) if it is no surface,
+    /// [`Error::Unsupported`](crate::Error::Unsupported) for a cloud of points,
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(mesh: &Mesh) -> Result<Self> {
         let topology = Topology::new(mesh)?;

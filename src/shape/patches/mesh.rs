@@ -34,7 +34,7 @@ impl MeshPatches {
     ///
     /// # Errors
     /// [`Error::Option`] as for heightfields, [`Error::Topology`] if the mesh is no surface,
-    /// [`Error::OutOfMemory`].
+    /// [`Error::Unsupported`] for a cloud of points, [`Error::OutOfMemory`].
     pub fn new(mesh: &Mesh, options: &PatchOptions) -> Result<Self> {
         if !(0.0..=1.0).contains(&options.smallest) {
             let must = "must be from 0 to 1";

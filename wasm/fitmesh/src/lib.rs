@@ -6,12 +6,14 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::analysis::{MeshCurvatures, Summary, THRESHOLD};
+use developable::rulings::{MeshRulings, Ruling, TraceOptions};
 use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{entries, lambda, option, unknown};
+use developable_wasm::tracing::{TRACING, take_tracing};
 
 /// What `MeshSurface` of `types.d.ts` has besides its mesh.
 #[derive(Serialize)]
@@ -135,5 +137,33 @@ pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         kappa2: found.kappa2.as_slice().into(),
         nuclear_norm: found.nuclear_norm.as_slice().into(),
         rulings: found.rulings.as_flattened().into(),
+    })?)
+}
+
+/// `MeshRulings` of `types.d.ts`.
+#[derive(Serialize)]
+struct RulingsOutput<'a> {
+    #[serde(with = "preserve")]
+    directions: Float64Array,
+    #[serde(with = "preserve")]
+    confidence: Float64Array,
+    lines: &'a [Ruling],
+}
+
+/// The rulings of a mesh, as directions and as lines.
+#[wasm_bindgen(js_name = meshRulings)]
+pub fn mesh_rulings(mesh: JsValue, options: JsValue) -> Result<JsValue> {
+    let mut wanted = TraceOptions::default();
+    for (name, value) in entries(&options)? {
+        if !take_tracing(&mut wanted, &name, &value)? {
+            return Err(unknown(&name, TRACING));
+        }
+    }
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let found = MeshRulings::new(&mesh)?;
+    Ok(to_value(&RulingsOutput {
+        directions: found.directions().as_flattened().into(),
+        confidence: found.confidence().into(),
+        lines: &found.trace(&wanted)?,
     })?)
 }

@@ -23,6 +23,7 @@ use developable_wasm::frame::FrameFields;
 use developable_wasm::options::{entries, option, unknown};
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
+use developable_wasm::tracing::{TRACING, take_tracing};
 
 /// `Analysis` of `types.d.ts`.
 #[derive(Serialize)]
@@ -284,15 +285,9 @@ pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut spacing) = (TraceOptions::default(), None);
     for (name, value) in entries(&options)? {
         match name.as_str() {
-            "separation" => {
-                wanted = wanted.separation(option("separation", value, "must be a number")?);
-            }
-            "confidence" => {
-                wanted = wanted.confidence(option("confidence", value, "must be a number")?);
-            }
-            "crease" => wanted = wanted.crease(option("crease", value, "must be a number")?),
             "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
-            _ => return Err(unknown(&name, "separation, confidence, crease and spacing")),
+            _ if take_tracing(&mut wanted, &name, &value)? => {}
+            _ => return Err(unknown(&name, &format!("{TRACING} and spacing"))),
         }
     }
     check_spacing(spacing, is_image(&field)?)?;

@@ -155,16 +155,23 @@ impl Facets {
     fn flood(&self, labels: &mut [u32], mut open: Vec<bool>, way: impl Fn(usize) -> f64) {
         // Positive numbers are in order as their bits are.
         let mut queue = BinaryHeap::new();
-        let around = |t: usize| (3 * t..3 * t + 3).filter(|side| self.twins[*side] != NONE);
-        let entry = |side: usize| Reverse((way(side).to_bits(), self.twins[side], side));
+        // Only to where nothing has been yet: mostly that is next to nowhere.
+        let ways = |t: usize, open: &[bool], queue: &mut BinaryHeap<_>| {
+            for side in 3 * t..3 * t + 3 {
+                let twin = self.twins[side];
+                if twin != NONE && open[twin as usize / 3] {
+                    queue.push(Reverse((way(side).to_bits(), twin, side)));
+                }
+            }
+        };
         for t in (0..labels.len()).filter(|t| !open[*t]) {
-            queue.extend(around(t).map(entry));
+            ways(t, &open, &mut queue);
         }
         while let Some(Reverse((_, twin, side))) = queue.pop() {
             let to = twin as usize / 3;
             if std::mem::take(&mut open[to]) {
                 labels[to] = labels[side / 3];
-                queue.extend(around(to).map(entry));
+                ways(to, &open, &mut queue);
             }
         }
     }

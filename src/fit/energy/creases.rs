@@ -12,6 +12,9 @@ use crate::lattice::per_cell::PerCell;
 /// The least weight.
 const LEAST: f64 = 0.05;
 
+/// What is left of the weight where smooth parts of the surface are known to meet.
+const FREE: f64 = 0.01;
+
 /// A weight that changes by more than this share has changed.
 const CHANGE: f64 = 0.1;
 
@@ -57,5 +60,22 @@ impl<O: Operator> Problem<O> {
             self.weight = PerCell::Each(weights);
         }
         Ok(creases)
+    }
+
+    /// Takes nearly all of the weight from stencils on creases that are known as such, and says how many of
+    /// these had all of it. A weight by curvature leaves much of it where the mesh is coarse, for there a
+    /// crease is not much sharper than a bend; it rounds the crease, and pushes what is beside it out.
+    pub(crate) fn free_creases(&mut self, known: &[bool]) -> usize {
+        let mut found = 0;
+        let weights = known.iter().enumerate().map(|(stencil, known)| {
+            let weight = self.weight.at(stencil);
+            found += usize::from(*known && weight == 1.0);
+            match known {
+                true => weight.min(FREE),
+                false => weight,
+            }
+        });
+        self.weight = PerCell::Each(weights.collect());
+        found
     }
 }

@@ -14,6 +14,7 @@ mod options;
 mod quadratic;
 mod report;
 mod sharpen;
+mod sides;
 mod solver;
 #[cfg(test)]
 mod tests;

@@ -32,7 +32,7 @@ impl Default for MeshOptions {
 
 impl MeshOptions {
     /// Weight of the fidelity term, stated for a mesh in a ball of the diameter 1; by default
-    /// [`Lambda::Auto`], which is `8/σh` for noise of the size `σ` on a mesh of the spacing `h`.
+    /// [`Lambda::Auto`], which is `6.4/σh` for noise of the size `σ` on a mesh of the spacing `h`.
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = lambda.into();
         self

@@ -6,18 +6,12 @@
 
 use super::border::continued;
 use super::geometry::{Frame, Point, faces_away, normals};
-use super::linear::{Given, NONE};
+use super::linear::Given;
+use super::sides::{FOLD, Sides};
 use super::topology::Topology;
 use crate::error::Result;
 use crate::math::axes::axes;
-use crate::scene::facets::Facets;
 use nalgebra::Matrix3;
-
-/// Sides that meet at less than this, in radians, do not say well where.
-const FOLD: f64 = 0.25;
-
-/// The least share of the area that a side has.
-const SHARE: f64 = 0.003;
 
 /// A vertex goes no further than so many lengths of the edges around it.
 const FARTHEST: f64 = 0.7;
@@ -28,9 +22,7 @@ const FARTHEST: f64 = 0.7;
 /// Out of memory.
 pub(super) fn sharpen(given: &Given, x: &mut [Point], rays: &[Frame]) -> Result<()> {
     let topology = &given.topology;
-    let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
-    let labels = facets.parted(facets.usual_bend(), SHARE, FOLD)?;
-    let sides = Sides::new(topology, &labels);
+    let sides = Sides::new(topology, x)?;
     let old: Vec<Point> = rays.iter().map(|frame| frame.normal).collect();
     let up = normals(topology, x, Some(&old));
     let frames: Vec<Frame> = (up.iter().zip(rays))
@@ -70,59 +62,6 @@ pub(super) fn sharpen(given: &Given, x: &mut [Point], rays: &[Frame]) -> Result<
     Ok(())
 }
 
-/// Which sides of creases vertices are on.
-struct Sides {
-    /// The one label of the triangles around a vertex, or [`NONE`].
-    of: Vec<u32>,
-    first: Vec<u32>,
-    triangles: Vec<u32>,
-    labels: Vec<u32>,
-}
-
-impl Sides {
-    fn new(topology: &Topology, labels: &[u32]) -> Sides {
-        let mut first = vec![0u32; topology.len() + 1];
-        for corner in topology.triangles.as_flattened() {
-            first[*corner as usize + 1] += 1;
-        }
-        for i in 0..topology.len() {
-            first[i + 1] += first[i];
-        }
-        let mut next = first.clone();
-        let mut triangles = vec![0; 3 * topology.triangles.len()];
-        for (t, corners) in (0..).zip(&topology.triangles) {
-            for corner in corners {
-                triangles[next[*corner as usize] as usize] = t;
-                next[*corner as usize] += 1;
-            }
-        }
-        let mut sides = Sides {
-            of: vec![NONE; topology.len()],
-            first,
-            triangles,
-            labels: labels.to_vec(),
-        };
-        for vertex in 0..topology.len() {
-            if let [one] = sides.around(vertex)[..] {
-                sides.of[vertex] = one;
-            }
-        }
-        sides
-    }
-
-    fn triangles(&self, vertex: usize) -> &[u32] {
-        &self.triangles[self.first[vertex] as usize..self.first[vertex + 1] as usize]
-    }
-
-    fn around(&self, vertex: usize) -> Vec<u32> {
-        let own = self.triangles(vertex).iter();
-        let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();
-        found.sort_unstable();
-        found.dedup();
-        found
-    }
-}
-
 /// How far a side's continuation is above a vertex on average, and its normal there.
 fn plane(
     topology: &Topology,
@@ -134,20 +73,13 @@ fn plane(
 ) -> Option<(f64, Point)> {
     let mut second = Vec::new();
     let own = |other: &&u32| of[**other as usize] == label && topology.inside[**other as usize];
-    let mut near: Vec<u32> = topology
-        .around(vertex)
-        .iter()
-        .filter(own)
-        .copied()
-        .collect();
-    if near.len() < 2 {
-        topology.second_ring(vertex, &mut second);
-        near.extend(second.iter().filter(own));
-    }
+    topology.second_ring(vertex, &mut second);
+    // The more of them, the less of what noise is left.
+    let near = topology.around(vertex).iter().chain(&second).filter(own);
     let usable = |other: usize| of[other] == label;
     let (mut rise, mut normal, mut count) = (0.0, Point::zeros(), 0.0);
     for inner in near {
-        let inner = inner as usize;
+        let inner = *inner as usize;
         if let Some((own, up)) = continued(topology, x, &frames[inner], inner, usable, x[vertex]) {
             rise += own;
             normal += up;

@@ -12,6 +12,7 @@ use super::noise::noise;
 use super::options::{MeshOptions, check_confidence};
 use super::report::{MeshPass, MeshReport};
 use super::sharpen::sharpen;
+use super::sides::Sides;
 use super::topology::Topology;
 use crate::error::{Error, Result, try_filled};
 use crate::fit::admm::iteration::Level;
@@ -30,6 +31,12 @@ use crate::scene::mesh::Mesh;
 /// Smoothing steps for the first base: of the places across the rays, and of the surface.
 const PLACES: usize = 3;
 const SURFACE: usize = 10;
+
+/// λ times noise and spacing, where it is found by itself.
+const LAMBDA: f64 = 6.4;
+
+/// The gap of the first solve, if that is not the only one: all it has to give is a base, and where creases are.
+const ROUGH: f64 = 0.03;
 
 /// Of noise that cannot be told from none, as a share of the spacing.
 const NO_NOISE: f64 = 1e-4;
@@ -173,7 +180,7 @@ impl MeshSolver {
         let spacing = spacing_of(mean);
         let sigma = noise(topology, &base, &frames, &given.noisy);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
-            8.0 / (sigma.max(NO_NOISE * spacing) * spacing)
+            LAMBDA / (sigma.max(NO_NOISE * spacing) * spacing)
         });
         let lambda = match options.lambda {
             Lambda::Auto => auto,
@@ -260,7 +267,11 @@ impl MeshSolver {
 
     /// Starts to solve the linearised problem, where there is one before from its dual.
     fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised)>) -> Result<()> {
-        let plan = Plan::new(&self.options.common()).without_cycles();
+        let mut options = self.options.common();
+        if warm.is_none() && self.options.crease_passes > 0 {
+            options = options.gap(self.options.gap.max(ROUGH));
+        }
+        let plan = Plan::new(&options).without_cycles();
         let start = self.linear.start();
         let problem = &mut self.linear.problem;
         let mut state = State::new(problem, plan.first_rho(problem))?;
@@ -269,7 +280,10 @@ impl MeshSolver {
         if let Some((old, before)) = warm {
             let mut moments = try_filled("moments", self.linear.centres.len(), Sym2::default())?;
             let creases = problem.reweight_creases(&start, self.options.crease_radius)?;
-            self.creases = creases.vertices;
+            let sides = Sides::new(&self.given.topology, &self.surface)?;
+            let centres = self.linear.centres.iter();
+            let known: Vec<bool> = centres.map(|v| sides.meet_at(*v as usize)).collect();
+            self.creases = creases.vertices + problem.free_creases(&known);
             state.rho = old.rho;
             for (stencil, centre) in self.linear.centres.iter().enumerate() {
                 let from = before.about[*centre as usize];

@@ -397,6 +397,31 @@ fn a_noisy_cube_becomes_one() {
     assert_eq!(surface.mesh().triangles(), truth.triangles());
 }
 
+/// A crease that keeps costs is rounded, and what is beside it goes out for that.
+#[test]
+fn faces_of_a_coarse_cube_stay_where_they_are() {
+    let truth = cube(14);
+    let sigma = 0.03;
+    let given = noisy(&truth, sigma);
+    let surface = fit_mesh(&given, &MeshOptions::default()).unwrap();
+    let (mut out, mut faces) = (0.0, 0.0);
+    let pairs = points(&given).into_iter().zip(points(surface.mesh()));
+    for (t, (given, found)) in points(&truth).into_iter().zip(pairs) {
+        let mut along = t.abs();
+        along.as_mut_slice().sort_by(f64::total_cmp);
+        if along.y < 0.7 {
+            let up = t.map(|c| if c.abs() == 1.0 { c } else { 0.0 });
+            out += (found - given).dot(&up);
+            faces += 1.0;
+        }
+    }
+    assert!(
+        (out / faces).abs() < 0.05 * sigma,
+        "{}",
+        out / faces / sigma
+    );
+}
+
 #[test]
 fn a_pipe_with_borders_becomes_one() {
     let truth = pipe(60, 0.5, 2.0);

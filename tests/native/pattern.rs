@@ -933,3 +933,34 @@ fn angles_at_points_close_up() {
     near(worst.surface, 360.0 / 2f64.sqrt(), 2.0);
     near(worst.flat, 360.0 / 2f64.sqrt(), 3.0);
 }
+
+/// A cut through a patch that was decided on every fourth vertex turns no more than a line that one would draw.
+#[test]
+fn cuts_that_were_decided_on_a_coarse_lattice_are_not_serrated() {
+    let options = ExampleOptions {
+        size: 300,
+        noise: 0.0,
+        ..ExampleOptions::default()
+    };
+    let roof = Example::Roof.generate(&options).unwrap().input;
+    let roof = roof.to_lattice(None).unwrap();
+    let patches = Patches::new(&roof, &PatchOptions::default()).unwrap();
+    let found = pattern(&roof, &patches, &PatternOptions::default()).unwrap();
+    let cuts = (found.sheets.iter().flat_map(|sheet| &sheet.outlines))
+        .flatten()
+        .filter(|run| run.seam.is_some_and(|seam| seam.slit));
+    let mut sides = 0;
+    for cut in cuts {
+        let steps: Vec<[f64; 2]> = (cut.points.windows(2))
+            .map(|ends| [0, 1].map(|k| ends[1][k] - ends[0][k]))
+            .collect();
+        let turns = steps.windows(2).map(|pair| {
+            let [[ax, ay], [bx, by]] = [pair[0], pair[1]];
+            (ax * by - ay * bx).atan2(ax * bx + ay * by).abs()
+        });
+        let turned: f64 = turns.sum();
+        assert!(turned < 2.0, "{turned} radians");
+        sides += 1;
+    }
+    assert!(sides >= 2);
+}

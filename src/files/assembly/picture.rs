@@ -16,7 +16,7 @@ const SIZE: f64 = 1000.0;
 const ROOM: f64 = 20.0;
 
 /// How far lines may be from those that were found, in spacings.
-const TOLERANCE: f64 = 0.25;
+const TOLERANCE: f64 = 0.5;
 
 /// Sizes of numbers and letters.
 const NUMBER: f64 = 28.0;

@@ -90,8 +90,8 @@ pub(super) fn assembled(
 ) -> Result<Assembly> {
     let (mut parts, patches) = parts.numbered(patches)?;
     let leaves = std::mem::take(&mut parts.leaves);
-    let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
-    net.decided *= parts.finest;
+    let decided = parts.finest * parts.surface.lattice().spacing();
+    let mut net = Net::new(&parts.surface, &parts.labels, leaves, decided)?;
     net.divide_by_fit(options.gap);
     // What is wrong with a part by itself needs no joint unrolling to be seen.
     let limit = options.max_strain;

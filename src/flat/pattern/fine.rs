@@ -136,8 +136,8 @@ pub(super) fn refined(
         }
         sheets.retain(|members| !members.is_empty());
         let leaves = std::mem::take(&mut parts.leaves);
-        let mut net = Net::new(&parts.surface, &parts.labels, leaves)?;
-        net.decided = rough.net.decided;
+        let decided = rough.net.decided;
+        let mut net = Net::new(&parts.surface, &parts.labels, leaves, decided)?;
         let mut layout = Layout::loose(&net);
         fold_alike(&mut net, &mut layout, &before, rough);
         let mut arrangement = Arrangement {

@@ -75,16 +75,17 @@ pub(super) struct Net {
 }
 
 impl Net {
-    /// Each crease is one seam.
+    /// Each crease is one seam. Cuts were `decided` on a lattice of that spacing, or are to be drawn as if so.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
         leaves: Vec<Option<Leaf>>,
+        decided: f64,
     ) -> Result<Net> {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let mut net = Net {
             spacing: surface.lattice().spacing(),
-            decided: surface.lattice().spacing(),
+            decided,
             borders: vec![Vec::new(); leaves.len()],
             leaves,
             seams: Vec::new(),

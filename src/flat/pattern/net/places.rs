@@ -10,8 +10,9 @@ use crate::shape::patches::crease::smoothed;
 /// one place.
 const LEAST: f64 = 0.01;
 
-/// How often a cut through a patch is smoothed; it is the zigzag between the vertices on either side.
-const CUT_SMOOTHING: usize = 4;
+/// How often a cut through a patch is smoothed; it is the zigzag between the vertices on either side. That of a
+/// lattice of twice the spacing, if it was decided there, takes four times as often.
+const CUT_SMOOTHING: f64 = 4.0;
 
 impl Net {
     /// Where a node is in plan.
@@ -59,7 +60,13 @@ impl Net {
     pub(super) fn line(&self, patch: u32, nodes: &[Node], smooth: bool) -> Vec<Point> {
         let places = nodes.iter().map(|node| self.raw_place(*node, patch));
         let mut line: Vec<[f64; 2]> = places.map(|place| [place.re, place.im]).collect();
-        for _ in 0..if smooth { CUT_SMOOTHING } else { 1 } {
+        let coarse = (self.decided / self.spacing).max(1.0);
+        let times = if smooth {
+            CUT_SMOOTHING * coarse.powi(2)
+        } else {
+            1.0
+        };
+        for _ in 0..times as usize {
             line = smoothed(line);
         }
         line.into_iter().map(|[x, y]| Point::new(x, y)).collect()

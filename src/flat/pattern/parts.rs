@@ -21,6 +21,9 @@ const CANDIDATES: usize = 3;
 /// The share of the surface's vertices that may be left out.
 const LEFT_OUT: f64 = 0.02;
 
+/// So often specks are left out of sheets, each time of which these are laid flat anew.
+const OFTEN: usize = 8;
+
 /// What cannot be cut and has no more vertices may be left out.
 const SCRAP: usize = 4 * CRUMB;
 
@@ -42,6 +45,8 @@ pub(super) struct Parts {
     /// Vertices that were left out, and those that may be.
     left_out: usize,
     most_left_out: usize,
+    /// How often specks were left out of sheets.
+    trims: usize,
 }
 
 fn most_left_out(surface: &Heightfield) -> usize {
@@ -68,6 +73,7 @@ impl Parts {
             pending: Vec::new(),
             left_out: 0,
             most_left_out: most_left_out(surface),
+            trims: 0,
         };
         parts.lay_flat(&(0..count as u32).collect::<Vec<_>>())?;
         Ok(parts)
@@ -85,6 +91,7 @@ impl Parts {
             pending: Vec::new(),
             left_out: 0,
             most_left_out: most_left_out(surface),
+            trims: 0,
         }
     }
 
@@ -296,7 +303,9 @@ impl Parts {
             true => Trouble::Strain(self.options.max_strain),
             false => Trouble::Flipped,
         };
-        let Some(own) = self.specks(part, leaf, trouble) else {
+        let lattice = self.surface.lattice();
+        let own = specks(lattice, &self.labels, part, leaf, trouble, self.scrap());
+        let Some(own) = own else {
             return Ok(false);
         };
         let beside: Vec<u32> = self.borders(part, &own).into_keys().collect();
@@ -305,14 +314,16 @@ impl Parts {
         Ok(true)
     }
 
-    /// The few vertices that a part has its trouble from as it lies, if they may be left out.
+    /// The few vertices that a part of a sheet has its trouble from as it lies, if they may be left out.
     pub(super) fn specks(&self, part: u32, leaf: &Leaf, trouble: Trouble) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
-        specks(lattice, &self.labels, part, leaf, trouble, self.scrap())
+        let found = || specks(lattice, &self.labels, part, leaf, trouble, self.scrap());
+        (self.trims < OFTEN).then(found).flatten()
     }
 
     /// Leaves out specks of a part; what goes on into it or is beside it stays where it lies.
     pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
+        self.trims += 1;
         let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
         changed.push(part);
         self.without(specks)?;

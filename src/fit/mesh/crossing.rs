@@ -31,28 +31,31 @@ pub(super) fn uncross(
     fans: &Fans,
     x: &mut [Point],
     held: &[bool],
-    creased: impl Fn(usize) -> bool,
+    creased: &dyn Fn(usize) -> bool,
 ) {
-    let mut bad = tangled(topology, fans, x, 0..topology.len());
+    let all: Vec<u32> = (0..topology.len() as u32).collect();
+    let mut bad = tangled(topology, fans, x, &all);
     let mut left = LOOKS * topology.len() + FEW;
-    let mut moving: Vec<usize> = Vec::new();
+    let mut moving: Vec<u32> = Vec::new();
     for round in 0..ROUNDS {
         if bad.is_empty() || left == 0 {
             return;
         }
-        let corners = bad.iter().flat_map(|t| topology.triangles[*t as usize]);
-        moving.extend(corners.map(|i| i as usize));
+        for triangle in &bad {
+            moving.extend(topology.triangles[*triangle as usize]);
+        }
         if round % WIDER == WIDER - 1 {
             moving = around(topology, &moving);
         }
         moving.sort_unstable();
         moving.dedup();
         for &vertex in &moving {
+            let vertex = vertex as usize;
             if held[vertex] {
                 continue;
             }
             let along = round < WIDER && creased(vertex);
-            let beside = mean_beside(topology, x, vertex, along.then_some(&creased));
+            let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
                 x[vertex] += 0.5 * (mean - x[vertex]);
             }
@@ -62,15 +65,16 @@ pub(super) fn uncross(
             near = around(topology, &near);
         }
         left = left.saturating_sub(near.len());
-        bad = tangled(topology, fans, x, near);
+        bad = tangled(topology, fans, x, &near);
     }
 }
 
 /// These vertices and those around them, each once.
-fn around(topology: &Topology, vertices: &[usize]) -> Vec<usize> {
-    let beside = vertices.iter().flat_map(|v| topology.around(*v));
-    let mut all: Vec<usize> = beside.map(|v| *v as usize).collect();
-    all.extend(vertices);
+fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
+    let mut all = vertices.to_vec();
+    for vertex in vertices {
+        all.extend_from_slice(topology.around(*vertex as usize));
+    }
     all.sort_unstable();
     all.dedup();
     all
@@ -82,40 +86,35 @@ fn mean_beside(
     topology: &Topology,
     x: &[Point],
     vertex: usize,
-    creased: Option<impl Fn(usize) -> bool>,
+    creased: Option<&dyn Fn(usize) -> bool>,
 ) -> Option<Point> {
-    let middle = |of: &[usize]| of.iter().map(|i| x[*i]).sum::<Point>() / of.len() as f64;
-    if !topology.inside[vertex] {
-        let rim: Vec<usize> = topology.along_rim(vertex).collect();
-        return (rim.len() == 2).then(|| middle(&rim));
-    }
-    let ring: Vec<usize> = topology
-        .around(vertex)
-        .iter()
-        .map(|i| *i as usize)
-        .collect();
-    if let Some(creased) = creased {
-        let along: Vec<usize> = ring.iter().copied().filter(|i| creased(*i)).collect();
-        if along.len() == 2 {
-            return Some(middle(&along));
+    let ring = topology.around(vertex);
+    let mean_of = |of: &dyn Fn(usize) -> bool| {
+        let (mut sum, mut count) = (Point::zeros(), 0);
+        for other in ring.iter().map(|i| *i as usize).filter(|i| of(*i)) {
+            sum += x[other];
+            count += 1;
         }
+        (sum / f64::from(count), count)
+    };
+    if !topology.inside[vertex] {
+        let beside = |other| topology.along_rim(vertex).any(|i| i == other);
+        return Some(mean_of(&beside))
+            .filter(|(_, count)| *count == 2)
+            .map(|(mean, _)| mean);
     }
-    Some(middle(&ring))
+    let along = creased.map(mean_of).filter(|(_, count)| *count == 2);
+    Some(along.unwrap_or_else(|| mean_of(&|_| true)).0)
 }
 
 /// Triangles at these vertices that cross one near, those that they cross, and those that face away from the normals
 /// of their corners.
-fn tangled(
-    topology: &Topology,
-    fans: &Fans,
-    x: &[Point],
-    vertices: impl IntoIterator<Item = usize>,
-) -> Vec<u32> {
+fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> Vec<u32> {
     let triangles = &topology.triangles;
     let mut bad = Vec::new();
     let mut suspects = Vec::new();
     for vertex in vertices {
-        let own = fans.around(vertex);
+        let own = fans.around(*vertex as usize);
         let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
         let up = sides.clone().sum::<Point>();
         if sides
@@ -137,11 +136,14 @@ fn tangled(
         if twice_area(x, corners).dot(&corners.iter().map(up).sum()) < 0.0 {
             bad.push(triangle);
         }
-        let mut near: Vec<usize> = corners.map(|i| i as usize).to_vec();
+        let mut near = corners.to_vec();
         for _ in 1..RINGS {
             near = around(topology, &near);
         }
-        let mut others: Vec<u32> = near.iter().flat_map(|v| fans.around(*v)).copied().collect();
+        let mut others = Vec::new();
+        for vertex in near {
+            others.extend_from_slice(fans.around(vertex as usize));
+        }
         others.sort_unstable();
         others.dedup();
         for other in others {

@@ -360,9 +360,9 @@ impl MeshSolver {
             // Normals beside creases are others now.
             let up = normals(topology, surface, Some(&old));
             unfold(topology, surface, &up, held);
-            uncross(topology, &sides.fans, surface, held, |v| sides.meet_at(v));
+            uncross(topology, &sides.fans, surface, held, &|v| sides.meet_at(v));
         } else {
-            uncross(topology, &Fans::new(topology), surface, held, |_| false);
+            uncross(topology, &Fans::new(topology), surface, held, &|_| false);
         }
         if done {
             self.reason = Some(reason);

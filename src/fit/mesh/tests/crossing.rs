@@ -98,7 +98,7 @@ fn vertices_that_passed_each_other_on_a_crease_go_back() {
     x[other].z -= 0.2;
     assert!(crossings(&with_positions(&truth, &x)) > 0);
     let held = vec![false; topology.len()];
-    uncross(topology, &fans, &mut x, &held, |v| edge(&given.noisy[v]));
+    uncross(topology, &fans, &mut x, &held, &|v| edge(&given.noisy[v]));
     assert_eq!(crossings(&with_positions(&truth, &x)), 0);
     assert!(x[at(-0.25)].z < x[one].z && x[one].z < x[other].z && x[other].z < x[at(0.5)].z);
     // What is not near stays, and what is on the edge slides along it.
@@ -121,6 +121,6 @@ fn bodies_put_through_each_other_stay() {
     let given = given(&both);
     let mut x = given.noisy.clone();
     let fans = Fans::new(&given.topology);
-    uncross(&given.topology, &fans, &mut x, &given.held, |_| false);
+    uncross(&given.topology, &fans, &mut x, &given.held, &|_| false);
     assert_eq!(x, given.noisy);
 }

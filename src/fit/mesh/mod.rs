@@ -5,7 +5,9 @@
 //! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
 
 mod border;
+mod crossing;
 mod curve;
+mod fans;
 pub(crate) mod geometry;
 pub(crate) mod linear;
 mod load;

@@ -9,20 +9,15 @@ use super::geometry::{Frame, Point, faces_away, normals};
 use super::linear::Given;
 use super::sides::{FOLD, Sides};
 use super::topology::Topology;
-use crate::error::Result;
 use crate::math::axes::axes;
 use nalgebra::Matrix3;
 
 /// A vertex goes no further than so many lengths of the edges around it.
 const FARTHEST: f64 = 0.7;
 
-/// Moves the vertices on creases; `rays` are their normals so far.
-///
-/// # Errors
-/// Out of memory.
-pub(super) fn sharpen(given: &Given, x: &mut [Point], rays: &[Frame]) -> Result<()> {
+/// Moves the vertices on creases, where `sides` meet; `rays` are their normals so far.
+pub(super) fn sharpen(given: &Given, sides: &Sides, x: &mut [Point], rays: &[Frame]) {
     let topology = &given.topology;
-    let sides = Sides::new(topology, x)?;
     let old: Vec<Point> = rays.iter().map(|frame| frame.normal).collect();
     let up = normals(topology, x, Some(&old));
     let frames: Vec<Frame> = (up.iter().zip(rays))
@@ -54,12 +49,11 @@ pub(super) fn sharpen(given: &Given, x: &mut [Point], rays: &[Frame]) -> Result<
         x[vertex] = before[vertex] + step;
         // Nothing folds over that did not.
         let folds = |x: &[Point], t: &u32| faces_away(x, &up, &topology.triangles[*t as usize]);
-        let own = sides.triangles(vertex);
+        let own = sides.fans.around(vertex);
         if own.iter().any(|t| folds(x, t) && !folds(&before, t)) {
             x[vertex] = before[vertex];
         }
     }
-    Ok(())
 }
 
 /// How far a side's continuation is above a vertex on average, and its normal there.

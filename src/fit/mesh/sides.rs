@@ -1,5 +1,6 @@
 //! The sides of creases: smooth parts of a surface, and vertices where these meet.
 
+use super::fans::Fans;
 use super::geometry::Point;
 use super::linear::NONE;
 use super::topology::Topology;
@@ -16,8 +17,7 @@ const SHARE: f64 = 0.003;
 pub(super) struct Sides {
     /// The one label of the triangles around a vertex, or [`NONE`].
     pub of: Vec<u32>,
-    first: Vec<u32>,
-    triangles: Vec<u32>,
+    pub fans: Fans,
     labels: Vec<u32>,
 }
 
@@ -29,25 +29,9 @@ impl Sides {
     pub(super) fn new(topology: &Topology, x: &[Point]) -> Result<Sides> {
         let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
         let labels = facets.parted(facets.usual_bend(), SHARE, FOLD)?;
-        let mut first = vec![0u32; topology.len() + 1];
-        for corner in topology.triangles.as_flattened() {
-            first[*corner as usize + 1] += 1;
-        }
-        for i in 0..topology.len() {
-            first[i + 1] += first[i];
-        }
-        let mut next = first.clone();
-        let mut triangles = vec![0; 3 * topology.triangles.len()];
-        for (t, corners) in (0..).zip(&topology.triangles) {
-            for corner in corners {
-                triangles[next[*corner as usize] as usize] = t;
-                next[*corner as usize] += 1;
-            }
-        }
         let mut sides = Sides {
             of: vec![NONE; topology.len()],
-            first,
-            triangles,
+            fans: Fans::new(topology),
             labels,
         };
         for vertex in 0..topology.len() {
@@ -63,13 +47,9 @@ impl Sides {
         self.of[vertex] == NONE
     }
 
-    pub(super) fn triangles(&self, vertex: usize) -> &[u32] {
-        &self.triangles[self.first[vertex] as usize..self.first[vertex + 1] as usize]
-    }
-
     /// The sides that a vertex is on.
     pub(super) fn around(&self, vertex: usize) -> Vec<u32> {
-        let own = self.triangles(vertex).iter();
+        let own = self.fans.around(vertex).iter();
         let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();
         found.sort_unstable();
         found.dedup();

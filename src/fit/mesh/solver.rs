@@ -3,6 +3,8 @@
 use web_time::Instant;
 
 use super::border::restore;
+use super::crossing::uncross;
+use super::fans::Fans;
 use super::geometry::{
     Frame, Point, across, areas, faces_away, normals, smooth, twice_area, unfold, volume,
 };
@@ -140,7 +142,8 @@ struct Shape {
 /// given, along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the
 /// cost of bends of [`Energy::Huber`](crate::Energy::Huber). It is linearised about a smoothed base and
 /// solved as over a lattice, and then once more about the result. At the end vertices on creases are moved to
-/// where the continuations of both sides meet, unless there were to be no crease passes.
+/// where the continuations of both sides meet, unless there were to be no crease passes. Where triangles cross
+/// others near them or are folded over after that, their vertices go towards the mean of their neighbours.
 ///
 /// # Errors
 /// [`Error::Topology`] if the mesh is no surface and cannot safely be made one, and says where;
@@ -349,12 +352,17 @@ impl MeshSolver {
         self.seconds = self.seconds + level.seconds;
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
+        let (topology, held) = (&self.given.topology, &self.given.held);
+        let surface = &mut self.surface;
         if done && self.options.crease_passes > 0 {
-            let topology = &self.given.topology;
-            sharpen(&self.given, &mut self.surface, &self.linear.frames)?;
+            let sides = Sides::new(topology, surface)?;
+            sharpen(&self.given, &sides, surface, &self.linear.frames);
             // Normals beside creases are others now.
-            let up = normals(topology, &self.surface, Some(&old));
-            unfold(topology, &mut self.surface, &up, &self.given.held);
+            let up = normals(topology, surface, Some(&old));
+            unfold(topology, surface, &up, held);
+            uncross(topology, &sides.fans, surface, held, &|v| sides.meet_at(v));
+        } else {
+            uncross(topology, &Fans::new(topology), surface, held, &|_| false);
         }
         if done {
             self.reason = Some(reason);

@@ -21,6 +21,8 @@ use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::scene::view::Frame as Frame3;
 use crate::{Energy, Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
+mod crossing;
+
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut random = oorandom::Rand64::new(seed.into());
     move || 2.0 * random.rand_float() - 1.0

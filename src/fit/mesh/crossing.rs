@@ -1,0 +1,189 @@
+//! Triangles that cross others near them, or are folded over, made to lie beside each other again.
+//!
+//! Where the rays of vertices come together, as they do along creases in coarse noise, vertices can pass each
+//! other on their way, and the triangles between them turn over together, so that normals do not tell. Parts of
+//! a surface that meet far from each other along it, as those of bodies put through each other, stay.
+
+use super::fans::Fans;
+use super::geometry::{Point, twice_area};
+use super::topology::Topology;
+
+/// The cosine of an angle to the normal of a vertex: if all triangles there are within it, nothing crosses.
+const CALM: f64 = 0.5;
+
+/// Triangles of so many rings are near.
+const RINGS: usize = 3;
+
+/// Rounds of mending, at most.
+const ROUNDS: usize = 60;
+
+/// A mesh that is tangled everywhere is looked over so many times at most, but for a few vertices.
+const LOOKS: usize = 4;
+const FEW: usize = 100_000;
+
+/// After so many rounds, vertices around those that were moved are moved, too.
+const WIDER: usize = 10;
+
+/// Moves the vertices of such triangles towards the mean of their neighbours, those on creases along these
+/// first; `held` ones stay.
+pub(super) fn uncross(
+    topology: &Topology,
+    fans: &Fans,
+    x: &mut [Point],
+    held: &[bool],
+    creased: &dyn Fn(usize) -> bool,
+) {
+    let all: Vec<u32> = (0..topology.len() as u32).collect();
+    let mut bad = tangled(topology, fans, x, &all);
+    let mut left = LOOKS * topology.len() + FEW;
+    let mut moving: Vec<u32> = Vec::new();
+    for round in 0..ROUNDS {
+        if bad.is_empty() || left == 0 {
+            return;
+        }
+        for triangle in &bad {
+            moving.extend(topology.triangles[*triangle as usize]);
+        }
+        if round % WIDER == WIDER - 1 {
+            moving = around(topology, &moving);
+        }
+        moving.sort_unstable();
+        moving.dedup();
+        for &vertex in &moving {
+            let vertex = vertex as usize;
+            if held[vertex] {
+                continue;
+            }
+            let along = round < WIDER && creased(vertex);
+            let beside = mean_beside(topology, x, vertex, along.then_some(creased));
+            if let Some(mean) = beside {
+                x[vertex] += 0.5 * (mean - x[vertex]);
+            }
+        }
+        let mut near = moving.clone();
+        for _ in 0..RINGS {
+            near = around(topology, &near);
+        }
+        left = left.saturating_sub(near.len());
+        bad = tangled(topology, fans, x, &near);
+    }
+}
+
+/// These vertices and those around them, each once.
+fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
+    let mut all = vertices.to_vec();
+    for vertex in vertices {
+        all.extend_from_slice(topology.around(*vertex as usize));
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// The mean of a vertex's neighbours: on the border of the two along it, on a line of `creased` vertices of the two
+/// on that.
+fn mean_beside(
+    topology: &Topology,
+    x: &[Point],
+    vertex: usize,
+    creased: Option<&dyn Fn(usize) -> bool>,
+) -> Option<Point> {
+    let ring = topology.around(vertex);
+    let mean_of = |of: &dyn Fn(usize) -> bool| {
+        let (mut sum, mut count) = (Point::zeros(), 0);
+        for other in ring.iter().map(|i| *i as usize).filter(|i| of(*i)) {
+            sum += x[other];
+            count += 1;
+        }
+        (sum / f64::from(count), count)
+    };
+    if !topology.inside[vertex] {
+        let beside = |other| topology.along_rim(vertex).any(|i| i == other);
+        return Some(mean_of(&beside))
+            .filter(|(_, count)| *count == 2)
+            .map(|(mean, _)| mean);
+    }
+    let along = creased.map(mean_of).filter(|(_, count)| *count == 2);
+    Some(along.unwrap_or_else(|| mean_of(&|_| true)).0)
+}
+
+/// Triangles at these vertices that cross one near, those that they cross, and those that face away from the normals
+/// of their corners.
+fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> Vec<u32> {
+    let triangles = &topology.triangles;
+    let mut bad = Vec::new();
+    let mut suspects = Vec::new();
+    for vertex in vertices {
+        let own = fans.around(*vertex as usize);
+        let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
+        let up = sides.clone().sum::<Point>();
+        if sides
+            .clone()
+            .any(|side| side.dot(&up) <= CALM * side.norm() * up.norm())
+        {
+            suspects.extend(own);
+        }
+    }
+    suspects.sort_unstable();
+    suspects.dedup();
+    let up = |vertex: &u32| {
+        let own = fans.around(*vertex as usize).iter();
+        let sum: Point = own.map(|t| twice_area(x, &triangles[*t as usize])).sum();
+        sum.try_normalize(0.0).unwrap_or_default()
+    };
+    for &triangle in &suspects {
+        let corners = &triangles[triangle as usize];
+        if twice_area(x, corners).dot(&corners.iter().map(up).sum()) < 0.0 {
+            bad.push(triangle);
+        }
+        let mut near = corners.to_vec();
+        for _ in 1..RINGS {
+            near = around(topology, &near);
+        }
+        let mut others = Vec::new();
+        for vertex in near {
+            others.extend_from_slice(fans.around(vertex as usize));
+        }
+        others.sort_unstable();
+        others.dedup();
+        for other in others {
+            if cross(x, corners, &triangles[other as usize]) {
+                bad.extend([triangle, other]);
+            }
+        }
+    }
+    bad.sort_unstable();
+    bad.dedup();
+    bad
+}
+
+/// Whether a side of one triangle goes through the other one, sides with a corner of both left out.
+fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
+    let [a, b] = [one, other].map(|t| t.map(|i| x[i as usize]));
+    let apart = |k: usize| {
+        let [a, b] = [&a, &b].map(|t| t.map(|p| p[k]));
+        a.iter().all(|p| b.iter().all(|q| p < q)) || a.iter().all(|p| b.iter().all(|q| p > q))
+    };
+    if (0..3).any(apart) {
+        return false;
+    }
+    let through = |one: &[u32; 3], a: &[Point; 3], other: &[u32; 3], b: &[Point; 3]| {
+        (0..3).any(|k| {
+            let next = (k + 1) % 3;
+            !other.contains(&one[k]) && !other.contains(&one[next]) && pierces(a[k], a[next], b)
+        })
+    };
+    through(one, &a, other, &b) || through(other, &b, one, &a)
+}
+
+/// Whether the way from `p` to `q` goes through a triangle's inside.
+fn pierces(p: Point, q: Point, [a, b, c]: &[Point; 3]) -> bool {
+    let normal = (b - a).cross(&(c - a));
+    if normal.dot(&(p - a)) * normal.dot(&(q - a)) >= 0.0 {
+        return false;
+    }
+    let way = q - p;
+    let turn = |from: &Point, to: &Point| way.dot(&(from - p).cross(&(to - p)));
+    let turns = [turn(a, b), turn(b, c), turn(c, a)];
+    turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0)
+}

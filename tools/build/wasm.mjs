@@ -20,9 +20,9 @@ const files = [
   { name: 'files', limit: 275_000 },
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
-  { name: 'fitmesh', limit: 169_000 },
+  { name: 'fitmesh', limit: 174_000 },
   { name: 'unroll', limit: 272_000 },
-  { name: 'patterns', limit: 515_000 },
+  { name: 'patterns', limit: 518_000 },
 ];
 
 /**

@@ -6,6 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use developable::Mesh;
 use developable::analysis::MeshCurvatures;
 use developable::drawing::{Drawing, DrawingOptions, Totals};
+use developable::files::assembly::write_assembly_svg;
 use developable::patches::{MeshPatches, PatchOptions};
 use developable::pattern::{MeshPattern, PatternOptions, Sheet, pattern_mesh};
 use developable::rulings::{MeshRulings, Ruling, TraceOptions};
@@ -130,6 +131,31 @@ fn a_box_has_six_faces_and_one_net() {
             .collect();
         assert_eq!(cuts.len(), 14);
     }
+}
+
+/// Its lid, that is: all else faces away or is seen from its edge.
+#[test]
+fn the_picture_of_an_assembly_has_of_a_box_what_is_seen_from_above() {
+    let (_, pattern) = pattern_of(&cuboid([3.0, 2.0, 1.0], 4));
+    let svg = String::from_utf8(write_assembly_svg(&pattern.sheets).unwrap()).unwrap();
+    assert_eq!(svg.matches("class=\"patch\"").count(), 1);
+    let start = svg.find("d=\"M").unwrap() + 4;
+    let line = &svg[start..start + svg[start..].find('Z').unwrap()];
+    let corners: Vec<[f64; 2]> = (line.split('L'))
+        .map(|corner| {
+            let mut numbers = corner.split_whitespace().map(|v| v.parse().unwrap());
+            [(); 2].map(|()| numbers.next().unwrap())
+        })
+        .collect();
+    let turned: f64 = (0..corners.len())
+        .map(|i| {
+            let ([ax, ay], [bx, by]) = (corners[i], corners[(i + 1) % corners.len()]);
+            0.5 * (ax * by - bx * ay)
+        })
+        .sum();
+    // As large as it is, with its longer side 1000 units long.
+    let lid = 1000.0 * 2000.0 / 3.0;
+    assert!((turned.abs() / lid - 1.0).abs() < 1e-3, "{turned}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The surface from above, each sheet in its colour with its number, its folds dashed, seams with their letters.
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 use ::svg::Document;
@@ -7,9 +8,9 @@ use ::svg::node::element::{Group, Path, Polyline, Text, Title};
 
 use super::colour;
 use crate::error::{Error, Result};
-use crate::flat::assembly::Built;
+use crate::flat::assembly::{Built, faces_up};
 use crate::flat::drawing::{letters, smooth};
-use crate::flat::pattern::Sheet;
+use crate::flat::pattern::{Faces, Sheet};
 
 /// Longer side of the picture, and the room around it, in its units.
 const SIZE: f64 = 1000.0;
@@ -23,7 +24,7 @@ const NUMBER: f64 = 28.0;
 const LETTER: f64 = 16.0;
 
 /// An SVG file of the surface that sheets make, seen from above: the patches' numbers and the seams' letters are
-/// those of the drawing, folds are dashed.
+/// those of the drawing, folds are dashed. What faces away from there is left out.
 ///
 /// # Errors
 /// [`Error::Empty`] without a sheet, [`Error::Unsupported`] for vertices that are not finite.
@@ -54,14 +55,14 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
     let mut areas = Group::new()
         .set("id", "sheets")
         .set("stroke", "#333333")
-        .set("stroke-width", 2)
         .set("stroke-linejoin", "round")
-        .set("fill-rule", "evenodd");
-    let mut folds = Group::new()
-        .set("id", "folds")
-        .set("stroke", "#333333")
-        .set("stroke-dasharray", "6 5")
-        .set("fill", "none");
+        .set("fill-rule", "nonzero");
+    let lines = |id: &str| {
+        let group = Group::new().set("id", id).set("fill", "none");
+        group.set("stroke", "#333333")
+    };
+    let mut cuts = lines("cuts").set("stroke-width", 2);
+    let mut folds = lines("folds").set("stroke-dasharray", "6 5");
     let mut texts = Group::new()
         .set("id", "numbers")
         .set("font-family", "Helvetica, Arial, sans-serif")
@@ -78,42 +79,63 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         );
     };
     let names = letters(sheets);
-    for (number, sheet) in sheets.iter().enumerate() {
+    for number in from_below(sheets) {
+        let sheet = &sheets[number];
         let [r, g, b] = colour(number);
         let built = Built::new(&sheet.faces);
-        let seen = |flat: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            let points = flat.iter().filter_map(|place| built.at(*place));
-            let plan: Vec<[f64; 2]> = points.map(|[x, y, _]| [x, y]).collect();
-            let line = smooth(&plan, TOLERANCE * sheet.spacing, sheet.spacing);
-            let line = line.points(0.1 / scale).into_iter();
-            line.map(place).collect()
+        let smoothed = |line: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            let line = smooth(line, TOLERANCE * sheet.spacing, sheet.spacing);
+            let points = line.points(0.1 / scale).into_iter();
+            points.map(place).collect()
         };
+        // Writing into a string cannot fail.
         let mut data = String::new();
-        for outline in &sheet.outlines {
-            let mut step = 'M';
-            for [x, y] in outline.iter().flat_map(|run| seen(&run.points)) {
-                // Writing into a string cannot fail.
-                let _ = write!(data, "{step}{x:.1} {y:.1}");
-                step = 'L';
+        let mut ring = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+            for (i, [x, y]) in points.enumerate() {
+                let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
             }
             data.push('Z');
+        };
+        let drawn = |flat: &[[f64; 2]]| {
+            let lines = seen(&built, flat).into_iter();
+            lines.map(|line| {
+                let points = smoothed(&line).into_iter();
+                let points: Vec<String> = points.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+                Polyline::new().set("points", points.join(" "))
+            })
+        };
+        let whole = upper(&sheet.faces).len() == sheet.faces.triangles.len();
+        if whole {
+            for outline in &sheet.outlines {
+                let lines = outline.iter().flat_map(|run| seen(&built, &run.points));
+                ring(&mut lines.flat_map(|line| smoothed(&line)));
+            }
+        } else {
+            for border in borders(&sheet.faces) {
+                let points = border
+                    .iter()
+                    .map(|vertex| sheet.faces.built[*vertex as usize]);
+                ring(&mut points.map(|[x, y, _]| place([x, y])));
+            }
+            for run in sheet.outlines.iter().flatten() {
+                cuts = drawn(&run.points).fold(cuts, Group::add);
+            }
         }
         for fold in &sheet.folds {
-            let points = seen(&fold.points).into_iter();
-            let points: Vec<String> = points.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
-            folds = folds.add(Polyline::new().set("points", points.join(" ")));
+            folds = drawn(&fold.points).fold(folds, Group::add);
         }
         let title = Title::new(format!("Sheet {}", number + 1));
         areas = areas.add(
             Path::new()
                 .set("d", data)
                 .set("fill", format!("#{r:02x}{g:02x}{b:02x}"))
+                .set("stroke-width", if whole { 2 } else { 0 })
                 .set("data-sheet", number + 1)
                 .add(title),
         );
         for spot in &sheet.spots {
-            if let Some([x, y, _]) = built.at(spot.place) {
-                add((spot.patch + 1).to_string(), place([x, y]), NUMBER, "patch");
+            if let Some(at) = seen(&built, &[spot.place]).concat().first() {
+                add((spot.patch + 1).to_string(), place(*at), NUMBER, "patch");
             }
         }
         for run in sheet.outlines.iter().flatten() {
@@ -125,8 +147,8 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
                 .seam
                 .is_some_and(|seam| run.patch == Some(seam.patches[0]));
             let middle = run.points[run.points.len() / 2];
-            if let Some([x, y, _]) = built.at(middle).filter(|_| own) {
-                add(name.clone(), place([x, y]), LETTER, "seam");
+            if let Some(at) = seen(&built, &[middle]).concat().first().filter(|_| own) {
+                add(name.clone(), place(*at), LETTER, "seam");
             }
         }
     }
@@ -136,7 +158,79 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         .set("height", format!("{height:.1}"))
         .add(Title::new("Assembly"))
         .add(areas)
+        .add(cuts)
         .add(folds)
         .add(texts);
     Ok(document.to_string().into_bytes())
+}
+
+/// The numbers of sheets, what hides others after these.
+fn from_below(sheets: &[Sheet]) -> Vec<usize> {
+    let height = |number: &usize| {
+        let faces = &sheets[*number].faces;
+        let upper = upper(faces);
+        let corners = upper.as_flattened().iter();
+        let sum: f64 = corners.map(|v| faces.built[*v as usize][2]).sum();
+        sum / (3 * upper.len()).max(1) as f64
+    };
+    let mut order: Vec<usize> = (0..sheets.len()).collect();
+    let heights: Vec<f64> = order.iter().map(height).collect();
+    order.sort_by(|a, b| heights[*a].total_cmp(&heights[*b]));
+    order
+}
+
+/// The triangles of a sheet that face up.
+fn upper(faces: &Faces) -> Vec<[u32; 3]> {
+    let up = |corners: &&[u32; 3]| faces_up(corners.map(|v| faces.built[v as usize]));
+    faces.triangles.iter().filter(up).copied().collect()
+}
+
+/// The parts of a line on a flat sheet that are seen from above, in plan.
+fn seen(built: &Built, flat: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let spots: Vec<_> = flat.iter().filter_map(|place| built.at(*place)).collect();
+    let parts = spots
+        .chunk_by(|a, b| a.up == b.up)
+        .filter(|part| part[0].up);
+    let plan = parts.map(|part| part.iter().map(|spot| [spot.at[0], spot.at[1]]).collect());
+    plan.collect()
+}
+
+/// The closed lines of edges that belong to one triangle only, of those that face up. Vertices of different patches at one place of the
+/// surface are one here.
+fn borders(faces: &Faces) -> Vec<Vec<u32>> {
+    let mut first: HashMap<[u64; 3], u32> = HashMap::new();
+    let one: Vec<u32> = (faces.built.iter().enumerate())
+        .map(|(i, p)| *first.entry(p.map(f64::to_bits)).or_insert(i as u32))
+        .collect();
+    let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
+    for corners in upper(faces) {
+        for k in 0..3 {
+            let [from, to] = [k, (k + 1) % 3].map(|k| one[corners[k] as usize]);
+            *edges.entry((from, to)).or_default() += 1;
+            *edges.entry((to, from)).or_default() -= 1;
+        }
+    }
+    // In an order of their own, so that files are the same each time.
+    let mut left: Vec<(u32, u32)> = edges.into_iter().filter(|e| e.1 > 0).map(|e| e.0).collect();
+    left.sort_unstable();
+    let mut next: HashMap<u32, Vec<u32>> = HashMap::new();
+    for (from, to) in left.iter().rev() {
+        next.entry(*from).or_default().push(*to);
+    }
+    let mut rings = Vec::new();
+    for (start, _) in left {
+        let mut ring = Vec::new();
+        let mut at = start;
+        while let Some(to) = next.get_mut(&at).and_then(Vec::pop) {
+            ring.push(at);
+            at = to;
+            if at == start {
+                break;
+            }
+        }
+        if ring.len() > 2 {
+            rings.push(ring);
+        }
+    }
+    rings
 }

@@ -3,6 +3,18 @@
 use crate::flat::pattern::Faces;
 use crate::math::hash::NumberMap;
 
+/// A place on the surface, and whether it is seen from above there, as far as its own triangle goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spot {
+    pub at: [f64; 3],
+    pub up: bool,
+}
+
+/// Whether a triangle in space faces up.
+pub(crate) fn faces_up([a, b, c]: [[f64; 3]; 3]) -> bool {
+    (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > 0.0
+}
+
 /// The triangles of a flat sheet, in squares as wide as the longest of their edges.
 pub(crate) struct Built<'a> {
     faces: &'a Faces,
@@ -40,7 +52,7 @@ impl<'a> Built<'a> {
 
     /// As the triangle has it that the place is in, or that goes on to it from the least far; nothing if there is
     /// none nearby. Cost: that of a few triangles.
-    pub(crate) fn at(&self, place: [f64; 2]) -> Option<[f64; 3]> {
+    pub(crate) fn at(&self, place: [f64; 2]) -> Option<Spot> {
         let (column, row) = self.square(place);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |k| (column + i, row + k)));
         let near = around
@@ -52,12 +64,11 @@ impl<'a> Built<'a> {
         });
         let least = |shares: &[f64; 3]| shares.iter().copied().fold(f64::INFINITY, f64::min);
         let (corners, shares) = shares.max_by(|a, b| least(&a.1).total_cmp(&least(&b.1)))?;
-        Some([0, 1, 2].map(|k| {
-            let terms = corners.iter().zip(shares);
-            terms
-                .map(|(v, share)| share * self.faces.built[*v as usize][k])
-                .sum()
-        }))
+        let corners = corners.map(|v| self.faces.built[v as usize]);
+        Some(Spot {
+            at: [0, 1, 2].map(|k| (0..3).map(|i| shares[i] * corners[i][k]).sum()),
+            up: faces_up(corners),
+        })
     }
 
     /// Of the corners of a triangle in a place; nothing for a triangle without an area.
@@ -93,12 +104,14 @@ mod tests {
             triangles: vec![[0, 1, 2], [0, 2, 3]],
         };
         let built = Built::new(&faces);
-        assert_eq!(built.at([0.75, 0.25]), Some([0.75, 0.25, 0.0]));
-        let [x, y, z] = built.at([0.25, 0.75]).unwrap();
+        let spot = |at, up| Some(Spot { at, up });
+        assert_eq!(built.at([0.75, 0.25]), spot([0.75, 0.25, 0.0], true));
+        let upright = built.at([0.25, 0.75]).unwrap();
+        let [x, y, z] = upright.at;
         assert!((x - 0.5).abs() < 1e-12 && (y - 0.5).abs() < 1e-12);
-        assert!((z - 0.5 * 0.5f64.sqrt()).abs() < 1e-12);
+        assert!((z - 0.5 * 0.5f64.sqrt()).abs() < 1e-12 && !upright.up);
         // Just outside, as the triangle there goes on; far away nothing is.
-        assert_eq!(built.at([1.125, 0.5]), Some([1.125, 0.5, 0.0]));
+        assert_eq!(built.at([1.125, 0.5]), spot([1.125, 0.5, 0.0], true));
         assert_eq!(built.at([9.0, 9.0]), None);
     }
 }

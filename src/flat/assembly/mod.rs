@@ -24,7 +24,7 @@ mod pose;
 
 use super::drawing::letters;
 use super::pattern::Sheet;
-pub(crate) use built::Built;
+pub(crate) use built::{Built, faces_up};
 use order::ordered;
 pub use pose::Pose;
 

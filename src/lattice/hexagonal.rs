@@ -153,6 +153,13 @@ impl Lattice {
         })
     }
 
+    /// The indices of the neighbours there are of a vertex, given by its own.
+    pub(crate) fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
+        let lattice = *self;
+        let neighbours = self.neighbours(index / self.cols, index % self.cols);
+        (neighbours.into_iter().flatten()).map(move |(row, col)| lattice.index(row, col))
+    }
+
     pub(crate) fn contains(&self, row: isize, col: isize) -> bool {
         (0..self.rows as isize).contains(&row) && (0..self.cols as isize).contains(&col)
     }

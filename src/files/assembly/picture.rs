@@ -195,8 +195,8 @@ fn seen(built: &Built, flat: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     plan.collect()
 }
 
-/// The closed lines of edges that belong to one triangle only, of those that face up. Vertices of different patches at one place of the
-/// surface are one here.
+/// The closed lines of edges that belong to one triangle only, of those that face up. Vertices of different patches
+/// at one place of the surface are one here.
 fn borders(faces: &Faces) -> Vec<Vec<u32>> {
     let mut first: HashMap<[u64; 3], u32> = HashMap::new();
     let one: Vec<u32> = (faces.built.iter().enumerate())

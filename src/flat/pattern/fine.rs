@@ -204,20 +204,13 @@ fn carried(
             None => open[i] = !around.iter().any(left_out),
         }
     }
-    let around = |i: usize| {
-        let neighbours = fine.neighbours(i / fine.cols(), i % fine.cols());
-        neighbours
-            .into_iter()
-            .flatten()
-            .map(|(row, col)| fine.index(row, col))
-    };
     let mut queue: VecDeque<usize> = (0..fine.len())
-        .filter(|i| labels[*i] != NO_PATCH && around(*i).any(|k| open[k]))
+        .filter(|i| labels[*i] != NO_PATCH && fine.around(*i).any(|k| open[k]))
         .collect();
     let mut first = 0;
     loop {
         while let Some(i) = queue.pop_front() {
-            for k in around(i) {
+            for k in fine.around(i) {
                 if open[k] && patches.labels()[k] == patches.labels()[i] {
                     open[k] = false;
                     labels[k] = labels[i];

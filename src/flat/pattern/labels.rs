@@ -138,7 +138,7 @@ impl Labels {
         while !pending.is_empty() {
             let before = pending.len();
             pending.retain(|group| {
-                let beside = groups[*group].iter().flat_map(|i| around(lattice, *i));
+                let beside = groups[*group].iter().flat_map(|i| lattice.around(*i));
                 let found = beside
                     .filter_map(|k| named.get(numbers.get(&k)?))
                     .min()
@@ -168,13 +168,6 @@ impl Labels {
     }
 }
 
-/// The vertices beside one.
-pub(super) fn around(lattice: &Lattice, i: usize) -> impl Iterator<Item = usize> {
-    let neighbours = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-    let lattice = *lattice;
-    (neighbours.into_iter().flatten()).map(move |(row, col)| lattice.index(row, col))
-}
-
 /// Groups of vertices that hang together by edges between them that are `joined`.
 pub(super) fn hanging_together(
     lattice: &Lattice,
@@ -192,7 +185,7 @@ pub(super) fn hanging_together(
         let mut next = 0;
         while let Some(i) = group.get(next).copied() {
             next += 1;
-            for k in around(lattice, i) {
+            for k in lattice.around(i) {
                 if let Some(seen) = seen.get_mut(&k)
                     && !*seen
                     && joined(i, k)

@@ -1,7 +1,7 @@
 //! Specks at a border that nearly all strain of a part is in, or that lie upside down: where a surface ends
 //! in a steep point, a few vertices may be torn apart however the part is cut.
 
-use super::labels::{Labels, around, hanging_together};
+use super::labels::{Labels, hanging_together};
 use super::leaf::Leaf;
 use crate::lattice::hexagonal::Lattice;
 use crate::math::hash::NumberMap;
@@ -52,7 +52,7 @@ pub(super) fn specks(
     };
     let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
     let is_outermost = |i: usize| {
-        let own = around(lattice, i).filter(|k| labels.of[*k] == part);
+        let own = lattice.around(i).filter(|k| labels.of[*k] == part);
         own.count() < NEIGHBOURS
     };
     let specks = together(&|i| speck.contains_key(&i));

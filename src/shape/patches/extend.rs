@@ -23,16 +23,13 @@ const PASSES: usize = 4;
 /// creases would wander off by a cell or two.
 pub(super) fn settle(surface: &Heightfield, bend: &Bend, labels: &mut [u32]) {
     let lattice = surface.lattice();
-    let around = |i: usize| {
-        let neighbours = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-        let inside = neighbours.into_iter().flatten();
-        inside.map(|(row, col)| lattice.index(row, col))
-    };
-    let at_border = |i: usize| bend.angle[i].is_nan() || around(i).any(|k| bend.angle[k].is_nan());
+    let at_border =
+        |i: usize| bend.angle[i].is_nan() || lattice.around(i).any(|k| bend.angle[k].is_nan());
     for _ in 0..PASSES {
         let mut moves = Vec::new();
         for i in (0..labels.len()).filter(|i| labels[*i] != NO_PATCH && at_border(*i)) {
-            let mut others: Vec<u32> = around(i)
+            let mut others: Vec<u32> = lattice
+                .around(i)
                 .map(|k| labels[k])
                 .filter(|label| *label != labels[i] && *label != NO_PATCH)
                 .collect();

@@ -1,6 +1,6 @@
 /** By keyboard, on a phone, in the dark, and under a moving light. */
 import assert from 'node:assert/strict';
-import { look, painted, pageTest, runBy, settled } from './support/page.mjs';
+import { choose, look, pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -126,7 +126,7 @@ for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
   pageTest(`every view fits on a phone, ${colorScheme}`, async (page) => {
     if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
     for (const radio of await page.locator('input[name="view"]').all()) {
-      await radio.check({ force: true });
+      await choose(radio);
       await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
       await painted(page);
       const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import axe from 'axe-core';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
-import { drop, open, pageTest, painted, runBy } from './support/page.mjs';
+import { choose, drop, open, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -61,7 +61,7 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
   await page.setViewportSize({ width: 1280, height: 800 });
   if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
   for (const radio of await page.locator('input[name="view"]').all()) {
-    await radio.check({ force: true });
+    await choose(radio);
     await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
     await soundEverywhere(page, await radio.inputValue(), { within: 'section[aria-label="Surfaces"]' });
   }
@@ -71,7 +71,7 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
 });
 
 pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
-  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+  await choose(page.locator('input[name="mode"][value="photo"]'));
   await drop(page, 'IMG_1.png', dottedPhoto());
   await page.locator('#page-caption', { hasText: 'IMG_1' }).waitFor();
   await page.locator('#flat-view[aria-busy="false"]').waitFor({ state: 'attached' });
@@ -83,10 +83,10 @@ pageTest('axe finds nothing wrong with a photo of a page', async (page) => {
 pageTest('axe finds nothing wrong with a whole mesh', async (page) => {
   await open(page, 'box.obj', obj(noisyBox(5, 0.02)));
   await soundEverywhere(page, 'a mesh');
-  await page.getByRole('radio', { name: 'Whole', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Whole', exact: true }));
   for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {
     await page.locator('#whole[aria-busy="false"]').waitFor();
-    await page.locator(`input[name="whole-view"][value="${view}"]`).check({ force: true });
+    await choose(page.locator(`input[name="whole-view"][value="${view}"]`));
     await page.locator('#whole[aria-busy="false"]').waitFor();
     await soundEverywhere(page, `whole, ${view}`);
   }
@@ -106,7 +106,7 @@ pageTest('axe finds nothing wrong with surfaces in space, the gallery, dialogs a
   await page.locator('.preview[aria-busy="false"] img').waitFor();
   await soundEverywhere(page, 'sheets', { within: '#save-dialog' });
   await page.keyboard.press('Escape');
-  await runBy(page, () => page.locator('input[value="design"]').check({ force: true }));
+  await runBy(page, () => choose(page.locator('input[value="design"]')));
   assert.ok(await page.locator('.knob').count() > 4);
   // Pins lie where the surface passes through them, as close to each other as that may be.
   await soundEverywhere(page, 'a design', { small: NARROW.filter((rule) => rule !== 'target-size') });

@@ -1,7 +1,7 @@
 /** While λ is dragged. */
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
-import { pageTest, reported, runBy, settled } from './support/page.mjs';
+import { choose, pageTest, reported, runBy, settled } from './support/page.mjs';
 
 pageTest('while λ is dragged, pictures follow, and the last wish is certified', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('400'));
@@ -74,7 +74,7 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   const previews = await page.evaluate(() => /** @type {any} */ (window).seen.previews);
   assert.ok(previews > 0, 'there was a picture before the result');
   for (const view of ['gaussian', 'rulings', 'patches', 'sheet', 'dewarped']) {
-    await page.locator(`input[name="view"][value="${view}"]`).check({ force: true });
+    await choose(page.locator(`input[name="view"][value="${view}"]`));
     await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
   }
   const { result } = await debug.send('Profiler.takePreciseCoverage');

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { drop, look, pageTest, painted, saveAs } from './support/page.mjs';
+import { choose, drop, look, pageTest, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -20,7 +20,7 @@ async function flattened(page) {
 
 /** @param {Page} page @param {string} name @param {Buffer} bytes */
 async function openPhoto(page, name, bytes) {
-  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+  await choose(page.locator('input[name="mode"][value="photo"]'));
   await drop(page, name, bytes);
   await page.locator('#page-caption', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
   await flattened(page);
@@ -204,7 +204,7 @@ pageTest('an edge is pulled into a further point', async (page) => {
 });
 
 pageTest('lines of text are found, shown and switched off; drawn by mouse and keyboard they change the verdict', async (page) => {
-  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
+  await choose(page.locator('input[name="mode"][value="photo"]'));
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
   await flattened(page);
   const lines = page.locator('#page-photo path.text:not(.under)');
@@ -295,18 +295,18 @@ pageTest('known: format, focal length, what is bent, two pages', async (page) =>
   assert.ok(await page.getByRole('button', { name: 'Save the flat page…' }).isDisabled());
 
   await page.getByLabel('Format of each page').selectOption('');
-  await page.getByRole('radio', { name: 'Left, right' }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Left, right' }));
   await flattened(page);
   assert.equal(await page.getByRole('button', { name: /of the left edge/ }).count(), 3);
-  await page.getByRole('radio', { name: 'Top, bottom' }).check({ force: true });
-  await page.getByRole('radio', { name: 'Two pages' }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Top, bottom' }));
+  await choose(page.getByRole('radio', { name: 'Two pages' }));
   await flattened(page);
   assert.equal(await page.getByRole('button', { name: /end of the gutter/ }).count(), 2);
 });
 
 pageTest('the open book has its gutter where both pages meet', async (page) => {
-  await page.locator('input[name="mode"][value="photo"]').check({ force: true });
-  await page.locator('input[value="book"]').check({ force: true });
+  await choose(page.locator('input[name="mode"][value="photo"]'));
+  await choose(page.locator('input[value="book"]'));
   await page.locator('#page-caption', { hasText: 'book' }).waitFor();
   await flattened(page);
   assert.ok(await page.getByRole('radio', { name: 'Two pages' }).isChecked());

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { pageTest, painted, runBy, settled } from './support/page.mjs';
+import { choose, pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -79,18 +79,18 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   await canvas.press('Home');
   await page.locator('#drag').selectOption('turn');
 
-  await page.getByRole('radio', { name: 'Patches', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
   await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
   await page.mouse.move(x + 40, y + 12);
   assert.match(await page.locator('#reading').innerText(), /patch \d/);
   assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'in colours');
-  await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
 
   await divider.press('End');
   for (let i = 0; i < 10; i++) await divider.press('ArrowLeft');
   assert.match(await divider.getAttribute('aria-valuetext') ?? '', /^input on 50 %/);
 
-  await page.getByRole('radio', { name: 'Side by side' }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Side by side' }));
   const flat = await brightness(page, '#result-canvas');
   assert.ok(correlation(above, flat) > 0.97, `${correlation(above, flat)}`);
   // Looked at from closer, and what is under the pointer.
@@ -103,7 +103,7 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   await result.press('0');
   assert.ok(correlation(flat, await brightness(page, '#result-canvas')) > 0.999);
   // It is what the next visit begins with.
-  await page.getByRole('radio', { name: 'In space' }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'In space' }));
   assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');
 }, { arrangement: 'space' });
 
@@ -148,14 +148,14 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   await page.locator('#space-canvas').hover();
   const bentStrain = await page.locator('#reading').innerText();
   assert.match(bentStrain, strain);
-  await page.getByRole('radio', { name: 'Side by side' }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Side by side' }));
   await page.locator('#result-picture').hover();
   const flatStrain = await page.locator('#flat-reading').innerText();
   assert.match(flatStrain, strain);
   for (const words of [bentStrain, flatStrain]) assert.ok(Math.abs(parsed(words.replace('strain', ''))) < most, words);
   await page.mouse.move(2, 2);
   assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
-  await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
 }, { arrangement: 'space' });
 

@@ -4,7 +4,7 @@ import { meets } from '../js/support/phone.mjs';
 import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { drop, dropAll, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
+import { choose, drop, dropAll, open, pageTest, painted, runBy, saveAs } from './support/page.mjs';
 import { camera, dots, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -93,7 +93,7 @@ pageTest('without the camera’s file it is asked for, and may be typed', async 
   await page.getByLabel('Centre cy').fill(String(depthCamera.cy));
   await page.getByRole('button', { name: 'Put in space' }).click();
   await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
-  await page.getByRole('radio', { name: 'Dewarped', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
   await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.ok(error < 0.006, `dots are off by ${100 * error} % of the width`);
@@ -189,7 +189,7 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
   });
   await page.locator('#mesh-name', { hasText: 'page (OBJ)' }).waitFor();
   assert.doesNotMatch(await page.locator('#mesh-span').innerText(), /Without/);
-  await page.getByRole('radio', { name: 'Dewarped', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
   await runBy(page, () => page.getByRole('button', { name: 'Run', exact: true }).click());
   const error = misplaced(await flatPng(page));
   assert.match(await page.locator('#photo-name').innerText(), /texture/);
@@ -211,14 +211,14 @@ pageTest('heights in another unit, and levels that are guessed, are asked about'
   await page.getByLabel('Pixel size').fill('10');
   await runBy(page, () => page.getByLabel('Pixel size').press('Tab'));
   assert.match(await doubt.innerText(), /hardly differ.*pixel size.*depths/s);
-  await page.getByRole('radio', { name: 'Dewarped', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Dewarped', exact: true }));
   await flattened(page);
   assert.equal(await page.locator('#photo-name').innerText(), 'holiday.png');
 
   await open(page, 'levels.png', png16(60, grid(60, 40, (col) => 20000 + 100 * col)));
   assert.match(await doubt.innerText(), /does not say how high/);
   // And after it, from another file.
-  await page.getByRole('radio', { name: 'Shaded', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
   await drop(page, 'later.png', coloured);
   await page.locator('#photo-name', { hasText: 'later.png' }).waitFor();
   await flattened(page);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
+import { choose, look, open, pageTest, painted, runBy, save, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -15,7 +15,7 @@ async function view(page, name) {
   const radio = page.getByRole('radio', { name: new RegExp(`^${name}(,|$)`) });
   // What is for specialists is in the drawer.
   if (!(await radio.isVisible())) await page.locator('#certificate').click();
-  await radio.check({ force: true });
+  await choose(radio);
   await page.locator('#analysis[aria-busy="false"]').waitFor({ state: 'attached' });
   await painted(page);
 }
@@ -364,7 +364,7 @@ pageTest('a photo of what is flat is called that, and what is no photo is refuse
 });
 
 pageTest('another result takes the place of an answer that is still being worked out', async (page) => {
-  await page.getByRole('radio', { name: 'Unrolled', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'Unrolled', exact: true }));
   // Not waited for: the answer is about something that is gone.
   await runBy(page, () => page.locator('input[value="cylinder"]').check());
   await page.locator('#analysis[aria-busy="false"]').waitFor();

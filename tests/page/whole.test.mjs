@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { noisyBox, offBox, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { look, open, pageTest, reported, saveAs, settled } from './support/page.mjs';
+import { choose, look, open, pageTest, reported, saveAs, settled } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -14,7 +14,7 @@ const area = 2 * (a * b + b * c + c * a);
 
 /** @param {Page} page @param {string} [way] */
 async function solve(page, way = 'Whole') {
-  await page.getByRole('radio', { name: way, exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: way, exact: true }));
   await done(page);
 }
 
@@ -23,7 +23,7 @@ const done = (page) => page.locator('#whole[aria-busy="false"]').waitFor();
 
 /** @param {Page} page @param {string} view */
 async function view(page, view) {
-  await page.locator(`input[name="whole-view"][value="${view}"]`).check({ force: true });
+  await choose(page.locator(`input[name="whole-view"][value="${view}"]`));
   await done(page);
 }
 
@@ -187,7 +187,7 @@ pageTest('a closed mesh is solved whole, shown before and after, laid flat and s
   assert.match((await saveAs(page, 'SVG')).bytes.toString(), /<svg/);
 
   // And back.
-  await page.getByRole('radio', { name: 'As seen', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'As seen', exact: true }));
   assert.ok(await page.locator('section[aria-label="Surfaces"]').isVisible());
   await settled(page);
 });
@@ -268,7 +268,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
   const pressed = () => page.locator('#lambda-auto').getAttribute('aria-pressed');
   const field = page.getByLabel('λ as a number');
 
-  await solvedBy(() => page.getByRole('radio', { name: 'Whole', exact: true }).check({ force: true }), /whole=1$/);
+  await solvedBy(() => choose(page.getByRole('radio', { name: 'Whole', exact: true })), /whole=1$/);
   const hint = await page.locator('#lambda-hint').innerText();
   // Evenly distributed, up to 0.02 to either side.
   const sigma = parsed(/noise of ([\d.]+)/.exec(hint)?.[1] ?? '');
@@ -302,7 +302,7 @@ pageTest('a whole mesh is solved with the λ that is chosen, which stands in the
 
   // As seen, heights follow the λ that was chosen meanwhile.
   await solvedBy(() => page.getByRole('button', { name: /^medium/ }).click(), /lambda=1e6&whole=1&view=rulings$/);
-  await page.getByRole('radio', { name: 'As seen', exact: true }).check({ force: true });
+  await choose(page.getByRole('radio', { name: 'As seen', exact: true }));
   await page.waitForURL(/lambda=1e6$/);
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e6);

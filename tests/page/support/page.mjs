@@ -162,6 +162,16 @@ export async function runBy(page, act) {
 }
 
 /**
+ * Chooses one of several as a user does, by its label: once it can be, and has come to rest.
+ * @param {import('playwright-core').Locator} radio
+ */
+export async function choose(radio) {
+  const label = radio.locator('..');
+  await label.and(label.page().locator('label:has(input:enabled)')).click();
+  assert.ok(await radio.isChecked(), 'what was chosen is not the choice');
+}
+
+/**
  * Waits until what was asked for is drawn.
  * @param {Page} page
  */

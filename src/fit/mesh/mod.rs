@@ -4,17 +4,21 @@
 //! Hessian is the second fundamental form by a quadratic fit over its neighbours, linearised about a
 //! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
 
+mod ball;
+mod base;
 mod border;
 mod crossing;
 mod curve;
 mod fans;
 pub(crate) mod geometry;
+mod known;
 pub(crate) mod linear;
 mod load;
 mod noise;
 mod options;
 mod quadratic;
 mod report;
+mod shape;
 mod sharpen;
 mod sides;
 mod solver;
@@ -22,7 +26,8 @@ mod solver;
 mod tests;
 pub(crate) mod topology;
 
+pub(crate) use ball::scale_of;
+pub use known::MeshKnown;
 pub use options::MeshOptions;
 pub use report::{MeshPass, MeshReport, Repairs};
-pub(crate) use solver::scale_of;
-pub use solver::{MeshKnown, MeshSolver, MeshSurface, fit_mesh};
+pub use solver::{MeshSolver, MeshSurface, fit_mesh};

@@ -2,21 +2,23 @@
 
 use web_time::Instant;
 
+use super::ball::Ball;
+use super::base::first_base;
 use super::border::restore;
 use super::crossing::uncross;
 use super::fans::Fans;
-use super::geometry::{
-    Frame, Point, across, areas, faces_away, normals, smooth, twice_area, unfold, volume,
-};
+use super::geometry::{Frame, Point, areas, normals, unfold};
+use super::known::MeshKnown;
 use super::linear::{Given, Linearised, NONE, spacing_of};
 use super::load::load_border;
 use super::noise::noise;
-use super::options::{MeshOptions, check_confidence};
+use super::options::MeshOptions;
 use super::report::{MeshPass, MeshReport};
+use super::shape::Shape;
 use super::sharpen::sharpen;
 use super::sides::Sides;
 use super::topology::Topology;
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Result, try_filled};
 use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
 use crate::fit::admm::state::State;
@@ -29,10 +31,6 @@ use crate::fit::partwise::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
-
-/// Smoothing steps for the first base: of the places across the rays, and of the surface.
-const PLACES: usize = 3;
-const SURFACE: usize = 10;
 
 /// λ times noise and spacing, where it is found by itself.
 const LAMBDA: f64 = 6.4;
@@ -72,39 +70,6 @@ impl MeshSurface {
     }
 }
 
-/// What else is known of a mesh's vertices.
-#[derive(Debug, Clone, Default, PartialEq)]
-#[non_exhaustive]
-pub struct MeshKnown {
-    confidence: Vec<f64>,
-    held: Vec<bool>,
-}
-
-impl MeshKnown {
-    /// How far each vertex is to be trusted, 1 being usual: a weight of its fidelity.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] if one is no finite number from 0 on.
-    pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
-        check_confidence(&confidence, confidence.len())?;
-        self.confidence = confidence;
-        Ok(self)
-    }
-
-    /// Which vertices stay where they are.
-    pub fn with_held(mut self, held: Vec<bool>) -> Self {
-        self.held = held;
-        self
-    }
-}
-
-/// The way from the user's coordinates: `scale (x − centre)`.
-#[derive(Debug, Clone, Copy)]
-struct Ball {
-    centre: Point,
-    scale: f64,
-}
-
 /// A solve over a mesh that runs in steps.
 #[derive(Debug, Clone)]
 pub struct MeshSolver {
@@ -127,14 +92,6 @@ pub struct MeshSolver {
     start: Instant,
 }
 
-/// Figures of a shape.
-#[derive(Debug, Clone, Copy)]
-struct Shape {
-    volume: f64,
-    area: f64,
-    flipped: usize,
-}
-
 /// Moves the vertices of a mesh so that it is piecewise developable, whatever its shape: closed,
 /// overhanging, with borders or in parts.
 ///
@@ -146,8 +103,8 @@ struct Shape {
 /// others near them or are folded over after that, their vertices go towards the mean of their neighbours.
 ///
 /// # Errors
-/// [`Error::Topology`] if the mesh is no surface and cannot safely be made one, and says where;
-/// [`Error::Unsupported`] for a cloud of points, [`Error::Option`], or out of memory.
+/// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and says where;
+/// [`Error::Unsupported`](crate::Error::Unsupported) for a cloud of points, [`Error::Option`](crate::Error::Option), or out of memory.
 pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
     let mut solver = MeshSolver::new(mesh.clone(), MeshKnown::default(), options)?;
     while solver.advance(1000)? == Status::Running {}
@@ -156,7 +113,7 @@ pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
 
 impl MeshSolver {
     /// # Errors
-    /// As [`fit_mesh`]; [`Error::Shape`] if what is known is not of as many vertices.
+    /// As [`fit_mesh`]; [`Error::Shape`](crate::Error::Shape) if what is known is not of as many vertices.
     pub fn new(mesh: Mesh, known: MeshKnown, options: &MeshOptions) -> Result<Self> {
         let start = Instant::now();
         options.validate()?;
@@ -436,103 +393,4 @@ fn linearised(
 ) -> Result<Linearised> {
     let bends = Bends::of(&options.common());
     Linearised::about(given, base, frames, bends, |_| lambda)
-}
-
-/// The noisy mesh smoothed, its vertices across the rays where less smoothing has them.
-fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
-    let topology = &given.topology;
-    let mut places = given.noisy.clone();
-    smooth(topology, &mut places, PLACES);
-    let mut smoothed = places.clone();
-    smooth(topology, &mut smoothed, SURFACE - PLACES);
-    let rays = normals(topology, &smoothed, None);
-    let mut base = across(&smoothed, &places, &rays);
-    unfold(topology, &mut base, &rays, &given.held);
-    let rays = normals(topology, &base, Some(&rays));
-    let frames = rays
-        .into_iter()
-        .map(|normal| Frame::about(normal, Point::x()))
-        .collect();
-    (base, frames)
-}
-
-impl Shape {
-    /// Triangles are flipped that face away from the vertex normals of the `smooth` surface.
-    fn of(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
-        let up = normals(topology, smooth, None);
-        let flipped = (topology.triangles.iter()).filter(|triangle| faces_away(x, &up, triangle));
-        Shape {
-            volume: volume(topology, x),
-            area: topology
-                .triangles
-                .iter()
-                .map(|t| twice_area(x, t).norm() / 2.0)
-                .sum(),
-            flipped: flipped.count(),
-        }
-    }
-}
-
-/// The factor to coordinates in which the ball about a mesh has the diameter 1.
-///
-/// # Errors
-/// [`Error::Topology`] if it has no size.
-pub(crate) fn scale_of(mesh: &Mesh) -> Result<f64> {
-    Ok(Ball::around(mesh)?.scale)
-}
-
-impl Ball {
-    /// About the centre of its area. It does not depend on how the mesh is turned.
-    fn around(mesh: &Mesh) -> Result<Self> {
-        let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
-        let (mut sum, mut weight) = (Point::zeros(), 0.0);
-        for triangle in mesh.triangles() {
-            let [a, b, c] = corners(triangle);
-            // Never nothing at all, for triangles without any area have a place, too.
-            let area = (b - a).cross(&(c - a)).norm() + f64::MIN_POSITIVE;
-            sum += area / 3.0 * (a + b + c);
-            weight += area;
-        }
-        let centre = sum / weight;
-        let named = mesh.triangles().iter().flat_map(corners);
-        let radius = named.map(|x| (x - centre).norm()).fold(0.0, f64::max);
-        let scale = 0.5 / radius;
-        if !centre.iter().all(|x| x.is_finite()) || !scale.is_normal() || !radius.is_normal() {
-            return Err(Error::Topology {
-                reason: format!("it is {radius:e} from its centre to its farthest vertex"),
-                advice: "check its coordinates",
-            });
-        }
-        Ok(Ball { centre, scale })
-    }
-
-    fn inward(self, x: [f64; 3]) -> Point {
-        self.scale * (Point::from(x) - self.centre)
-    }
-
-    fn outward(self, x: Point) -> [f64; 3] {
-        (self.centre + x / self.scale).into()
-    }
-}
-
-impl MeshKnown {
-    /// For each vertex of the topology: the most of those that are joined.
-    fn of(self, mesh: &Mesh, topology: &Topology) -> Result<(Vec<f64>, Vec<bool>)> {
-        let count = mesh.positions().len();
-        let (mut confidence, mut held) = (Vec::new(), vec![false; topology.len()]);
-        if !self.confidence.is_empty() {
-            check_confidence(&self.confidence, count)?;
-            confidence = vec![0.0f64; topology.len()];
-            for (own, joined) in self.confidence.iter().zip(&topology.joined) {
-                confidence[*joined as usize] = confidence[*joined as usize].max(*own);
-            }
-        }
-        if !self.held.is_empty() {
-            crate::error::check_count("held vertices of the mesh", count, 1, self.held.len())?;
-            for (own, joined) in self.held.iter().zip(&topology.joined) {
-                held[*joined as usize] |= own;
-            }
-        }
-        Ok((confidence, held))
-    }
 }

@@ -1,0 +1,54 @@
+//! Coordinates in which the ball about a mesh has the diameter 1.
+
+use super::geometry::Point;
+use crate::error::{Error, Result};
+use crate::scene::mesh::Mesh;
+
+/// The way from the user's coordinates: `scale (x − centre)`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ball {
+    centre: Point,
+    pub scale: f64,
+}
+
+impl Ball {
+    /// About the centre of its area. It does not depend on how the mesh is turned.
+    pub(super) fn around(mesh: &Mesh) -> Result<Self> {
+        let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
+        let (mut sum, mut weight) = (Point::zeros(), 0.0);
+        for triangle in mesh.triangles() {
+            let [a, b, c] = corners(triangle);
+            // Never nothing at all, for triangles without any area have a place, too.
+            let area = (b - a).cross(&(c - a)).norm() + f64::MIN_POSITIVE;
+            sum += area / 3.0 * (a + b + c);
+            weight += area;
+        }
+        let centre = sum / weight;
+        let named = mesh.triangles().iter().flat_map(corners);
+        let radius = named.map(|x| (x - centre).norm()).fold(0.0, f64::max);
+        let scale = 0.5 / radius;
+        if !centre.iter().all(|x| x.is_finite()) || !scale.is_normal() || !radius.is_normal() {
+            return Err(Error::Topology {
+                reason: format!("it is {radius:e} from its centre to its farthest vertex"),
+                advice: "check its coordinates",
+            });
+        }
+        Ok(Ball { centre, scale })
+    }
+
+    pub(super) fn inward(self, x: [f64; 3]) -> Point {
+        self.scale * (Point::from(x) - self.centre)
+    }
+
+    pub(super) fn outward(self, x: Point) -> [f64; 3] {
+        (self.centre + x / self.scale).into()
+    }
+}
+
+/// The factor to coordinates in which the ball about a mesh has the diameter 1.
+///
+/// # Errors
+/// [`Error::Topology`] if it has no size.
+pub(crate) fn scale_of(mesh: &Mesh) -> Result<f64> {
+    Ok(Ball::around(mesh)?.scale)
+}

@@ -1,0 +1,52 @@
+//! What is known of a mesh's vertices besides where they are.
+
+use super::options::check_confidence;
+use super::topology::Topology;
+use crate::error::{Result, check_count};
+use crate::scene::mesh::Mesh;
+
+/// What else is known of a mesh's vertices.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MeshKnown {
+    confidence: Vec<f64>,
+    held: Vec<bool>,
+}
+
+impl MeshKnown {
+    /// How far each vertex is to be trusted, 1 being usual: a weight of its fidelity.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite) if one is no finite number from 0 on.
+    pub fn with_confidence(mut self, confidence: Vec<f64>) -> Result<Self> {
+        check_confidence(&confidence, confidence.len())?;
+        self.confidence = confidence;
+        Ok(self)
+    }
+
+    /// Which vertices stay where they are.
+    pub fn with_held(mut self, held: Vec<bool>) -> Self {
+        self.held = held;
+        self
+    }
+
+    /// For each vertex of the topology: the most of those that are joined.
+    pub(super) fn of(self, mesh: &Mesh, topology: &Topology) -> Result<(Vec<f64>, Vec<bool>)> {
+        let count = mesh.positions().len();
+        let (mut confidence, mut held) = (Vec::new(), vec![false; topology.len()]);
+        if !self.confidence.is_empty() {
+            check_confidence(&self.confidence, count)?;
+            confidence = vec![0.0f64; topology.len()];
+            for (own, joined) in self.confidence.iter().zip(&topology.joined) {
+                confidence[*joined as usize] = confidence[*joined as usize].max(*own);
+            }
+        }
+        if !self.held.is_empty() {
+            check_count("held vertices of the mesh", count, 1, self.held.len())?;
+            for (own, joined) in self.held.iter().zip(&topology.joined) {
+                held[*joined as usize] |= own;
+            }
+        }
+        Ok((confidence, held))
+    }
+}

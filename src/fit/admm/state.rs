@@ -203,12 +203,24 @@ impl<O: Operator> State<O> {
         let v = self.v.get(cell);
         let weight = problem.weight.at(cell);
         let dual = self.law(problem).dual(v, weight);
-        (dual, (v - dual).scale(1.0 / self.rho))
+        let rho = self.rho * problem.operator.penalty(cell);
+        (dual, (v - dual).scale(1.0 / rho))
+    }
+
+    /// Sets both at a stencil of the usual penalty.
+    pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
+        self.v.set(cell, dual + hessian.scale(self.rho));
     }
 
     /// Sets both at a stencil.
-    pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
-        self.v.set(cell, dual + hessian.scale(self.rho));
+    pub(crate) fn set_matrices_of(
+        &mut self,
+        problem: &Problem<O>,
+        cell: usize,
+        [dual, hessian]: [Sym2; 2],
+    ) {
+        let penalty = problem.operator.penalty(cell);
+        self.set_matrices(cell, dual, hessian.scale(penalty));
     }
 
     /// H-step and dual update with the given over-relaxation, then the residual
@@ -268,6 +280,7 @@ impl<O: Operator> State<O> {
                 let weight = problem.weight.run(run);
                 let n = run.end - run.start;
                 for i in 0..n {
+                    let rho = rho * problem.operator.penalty(run.start + i);
                     let hessian = Sym2::from_coordinates(hessians.at(i)).scale(rho);
                     let old = v.get(i);
                     let old_dual = law.dual(old, weight[i]);
@@ -336,7 +349,8 @@ impl<O: Operator> State<O> {
                     let value = v.get(i);
                     let y = law.dual(value, weight[i]);
                     matrices.set(i, y.coordinates());
-                    let h = (value - y).scale(inverse_rho);
+                    let penalty = problem.operator.penalty(run.start + i);
+                    let h = (value - y).scale(inverse_rho / penalty);
                     let gap = hessian - h;
                     let area = problem.operator.area(run.start + i);
                     t1[i] = area * law.value(hessian, weight[i]);

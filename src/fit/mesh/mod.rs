@@ -16,6 +16,7 @@ pub(crate) mod linear;
 mod load;
 mod noise;
 mod options;
+mod penalty;
 mod quadratic;
 mod report;
 mod shape;

@@ -13,6 +13,7 @@ use super::linear::{Given, Linearised, NONE, spacing_of};
 use super::load::load_border;
 use super::noise::noise;
 use super::options::MeshOptions;
+use super::penalty::penalise;
 use super::report::{MeshPass, MeshReport};
 use super::shape::Shape;
 use super::sharpen::sharpen;
@@ -244,12 +245,13 @@ impl MeshSolver {
             let centres = self.linear.centres.iter();
             let known: Vec<bool> = centres.map(|v| sides.meet_at(*v as usize)).collect();
             self.creases = creases.vertices + problem.free_creases(&known);
+            penalise(problem);
             state.rho = old.rho;
             for (stencil, centre) in self.linear.centres.iter().enumerate() {
                 let from = before.about[*centre as usize];
                 if from != NONE {
                     let (dual, hessian) = old.matrices(&before.problem, from as usize);
-                    state.set_matrices(stencil, dual, hessian);
+                    state.set_matrices_of(problem, stencil, [dual, hessian]);
                     moments[stencil] = bearing(dual, hessian);
                 }
             }

@@ -48,6 +48,11 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     fn area(&self, _stencil: usize) -> f64 {
         1.0
     }
+    /// What a stencil counts in `‖Cz − H‖²`, besides its area: its share of ρ.
+    #[inline(always)]
+    fn penalty(&self, _stencil: usize) -> f64 {
+        1.0
+    }
     /// The coordinates of a vertex, whose linear functions `C` does not see.
     fn place(&self, vertex: usize) -> [f64; 2];
 

@@ -63,6 +63,7 @@ struct Gradients<T> {
 trait Precision: Real {
     fn of(value: f64) -> Self;
     fn double(self) -> f64;
+    /// With the penalty's weights.
     fn rows(operator: &SparseOperator) -> (&Rows<Self>, &[Self]);
     /// By how much the rows of this precision are scaled.
     fn unit(operator: &SparseOperator) -> f64;
@@ -80,7 +81,7 @@ impl Precision for f32 {
         lanes::double(self)
     }
     fn rows(operator: &SparseOperator) -> (&Rows<f32>, &[f32]) {
-        (&operator.single, &operator.single_weights)
+        (&operator.single, &operator.single_penalised)
     }
     fn unit(operator: &SparseOperator) -> f64 {
         operator.spacing.powi(2)
@@ -107,7 +108,7 @@ impl Precision for f64 {
         self
     }
     fn rows(operator: &SparseOperator) -> (&Rows<f64>, &[f64]) {
-        (&operator.double, &operator.weights)
+        (&operator.double, &operator.penalised)
     }
     fn unit(_: &SparseOperator) -> f64 {
         1.0

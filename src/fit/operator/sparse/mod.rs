@@ -163,6 +163,10 @@ pub(crate) struct SparseOperator {
     /// Twice the areas: the inner product is that of matrices, whose coordinates count twice.
     weights: Vec<f64>,
     single_weights: Vec<f32>,
+    /// The share of ρ at each stencil, and the weights times that.
+    penalties: Vec<f64>,
+    penalised: Vec<f64>,
+    single_penalised: Vec<f32>,
     vertices: RowRuns,
     stencils: RowRuns,
     beside: Vec<Vec<u32>>,
@@ -205,16 +209,20 @@ impl SparseOperator {
                 .entries
                 .map(|row| row.map(|entry| lanes::single(unit * entry))),
         };
+        let single_weights: Vec<f32> = weights
+            .iter()
+            .map(|weight| lanes::single(*weight))
+            .collect();
         let mut operator = SparseOperator {
             single: Rows {
                 first: rows.first.clone(),
                 fours: rows.fours.iter().map(narrow).collect(),
             },
+            penalties: try_filled("penalties", rows.len(), 1.0)?,
+            penalised: weights.clone(),
+            single_penalised: single_weights.clone(),
             double: rows,
-            single_weights: weights
-                .iter()
-                .map(|weight| lanes::single(*weight))
-                .collect(),
+            single_weights,
             weights,
             stencils: RowRuns::new(&all, LONGEST, |stencil| stencil),
             vertices: RowRuns::new(&touched, LONGEST, |touched| touched),
@@ -250,10 +258,20 @@ impl SparseOperator {
         Ok(norm)
     }
 
-    /// The diagonal of `CᵀC`.
+    /// Sets what the penalty counts at each stencil.
+    pub(crate) fn penalise(&mut self, share: impl Fn(usize) -> f64) {
+        for stencil in 0..self.weights.len() {
+            let penalty = share(stencil);
+            self.penalties[stencil] = penalty;
+            self.penalised[stencil] = penalty * self.weights[stencil];
+            self.single_penalised[stencil] = lanes::single(self.penalised[stencil]);
+        }
+    }
+
+    /// The diagonal of `CᵀC`, with the penalty's weights.
     fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
-        for (stencil, weight) in self.weights.iter().enumerate() {
+        for (stencil, weight) in self.penalised.iter().enumerate() {
             for Four { vertices, entries } in self.double.row(stencil) {
                 for (lane, vertex) in vertices.iter().enumerate() {
                     let squares = entries.iter().map(|row| row[lane] * row[lane]);
@@ -356,6 +374,11 @@ impl Operator for SparseOperator {
     #[inline(always)]
     fn area(&self, stencil: usize) -> f64 {
         0.5 * self.weights[stencil]
+    }
+
+    #[inline(always)]
+    fn penalty(&self, stencil: usize) -> f64 {
+        self.penalties[stencil]
     }
 
     fn place(&self, vertex: usize) -> [f64; 2] {

@@ -194,6 +194,33 @@ fn options(lambda: f64) -> Options {
         .max_iterations(20_000)
 }
 
+/// A penalty of each stencil's own changes the way, not the answer: the nuclear norm's duals do not depend on it.
+#[test]
+fn the_answer_does_not_depend_on_the_penalties() {
+    let options = options(1e4);
+    let mut both = Both::new(&Input::new(disk(16)), &options);
+    let (lattice, _) = solve(&both.lattice, multigrid, &options);
+    let (usual, _) = solve(&both.sparse, JacobiGradients::new, &options);
+    let mut noise = noise(8);
+    let penalties: Vec<f64> = (0..both.sparse.operator.stencil_cells())
+        .map(|_| 10f64.powf(noise()))
+        .collect();
+    both.sparse.operator.penalise(|stencil| penalties[stencil]);
+    let (own, reason) = solve(&both.sparse, JacobiGradients::new, &options);
+    assert_eq!(reason, StopReason::Gap);
+    assert_alike(&both, &lattice, &own);
+    assert_ne!(own.best.z, usual.best.z);
+    // Dual and Hessian are what the iterate is made of.
+    for (stencil, penalty) in penalties.iter().enumerate() {
+        let (dual, hessian) = own.state.matrices(&both.sparse, stencil);
+        let v = dual + hessian.scale(own.state.rho * penalty);
+        let [found, expected] = [v, own.state.v.get(stencil)].map(|m| m.coordinates());
+        for (a, b) in found.into_iter().zip(expected) {
+            assert!((a - b).abs() <= 1e-12 * (1.0 + b.abs()), "{a} and {b}");
+        }
+    }
+}
+
 #[test]
 fn a_lattice_as_a_matrix_has_its_sweeps() {
     let both = Both::new(&Input::new(disk(20)), &options(1e4));

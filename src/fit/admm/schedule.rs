@@ -31,6 +31,8 @@ pub(crate) struct Plan {
     imbalance: f64,
     /// It changes by what the residuals cost alone.
     by_costs: bool,
+    /// Most of what a search for a better bound divides the gap by.
+    climbable: f64,
     gap: f64,
     /// Whether there are finer levels.
     coarse: bool,
@@ -87,6 +89,10 @@ const CELLS: f64 = 10.0;
 /// Most of what a search for a better bound divides the gap by.
 const CLIMBABLE: f64 = 100.0;
 
+/// The same where there are no coarser levels to start from: on a mesh that begins with nothing, or with the
+/// dual of other weights, searches from larger gaps only cost time.
+const NEARER: f64 = 10.0;
+
 /// Gaps from here on leave the surface's Hessians a smaller eigenvalue that is worth taking away.
 const FULL_RANK: f64 = 2e-3;
 
@@ -122,6 +128,7 @@ impl Plan {
             check_first: 5,
             imbalance: 3.0,
             by_costs: false,
+            climbable: CLIMBABLE,
             gap: options.gap,
             coarse: false,
             max_iterations: options.max_iterations,
@@ -144,10 +151,13 @@ impl Plan {
     }
 
     /// For z-steps by conjugate gradients without a V-cycle. They leave low frequencies of the residual,
-    /// which cost the bound most, and the more the larger ρ is: what both residuals cost has to be alike.
+    /// which cost the bound most, and the more the larger ρ is: what both residuals cost has to be alike. They
+    /// need no more of them while the gap is large: an iteration costs less than those would.
     pub(crate) fn without_cycles(self) -> Self {
         Plan {
             by_costs: true,
+            climbable: NEARER,
+            cg_rough: self.cg_iterations,
             ..self
         }
     }
@@ -277,7 +287,7 @@ impl Plan {
             && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
             && !problem.loose
             && gap > self.gap
-            && gap < CLIMBABLE * self.gap
+            && gap < self.climbable * self.gap
     }
 
     /// Whether the surface's Hessians are to be brought to the rank of the split ones once the iterations

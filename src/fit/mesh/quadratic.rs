@@ -20,15 +20,21 @@ pub(super) struct Neighbour {
 /// The fit at one vertex.
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
-    /// From heights to the coefficients: a column for each neighbour.
-    columns: Vec<[f64; N]>,
+    samples: Vec<Sample>,
     inverse: [[f64; N]; N],
     coefficients: [f64; N],
-    /// Coordinates of the neighbours, by `scale`.
-    places: Vec<[f64; 2]>,
-    residuals: Vec<f64>,
-    weights: Vec<f64>,
     scale: f64,
+}
+
+/// What a neighbour has to do with a fit.
+#[derive(Debug, Clone)]
+struct Sample {
+    /// From its height to the coefficients.
+    column: [f64; N],
+    /// Coordinates, by `scale`.
+    place: [f64; 2],
+    weight: f64,
+    residual: f64,
 }
 
 fn terms([x, y]: [f64; 2]) -> [f64; N] {
@@ -49,46 +55,38 @@ impl Quadratic {
             return None;
         }
         let mut matrix = [[0.0; N]; N];
-        let mut heights = Vec::with_capacity(neighbours.len());
-        let mut places = Vec::with_capacity(neighbours.len());
-        for neighbour in neighbours {
-            let [x, y, height] = frame.coordinates(neighbour.offset / scale);
+        let mut samples = Vec::with_capacity(neighbours.len());
+        for Neighbour { offset, weight } in neighbours {
+            let [x, y, height] = frame.coordinates(offset / scale);
             let q = terms([x, y]);
             for (row, a) in matrix.iter_mut().zip(q) {
                 for (entry, b) in row.iter_mut().zip(q) {
-                    *entry += neighbour.weight * a * b;
+                    *entry += weight * a * b;
                 }
             }
-            heights.push(height);
-            places.push([x, y]);
+            samples.push(Sample {
+                column: [0.0; N],
+                place: [x, y],
+                weight: *weight,
+                residual: height,
+            });
         }
         let inverse = inverse(&matrix)?;
-        let columns: Vec<[f64; N]> = neighbours
-            .iter()
-            .zip(&places)
-            .map(|(neighbour, place)| {
-                let q = terms(*place);
-                std::array::from_fn(|k| neighbour.weight * inner(&inverse[k], &q))
-            })
-            .collect();
         let mut coefficients = [0.0; N];
-        for (column, height) in columns.iter().zip(&heights) {
-            for (coefficient, entry) in coefficients.iter_mut().zip(column) {
-                *coefficient += entry * height;
+        for sample in &mut samples {
+            let q = terms(sample.place);
+            sample.column = std::array::from_fn(|k| sample.weight * inner(&inverse[k], &q));
+            for (coefficient, entry) in coefficients.iter_mut().zip(&sample.column) {
+                *coefficient += entry * sample.residual;
             }
         }
-        let residuals = heights
-            .iter()
-            .zip(&places)
-            .map(|(height, place)| height - inner(&coefficients, &terms(*place)))
-            .collect();
+        for sample in &mut samples {
+            sample.residual -= inner(&coefficients, &terms(sample.place));
+        }
         Some(Quadratic {
-            columns,
+            samples,
             inverse,
             coefficients,
-            places,
-            residuals,
-            weights: neighbours.iter().map(|n| n.weight).collect(),
             scale,
         })
     }
@@ -97,10 +95,8 @@ impl Quadratic {
     /// hexagonal lattice.
     pub(super) fn amplification(&self) -> f64 {
         // 20/3 in units of h⁻⁴.
-        let squares = self
-            .columns
-            .iter()
-            .map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
+        let columns = self.samples.iter().map(|sample| sample.column);
+        let squares = columns.map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
         squares.sum::<f64>() / (20.0 / 3.0)
     }
 
@@ -131,12 +127,13 @@ impl Quadratic {
     /// How the second derivatives change when the `k`-th neighbour moves by `v` relative to the vertex.
     pub(super) fn change(&self, frame: &Frame, k: usize, v: Point) -> Sym2 {
         let [dx, dy, dz] = frame.coordinates(v);
-        let [x, y] = self.places[k];
+        let sample = &self.samples[k];
+        let [x, y] = sample.place;
         let along = [x * dx, x * dy + y * dx, y * dy, dx, dy];
         let rise = dz - inner(&along, &self.coefficients);
-        let pull = self.weights[k] * self.residuals[k];
+        let pull = sample.weight * sample.residual;
         let [xx, xy, yy] = std::array::from_fn(|row| {
-            self.columns[k][row] * rise + pull * inner(&self.inverse[row], &along)
+            sample.column[row] * rise + pull * inner(&self.inverse[row], &along)
         });
         Sym2::new(xx, xy, yy).scale(self.scale.powi(-2))
     }

@@ -4,6 +4,8 @@ pub(crate) mod jacobi;
 #[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
 mod tests;
 
+use std::sync::Arc;
+
 use self::jacobi::JacobiGradients;
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::{Result, try_filled};
@@ -157,9 +159,9 @@ pub(crate) struct Parts {
 
 #[derive(Debug, Clone)]
 pub(crate) struct SparseOperator {
-    double: Rows<f64>,
+    double: Arc<Rows<f64>>,
     /// `h²C`.
-    single: Rows<f32>,
+    single: Arc<Rows<f32>>,
     /// Twice the areas: the inner product is that of matrices, whose coordinates count twice.
     weights: Vec<f64>,
     single_weights: Vec<f32>,
@@ -169,7 +171,7 @@ pub(crate) struct SparseOperator {
     single_penalised: Vec<f32>,
     vertices: RowRuns,
     stencils: RowRuns,
-    beside: Vec<Vec<u32>>,
+    beside: Arc<Vec<Vec<u32>>>,
     places: Vec<[f64; 2]>,
     spacing: f64,
     size: f64,
@@ -214,19 +216,19 @@ impl SparseOperator {
             .map(|weight| lanes::single(*weight))
             .collect();
         let mut operator = SparseOperator {
-            single: Rows {
+            single: Arc::new(Rows {
                 first: rows.first.clone(),
                 fours: rows.fours.iter().map(narrow).collect(),
-            },
+            }),
             penalties: try_filled("penalties", rows.len(), 1.0)?,
             penalised: weights.clone(),
             single_penalised: single_weights.clone(),
-            double: rows,
+            double: Arc::new(rows),
             single_weights,
             weights,
             stencils: RowRuns::new(&all, LONGEST, |stencil| stencil),
             vertices: RowRuns::new(&touched, LONGEST, |touched| touched),
-            beside,
+            beside: Arc::new(beside),
             places,
             spacing,
             size,

@@ -27,6 +27,9 @@ const AMPLIFIED: f64 = 1.05;
 /// So many neighbours may do without it.
 const DETERMINED: usize = 6;
 
+/// Two rings of a hexagonal mesh, the vertex itself and the constant.
+const USUAL: usize = 20;
+
 /// What stays the same from one linearisation to the next, in normalised coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct Given {
@@ -82,6 +85,7 @@ impl Linearised {
         let areas = areas(topology, &base);
         let mut about = try_filled("stencils", count, NONE)?;
         let (mut centres, mut rows) = (Vec::new(), Rows::new());
+        rows.reserve(count, USUAL);
         let mut row = Vec::new();
         for vertex in 0..count {
             if !topology.inside[vertex] {

@@ -19,7 +19,7 @@ const LONGEST: usize = 256;
 
 /// Power iterations for the norm, and by how much they may fall short of it. Only the speed of the
 /// bound's ascent depends on it, not that it is one.
-const POWER: usize = 15;
+const POWER: usize = 10;
 const MARGIN: f32 = 1.1;
 
 /// What is computed together of a row: as many as there are numbers in a vector of single precision.
@@ -49,6 +49,12 @@ impl<T: Real> Rows<T> {
             first: vec![0],
             fours: Vec::new(),
         }
+    }
+
+    /// Makes room for so many stencils of so many vertices.
+    pub(crate) fn reserve(&mut self, stencils: usize, vertices: usize) {
+        self.first.reserve(stencils);
+        self.fours.reserve(stencils * vertices.div_ceil(LANES));
     }
 
     /// One stencil more.

@@ -1,7 +1,8 @@
 //! The triangles of a surface, the angles between them, and its smooth parts.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::hash_map::Entry;
+use std::collections::{BinaryHeap, HashMap};
 
 use nalgebra::Vector3;
 
@@ -192,7 +193,8 @@ impl Facets {
     fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
         let mut forest = Forest::new("patches", labels.len())?;
         let mut regions = Regions {
-            around: try_filled("patches", labels.len(), BTreeMap::new())?,
+            between: HashMap::new(),
+            around: try_filled("patches", labels.len(), Vec::new())?,
             queue: BinaryHeap::new(),
             fold,
         };
@@ -219,7 +221,10 @@ impl Facets {
 
 /// Regions and what lies between each two of them: the integral of the angle along it, and its length.
 struct Regions {
-    around: Vec<BTreeMap<u32, [f64; 2]>>,
+    /// By both numbers, the lower one first.
+    between: HashMap<(u32, u32), [f64; 2]>,
+    /// Those beside each, some of which may be part of others by now.
+    around: Vec<Vec<u32>>,
     /// Pairs by their mean angle, as it was when they came in.
     queue: BinaryHeap<Reverse<(u64, u32, u32)>>,
     fold: f64,
@@ -227,22 +232,29 @@ struct Regions {
 
 impl Regions {
     fn add(&mut self, a: u32, b: u32, [bent, long]: [f64; 2]) {
-        for (one, other) in [(a, b), (b, a)] {
-            let sum = self.around[one as usize].entry(other).or_default();
-            *sum = [sum[0] + bent, sum[1] + long];
+        match self.between.entry((a.min(b), a.max(b))) {
+            Entry::Occupied(mut sum) => {
+                let sum = sum.get_mut();
+                *sum = [sum[0] + bent, sum[1] + long];
+            }
+            Entry::Vacant(sum) => {
+                sum.insert([bent, long]);
+                self.around[a as usize].push(b);
+                self.around[b as usize].push(a);
+            }
         }
     }
 
     /// The mean angle between two; positive numbers are in order as their bits are.
     fn angle(&self, a: u32, b: u32) -> Option<u64> {
-        let [bent, long] = self.around[a as usize].get(&b)?;
+        let [bent, long] = self.between.get(&(a.min(b), a.max(b)))?;
         let angle = bent / long;
         (angle < self.fold).then(|| angle.to_bits())
     }
 
     /// Puts a region's pairs into the queue, each once.
     fn wait(&mut self, a: u32) {
-        for b in self.around[a as usize].keys().filter(|b| **b > a) {
+        for b in self.around[a as usize].iter().filter(|b| **b > a) {
             if let Some(angle) = self.angle(a, *b) {
                 self.queue.push(Reverse((angle, a, *b)));
             }
@@ -263,8 +275,10 @@ impl Regions {
     fn join(&mut self, a: u32, b: u32) {
         let size = |region: u32| self.around[region as usize].len();
         let (to, from) = if size(a) < size(b) { (b, a) } else { (a, b) };
-        for (other, sum) in std::mem::take(&mut self.around[from as usize]) {
-            self.around[other as usize].remove(&from);
+        for other in std::mem::take(&mut self.around[from as usize]) {
+            let Some(sum) = self.between.remove(&(from.min(other), from.max(other))) else {
+                continue;
+            };
             if other == to {
                 continue;
             }

@@ -104,8 +104,9 @@ pub struct MeshSolver {
 /// others near them or are folded over after that, their vertices go towards the mean of their neighbours.
 ///
 /// # Errors
-/// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and says where;
-/// [`Error::Unsupported`](crate::Error::Unsupported) for a cloud of points, [`Error::Option`](crate::Error::Option), or out of memory.
+/// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and
+/// says where; [`Error::Unsupported`](crate::Error::Unsupported) for a cloud of points,
+/// [`Error::Option`](crate::Error::Option), or out of memory.
 pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
     let mut solver = MeshSolver::new(mesh.clone(), MeshKnown::default(), options)?;
     while solver.advance(1000)? == Status::Running {}
@@ -114,7 +115,8 @@ pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
 
 impl MeshSolver {
     /// # Errors
-    /// As [`fit_mesh`]; [`Error::Shape`](crate::Error::Shape) if what is known is not of as many vertices.
+    /// As [`fit_mesh`]; [`Error::Shape`](crate::Error::Shape) if what is known is not of as many
+    /// vertices.
     pub fn new(mesh: Mesh, known: MeshKnown, options: &MeshOptions) -> Result<Self> {
         let start = Instant::now();
         options.validate()?;

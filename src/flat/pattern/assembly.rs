@@ -39,6 +39,7 @@ pub(super) struct Assembled {
 /// How long patches of a sheet are laid flat together, at most and until it hardly changes.
 pub(super) const EFFORT: Until = Until {
     tolerance: 1e-8,
+    enough: 0.0,
     hopeless: f64::INFINITY,
     steps: 25,
 };

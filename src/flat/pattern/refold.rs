@@ -16,6 +16,7 @@ use crate::flat::unroll::pieces::Piece;
 /// Until nothing moves.
 const EFFORT: Until = Until {
     tolerance: 1e-12,
+    enough: 0.0,
     hopeless: f64::INFINITY,
     steps: 80,
 };

@@ -37,6 +37,9 @@ pub(crate) struct Joint {
 pub(crate) struct Until {
     /// Change of the energy in one step, over the area, that is none.
     pub tolerance: f64,
+    /// Energy over area that is little enough, or 0: an end is also made where all steps, at the rate of the
+    /// last ones, would not get there.
+    pub enough: f64,
     /// Energy over area above which an end is made where steps hardly change it.
     pub hopeless: f64,
     /// Most local and global steps.
@@ -46,6 +49,9 @@ pub(crate) struct Until {
 /// A change of the energy, as a share, that is hardly one, after so many steps.
 const STALLED: f64 = 0.02;
 const PATIENCE: usize = 5;
+
+/// What a change of the energy counts for in the next step.
+const RECENT: f64 = 0.8;
 
 impl Joint {
     /// Of so many vertices.
@@ -76,6 +82,7 @@ impl Joint {
         let area = self.area;
         let mut last = places.to_vec();
         let (mut energy, mut momentum, mut calm) = (f64::INFINITY, 1.0f64, 0);
+        let mut recent = 0.0;
         let mut steps = 0;
         while steps < until.steps {
             let found = self.pull(places, &mut gradients.right) / area;
@@ -91,7 +98,11 @@ impl Joint {
                 false => 0,
             };
             energy = found;
-            if calm == 3 {
+            // The energy does not fall at an even rate.
+            recent = change.max(RECENT * recent);
+            let to_come = recent * (until.steps - steps) as f64;
+            let out_of_reach = steps > PATIENCE && to_come < found - until.enough;
+            if calm == 3 || found < until.enough || until.enough > 0.0 && out_of_reach {
                 break;
             }
             steps += 1;
@@ -267,6 +278,9 @@ impl<'a> Gradients<'a> {
         self.solution.fill(Point::default());
         self.direction.fill(Point::default());
         let (mut last, mut first) = (0.0, None);
+        let starts = self.matrix.indptr();
+        let starts = starts.raw_storage();
+        let (columns, weights) = (self.matrix.indices(), self.matrix.data());
         for _ in 0..INNER {
             let pairs = self.right.iter().zip(self.inverse);
             let square: f64 = pairs.clone().map(|(r, d)| r.norm_sqr() * d).sum();
@@ -280,10 +294,13 @@ impl<'a> Gradients<'a> {
                 *direction = r * *d + *direction * share;
             }
             let mut curvature = 0.0;
-            for (row, entries) in self.matrix.outer_iterator().enumerate() {
-                let sum: Point = entries.iter().map(|(k, w)| self.direction[k] * *w).sum();
-                curvature += (self.direction[row].conj() * sum).re;
-                self.image[row] = sum;
+            let direction = &self.direction[..];
+            for ((image, own), row) in self.image.iter_mut().zip(direction).zip(starts.windows(2)) {
+                let row = row[0]..row[1];
+                let terms = columns[row.clone()].iter().zip(&weights[row]);
+                let sum: Point = terms.map(|(k, w)| direction[*k] * *w).sum();
+                curvature += own.re * sum.re + own.im * sum.im;
+                *image = sum;
             }
             if curvature <= 0.0 {
                 return;

@@ -193,6 +193,14 @@ impl Body {
         self.part(&members, &labels)
     }
 
+    /// Makes some triangles of a part one or more of their own; its parts then.
+    pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
+        let members = self.members(part);
+        let mut labels = vec![0; self.triangles.len()];
+        apart.iter().for_each(|t| labels[*t as usize] = 1);
+        self.part(&members, &labels)
+    }
+
     /// Divides a triangle at the vertices on its sides, if there are any.
     fn divide(&mut self, t: usize, middles: &NumberMap<(u32, u32), u32>) {
         let corners = self.triangles[t];

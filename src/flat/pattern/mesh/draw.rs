@@ -2,9 +2,10 @@
 
 use super::MeshPattern;
 use super::body::Body;
-use super::join::{Joined, Seams};
+use super::join::Joined;
 use super::lay::Laid;
 use super::meeting::Meetings;
+use super::seams::Seams;
 use crate::error::Result;
 use crate::flat::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
 use crate::flat::unroll::pieces::Point;

@@ -1,141 +1,13 @@
 //! Parts joined to sheets, as far as their sides fit and nothing comes to lie on anything else.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
-
 use super::body::Body;
-use super::lay::Laid;
+use super::lay::{Laid, Lying};
+use super::seams::Seams;
 use crate::error::Result;
 use crate::flat::pattern::outline::Motion;
 use crate::flat::unroll::joint::Until;
 use crate::flat::unroll::pieces::Point;
-use crate::math::hash::NumberMap;
-use crate::scene::twins::{NONE, ends, twins};
-use crate::shape::patches::chains::chains;
-
-/// A line between two parts.
-pub(super) struct Seam {
-    /// The lower number first.
-    pub parts: [u32; 2],
-    pub vertices: Vec<u32>,
-    /// The sides of either part along it, in order.
-    pub sides: Vec<[u32; 2]>,
-    pub length: f64,
-    /// Whether it is a cut through what was one patch.
-    pub smooth: bool,
-    /// By how much the surface folds along it, above 0 for a ridge.
-    pub angle: f64,
-}
-
-/// The seams of a body, and that of each side.
-pub(super) struct Seams {
-    pub all: Vec<Seam>,
-    of: Vec<u32>,
-}
-
-impl Seams {
-    /// A cut that runs along a crease from some place on, which bends by more than `bend`, is two seams.
-    pub(super) fn new(body: &Body, bend: f64) -> Seams {
-        let twins = twins(&body.triangles);
-        let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
-        for (side, twin) in (0u32..).zip(&twins).filter(|(_, twin)| **twin != NONE) {
-            let [a, b] = [side, *twin].map(|side| body.parts[side as usize / 3]);
-            if a < b {
-                between.entry([a, b]).or_default().push([side, *twin]);
-            }
-        }
-        let mut seams = Seams {
-            all: Vec::new(),
-            of: vec![NONE; twins.len()],
-        };
-        let pointed = body.pointed();
-        for (parts, pairs) in between {
-            let edges: Vec<[u32; 2]> = pairs.iter().map(|p| ends(&body.triangles, p[0])).collect();
-            for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
-                let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
-                let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
-                // Between patches a line is a crease unless it is quite smooth.
-                let bend = match is_one(body, sides[0]) {
-                    true => bend,
-                    false => SMOOTH * bend,
-                };
-                for (run, sharp) in stretches(&folds, bend) {
-                    seams.add(Seam {
-                        parts,
-                        vertices: chain.vertices[run.start..=run.end].to_vec(),
-                        smooth: !sharp && is_one(body, sides[run.start]),
-                        sides: sides[run.clone()].to_vec(),
-                        length: folds[run.clone()].iter().map(|(long, _)| long).sum(),
-                        angle: mean(&folds[run]),
-                    });
-                }
-            }
-        }
-        seams
-    }
-
-    fn add(&mut self, seam: Seam) {
-        for side in seam.sides.as_flattened() {
-            self.of[*side as usize] = self.all.len() as u32;
-        }
-        self.all.push(seam);
-    }
-
-    /// The seam that a side of the body is on.
-    pub(super) fn of(&self, side: u32) -> Option<usize> {
-        let seam = self.of[side as usize];
-        (seam != NONE).then_some(seam as usize)
-    }
-}
-
-/// Whether both sides of an edge were one patch.
-fn is_one(body: &Body, pair: [u32; 2]) -> bool {
-    let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
-    a == b
-}
-
-/// The angle of a stretch between patches that is no crease, as a share of what is one.
-const SMOOTH: f64 = 0.25;
-
-/// So many edges on either side say whether a line is a crease, and a stretch of it has as many.
-const BESIDE: usize = 2;
-
-/// Where a line of edges, given by their lengths and angles, is a crease, and where it is none.
-fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
-    let is_sharp = |k: usize| {
-        let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(folds.len());
-        mean(&folds[near]).abs() > bend
-    };
-    let mut found: Vec<(Range<usize>, bool)> = Vec::new();
-    for k in 0..folds.len() {
-        let sharp = is_sharp(k);
-        match found.last_mut() {
-            Some((run, before)) if *before == sharp || run.len() <= BESIDE => run.end = k + 1,
-            _ => found.push((k..k + 1, sharp)),
-        }
-    }
-    found
-}
-
-/// The mean angle by length.
-fn mean(folds: &[(f64, f64)]) -> f64 {
-    let long: f64 = folds.iter().map(|(long, _)| long).sum();
-    let bent: f64 = folds.iter().map(|(long, angle)| long * angle).sum();
-    if long > 0.0 { bent / long } else { 0.0 }
-}
-
-/// The length of an edge, and the angle between its triangles: above 0 for a ridge.
-fn fold(body: &Body, [one, other]: [u32; 2]) -> (f64, f64) {
-    let normal = |side: u32| {
-        let [a, b, c] = body.triangles[side as usize / 3].map(|v| body.places[v as usize]);
-        (b - a).cross(&(c - a))
-    };
-    let [a, b] = ends(&body.triangles, one).map(|v| body.places[v as usize]);
-    let (m, n, along) = (normal(one), normal(other), b - a);
-    let cross = m.cross(&n);
-    let angle = cross.norm().atan2(m.dot(&n));
-    (along.norm(), angle.copysign(cross.dot(&along)))
-}
+use crate::scene::twins::next;
 
 /// What joined parts have to be.
 #[derive(Debug, Clone, Copy)]
@@ -146,11 +18,27 @@ pub(super) struct Limits {
     pub until: Until,
 }
 
+/// While parts are cut and joined they are relaxed to such a share of the strain that is allowed.
+const ENOUGH: f64 = 0.8;
+
+impl Limits {
+    /// For what may still be cut or joined.
+    pub(super) fn trial(&self) -> Until {
+        Until {
+            // Of the two principal strains the energy has the sum of the squares.
+            enough: 2.0 * (ENOUGH * self.strain).powi(2),
+            ..self.until
+        }
+    }
+
+    /// Whether that may be a sheet.
+    pub(super) fn allow(&self, laid: &Laid) -> bool {
+        laid.strain <= self.strain && !laid.overlaps()
+    }
+}
+
 /// A distance that triangles cannot tell from none, in lengths of edges.
 const FINE: f64 = 0.25;
-
-/// Strain that needs no relaxing.
-const NO_STRAIN: f64 = 1e-9;
 
 /// Parts laid flat together.
 #[derive(Debug, Clone)]
@@ -170,171 +58,246 @@ pub(super) fn joined(
     parts: Vec<Laid>,
     limits: Limits,
 ) -> Result<Vec<Joined>> {
-    let mut of: Vec<usize> = (0..parts.len()).collect();
-    let mut sheets: Vec<Option<Joined>> = (parts.into_iter().enumerate())
-        .map(|(part, laid)| {
-            Some(Joined {
-                parts: vec![part as u32],
-                whole: Vec::new(),
-                laid,
-                gap: 0.0,
-            })
-        })
-        .collect();
     let mut order: Vec<usize> = (0..seams.all.len()).collect();
     order.sort_by(|a, b| seams.all[*b].length.total_cmp(&seams.all[*a].length));
+    let mut sheets = Sheets::new(body, seams, parts, limits);
     for seam in &order {
-        let [a, b] = seams.all[*seam].parts.map(|part| of[part as usize]);
-        let done = sheets[a]
-            .as_ref()
-            .is_some_and(|sheet| sheet.whole.contains(seam));
-        if done {
-            continue;
-        }
-        let found = match (&sheets[a], &sheets[b]) {
-            (Some(one), _) if a == b => one.with(body, seams, &order, *seam, None, limits)?,
-            (Some(one), Some(other)) => {
-                one.with(body, seams, &order, *seam, Some(other), limits)?
-            }
-            _ => None,
-        };
-        if let Some(found) = found {
-            sheets[a.max(b)] = None;
-            found
-                .parts
-                .iter()
-                .for_each(|part| of[*part as usize] = a.min(b));
-            sheets[a.min(b)] = Some(found);
+        if !sheets.whole[*seam] {
+            sheets.join(*seam, &order)?;
         }
     }
-    Ok(sheets.into_iter().flatten().collect())
+    for number in 0..sheets.all.len() {
+        sheets.settle(number)?;
+    }
+    Ok(sheets.all.into_iter().flatten().collect())
 }
 
-type Corners = NumberMap<(u32, u32), Point>;
+/// The sheets so far.
+struct Sheets<'a> {
+    body: &'a Body,
+    seams: &'a Seams,
+    limits: Limits,
+    all: Vec<Option<Joined>>,
+    /// Which are strained as little as may be.
+    settled: Vec<bool>,
+    /// The sheet that each part is on.
+    of: Vec<usize>,
+    /// Where each corner of the body's triangles lies, on its sheet.
+    at: Vec<Point>,
+    /// Seams that are no cuts.
+    whole: Vec<bool>,
+}
 
-impl Joined {
-    /// Joined along a seam to itself or another one, if they fit.
-    fn with(
-        &self,
-        body: &Body,
-        seams: &Seams,
-        order: &[usize],
-        seam: usize,
-        other: Option<&Joined>,
-        limits: Limits,
-    ) -> Result<Option<Joined>> {
-        let mut at: Corners = self.laid.corners().collect();
-        let mut parts = self.parts.clone();
-        let mut before = self.whole.clone();
-        let mut gap = self.gap;
-        if let Some(other) = other {
-            let theirs: Corners = other.laid.corners().collect();
-            let [mine, yours] = match at.contains_key(&corner(seams.all[seam].sides[0][0])) {
-                true => nodes(&seams.all[seam], [&at, &theirs]),
-                false => {
-                    let [a, b] = nodes(&seams.all[seam], [&theirs, &at]);
-                    [b, a]
-                }
-            };
-            let motion = Motion::between(&yours, &mine);
-            at.extend(
-                theirs
-                    .into_iter()
-                    .map(|(key, place)| (key, motion.of(place))),
-            );
-            parts.extend(&other.parts);
-            parts.sort_unstable();
-            before.extend(&other.whole);
-            gap = gap.max(other.gap);
-        }
-        let fits = |seam: usize| {
-            let [one, other] = nodes(&seams.all[seam], [&at, &at]);
-            let squares: f64 = (one.iter().zip(&other))
-                .map(|(p, q)| (p - q).norm_sqr())
-                .sum();
-            let apart = (squares / one.len() as f64).sqrt();
-            let most = (limits.gap * seams.all[seam].length).max(FINE * body.spacing);
-            (apart <= most).then_some(apart)
+impl<'a> Sheets<'a> {
+    fn new(body: &'a Body, seams: &'a Seams, parts: Vec<Laid>, limits: Limits) -> Self {
+        let alone = |(part, laid): (u32, Laid)| Joined {
+            parts: vec![part],
+            whole: Vec::new(),
+            laid,
+            gap: 0.0,
         };
-        if fits(seam).is_none() {
+        let mut sheets = Sheets {
+            of: (0..parts.len()).collect(),
+            all: vec![None; parts.len()],
+            settled: vec![false; parts.len()],
+            at: vec![Point::default(); 3 * body.triangles.len()],
+            whole: vec![false; seams.all.len()],
+            body,
+            seams,
+            limits,
+        };
+        for (number, part) in (0..).zip(parts) {
+            sheets.put(number as usize, alone((number, part)));
+        }
+        sheets
+    }
+
+    fn put(&mut self, number: usize, sheet: Joined) {
+        for (t, corners) in sheet.laid.members.iter().zip(&sheet.laid.triangles) {
+            for (k, corner) in corners.iter().enumerate() {
+                self.at[3 * *t as usize + k] = sheet.laid.places[*corner as usize];
+            }
+        }
+        for part in &sheet.parts {
+            self.of[*part as usize] = number;
+        }
+        for seam in &sheet.whole {
+            self.whole[*seam] = true;
+        }
+        self.all[number] = Some(sheet);
+    }
+
+    /// Joins what is on both sides of a seam, which may be one sheet already, if it fits.
+    fn join(&mut self, seam: usize, order: &[usize]) -> Result<()> {
+        let [a, b] = self.seams.all[seam]
+            .parts
+            .map(|part| self.of[part as usize]);
+        let mut found = self.together(seam, [a, b], order)?;
+        if found.is_none() && (self.settle(a)? | self.settle(b)?) {
+            found = self.together(seam, [a, b], order)?;
+        }
+        if let Some(found) = found {
+            self.all[a.max(b)] = None;
+            self.put(a.min(b), found);
+            self.settled[a.min(b)] = false;
+        }
+        Ok(())
+    }
+
+    /// Sheets as one along a seam, and along all others that then fit, if nothing speaks against it.
+    fn together(
+        &self,
+        seam: usize,
+        numbers: [usize; 2],
+        order: &[usize],
+    ) -> Result<Option<Joined>> {
+        let both = Both::new(self, seam, numbers);
+        let Some(apart) = both.fits(seam) else {
+            return Ok(None);
+        };
+        // Around a vertex with a full turn the last one fits.
+        let others = order
+            .iter()
+            .filter(|other| **other != seam && both.has(**other));
+        let also = others.filter_map(|other| Some((*other, both.fits(*other)?)));
+        let all: Vec<(usize, f64)> = std::iter::once((seam, apart)).chain(also).collect();
+        match both.laid(&all)? {
+            None if all.len() > 1 => both.laid(&all[..1]),
+            found => Ok(found),
+        }
+    }
+
+    /// Strains a sheet as little as may be; whether it was not so before.
+    fn settle(&mut self, number: usize) -> Result<bool> {
+        if std::mem::replace(&mut self.settled[number], true) {
+            return Ok(false);
+        }
+        let Some(sheet) = &self.all[number] else {
+            return Ok(false);
+        };
+        let laid = sheet.laid.clone().relaxed(self.body, self.limits.until)?;
+        if self.limits.allow(&laid) {
+            let sheet = Joined {
+                laid,
+                ..sheet.clone()
+            };
+            self.put(number, sheet);
+        }
+        Ok(true)
+    }
+}
+
+/// One sheet, or two that are brought together along a seam.
+struct Both<'a> {
+    sheets: &'a Sheets<'a>,
+    numbers: [usize; 2],
+    /// Of the second one, if there are two.
+    motion: Option<Motion>,
+}
+
+impl<'a> Both<'a> {
+    fn new(sheets: &'a Sheets<'a>, seam: usize, numbers: [usize; 2]) -> Self {
+        let mut both = Both {
+            sheets,
+            numbers,
+            motion: None,
+        };
+        if numbers[0] != numbers[1] {
+            let [mine, yours] = both.nodes(seam);
+            both.motion = Some(Motion::between(&yours, &mine));
+        }
+        both
+    }
+
+    fn all(&self) -> impl Iterator<Item = &'a Joined> {
+        let two = self.motion.map_or(1, |_| 2);
+        let numbers = self.numbers.into_iter().take(two);
+        numbers.filter_map(|number| self.sheets.all[number].as_ref())
+    }
+
+    /// Whether a seam that is cut is between parts of these.
+    fn has(&self, seam: usize) -> bool {
+        let mut parts = self.sheets.seams.all[seam].parts.iter();
+        let is_here = |part: &u32| self.numbers.contains(&self.sheets.of[*part as usize]);
+        !self.sheets.whole[seam] && parts.all(is_here)
+    }
+
+    /// Where a corner of a triangle of the body lies.
+    fn place(&self, corner: u32) -> Point {
+        let part = self.sheets.body.parts[corner as usize / 3];
+        let place = self.sheets.at[corner as usize];
+        match &self.motion {
+            Some(motion) if self.sheets.of[part as usize] == self.numbers[1] => motion.of(place),
+            _ => place,
+        }
+    }
+
+    /// The ends of the pieces along a seam, as either of its parts has them.
+    fn nodes(&self, seam: usize) -> [Vec<Point>; 2] {
+        let sides = &self.sheets.seams.all[seam].sides;
+        let one = sides.iter().flat_map(|[side, _]| [*side, next(*side)]);
+        let other = sides.iter().flat_map(|[_, twin]| [next(*twin), *twin]);
+        [
+            one.map(|corner| self.place(corner)).collect(),
+            other.map(|corner| self.place(corner)).collect(),
+        ]
+    }
+
+    /// How far the sides of a seam are apart, if that is little.
+    fn fits(&self, seam: usize) -> Option<f64> {
+        let Sheets {
+            seams,
+            limits,
+            body,
+            ..
+        } = self.sheets;
+        let [one, other] = self.nodes(seam);
+        let squares: f64 = (one.iter().zip(&other))
+            .map(|(p, q)| (p - q).norm_sqr())
+            .sum();
+        let apart = (squares / one.len() as f64).sqrt();
+        let most = (limits.gap * seams.all[seam].length).max(FINE * body.spacing);
+        (apart <= most).then_some(apart)
+    }
+
+    /// Laid flat together along seams with how far their sides are apart, if nothing overlaps.
+    fn laid(&self, along: &[(usize, f64)]) -> Result<Option<Joined>> {
+        let Sheets {
+            seams,
+            limits,
+            body,
+            ..
+        } = self.sheets;
+        let more = along.iter().map(|(seam, _)| *seam);
+        let mut joined = self.sheets.whole.clone();
+        more.clone().for_each(|seam| joined[seam] = true);
+        let laid = self.all().flat_map(|sheet| &sheet.laid.members);
+        let mut members: Vec<u32> = laid.copied().collect();
+        members.sort_unstable();
+        let start = Lying::At(&|corner| self.place(corner));
+        let twins = seams.twins(&members, |seam| joined[seam]);
+        let rough = Laid::new(body, members, twins, start)?;
+        if rough.overlaps() {
             return Ok(None);
         }
-        // Others may fit as well then: around a vertex with a full turn, the last one does.
-        let own = |other: &usize| {
-            let parts_of = seams.all[*other].parts;
-            !before.contains(other) && parts_of.iter().all(|p| parts.binary_search(p).is_ok())
+        let laid = match rough.strain <= ENOUGH * limits.strain {
+            true => rough,
+            false => rough.relaxed(body, limits.trial())?,
         };
-        let also: Vec<usize> = (order.iter().copied())
-            .filter(|other| *other != seam && own(other) && fits(*other).is_some())
-            .collect();
-        let mut choices = vec![vec![seam]];
-        if !also.is_empty() {
-            choices.insert(0, [&[seam], &also[..]].concat());
-        }
-        for more in choices {
-            let whole = [&before[..], &more].concat();
-            let gap = more
-                .iter()
-                .filter_map(|seam| fits(*seam))
-                .fold(gap, f64::max);
-            if let Some(laid) = laid(body, seams, &parts, &whole, &at, limits)? {
-                return Ok(Some(Joined {
-                    parts,
-                    whole,
-                    laid,
-                    gap,
-                }));
-            }
-        }
-        Ok(None)
+        let mut parts: Vec<u32> = self.all().flat_map(|sheet| &sheet.parts).copied().collect();
+        parts.sort_unstable();
+        let gaps = self.all().map(|sheet| sheet.gap);
+        Ok(Some(laid)
+            .filter(|laid| limits.allow(laid))
+            .map(|laid| Joined {
+                parts,
+                whole: (self.all().flat_map(|sheet| &sheet.whole).copied())
+                    .chain(more)
+                    .collect(),
+                laid,
+                gap: gaps
+                    .chain(along.iter().map(|(_, apart)| *apart))
+                    .fold(0.0, f64::max),
+            }))
     }
-}
-
-/// Parts together, if they lie flat without overlap.
-fn laid(
-    body: &Body,
-    seams: &Seams,
-    parts: &[u32],
-    whole: &[usize],
-    at: &Corners,
-    limits: Limits,
-) -> Result<Option<Laid>> {
-    let all = body.parts.iter().zip(0..);
-    let own = all.filter(|(part, _)| parts.binary_search(part).is_ok());
-    let members = own.map(|(_, t)| t).collect();
-    let is_cut = |side: u32| seams.of(side).is_some_and(|seam| !whole.contains(&seam));
-    let as_it_is = Until {
-        steps: 0,
-        ..limits.until
-    };
-    let rough = Laid::new(body, members, is_cut, Some(at), as_it_is)?;
-    let sound = |laid: &Laid| laid.strain <= limits.strain && !laid.overlaps();
-    if rough.strain <= NO_STRAIN {
-        return Ok(Some(rough).filter(sound));
-    }
-    if rough.overlaps() {
-        return Ok(None);
-    }
-    Ok(Some(rough.relaxed(body, limits.until)?).filter(sound))
-}
-
-fn corner(side: u32) -> (u32, u32) {
-    (side / 3, side % 3)
-}
-
-/// The ends of the pieces along a seam, as either of its parts has them.
-fn nodes(seam: &Seam, at: [&Corners; 2]) -> [Vec<Point>; 2] {
-    let following = |side: u32| (side / 3, (side % 3 + 1) % 3);
-    let one = seam
-        .sides
-        .iter()
-        .flat_map(|[side, _]| [corner(*side), following(*side)]);
-    let other = seam
-        .sides
-        .iter()
-        .flat_map(|[_, twin]| [following(*twin), corner(*twin)]);
-    [
-        one.map(|corner| at[0][&corner]).collect(),
-        other.map(|corner| at[1][&corner]).collect(),
-    ]
 }

@@ -8,7 +8,6 @@ use crate::flat::unroll::joint::{Joint, Until};
 use crate::flat::unroll::overlap::crossings;
 use crate::flat::unroll::pieces::{Piece, Point};
 use crate::math::forest::Forest;
-use crate::math::hash::NumberMap;
 use crate::scene::twins::{NONE, ends, next, twins};
 
 /// Some of a body's triangles, flat.
@@ -29,6 +28,17 @@ pub(super) struct Laid {
     pub worst: usize,
 }
 
+/// The share of triangles that may be set apart, where the border crosses itself.
+const SPECKS: f64 = 0.01;
+
+/// Where triangles lie at first.
+pub(super) enum Lying<'a> {
+    /// As they are, one after the other over an edge that they share.
+    TurnedOver,
+    /// Where each corner of the body's triangles is said to lie.
+    At(&'a dyn Fn(u32) -> Point),
+}
+
 /// Steps before triangles may be given up.
 const START: usize = 40;
 
@@ -36,26 +46,17 @@ const START: usize = 40;
 pub(super) const TRIAL: usize = 12;
 
 impl Laid {
-    /// Lays triangles flat; edges stay whole that have both sides among them, which are not `open`. They start
-    /// from where `at` has them, or else are turned over one edge after the other.
+    /// Triangles in the plane, by what is on the other side of their sides, [`NONE`] where they are cut.
     pub(super) fn new(
         body: &Body,
         members: Vec<u32>,
-        open: impl Fn(u32) -> bool,
-        at: Option<&NumberMap<(u32, u32), Point>>,
-        until: Until,
+        twins: Vec<u32>,
+        start: Lying,
     ) -> Result<Laid> {
         let own: Vec<[u32; 3]> = members
             .iter()
             .map(|t| body.triangles[*t as usize])
             .collect();
-        let mut twins = twins(&own);
-        for side in 0..twins.len() {
-            let other = twins[side];
-            if other != NONE && open(3 * members[side / 3] + side as u32 % 3) {
-                (twins[side], twins[other as usize]) = (NONE, NONE);
-            }
-        }
         // Corners are one vertex where no cut parts them.
         let mut forest = Forest::new("pattern", 3 * own.len())?;
         for (side, twin) in twins.iter().enumerate().filter(|(_, twin)| **twin != NONE) {
@@ -85,21 +86,21 @@ impl Laid {
             strain: 0.0,
             worst: 0,
         };
-        match at {
-            None => laid.turn_over(&pieces),
-            Some(at) => {
+        match start {
+            Lying::TurnedOver => laid.turn_over(body, &pieces),
+            Lying::At(place) => {
                 for (t, corners) in laid.members.iter().zip(&laid.triangles) {
-                    for (k, corner) in corners.iter().enumerate() {
-                        laid.places[*corner as usize] = at[&(*t, k as u32)];
+                    for (k, corner) in (0..).zip(corners) {
+                        laid.places[*corner as usize] = place(3 * t + k);
                     }
                 }
             }
         }
-        laid.relax(&pieces, until)?;
+        laid.measure(&pieces);
         Ok(laid)
     }
 
-    /// Goes on from where it lies.
+    /// Strained as little as may be, from where it lies.
     pub(super) fn relaxed(mut self, body: &Body, until: Until) -> Result<Laid> {
         let own = self.members.iter().map(|t| body.triangles[*t as usize]);
         let pieces: Vec<Piece> = own.map(|t| piece(body, t)).collect();
@@ -108,10 +109,6 @@ impl Laid {
     }
 
     fn relax(&mut self, pieces: &[Piece], until: Until) -> Result<()> {
-        if until.steps == 0 {
-            self.measure(pieces);
-            return Ok(());
-        }
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
         let joint = Joint::new(self.places.len(), whole, Vec::new())?;
@@ -130,7 +127,7 @@ impl Laid {
     }
 
     /// One triangle after the other, as they are, beside those that lie already.
-    fn turn_over(&mut self, pieces: &[Piece]) {
+    fn turn_over(&mut self, body: &Body, pieces: &[Piece]) {
         let mut lies = vec![false; self.places.len()];
         let mut seen = vec![false; pieces.len()];
         let mut queue = VecDeque::new();
@@ -164,8 +161,11 @@ impl Laid {
                         continue;
                     }
                     let along = self.places[to] - self.places[from];
-                    self.places[apex] =
-                        self.places[from] + along * third(&pieces[other], twin as usize % 3);
+                    // As long as it is on the body, or what is wrong would grow from one triangle to the next.
+                    let [p, q] = [from, to].map(|v| body.places[self.source[v] as usize]);
+                    let scale = (q - p).norm() / along.norm().max(f64::MIN_POSITIVE);
+                    self.places[apex] = self.places[from]
+                        + along * (scale * third(&pieces[other], twin as usize % 3));
                 }
             }
         }
@@ -197,6 +197,78 @@ impl Laid {
     pub(super) fn overlaps(&self) -> bool {
         let border: Vec<[u32; 2]> = self.border().map(|s| ends(&self.triangles, s)).collect();
         !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
+    }
+
+    /// The few triangles, at places where the border crosses itself, without which it does not; none if they
+    /// would be many, or that does not help.
+    pub(super) fn specks(&self) -> Vec<u32> {
+        let most = (SPECKS * self.members.len() as f64).ceil() as usize;
+        let mut left = self.clone();
+        let mut specks = Vec::new();
+        loop {
+            let sides: Vec<u32> = left.border().collect();
+            let border: Vec<[u32; 2]> = sides.iter().map(|s| ends(&left.triangles, *s)).collect();
+            let crossings = crossings(&left.places, &border);
+            if crossings.is_empty() {
+                return match left.covers_itself(&border) {
+                    true => Vec::new(),
+                    false => specks,
+                };
+            }
+            let area = |t: usize| {
+                let [a, b, c] = left.triangles[t].map(|v| left.places[v as usize]);
+                ((b - a).conj() * (c - a)).im
+            };
+            let smaller = |pair: &[usize; 2]| {
+                let [one, other] = pair.map(|edge| sides[edge] as usize / 3);
+                if area(one) < area(other) { one } else { other }
+            };
+            let mut off: Vec<usize> = crossings.iter().map(smaller).collect();
+            off.sort_unstable();
+            off.dedup();
+            specks.extend(off.iter().map(|t| left.members[*t]));
+            if specks.len() > most {
+                return Vec::new();
+            }
+            left.take_off(&off);
+        }
+    }
+
+    /// Triangles turned over one after the other, and then strained as little as may be.
+    pub(super) fn whole(body: &Body, members: Vec<u32>, until: Until) -> Result<Laid> {
+        let own: Vec<[u32; 3]> = (members.iter())
+            .map(|t| body.triangles[*t as usize])
+            .collect();
+        Laid::new(body, members, twins(&own), Lying::TurnedOver)?.relaxed(body, until)
+    }
+
+    /// Goes without some of its triangles.
+    fn take_off(&mut self, off: &[usize]) {
+        for t in off {
+            for side in 3 * t..3 * t + 3 {
+                let twin = std::mem::replace(&mut self.twins[side], NONE);
+                if twin != NONE {
+                    self.twins[twin as usize] = NONE;
+                }
+            }
+        }
+        let mut numbers = vec![NONE; self.members.len()];
+        let mut rest = 0;
+        for t in (0..self.members.len()).filter(|t| off.binary_search(t).is_err()) {
+            numbers[t] = rest as u32;
+            self.members[rest] = self.members[t];
+            self.triangles[rest] = self.triangles[t];
+            for k in 0..3 {
+                self.twins[3 * rest + k] = self.twins[3 * t + k];
+            }
+            rest += 1;
+        }
+        self.members.truncate(rest);
+        self.triangles.truncate(rest);
+        self.twins.truncate(3 * rest);
+        for twin in self.twins.iter_mut().filter(|twin| **twin != NONE) {
+            *twin = 3 * numbers[*twin as usize / 3] + *twin % 3;
+        }
     }
 
     /// Whether the middle of a triangle lies on another one: by how often the border runs around it.
@@ -238,14 +310,6 @@ impl Laid {
         }
         lines
     }
-
-    /// Where each corner of the body's triangles lies.
-    pub(super) fn corners(&self) -> impl Iterator<Item = ((u32, u32), Point)> + '_ {
-        let all = self.members.iter().zip(&self.triangles);
-        all.flat_map(|(t, corners)| {
-            (0..3).map(|k| ((*t, k as u32), self.places[corners[k] as usize]))
-        })
-    }
 }
 
 fn piece(body: &Body, corners: [u32; 3]) -> Piece {
@@ -267,5 +331,50 @@ fn third(piece: &Piece, side: usize) -> Point {
         // From the second corner to the third one.
         1 => -one / (apex - one),
         _ => (one - apex) / -apex,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::*;
+    use crate::flat::pattern::mesh::body::Place;
+
+    #[test]
+    fn what_cannot_lie_flat_is_turned_over_no_farther_than_it_reaches() {
+        // A sphere of radius 1, without its poles.
+        let (around, high) = (48u32, 24u32);
+        let places = (1..high).flat_map(|j| (0..around).map(move |i| (i, j)));
+        let places = places.map(|(i, j)| {
+            let (angle, down) = (
+                TAU * f64::from(i) / f64::from(around),
+                PI * f64::from(j) / f64::from(high),
+            );
+            Place::new(
+                down.sin() * angle.cos(),
+                down.sin() * angle.sin(),
+                down.cos(),
+            )
+        });
+        let cells = (0..high - 2).flat_map(|j| (0..around).map(move |i| (i, j)));
+        let triangles: Vec<[u32; 3]> = cells
+            .flat_map(|(i, j)| {
+                let vertex = |i: u32, j: u32| j * around + i % around;
+                let [a, b] = [vertex(i, j), vertex(i, j + 1)];
+                let [c, d] = [vertex(i + 1, j + 1), vertex(i + 1, j)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let count = triangles.len();
+        let body = Body::new(places.collect(), triangles.clone(), vec![0; count]).unwrap();
+        let all = (0..count as u32).collect();
+        let laid = Laid::new(&body, all, twins(&triangles), Lying::TurnedOver).unwrap();
+        let reach = laid
+            .places
+            .iter()
+            .map(|place| place.norm())
+            .fold(0.0, f64::max);
+        assert!(reach > 1.0 && reach < TAU, "{reach}");
     }
 }

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use super::body::Body;
-use super::join::{Joined, Seam, Seams};
+use super::join::Joined;
+use super::seams::{Seam, Seams};
 use crate::flat::pattern::Meeting;
 
 /// Angles are measured within this distance, in lengths of edges, or this share of the shortest line that

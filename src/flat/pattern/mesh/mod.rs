@@ -9,6 +9,7 @@ mod draw;
 mod join;
 mod lay;
 mod meeting;
+mod seams;
 
 use std::collections::BTreeMap;
 
@@ -20,8 +21,9 @@ use crate::scene::mesh::Mesh;
 use crate::shape::patches::{Crease, MeshPatches, Patch};
 use body::{Body, Place, Plane};
 use draw::drawn;
-use join::{Limits, Seams, joined};
+use join::{Limits, joined};
 use lay::{Laid, TRIAL};
+use seams::Seams;
 
 /// A mesh cut into sheets.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,6 +75,7 @@ pub fn pattern_mesh(
     let strain = positive("maxStrain", options.max_strain)?;
     let until = Until {
         tolerance: positive("tolerance", options.unrolling.tolerance)?,
+        enough: 0.0,
         // Of the two principal strains the energy has the sum of the squares.
         hopeless: FAR * 2.0 * strain * strain,
         steps: options.unrolling.max_iterations,
@@ -94,7 +97,6 @@ pub fn pattern_mesh(
 
 /// Cuts until every part lies flat; these by their area.
 fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
-    let whole = |_: u32| false;
     // What was found to lie flat, with its triangles then: cuts beside it divide some of them.
     let mut flat: BTreeMap<u32, Laid> = BTreeMap::new();
     let mut open: Vec<u32> = (0..body.count).rev().collect();
@@ -109,12 +111,20 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
             }
             continue;
         };
-        let laid = Laid::new(&body, body.members(part), whole, None, limits.until)?;
-        if laid.strain <= limits.strain && !laid.overlaps() {
+        let laid = Laid::whole(&body, body.members(part), limits.trial())?;
+        if limits.allow(&laid) {
             flat.insert(part, laid);
             continue;
         }
         flat.remove(&part);
+        let specks = match laid.strain <= limits.strain {
+            true => laid.specks(),
+            false => Vec::new(),
+        };
+        if !specks.is_empty() {
+            open.extend(body.set_apart(part, &specks)?);
+            continue;
+        }
         let worst = body.triangles[laid.members[laid.worst] as usize];
         let worst = worst.map(|v| body.places[v as usize]).iter().sum::<Place>() / 3.0;
         let mut best: Option<(f64, Plane)> = None;
@@ -131,7 +141,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
                     steps: TRIAL,
                     ..limits.until
                 };
-                let laid = Laid::new(&trial, trial.members(*part), whole, None, short)?;
+                let laid = Laid::whole(&trial, trial.members(*part), short)?;
                 energy += laid.area * laid.strain * laid.strain;
             }
             if best.as_ref().is_none_or(|(least, ..)| energy < *least) {
@@ -157,4 +167,64 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
     parts.sort_by_key(|(part, _)| *part);
     let parts = parts.into_iter().map(|(_, laid)| laid).collect();
     Ok((body, parts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tooth_that_would_lie_on_its_sheet_is_set_apart_alone() {
+        // A disk of ten rings without 30 degrees, and a triangle that stands upright on one side of the gap.
+        let (rings, sectors) = (10u32, 5u32);
+        let place = |ring: u32, sector: u32| {
+            let (far, angle) = (
+                f64::from(ring) / 10.0,
+                (66.0 * f64::from(sector)).to_radians(),
+            );
+            Place::new(far * angle.cos(), far * angle.sin(), 0.0)
+        };
+        let vertex = |ring: u32, sector: u32| match ring {
+            0 => 0,
+            _ => 1 + (ring - 1) * (sectors + 1) + sector,
+        };
+        let mut places = vec![Place::zeros()];
+        places.extend((1..=rings).flat_map(|r| (0..=sectors).map(move |s| place(r, s))));
+        let mut triangles = Vec::new();
+        for (ring, sector) in (0..rings).flat_map(|r| (0..sectors).map(move |s| (r, s))) {
+            let [a, b] = [vertex(ring, sector), vertex(ring + 1, sector)];
+            let [c, d] = [vertex(ring + 1, sector + 1), vertex(ring, sector + 1)];
+            triangles.push([a, b, c]);
+            if ring > 0 {
+                triangles.push([a, c, d]);
+            }
+        }
+        // Laid flat it would reach across the other side.
+        let foot = [vertex(8, 0), vertex(7, 0)];
+        let up = Place::new(0.75, 0.0, 0.45);
+        places.push(up);
+        triangles.push([foot[1], places.len() as u32 - 1, foot[0]]);
+        let tooth = triangles.len() as u32 - 1;
+        let labels = vec![0; triangles.len()];
+        let body = Body::new(places, triangles, labels).unwrap();
+        let until = Until {
+            tolerance: 1e-12,
+            enough: 0.0,
+            hopeless: f64::INFINITY,
+            steps: 200,
+        };
+        let limits = Limits {
+            gap: 0.02,
+            strain: 0.01,
+            until,
+        };
+        let whole = Laid::whole(&body, body.members(0), until).unwrap();
+        assert!(whole.strain < 1e-9 && whole.overlaps());
+        let (_, parts) = flat_parts(body, limits).unwrap();
+        let [disk, alone] = &parts[..] else {
+            panic!("{} parts", parts.len());
+        };
+        assert!(!disk.overlaps() && disk.strain < 1e-9);
+        assert_eq!(alone.members, [tooth]);
+    }
 }

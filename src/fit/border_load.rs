@@ -40,6 +40,6 @@ pub(super) fn load_border(problem: &mut Problem, state: &State, bend_radius: f64
     if !rings.continue_outwards(&mut moments, around)? {
         return Ok(false);
     }
-    problem.load(&moments, |vertex| rings.are_next_to(vertex))?;
+    problem.load(&moments, |vertex| rings.are_within(vertex, 1))?;
     Ok(true)
 }

@@ -61,10 +61,10 @@ impl Rings {
         })
     }
 
-    /// Whether a stencil is missing at a vertex, or beside it.
-    pub(crate) fn are_next_to(&self, vertex: usize) -> bool {
+    /// Whether a stencil is missing at a vertex, or at one so many rings from it.
+    pub(crate) fn are_within(&self, vertex: usize, rings: u32) -> bool {
         // An operator may have room for more vertices than there are.
-        self.depth.get(vertex).is_some_and(|depth| *depth <= 1)
+        self.depth.get(vertex).is_some_and(|depth| *depth <= rings)
     }
 
     /// Continues what is inside to the border along the shortest ways; says whether anything is inside.

@@ -3,6 +3,7 @@
 use super::geometry::{Frame, Point};
 use super::linear::Given;
 use super::quadratic::{Neighbour, Quadratic};
+use super::sides::Sides;
 use super::topology::Topology;
 
 /// Rings around a vertex of the border in which a vertex inside is looked for.
@@ -12,8 +13,8 @@ const RINGS: usize = 3;
 const BESIDE: f64 = 0.3;
 
 /// Puts each vertex that is not inside on the mean of the quadratics that fit at the vertices inside next
-/// to it. Where there are none it stays.
-pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame]) {
+/// to it; where `sides` are known, by nothing beyond creases. Where there are none it stays.
+pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame], sides: Option<&Sides>) {
     let topology = &given.topology;
     let old = x.to_vec();
     for vertex in 0..topology.len() {
@@ -35,10 +36,15 @@ pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame]) {
         }
         let (mut sum, mut count) = (Point::zeros(), 0.0);
         for inner in ring.into_iter().map(|other| other as usize) {
-            if !topology.inside[inner] {
+            // Where sides meet, the border is on all of them.
+            let own = sides.filter(|sides| !sides.meet_at(vertex));
+            let inside = |other: usize| {
+                let fits = own.is_none_or(|sides| sides.of[other] == sides.of[vertex]);
+                topology.inside[other] && fits
+            };
+            if !inside(inner) {
                 continue;
             }
-            let inside = |other: usize| topology.inside[other];
             let frame = &frames[inner];
             if let Some((rise, up)) = continued(topology, &old, frame, inner, inside, old[vertex]) {
                 // Along the normal of the vertex inside, as far as that one's surface is above.

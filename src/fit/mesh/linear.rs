@@ -6,7 +6,9 @@
 
 use super::geometry::{Frame, Point, areas};
 use super::quadratic::{Neighbour, Quadratic, SECOND};
+use super::sides::Sides;
 use super::topology::Topology;
+use super::ways::Ways;
 use crate::error::{Error, Result, try_filled};
 use crate::fit::energy::law::{Bends, Kind};
 use crate::fit::energy::problem;
@@ -56,6 +58,8 @@ pub(super) struct Linearised {
     pub about: Vec<u32>,
     /// From the unknowns to distances along the rays.
     pub scales: Vec<f64>,
+    /// Unknowns behind those of vertices and the constant.
+    pub ways: Ways,
     /// Spacing of a hexagonal lattice with so many vertices.
     pub spacing: f64,
 }
@@ -68,7 +72,8 @@ pub(super) fn spacing_of(area: f64) -> f64 {
 }
 
 impl Linearised {
-    /// About vertices at `base`, which move along the normals of their frames.
+    /// About vertices at `base`, which move along the normals of their frames; on creases, where `sides` meet,
+    /// across them as well.
     ///
     /// # Errors
     /// [`Error::Topology`] if no vertex has triangles all around, or out of memory.
@@ -78,11 +83,14 @@ impl Linearised {
         frames: Vec<Frame>,
         bends: Bends,
         lambda: impl Fn(f64) -> f64,
+        sides: Option<&Sides>,
     ) -> Result<Self> {
         let Given { topology, .. } = given;
         let count = topology.len();
         let constant = count as u32;
         let areas = areas(topology, &base);
+        let ways = sides.map_or_else(Ways::default, |s| Ways::new(given, s, &base, &frames));
+        let across = constant + 1;
         let mut about = try_filled("stencils", count, NONE)?;
         let (mut centres, mut rows) = (Vec::new(), Rows::new());
         rows.reserve(count, USUAL);
@@ -92,7 +100,8 @@ impl Linearised {
                 continue;
             }
             let ray = &frames[vertex];
-            let Some((fit, vertices, frame)) = fit_at(topology, &base, ray, vertex) else {
+            let Some((fit, vertices, frame)) = fit_beside(topology, &base, ray, vertex, sides)
+            else {
                 continue;
             };
             row.clear();
@@ -101,6 +110,14 @@ impl Linearised {
                 let change = fit.change(&frame, k, frames[*other as usize].normal);
                 row.push((*other, change.coordinates()));
                 own = own - fit.change(&frame, k, ray.normal);
+                for (way, along) in ways.of(*other as usize) {
+                    row.push((across + way, fit.change(&frame, k, along).coordinates()));
+                }
+            }
+            for (way, along) in ways.of(vertex) {
+                let all = (0..vertices.len()).map(|k| fit.change(&frame, k, along));
+                let own = all.fold(Sym2::default(), |sum, change| sum - change);
+                row.push((across + way, own.coordinates()));
             }
             row.push((vertex as u32, own.coordinates()));
             row.push((constant, fit.hessian().coordinates()));
@@ -139,7 +156,10 @@ impl Linearised {
                 .map_or(1.0, |c| c.max(LEAST_CONFIDENCE));
             *scale = (share(vertex) * trust).sqrt().recip();
         }
-        rows.scale_columns(|vertex| scales.get(vertex as usize).copied().unwrap_or(1.0));
+        rows.scale_columns(|unknown| match unknown.checked_sub(across) {
+            Some(way) => scales[ways.all[way as usize].0 as usize],
+            None => scales.get(unknown as usize).copied().unwrap_or(1.0),
+        });
         let beside = centres.iter().map(|vertex| {
             let ring = topology.around(*vertex as usize).iter();
             let ring = ring.map(|other| about[*other as usize]);
@@ -153,18 +173,22 @@ impl Linearised {
                 .collect(),
             rows,
             constant: Some(constant),
-            places: try_filled("vertices", count + 1, [0.0; 2])?,
+            places: try_filled("vertices", count + 1 + ways.all.len(), [0.0; 2])?,
             spacing,
             size: 1.0,
         })?;
-        let mut target = try_filled("vertices", count + 1, 1.0)?;
+        let mut target = try_filled("vertices", count + 1 + ways.all.len(), 1.0)?;
         for vertex in 0..count {
             let off = given.noisy[vertex] - base[vertex];
             target[vertex] = off.dot(&frames[vertex].normal) / scales[vertex];
         }
+        for (target, (vertex, along)) in target[count + 1..].iter_mut().zip(&ways.all) {
+            let vertex = *vertex as usize;
+            *target = (given.noisy[vertex] - base[vertex]).dot(along) / scales[vertex];
+        }
         let mut problem = Problem::under(operator, lambda(spacing), target, Kind::Huber(bends));
         problem.constrained.push(constant);
-        let mut inverse = try_filled("fidelity", count + 1, 1.0)?;
+        let mut inverse = try_filled("fidelity", count + 1 + ways.all.len(), 1.0)?;
         inverse[count] = 0.0;
         for (vertex, held) in given.held.iter().enumerate() {
             if *held {
@@ -183,13 +207,14 @@ impl Linearised {
             centres,
             about,
             scales,
+            ways,
             spacing,
         })
     }
 
     /// The unknowns with nothing moved.
     pub(super) fn start(&self) -> Vec<f64> {
-        let mut z = vec![0.0; self.base.len() + 1];
+        let mut z = vec![0.0; self.base.len() + 1 + self.ways.all.len()];
         z[self.base.len()] = 1.0;
         for vertex in &self.problem.constrained {
             z[*vertex as usize] = self.problem.target[*vertex as usize];
@@ -204,8 +229,14 @@ impl Linearised {
             .iter()
             .zip(&self.frames)
             .zip(z.iter().zip(&self.scales));
-        all.map(|((base, frame), (z, scale))| base + frame.normal * (scale * z))
-            .collect()
+        let mut x: Vec<Point> = all
+            .map(|((base, frame), (z, scale))| base + frame.normal * (scale * z))
+            .collect();
+        for (z, (vertex, along)) in z[self.base.len() + 1..].iter().zip(&self.ways.all) {
+            let vertex = *vertex as usize;
+            x[vertex] += along * (self.scales[vertex] * z);
+        }
+        x
     }
 }
 
@@ -219,6 +250,17 @@ pub(crate) fn fit_at(
     x: &[Point],
     frame: &Frame,
     vertex: usize,
+) -> Option<(Quadratic, Vec<u32>, Frame)> {
+    fit_beside(topology, x, frame, vertex, None)
+}
+
+/// The same by no vertex that is beyond a crease, for it says nothing of this side.
+fn fit_beside(
+    topology: &Topology,
+    x: &[Point],
+    frame: &Frame,
+    vertex: usize,
+    sides: Option<&Sides>,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
     let offset = |other: &u32, weight| Neighbour {
         offset: x[*other as usize] - x[vertex],
@@ -236,6 +278,10 @@ pub(crate) fn fit_at(
     if fit.is_none() {
         let mut second = Vec::with_capacity(8 * ring.len());
         topology.second_ring(vertex, &mut second);
+        if let Some(sides) = sides.filter(|sides| !sides.meet_at(vertex)) {
+            let own = sides.of[vertex];
+            second.retain(|other| sides.touch(*other as usize, own));
+        }
         neighbours.extend(second.iter().map(|other| offset(other, SECOND)));
         vertices.extend(second);
         fit = Quadratic::fit(frame, &neighbours);

@@ -1,15 +1,23 @@
-//! Which moments load the border of a mesh: see [`energy::load`](crate::fit::energy::load).
+//! Which moments load the border of a mesh, and creases, which bear none either: see
+//! [`energy::load`](crate::fit::energy::load).
 
 use nalgebra::Matrix3;
 
 use super::geometry::Frame;
 use super::linear::{Linearised, NONE};
+use super::options::MeshOptions;
 use super::topology::Topology;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::load::Rings;
 use crate::math::sym2::Sym2;
 
-/// Loads the border with the `moments` of the stencils inside. Says whether there are any.
+/// Stencils of the ring next to a border or crease reach two rings further. Where all that reach a vertex are
+/// there, the same moments cancel out.
+const REACHED: u32 = 3;
+
+/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside.
+/// Says whether there are any. What is less than the `flatness` is no moment of a bend: noise leaves so much on
+/// flat faces.
 ///
 /// # Errors
 /// Out of memory.
@@ -17,15 +25,19 @@ pub(super) fn load_border(
     topology: &Topology,
     linear: &mut Linearised,
     moments: &[Sym2],
-    bend_radius: f64,
+    options: &MeshOptions,
+    known: &[bool],
 ) -> Result<bool> {
-    if topology.closed {
+    if topology.closed && !known.contains(&true) {
         return Ok(false);
     }
     let around = |vertex: usize| topology.around(vertex).iter().map(|v| *v as usize);
     let vertices = 0..topology.len() as u32;
-    let outermost = vertices.filter(|v| linear.about[*v as usize] == NONE);
-    let reach = linear.problem.reach(bend_radius);
+    let outermost = vertices.filter(|v| match linear.about[*v as usize] {
+        NONE => true,
+        stencil => known[stencil as usize],
+    });
+    let reach = linear.problem.reach(options.bend_radius);
     let rings = Rings::new(outermost.collect(), topology.len(), around, reach)?;
     // In space, where the frames of neighbours have something in common.
     let mut spatial = try_filled("moments", topology.len(), Matrix3::zeros())?;
@@ -39,10 +51,19 @@ pub(super) fn load_border(
     let centres = linear.centres.iter().map(|vertex| *vertex as usize);
     let planar: Vec<Sym2> = centres
         .map(|vertex| in_plane(&linear.frames[vertex], &spatial[vertex]))
+        .map(|moment| match moment.spectral_norm() < options.flatness {
+            true => Sym2::default(),
+            false => moment,
+        })
         .collect();
-    linear
-        .problem
-        .load(&planar, |vertex| rings.are_next_to(vertex))?;
+    let (across, ways) = (topology.len() + 1, &linear.ways.all);
+    linear.problem.load(&planar, |unknown| {
+        let vertex = match unknown.checked_sub(across) {
+            Some(way) => ways[way].0 as usize,
+            None => unknown,
+        };
+        rings.are_within(vertex, REACHED)
+    })?;
     Ok(true)
 }
 

@@ -9,6 +9,7 @@ mod base;
 mod border;
 mod crossing;
 mod curve;
+mod fairing;
 mod fans;
 pub(crate) mod geometry;
 mod known;
@@ -26,6 +27,7 @@ mod solver;
 #[cfg(test)]
 mod tests;
 pub(crate) mod topology;
+mod ways;
 
 pub(crate) use ball::scale_of;
 pub use known::MeshKnown;

@@ -24,7 +24,7 @@ pub(super) fn sharpen(given: &Given, sides: &Sides, x: &mut [Point], rays: &[Fra
         .map(|(normal, hint)| Frame::about(*normal, hint.tangents[0]))
         .collect();
     let before = x.to_vec();
-    for vertex in topology.vertices_inside() {
+    for vertex in 0..topology.len() {
         let around = sides.around(vertex);
         if given.held[vertex] || !(2..=3).contains(&around.len()) {
             continue;

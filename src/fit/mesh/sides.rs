@@ -47,6 +47,35 @@ impl Sides {
         self.of[vertex] == NONE
     }
 
+    /// Whether a vertex has triangles of one side.
+    pub(super) fn touch(&self, vertex: usize, side: u32) -> bool {
+        let own = self.fans.around(vertex).iter();
+        own.map(|t| self.labels[*t as usize]).any(|s| s == side)
+    }
+
+    /// The creases as curves: of each vertex on one the two beside it, where it is the only one there.
+    pub(super) fn creases(&self, topology: &Topology) -> Vec<Option<[u32; 2]>> {
+        let beside = |vertex: usize| {
+            if !topology.inside[vertex] || !self.meet_at(vertex) {
+                return None;
+            }
+            let own = self.fans.around(vertex);
+            let folds = |other: &u32| {
+                let both = own.iter().map(|t| *t as usize);
+                let mut labels = both
+                    .filter(|t| topology.triangles[*t].contains(other))
+                    .map(|t| self.labels[t]);
+                labels.next() != labels.next()
+            };
+            let mut ends = topology.around(vertex).iter().copied().filter(folds);
+            match (ends.next(), ends.next(), ends.next()) {
+                (Some(a), Some(b), None) => Some([a, b]),
+                _ => None,
+            }
+        };
+        (0..topology.len()).map(beside).collect()
+    }
+
     /// The sides that a vertex is on.
     pub(super) fn around(&self, vertex: usize) -> Vec<u32> {
         let own = self.fans.around(vertex).iter();

@@ -6,6 +6,7 @@ use super::ball::Ball;
 use super::base::first_base;
 use super::border::restore;
 use super::crossing::uncross;
+use super::fairing::{curves, fair};
 use super::fans::Fans;
 use super::geometry::{Frame, Point, areas, normals, unfold};
 use super::known::MeshKnown;
@@ -38,6 +39,9 @@ const LAMBDA: f64 = 6.4;
 
 /// The gap of the first solve, if that is not the only one: all it has to give is a base, and where creases are.
 const ROUGH: f64 = 0.03;
+
+/// Times the noise, how far a vertex goes at most to the curve of its border or crease, once these are smooth.
+const CORNER: f64 = 1.5;
 
 /// Of noise that cannot be told from none, as a share of the spacing.
 const NO_NOISE: f64 = 1e-4;
@@ -99,8 +103,9 @@ pub struct MeshSolver {
 /// The surface minimises `λ Σ w s² + Σ w φ(‖II‖_*)`, `s` being how far a vertex goes from where it was
 /// given, along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the
 /// cost of bends of [`Energy::Huber`](crate::Energy::Huber). It is linearised about a smoothed base and
-/// solved as over a lattice, and then once more about the result. At the end vertices on creases are moved to
-/// where the continuations of both sides meet, unless there were to be no crease passes. Where triangles cross
+/// solved as over a lattice, and then once more about the result, where vertices on creases move across these
+/// as well. At the end they are moved to where the continuations of both sides meet, and borders and creases
+/// become smooth curves, unless there were to be no crease passes. Where triangles cross
 /// others near them or are folded over after that, their vertices go towards the mean of their neighbours.
 ///
 /// # Errors
@@ -154,7 +159,7 @@ impl MeshSolver {
             options.crease_passes = 0;
         }
         let before = Shape::of(topology, &given.noisy, &base);
-        let linear = linearised(&given, base, frames, &options, lambda)?;
+        let linear = linearised(&given, base, frames, &options, lambda, None)?;
         let mut solver = MeshSolver {
             mesh,
             options,
@@ -229,7 +234,7 @@ impl MeshSolver {
     }
 
     /// Starts to solve the linearised problem, where there is one before from its dual.
-    fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised)>) -> Result<()> {
+    fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised, Sides)>) -> Result<()> {
         let mut options = self.options.common();
         if warm.is_none() && self.options.crease_passes > 0 {
             options = options.gap(self.options.gap.max(ROUGH));
@@ -240,10 +245,9 @@ impl MeshSolver {
         let mut state = State::new(problem, plan.first_rho(problem))?;
         self.creases = 0;
         let mut loaded = false;
-        if let Some((old, before)) = warm {
+        if let Some((old, before, sides)) = warm {
             let mut moments = try_filled("moments", self.linear.centres.len(), Sym2::default())?;
             let creases = problem.reweight_creases(&start, self.options.crease_radius)?;
-            let sides = Sides::new(&self.given.topology, &self.surface)?;
             let centres = self.linear.centres.iter();
             let known: Vec<bool> = centres.map(|v| sides.meet_at(*v as usize)).collect();
             self.creases = creases.vertices + problem.free_creases(&known);
@@ -254,11 +258,11 @@ impl MeshSolver {
                 if from != NONE {
                     let (dual, hessian) = old.matrices(&before.problem, from as usize);
                     state.set_matrices_of(problem, stencil, [dual, hessian]);
-                    moments[stencil] = bearing(dual, hessian);
+                    moments[stencil] = bearing(dual, hessian).scale(self.options.bent(dual));
                 }
             }
-            let radius = self.options.bend_radius;
-            loaded = load_border(&self.given.topology, &mut self.linear, &moments, radius)?;
+            let topology = &self.given.topology;
+            loaded = load_border(topology, &mut self.linear, &moments, &self.options, &known)?;
         }
         state.z.copy_from_slice(&start);
         let problem = self.linear.problem.clone();
@@ -288,7 +292,7 @@ impl MeshSolver {
         let last = self.passes.len() >= self.options.crease_passes;
         let z = &level.best.z;
         let mut next = self.linear.moved(z);
-        restore(&self.given, &mut next, &self.linear.frames);
+        restore(&self.given, &mut next, &self.linear.frames, None);
         let topology = &self.given.topology;
         let old: Vec<Point> = self.linear.frames.iter().map(|f| f.normal).collect();
         let up = normals(topology, &next, Some(&old));
@@ -317,7 +321,11 @@ impl MeshSolver {
         let surface = &mut self.surface;
         if done && self.options.crease_passes > 0 {
             let sides = Sides::new(topology, surface)?;
+            restore(&self.given, surface, &self.linear.frames, Some(&sides));
             sharpen(&self.given, &sides, surface, &self.linear.frames);
+            if let Some(sigma) = self.sigma {
+                fair(surface, &curves(topology, &sides), CORNER * sigma, held);
+            }
             // Normals beside creases are others now.
             let up = normals(topology, surface, Some(&old));
             unfold(topology, surface, &up, held);
@@ -336,9 +344,11 @@ impl MeshSolver {
             .map(|(normal, hint)| Frame::about(normal, hint.tangents[0]))
             .collect();
         let base = self.surface.clone();
-        let next = linearised(&self.given, base, frames, &self.options, self.lambda)?;
+        let sides = Sides::new(&self.given.topology, &base)?;
+        let (options, lambda) = (&self.options, self.lambda);
+        let next = linearised(&self.given, base, frames, options, lambda, Some(&sides))?;
         let before = std::mem::replace(&mut self.linear, next);
-        self.begin(Some((level.state, before)))?;
+        self.begin(Some((level.state, before, sides)))?;
         self.seconds.setup += start.elapsed().as_secs_f64();
         Ok(())
     }
@@ -394,7 +404,8 @@ fn linearised(
     frames: Vec<Frame>,
     options: &MeshOptions,
     lambda: f64,
+    sides: Option<&Sides>,
 ) -> Result<Linearised> {
     let bends = Bends::of(&options.common());
-    Linearised::about(given, base, frames, bends, |_| lambda)
+    Linearised::about(given, base, frames, bends, |_| lambda, sides)
 }

@@ -137,7 +137,7 @@ fn linearised(mesh: &Mesh) -> Linearised {
         .into_iter()
         .map(|n| Frame::about(n, Point::x()))
         .collect();
-    Linearised::about(&given, given.noisy.clone(), frames, BENDS, |_| 1e4).unwrap()
+    Linearised::about(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         .map(|_| Frame::about(Point::z(), Point::x()))
         .collect();
     let bends = Bends::of(&options);
-    let linear = Linearised::about(&given, base, frames, bends, |_| 1e4).unwrap();
+    let linear = Linearised::about(&given, base, frames, bends, |_| 1e4, None).unwrap();
     let jacobi =
         |problem: &super::linear::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
     let b = solve(
@@ -609,4 +609,48 @@ fn a_folded_triangle_on_the_border_is_turned_back() {
         .report()
         .clone();
     assert_eq!(report.flipped, [1, 0]);
+}
+
+/// Along one ray a vertex on a crease cannot be on both of its sides, and dents them.
+#[test]
+fn faces_are_flat_beside_their_edges() {
+    let truth = cube(16);
+    let surface = fit_mesh(&noisy(&truth, 0.02), &MeshOptions::default()).unwrap();
+    let (flat, x) = (points(&truth), points(surface.mesh()));
+    let (mut sum, mut count) = (0.0, 0.0);
+    for triangle in truth.triangles() {
+        let area = |x: &[Point]| {
+            let [a, b, c] = triangle.map(|i| x[i as usize]);
+            (b - a).cross(&(c - a)).normalize()
+        };
+        let near = |i: &u32| flat[*i as usize].iter().filter(|c| c.abs() > 0.99).count() > 1;
+        if triangle.iter().any(near) {
+            sum += area(&x).dot(&area(&flat)).min(1.0).acos();
+            count += 1.0;
+        }
+    }
+    let mean: f64 = sum / count;
+    assert!(mean < 0.04, "{mean}");
+}
+
+/// A crease bears no moment, so that a bent side straightens towards it as towards a border.
+#[test]
+fn a_bent_side_stays_bent_up_to_its_crease() {
+    // Half a pipe, closed by a plate, without lids.
+    let soup: Vec<_> = [
+        grid(48, 40, |u, v| {
+            let angle = std::f64::consts::PI * u;
+            [angle.cos(), 3.0 * v, angle.sin()]
+        }),
+        grid(30, 40, |u, v| [2.0 * u - 1.0, 3.0 * v, 0.0]),
+    ]
+    .concat();
+    let truth = indexed(&soup);
+    let options = MeshOptions::default().lambda(3e4);
+    let found = fit_mesh(&truth, &options).unwrap();
+    let x = points(found.mesh()).into_iter().zip(points(&truth));
+    let near = x.filter(|(_, t)| t.z > 1e-9 && t.z < 0.3 && (t.y - 1.5).abs() < 1.0);
+    let off: Vec<f64> = near.map(|(x, _)| (x.x.hypot(x.z) - 1.0).abs()).collect();
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(mean < 1e-3, "{mean}");
 }

@@ -1,0 +1,111 @@
+//! Vertices along borders and creases, put on the smooth curves that these are.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::geometry::Point;
+use super::sides::Sides;
+use super::topology::Topology;
+
+/// Vertices on either side along a curve that a quadratic is fitted to.
+const REACH: usize = 4;
+
+/// Of a vertex's own variance, what is left by a fit that is worth it.
+const LEFT: f64 = 0.95;
+
+/// The borders and creases of a surface: of each vertex the ones before and after it. At their ends, and
+/// elsewhere, there are none.
+pub(super) fn curves(topology: &Topology, sides: &Sides) -> Vec<Option<[u32; 2]>> {
+    let mut curves = sides.creases(topology);
+    for (vertex, beside) in curves.iter_mut().enumerate() {
+        let rim: Vec<usize> = topology.along_rim(vertex).collect();
+        if let ([a, b], None) = (&rim[..], &beside) {
+            *beside = Some([*a as u32, *b as u32]);
+        }
+    }
+    curves
+}
+
+/// Puts each vertex of the `curves` on the quadratic that fits those along it best. One that this would move
+/// by more than `most` is a corner: there the curve ends, and it stays.
+pub(super) fn fair(x: &mut [Point], curves: &[Option<[u32; 2]>], most: f64, held: &[bool]) {
+    let old = x.to_vec();
+    let near = |step: &Point| step.norm() <= most;
+    let none = vec![false; x.len()];
+    let ends: Vec<bool> = (0..x.len())
+        .map(|vertex| !fitted(&old, curves, &none, vertex).is_some_and(|step| near(&step)))
+        .collect();
+    for vertex in 0..x.len() {
+        if !ends[vertex]
+            && !held[vertex]
+            && let Some(step) = fitted(&old, curves, &ends, vertex).filter(near)
+        {
+            x[vertex] += step;
+        }
+    }
+}
+
+/// The way from a vertex to the quadratic along its curve, which goes no further than to the `ends`.
+fn fitted(x: &[Point], curves: &[Option<[u32; 2]>], ends: &[bool], vertex: usize) -> Option<Point> {
+    let beside = curves[vertex]?;
+    let scale: f64 = (beside.iter())
+        .map(|other| (x[*other as usize] - x[vertex]).norm())
+        .sum();
+    let (mut matrix, mut right) = (Matrix3::zeros(), Matrix3::zeros());
+    matrix[(0, 0)] = 1.0;
+    for (first, sign) in beside.into_iter().zip([-1.0, 1.0]) {
+        let (mut before, mut here, mut along) = (vertex, first as usize, 0.0);
+        for _ in 0..REACH {
+            along += sign * (x[here] - x[before]).norm() / scale;
+            let powers = Vector3::new(1.0, along, along * along);
+            matrix += powers * powers.transpose();
+            right += powers * (x[here] - x[vertex]).transpose();
+            let Some([a, b]) = curves[here].filter(|_| !ends[here]) else {
+                break;
+            };
+            let next = if a as usize == before { b } else { a };
+            (before, here) = (here, next as usize);
+            if here == vertex {
+                break;
+            }
+        }
+    }
+    let inverse = matrix.cholesky()?.inverse();
+    if inverse[(0, 0)] > LEFT {
+        return None;
+    }
+    let step = (inverse.row(0) * right).transpose();
+    step.iter().all(|v| v.is_finite()).then_some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_noisy_polygon_keeps_its_sides_and_its_corner() {
+        // An arc of radius 1 and a straight line at a right angle to its end.
+        let arc = (0..40).map(|i| {
+            let angle = 0.03 * f64::from(i);
+            Point::new(angle.cos(), angle.sin(), 0.0)
+        });
+        let end = Point::new((1.2f64).cos(), (1.2f64).sin(), 0.0);
+        let line = (0..40).map(|i| end + 0.03 * f64::from(i) * end);
+        let truth: Vec<Point> = arc.chain(line).collect();
+        let curves: Vec<Option<[u32; 2]>> = (0..80)
+            .map(|i: u32| (i > 0 && i < 79).then(|| [i - 1, i + 1]))
+            .collect();
+        let mut random = oorandom::Rand64::new(7);
+        let mut shake = || 0.01 * (random.rand_float() - 0.5);
+        let given: Vec<Point> = (truth.iter())
+            .map(|x| x + Point::new(shake(), shake(), shake()))
+            .collect();
+        let mut x = given.clone();
+        fair(&mut x, &curves, 0.012, &[false; 80]);
+        let off = |x: &[Point]| {
+            let squares = x.iter().zip(&truth).map(|(a, b)| (a - b).norm_squared());
+            squares.sum::<f64>().sqrt()
+        };
+        assert!(off(&x) < 0.75 * off(&given), "{} {}", off(&x), off(&given));
+        assert!((x[40] - truth[40]).norm() < 0.012);
+    }
+}

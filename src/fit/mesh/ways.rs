@@ -1,0 +1,63 @@
+//! Where vertices on creases go besides along their normal.
+//!
+//! The surface has two normals there, and three in a corner. Along one ray a vertex cannot be on all of these
+//! sides: what it is off across the ray would stay a dent in both.
+
+use super::geometry::{Frame, Point};
+use super::linear::Given;
+use super::sides::Sides;
+
+/// Ways across the rays, each an unknown of its own.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ways {
+    /// Which vertex goes along each, and the way.
+    pub all: Vec<(u32, Point)>,
+    /// Where those of each vertex begin.
+    first: Vec<u32>,
+}
+
+impl Ways {
+    /// Across the crease where two sides meet, and everywhere where three do.
+    pub(super) fn new(given: &Given, sides: &Sides, base: &[Point], frames: &[Frame]) -> Ways {
+        let topology = &given.topology;
+        let creases = sides.creases(topology);
+        let mut ways = Ways {
+            all: Vec::new(),
+            first: vec![0],
+        };
+        for (vertex, frame) in frames.iter().enumerate() {
+            let own = match topology.inside[vertex] && !given.held[vertex] {
+                true => sides.around(vertex).len(),
+                false => 0,
+            };
+            match (own, creases[vertex]) {
+                (2, Some([a, b])) => {
+                    let along = base[b as usize] - base[a as usize];
+                    let way = frame.normal.cross(&along).try_normalize(0.0);
+                    ways.all.extend(way.map(|way| (vertex as u32, way)));
+                }
+                (3.., _) => {
+                    let ring = topology.around(vertex).iter();
+                    let longest = ring
+                        .map(|other| base[*other as usize] - base[vertex])
+                        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+                    let hint = longest.unwrap_or(frame.tangents[0]);
+                    let [a, b] = Frame::about(frame.normal, hint).tangents;
+                    ways.all.extend([(vertex as u32, a), (vertex as u32, b)]);
+                }
+                _ => {}
+            }
+            ways.first.push(ways.all.len() as u32);
+        }
+        ways
+    }
+
+    /// The numbers of a vertex's ways, and these.
+    pub(super) fn of(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
+        let own = match self.first.get(vertex..vertex + 2) {
+            Some([first, end]) => *first..*end,
+            _ => 0..0,
+        };
+        own.map(|way| (way, self.all[way as usize].1))
+    }
+}

@@ -21,6 +21,7 @@ use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::scene::view::Frame as Frame3;
 use crate::{Energy, Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
+mod creases;
 mod crossing;
 
 fn random(seed: u64) -> impl FnMut() -> f64 {

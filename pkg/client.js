@@ -4,7 +4,7 @@ import { Connection } from './connection.js';
 import { controlOf } from './control.js';
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError, messageOf } from './errors.js';
-import { explored } from './explore.js';
+import { explored, exploredMesh } from './explore.js';
 import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
@@ -354,6 +354,14 @@ export class DevelopableWorker {
    */
   explorePattern(input, given) {
     return explored(/** @type {import('./index.js').DevelopableWorker} */ (/** @type {unknown} */ (this)), input, given);
+  }
+
+  /**
+   * @param {import('./types.js').Mesh} mesh
+   * @param {import('./index.js').ExplorePatternMeshOptions} [given]
+   */
+  explorePatternMesh(mesh, given) {
+    return exploredMesh(/** @type {import('./index.js').DevelopableWorker} */ (/** @type {unknown} */ (this)), mesh, given);
   }
 
   /** @param {import('./types.js').Drawing} drawing */

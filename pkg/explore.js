@@ -9,47 +9,100 @@ import { optionsOf } from './options.js';
 /**
  * @typedef {import('./types.js').PatternPlan} PatternPlan
  * @typedef {import('./types.js').ExploredPatterns} ExploredPatterns
- * @typedef {Pick<import('./index.js').DevelopableWorker, 'open' | 'analyze' | 'pattern'>} Worker
+ * @typedef {import('./types.js').Mesh} Mesh
+ * @typedef {Pick<import('./index.js').DevelopableWorker, 'open' | 'analyze' | 'pattern' | 'fitMesh' | 'patternMesh'>} Worker
+ */
+
+/**
+ * A surface, how far it is from the input, and the seconds that took.
+ * @template S
+ * @typedef {{ surface: S, distance: number, seconds: number }} Solved
  */
 
 /** What is tried unless something else is said: half-decades of λ, and shares of all vertices. */
 const LAMBDAS = [1e7, 3e6, 1e6, 3e5, 1e5, 3e4];
 const SMALLEST = [0.005, 0.02, 0.08];
 
+/** Of the λ that a mesh's noise asks for. */
+const SHARES = [1, 0.3, 0.1, 0.03];
+
 /**
- * From the surface that is nearest to the input to the plainest one, and with smaller patches before larger ones. So the
- * first plan with few enough sheets is the finest.
  * @param {Worker} worker
  * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
  * @param {import('./index.js').ExplorePatternOptions} [given]
- * @returns {Promise<ExploredPatterns>}
  */
 export async function explored(worker, input, given) {
-  const { lambdas = LAMBDAS, smallest = SMALLEST, sheets = Infinity, solver = {}, pattern = {}, signal, onPlan } = optionsOf('explorePattern', given);
+  const { lambdas = LAMBDAS, solver = {}, pattern = {}, ...choice } = optionsOf('explorePattern', given);
+  const { signal } = choice;
   const { spacing } = solver;
   signal?.throwIfAborted();
-  /** @type {PatternPlan[]} */
-  const plans = [];
   const open = await worker.open(input);
+  const solved = async (/** @type {number} */ lambda) => {
+    const begun = performance.now();
+    const surface = await open.fit({ ...solver, lambda, signal });
+    const { deviation } = await worker.analyze(surface, { reference: input, ...(spacing !== undefined && { spacing }) });
+    return { surface, distance: deviation?.rms ?? NaN, seconds: (performance.now() - begun) / 1000 };
+  };
   try {
-    for (const lambda of [...lambdas].sort((a, b) => b - a)) {
-      const begun = performance.now();
-      const surface = await open.fit({ ...solver, lambda, signal });
-      const { deviation } = await worker.analyze(surface, { reference: input, ...(spacing !== undefined && { spacing }) });
-      const fitting = performance.now() - begun;
-      for (const share of [...smallest].sort((a, b) => a - b)) {
-        signal?.throwIfAborted();
-        const started = performance.now();
-        const found = await drawn(worker.pattern(surface, { ...pattern, smallest: share }));
-        const seconds = (fitting + performance.now() - started) / 1000;
-        const plan = { lambda, smallest: share, distance: deviation?.rms ?? NaN, seconds, ...found };
-        plans.push(plan);
-        onPlan?.(plan);
-        if (sheets < Infinity && plan.drawing !== undefined && plan.drawing.sheets.length <= sheets) return { plans, chosen: plan };
-      }
-    }
+    return await tried(lambdas, choice, solved, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
   } finally {
     open.dispose();
+  }
+}
+
+/**
+ * @param {Worker} worker
+ * @param {Mesh} mesh
+ * @param {import('./index.js').ExplorePatternMeshOptions} [given]
+ */
+export async function exploredMesh(worker, mesh, given) {
+  const { lambdas, solver = {}, pattern = {}, ...choice } = optionsOf('explorePatternMesh', given);
+  const { signal } = choice;
+  signal?.throwIfAborted();
+  const own = lambdas === undefined ? await worker.fitMesh(mesh, { ...solver, signal }) : undefined;
+  const all = lambdas ?? SHARES.map((share) => share * (own?.report.lambda ?? NaN));
+  const solved = async (/** @type {number} */ lambda) => {
+    const surface = lambda === own?.report.lambda ? own : await worker.fitMesh(mesh, { ...solver, lambda, signal });
+    return { surface, distance: moved(mesh, surface), seconds: surface.report.seconds.total };
+  };
+  return tried(all, choice, solved, (surface, smallest) => worker.patternMesh(surface, { ...pattern, smallest }));
+}
+
+/**
+ * How far vertices are from where they were: root of the mean square.
+ * @param {Mesh} mesh
+ * @param {Mesh} surface
+ */
+function moved({ positions: from }, { positions: to }) {
+  const squares = to.reduce((sum, x, k) => sum + (x - from[k]) ** 2, 0);
+  return Math.sqrt((3 * squares) / to.length);
+}
+
+/**
+ * From the surface that is nearest to the input to the plainest one, and with smaller patches before larger ones. So the
+ * first plan with few enough sheets is the finest.
+ * @template S
+ * @param {readonly number[]} lambdas
+ * @param {Pick<import('./index.js').ExplorePatternOptions, 'smallest' | 'sheets' | 'signal' | 'onPlan'>} choice
+ * @param {(lambda: number) => Promise<Solved<S>>} solved
+ * @param {(surface: S, smallest: number) => Promise<import('./types.js').Drawing>} laid
+ * @returns {Promise<ExploredPatterns>}
+ */
+async function tried(lambdas, { smallest = SMALLEST, sheets = Infinity, signal, onPlan }, solved, laid) {
+  /** @type {PatternPlan[]} */
+  const plans = [];
+  for (const lambda of [...lambdas].sort((a, b) => b - a)) {
+    const { surface, distance, seconds: fitting } = await solved(lambda);
+    for (const share of [...smallest].sort((a, b) => a - b)) {
+      signal?.throwIfAborted();
+      const started = performance.now();
+      const found = await drawn(laid(surface, share));
+      const seconds = fitting + (performance.now() - started) / 1000;
+      const plan = { lambda, smallest: share, distance, seconds, ...found };
+      plans.push(plan);
+      onPlan?.(plan);
+      if (sheets < Infinity && plan.drawing !== undefined && plan.drawing.sheets.length <= sheets) return { plans, chosen: plan };
+    }
   }
   return { plans };
 }
@@ -62,7 +115,8 @@ async function drawn(pattern) {
   try {
     return { drawing: await pattern };
   } catch (error) {
-    if (error instanceof DevelopableError && error.code === 'NOT_FLAT') return { problem: error.message };
+    // Of meshes, what takes too many parts is unsupported.
+    if (error instanceof DevelopableError && ['NOT_FLAT', 'UNSUPPORTED'].includes(error.code)) return { problem: error.message };
     throw error;
   }
 }

@@ -90,6 +90,15 @@ export interface ExplorePatternOptions {
   onPlan?: (plan: PatternPlan) => void;
 }
 
+export interface ExplorePatternMeshOptions extends Omit<ExplorePatternOptions, 'lambdas' | 'solver' | 'pattern'> {
+  /** λ to try. Default: what the mesh's noise asks for, and 0.3, 0.1 and 0.03 times as much. */
+  lambdas?: readonly number[];
+  /** Of the solves, but for λ. */
+  solver?: Omit<MeshSolverOptions, 'lambda'>;
+  /** Of the patterns, but for the smallest patch. */
+  pattern?: Omit<MeshPatternOptions, 'smallest'>;
+}
+
 /**
  * An input that stays in the worker with its solver, to be solved again and again: with other
  * options, as for a slider, or slightly changed.
@@ -186,6 +195,11 @@ export function patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<D
  * with a `problem`; whatever else `fit` and `pattern` have to say rejects.
  */
 export function explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
+/**
+ * The same of a mesh as it is: one `fitMesh` for each λ, and one `patternMesh` for each plan. `distance` is how far vertices were
+ * moved.
+ */
+export function explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
 export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 export function writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
 export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
@@ -249,6 +263,7 @@ export class DevelopableWorker {
   unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
   patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
   explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
+  explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
   writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
   writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
   writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;

@@ -85,6 +85,8 @@ export const unroll = (input, options) => worker().unroll(input, options);
 export const pattern = (input, options) => worker().pattern(input, options);
 /** @type {typeof import('./index.js').explorePattern} */
 export const explorePattern = (input, options) => worker().explorePattern(input, options);
+/** @type {typeof import('./index.js').explorePatternMesh} */
+export const explorePatternMesh = (mesh, options) => worker().explorePatternMesh(mesh, options);
 /** @type {typeof import('./index.js').writeSvg} */
 export const writeSvg = (drawing) => worker().writeSvg(drawing);
 /** @type {typeof import('./index.js').writePdf} */

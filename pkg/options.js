@@ -98,7 +98,7 @@ const several = {
   },
 };
 
-/** The options of another call. @type {(call: 'solver' | 'pattern') => Kind} */
+/** The options of another call. @type {(call: 'solver' | 'pattern' | 'meshSolver' | 'patternMesh') => Kind} */
 const optionsFor = (call) => ({
   must: 'must be an object of options',
   take: (value) => (isRecord(value) ? optionsOf(call, /** @type {object} */ (value)) : undefined),
@@ -229,6 +229,9 @@ export const OPTIONS = {
   patternMesh: { ...patching, ...unrolling, ...drawing, gap: number, maxStrain: number },
   explorePattern: {
     lambdas: several, smallest: several, sheets: whole, solver: optionsFor('solver'), pattern: optionsFor('pattern'), signal, onPlan: callback,
+  },
+  explorePatternMesh: {
+    lambdas: several, smallest: several, sheets: whole, solver: optionsFor('meshSolver'), pattern: optionsFor('patternMesh'), signal, onPlan: callback,
   },
   dewarp: { ...resampled, ...unrolling, ...mapping, ...handOver, trim: flag, deskew: flag, crop: corners, extent, camera: photoCamera },
   dewarpPage: {

@@ -67,7 +67,7 @@ import { split, usage } from './flags.js';
  * @typedef {{
  *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], report?: string,
  *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, laying: import('../types.js').PatchOptions & { maxStrain?: number },
- *   drawing: Omit<import('../types.js').MeshPatternOptions, 'assembly'>, assembly?: string,
+ *   drawing: Omit<import('../types.js').MeshPatternOptions, 'assembly'>, assembly?: string, explore: boolean, sheets?: number,
  *   options: import('../types.js').MeshSolverOptions,
  * }} MeshTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
@@ -271,7 +271,7 @@ const wholeCommands = {
   unroll: ['as-is'],
   pattern: [
     'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor',
-    'smoothing', 'paper', 'assembly',
+    'smoothing', 'paper', 'assembly', 'explore', 'sheets',
   ],
 };
 
@@ -307,6 +307,7 @@ function whole(make, { input, output, written, extension: kind }, values) {
     laying: { ...patching(values), maxStrain },
     drawing: drawn,
     assembly,
+    ...exploring(values, kind),
     options: {
       lambda: lambda(values.lambda),
       gap: number('gap', values),

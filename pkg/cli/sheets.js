@@ -10,6 +10,7 @@ import { percent, print, statusLine } from './terminal.js';
 /**
  * @typedef {import('./arguments.js').SheetTask} SheetTask
  * @typedef {import('./arguments.js').PatternTask} PatternTask
+ * @typedef {Pick<import('../types.js').PatternPlan, 'lambda' | 'smallest' | 'distance'>} Plan how a pattern came about, of several that were tried
  * @typedef {import('./inputs.js').Input} Input
  * @typedef {import('../types.js').Unrolling} Unrolling
  */
@@ -34,6 +35,16 @@ export async function pattern(task, signal) {
   await checkPlaces(...task.written);
   if (task.explore) return tellPlans(task, (await explored(task, signal)).plans, signal);
   const { drawing, plan } = await drawnOnce(task, signal);
+  await writeWhole(await patternFiles(task, drawing, plan), signal);
+  reportPattern(drawing, plan);
+}
+
+/**
+ * @param {{ output: string, extension: import('./arguments.js').Extension, report?: string, assembly?: string }} task
+ * @param {import('../types.js').Drawing} drawing
+ * @param {Plan} [plan]
+ */
+export async function patternFiles(task, drawing, plan) {
   const files = [{ path: task.output, bytes: await drawn(drawing, task.extension) }];
   const { assembly } = drawing;
   if (task.report !== undefined) {
@@ -42,13 +53,19 @@ export async function pattern(task, signal) {
   if (task.assembly !== undefined && assembly !== undefined) {
     files.push({ path: task.assembly, bytes: task.assembly.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
   }
-  await writeWhole(files, signal);
-  const { sheets } = drawing.summary;
+  return files;
+}
+
+/**
+ * @param {import('../types.js').Drawing} drawing
+ * @param {Plan} [plan]
+ */
+export function reportPattern(drawing, plan) {
   reportFit(drawing);
   if (plan !== undefined) {
     process.stderr.write(
-      `developable: ${counted(sheets, 'sheet')} with --lambda ${plan.lambda} and --smallest ${plan.smallest}, ` +
-        `${Number(plan.distance.toPrecision(3))} from the input (root mean square)\n`,
+      `developable: ${counted(drawing.summary.sheets, 'sheet')} with --lambda ${Number(plan.lambda.toPrecision(6))} and --smallest ` +
+        `${plan.smallest}, ${Number(plan.distance.toPrecision(3))} from the input (root mean square)\n`,
     );
   }
   reportSlits(drawing.summary);
@@ -56,7 +73,7 @@ export async function pattern(task, signal) {
 }
 
 /** What it takes besides the creases. @param {import('../types.js').Drawing['summary']} summary */
-export function reportSlits({ slits, slitLength, sheets, strain }) {
+function reportSlits({ slits, slitLength, sheets, strain }) {
   if (slits === 0) return;
   process.stderr.write(
     `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
@@ -74,6 +91,7 @@ function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickn
  * The pattern that is asked for, and how it came about where several were tried.
  * @param {PatternTask} task
  * @param {AbortSignal} signal
+ * @returns {Promise<{ drawing: import('../types.js').Drawing, plan?: Plan }>}
  */
 async function drawnOnce(task, signal) {
   if (task.sheets === undefined) {
@@ -81,7 +99,15 @@ async function drawnOnce(task, signal) {
     const refold = task.report !== undefined;
     return { drawing: await developable.pattern(surface, { ...options, ...task.patching, ...drawingOptions(task), refold }) };
   }
-  const { plans, chosen } = await explored(task, signal);
+  return chosenOf(task, await explored(task, signal));
+}
+
+/**
+ * The pattern of the first plan with few enough sheets.
+ * @param {{ sheets?: number }} task
+ * @param {import('../types.js').ExploredPatterns} found
+ */
+export function chosenOf(task, { plans, chosen }) {
   if (chosen?.drawing === undefined) {
     const fewest = Math.min(...plans.map(({ drawing }) => drawing?.sheets.length ?? Infinity));
     throw new Problem(
@@ -103,15 +129,18 @@ async function explored(task, signal) {
   const input = await readInput(task);
   const { lambda, ...solver } = { ...task.options, ...spacing(task) };
   const { smallest, ...patching } = task.patching;
+  const pattern = { ...patching, ...drawingOptions(task) };
+  return withPlans((onPlan) => developable.explorePattern(input, { solver, pattern, sheets: task.sheets, signal, onPlan }));
+}
+
+/**
+ * Plans, shown as they are found.
+ * @param {(onPlan?: (plan: import('../types.js').PatternPlan) => void) => Promise<import('../types.js').ExploredPatterns>} explore
+ */
+export async function withPlans(explore) {
   const line = statusLine();
   try {
-    return await developable.explorePattern(input, {
-      solver,
-      pattern: { ...patching, ...drawingOptions(task) },
-      sheets: task.sheets,
-      signal,
-      onPlan: line.shown ? (plan) => line.show(row(plan).join('  ')) : undefined,
-    });
+    return await explore(line.shown ? (plan) => line.show(row(plan).join('  ')) : undefined);
   } finally {
     line.clear();
   }
@@ -122,7 +151,7 @@ const COLUMNS = ['lambda', 'smallest', 'sheets', 'folds', 'slits', 'cuts (mm)', 
 /** @param {import('../types.js').PatternPlan} plan */
 function row({ lambda, smallest, distance, seconds, drawing }) {
   const figures = drawing === undefined ? ['cannot be laid flat', '', '', '', ''] : told(drawing.summary);
-  return [lambda.toExponential(0), String(smallest), ...figures, String(Number(distance.toPrecision(3))), seconds.toFixed(1)];
+  return [Number(lambda.toPrecision(3)).toExponential(), String(smallest), ...figures, String(Number(distance.toPrecision(3))), seconds.toFixed(1)];
 }
 
 /** @param {import('../types.js').Drawing['summary']} summary */
@@ -132,11 +161,11 @@ function told({ sheets, folds, slits, cutLength, strain }) {
 
 /**
  * All plans, as a table or as JSON.
- * @param {PatternTask} task
+ * @param {{ output: string }} task
  * @param {import('../types.js').PatternPlan[]} plans
  * @param {AbortSignal} signal
  */
-async function tellPlans({ output }, plans, signal) {
+export async function tellPlans({ output }, plans, signal) {
   if (output !== '') {
     const figures = plans.map(({ drawing, ...plan }) => ({ ...plan, summary: drawing?.summary }));
     await writeWhole([{ path: output, bytes: json(figures) }], signal);
@@ -149,7 +178,7 @@ async function tellPlans({ output }, plans, signal) {
 }
 
 /** How well what is joined fits. @param {import('../types.js').Drawing} drawing */
-export function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
+function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
   const words = [];
   if (worstJoint !== undefined) {
     const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));

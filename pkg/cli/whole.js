@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { drawn, flatObj, json, linesObj, plainArrays, reportFit, reportSlits } from './sheets.js';
+import { chosenOf, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
 import { announceMesh, percent, print, progressLine } from './terminal.js';
 
 /**
@@ -18,6 +18,7 @@ import { announceMesh, percent, print, progressLine } from './terminal.js';
 export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh({ ...task, lattice: 'mesh', normalize: true });
+  if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
   const surface = task.asIs ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.make](task, surface ?? mesh, mesh);
   const shown = task.output === '' ? files.shift() : undefined;
@@ -65,20 +66,34 @@ const made = {
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
   },
 
-  async pattern({ output, extension, report, laying, drawing, assembly: path }, surface) {
-    const told = path !== undefined || report !== undefined;
-    const pattern = await developable.patternMesh(surface, { ...laying, ...drawing, assembly: told });
-    const files = [{ path: output, bytes: await drawn(pattern, extension) }];
-    const { assembly, summary } = pattern;
-    if (report !== undefined) files.push({ path: report, bytes: json({ ...summary, assembly: assembly?.steps }) });
-    if (path !== undefined && assembly !== undefined) {
-      files.push({ path, bytes: path.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
-    }
-    reportFit(pattern);
-    reportSlits(summary);
-    return files;
+  async pattern(task, surface) {
+    const pattern = await developable.patternMesh(surface, patternOptions(task));
+    reportPattern(pattern);
+    return patternFiles(task, pattern);
   },
 };
+
+/** @param {MeshTask} task */
+function patternOptions({ laying, drawing, assembly, report }) {
+  return { ...laying, ...drawing, assembly: assembly !== undefined || report !== undefined };
+}
+
+/**
+ * Patterns at several λ: all are told, or the first one with few enough sheets is written.
+ * @param {MeshTask} task
+ * @param {Mesh} mesh
+ * @param {AbortSignal} signal
+ */
+async function planned(task, mesh, signal) {
+  const { lambda, ...solver } = task.options;
+  const { smallest, ...pattern } = patternOptions(task);
+  const { sheets } = task;
+  const found = await withPlans((onPlan) => developable.explorePatternMesh(mesh, { solver, pattern, sheets, signal, onPlan }));
+  if (task.explore) return tellPlans(task, found.plans, signal);
+  const { drawing, plan } = chosenOf(task, found);
+  await writeWhole(await patternFiles(task, drawing, plan), signal);
+  reportPattern(drawing, plan);
+}
 
 /**
  * Says how the fit went.

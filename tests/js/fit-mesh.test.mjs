@@ -212,6 +212,35 @@ test('a whole mesh is measured, laid flat and drawn', async () => {
   assert.throws(() => direct.patternMesh(branched), error('TOPOLOGY', /3 triangles/));
 });
 
+test('patterns of a whole mesh at several λ', async () => {
+  const smallest = [0.02];
+  /** @type {import('../../pkg/types.js').PatternPlan[]} */
+  const told = [];
+  const { plans, chosen } = await developable.explorePatternMesh(noisy, { smallest, pattern: { scale: 10 }, onPlan: (plan) => told.push(plan) });
+  assert.equal(chosen, undefined);
+  assert.deepEqual(told, plans);
+  const { report, positions } = await developable.fitMesh(noisy);
+  const close = (/** @type {number} */ one, /** @type {number} */ other) => assert.ok(Math.abs(one / other - 1) < 1e-9, `${one} for ${other}`);
+  [1, 0.3, 0.1, 0.03].forEach((share, k) => close(plans[k].lambda, share * report.lambda));
+  const steps = Array.from({ length: positions.length / 3 }, (_, i) => Math.hypot(...[0, 1, 2].map((k) => positions[3 * i + k] - noisy.positions[3 * i + k])));
+  close(plans[0].distance, Math.sqrt(steps.reduce((sum, step) => sum + step ** 2, 0) / steps.length));
+  plans.forEach(({ distance }, k) => assert.ok(k === 0 || distance > plans[k - 1].distance, 'the smoother, the farther'));
+  for (const { drawing } of plans) {
+    assert.ok(drawing && drawing.summary.strain <= 0.01);
+    // In square millimetres.
+    assert.ok(Math.abs(drawing.summary.area / (100 * (pipe + cone)) - 1) < 0.05, `${drawing.summary.area}`);
+  }
+  const sheets = plans[0].drawing?.sheets.length;
+  const few = await developable.explorePatternMesh(noisy, { lambdas: [1e3, report.lambda], smallest, sheets });
+  assert.equal(few.plans.length, 1);
+  assert.equal(few.chosen, few.plans[0]);
+  assert.equal(few.plans[0].lambda, report.lambda);
+  await assert.rejects(developable.explorePatternMesh(noisy, /** @type {any} */ ({ lambdas: 3 })), error('OPTION', /lambdas/));
+  await assert.rejects(developable.explorePatternMesh(noisy, /** @type {any} */ ({ solver: { spacing: 1 } })), error('OPTION', /spacing/));
+  await assert.rejects(developable.explorePatternMesh(branched), error('TOPOLOGY', /3 triangles/));
+  await assert.rejects(developable.explorePatternMesh(noisy, { signal: AbortSignal.abort() }), { name: 'AbortError' });
+});
+
 /** How far a line through two points passes by a third. @param {number[]} a @param {number[]} b @param {number[]} c */
 function beside(a, b, c) {
   const [u, v] = [b, c].map((p) => p.map((x, k) => x - a[k]));
@@ -309,4 +338,10 @@ test('the command lays whole meshes flat', async () => {
   assert.equal(told.status, 0);
   assert.deepEqual(Object.keys(JSON.parse(told.stdout)), ['input']);
   assert.match((await run(folder, ['pattern', 'scan.ply', '-o', 'a.svg', '--surface', '--view', '-z'])).stderr, /--view is for heights/);
+  const table = await run(folder, ['pattern', 'scan.ply', '--surface', '--explore']);
+  assert.match(table.stdout, /^ *lambda  smallest  sheets .*\n( *[1-9][.\d]*e\+\d  .* %  .*\n){12}$/);
+  const few = await run(folder, ['pattern', 'scan.ply', '-o', 'few.svg', '--surface', '--sheets', '9']);
+  assert.match(few.stderr, /sheets? with --lambda \d+(\.\d+)? and --smallest 0\.005, 0\.0\d+ from the input/);
+  assert.match(await readFile(join(folder, 'few.svg'), 'utf8'), /<svg/);
+  assert.match((await run(folder, ['pattern', 'scan.ply', '--surface', '--explore', '--lambda', '3'])).stderr, /leave --lambda out/);
 });

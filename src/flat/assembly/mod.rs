@@ -18,12 +18,15 @@
 //! # }
 //! ```
 
+// Only pictures look at it.
+#[cfg(feature = "patterns")]
 mod built;
 mod order;
 mod pose;
 
 use super::drawing::letters;
 use super::pattern::Sheet;
+#[cfg(feature = "patterns")]
 pub(crate) use built::{Built, faces_up};
 use order::ordered;
 pub use pose::Pose;

@@ -91,6 +91,7 @@ impl Linearised {
         let areas = areas(topology, &base);
         let ways = sides.map_or_else(Ways::default, |s| Ways::new(given, s, &base, &frames));
         let across = constant + 1;
+        let unknowns = count + 1 + ways.all.len();
         let mut about = try_filled("stencils", count, NONE)?;
         let (mut centres, mut rows) = (Vec::new(), Rows::new());
         rows.reserve(count, USUAL);
@@ -173,11 +174,11 @@ impl Linearised {
                 .collect(),
             rows,
             constant: Some(constant),
-            places: try_filled("vertices", count + 1 + ways.all.len(), [0.0; 2])?,
+            places: try_filled("vertices", unknowns, [0.0; 2])?,
             spacing,
             size: 1.0,
         })?;
-        let mut target = try_filled("vertices", count + 1 + ways.all.len(), 1.0)?;
+        let mut target = try_filled("vertices", unknowns, 1.0)?;
         for vertex in 0..count {
             let off = given.noisy[vertex] - base[vertex];
             target[vertex] = off.dot(&frames[vertex].normal) / scales[vertex];
@@ -188,7 +189,7 @@ impl Linearised {
         }
         let mut problem = Problem::under(operator, lambda(spacing), target, Kind::Huber(bends));
         problem.constrained.push(constant);
-        let mut inverse = try_filled("fidelity", count + 1 + ways.all.len(), 1.0)?;
+        let mut inverse = try_filled("fidelity", unknowns, 1.0)?;
         inverse[count] = 0.0;
         for (vertex, held) in given.held.iter().enumerate() {
             if *held {
@@ -214,7 +215,7 @@ impl Linearised {
 
     /// The unknowns with nothing moved.
     pub(super) fn start(&self) -> Vec<f64> {
-        let mut z = vec![0.0; self.base.len() + 1 + self.ways.all.len()];
+        let mut z = vec![0.0; self.problem.target.len()];
         z[self.base.len()] = 1.0;
         for vertex in &self.problem.constrained {
             z[*vertex as usize] = self.problem.target[*vertex as usize];

@@ -282,22 +282,26 @@ impl<'a> Both<'a> {
         }
         let laid = match rough.strain <= ENOUGH * limits.strain {
             true => rough,
-            false => rough.relaxed(body, limits.trial())?,
+            false => {
+                let laid = rough.relaxed(body, limits.trial())?;
+                if !limits.allow(&laid) {
+                    return Ok(None);
+                }
+                laid
+            }
         };
         let mut parts: Vec<u32> = self.all().flat_map(|sheet| &sheet.parts).copied().collect();
         parts.sort_unstable();
         let gaps = self.all().map(|sheet| sheet.gap);
-        Ok(Some(laid)
-            .filter(|laid| limits.allow(laid))
-            .map(|laid| Joined {
-                parts,
-                whole: (self.all().flat_map(|sheet| &sheet.whole).copied())
-                    .chain(more)
-                    .collect(),
-                laid,
-                gap: gaps
-                    .chain(along.iter().map(|(_, apart)| *apart))
-                    .fold(0.0, f64::max),
-            }))
+        Ok(Some(Joined {
+            parts,
+            whole: (self.all().flat_map(|sheet| &sheet.whole).copied())
+                .chain(more)
+                .collect(),
+            laid,
+            gap: gaps
+                .chain(along.iter().map(|(_, apart)| *apart))
+                .fold(0.0, f64::max),
+        }))
     }
 }

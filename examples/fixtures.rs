@@ -95,7 +95,7 @@ fn roof(size: usize, lambda: serde_json::Value) -> Case {
     });
     let options = Settings {
         lambda,
-        gap: 1e-3,
+        gap: Some(1e-3),
         // The moat is two cells wide.
         bridge: Some(false),
         ..settings()
@@ -110,7 +110,7 @@ fn tiny_lattice() -> Case {
     let input = lattice(3, 3, 1.0, |_, _| values.next());
     let options = Settings {
         lambda: json!(2.0),
-        gap: 1e-6,
+        gap: Some(1e-6),
         normalize: false,
         ..settings()
     };
@@ -124,6 +124,7 @@ fn paper_schedule() -> Case {
     });
     let options = Settings {
         schedule: "paper".into(),
+        gap: None,
         max_iterations: 300,
         ..settings()
     };
@@ -146,7 +147,7 @@ fn strips_and_weights() -> Case {
         *confidence = Some((0..rows * cols).map(weight).collect());
     }
     let options = Settings {
-        gap: 1e-4,
+        gap: Some(1e-4),
         max_iterations: 120,
         bridge: Some(false),
         ..settings()
@@ -156,9 +157,10 @@ fn strips_and_weights() -> Case {
 
 fn settings() -> Settings {
     Settings {
+        paper: true,
         lambda: json!("medium"),
         schedule: "default".into(),
-        gap: 0.01,
+        gap: Some(0.01),
         max_iterations: 20_000,
         normalize: true,
         spacing: None,

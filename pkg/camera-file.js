@@ -39,10 +39,12 @@ function sizesOf(images) {
 }
 
 /**
- * @param {string} text
+ * @param {string} given
  * @returns {PhotoCamera | undefined}
  */
-function cameraOf(text) {
+function cameraOf(given) {
+  // A byte order mark, with which some programs begin their files, is no JSON.
+  const text = given.replace(/^\uFEFF/, '');
   if (!/^\s*[{[]/.test(text)) {
     const rows = text.trim().split(/\r?\n/).map((line) => line.split(/[\s,;]+/).filter((part) => part !== '').map(Number));
     return matrix(rows);

@@ -1,19 +1,18 @@
 /** The promise API, over a worker of its own. Documented in `index.d.ts`. */
+import { CALLS, copyOfFile, handedOver, isBlob } from './calls.js';
 import { contextOf, put } from './canvas.js';
 import { Connection } from './connection.js';
 import { controlOf } from './control.js';
-import { asDepthOptions } from './depth-input.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { explored, exploredMesh } from './explore.js';
-import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, detached } from './input.js';
-import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
+import { asInput, asLattice, detached } from './input.js';
+import { asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
-import { asEdges, pageOptions, plainEdges } from './page-input.js';
 import { optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
-import { asPhoto, extentOf, placedOptions, printOptions } from './sheet-input.js';
+import { extentOf } from './sheet-input.js';
 import { orAborted, solve } from './solve.js';
-import { asText, plainCopy, reading } from './values.js';
+import { reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
 import { transfer } from './wire.js';
 
@@ -29,7 +28,10 @@ import { transfer } from './wire.js';
 /** Number of the last solver that was opened. */
 let opened = 0;
 
-/** @implements {Omit<DevelopableWorkerApi, typeof Symbol.dispose>} */
+/**
+ * Has the methods of `CALLS` besides those below.
+ * @implements {Omit<DevelopableWorkerApi, typeof Symbol.dispose | keyof typeof CALLS>}
+ */
 export class DevelopableWorker {
   #options;
   /** @type {Connection | undefined} */
@@ -78,116 +80,6 @@ export class DevelopableWorker {
   }
 
   /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').OcclusionOptions} [given]
-   */
-  async occlusions(input, given) {
-    const options = optionsOf('occlusions', given);
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.occlusions(transfer(field, buffers), options));
-  }
-
-  /**
-   * @param {Uint8Array | ArrayBuffer | Blob} bytes
-   * @param {import('./types.js').ReadOptions} [given]
-   */
-  async read(bytes, given) {
-    const options = optionsOf('read', given);
-    const file = await ownBytes(bytes);
-    return this.#request((remote) => remote.read(transfer(file, [file.buffer]), options));
-  }
-
-  /** @param {Uint8Array | ArrayBuffer | Blob} bytes */
-  async npzArrays(bytes) {
-    const file = await ownBytes(bytes);
-    return this.#request((remote) => remote.npzArrays(transfer(file, [file.buffer])));
-  }
-
-  /** @param {HeightImage | Heightfield} input */
-  async writeNpy(input) {
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.writeNpy(transfer(field, buffers)));
-  }
-
-  /** @param {HeightImage | import('./types.js').Surface} input */
-  async writePng(input) {
-    const { field, buffers } = detached(asPixels(input));
-    return this.#request((remote) => remote.writePng(transfer(field, buffers)));
-  }
-
-  /** @param {HeightImage | import('./types.js').Surface} input */
-  async writeTiff(input) {
-    const { field, buffers } = detached(asPixels(input));
-    return this.#request((remote) => remote.writeTiff(transfer(field, buffers)));
-  }
-
-  /** @param {HeightImage | import('./types.js').Surface} input */
-  async writeExr(input) {
-    const { field, buffers } = detached(asPixels(input));
-    return this.#request((remote) => remote.writeExr(transfer(field, buffers)));
-  }
-
-  /**
-   * @param {Heightfield | import('./types.js').Mesh} input
-   * @param {import('./index.js').WriteObjOptions} [given]
-   */
-  async writeObj(input, given) {
-    const options = optionsOf('writeObj', given);
-    const { field, buffers } = detached(asMeshOrLattice(input));
-    return this.#request((remote) => remote.writeObj(transfer(field, buffers), options));
-  }
-
-  /** @param {string} picture */
-  async writeMtl(picture) {
-    const name = asText('INPUT', "the picture's name", picture);
-    return this.#request((remote) => remote.writeMtl(name));
-  }
-
-  /** @param {Heightfield | import('./types.js').Mesh} input */
-  async writePly(input) {
-    const { field, buffers } = detached(asMeshOrLattice(input));
-    return this.#request((remote) => remote.writePly(transfer(field, buffers)));
-  }
-
-  /** @param {Heightfield | import('./types.js').Mesh} input */
-  async writeStl(input) {
-    const { field, buffers } = detached(asMeshOrLattice(input));
-    return this.#request((remote) => remote.writeStl(transfer(field, buffers)));
-  }
-
-  /**
-   * @param {Heightfield | import('./types.js').Mesh} input
-   * @param {import('./index.js').WriteGlbOptions} [given]
-   */
-  async writeGlb(input, given) {
-    const { field, buffers } = detached(asMeshOrLattice(input));
-    const { texture, ...rest } = optionsOf('writeGlb', given);
-    const options = { ...rest, texture: texture === undefined || texture === null ? texture : await ownBytes(texture) };
-    return this.#request((remote) => remote.writeGlb(transfer(field, buffers), options));
-  }
-
-  /**
-   * @param {Uint8Array | ArrayBuffer | Blob} bytes
-   * @param {import('./types.js').ReadMeshOptions} [given]
-   */
-  async readMesh(bytes, given) {
-    const { files, ...rest } = optionsOf('readMesh', given);
-    const options = { ...rest, files: new Map(asFiles(files)) };
-    const file = await ownBytes(bytes);
-    return this.#request((remote) => remote.readMesh(transfer(file, [file.buffer]), options));
-  }
-
-  /**
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').SampleMeshOptions} [given]
-   */
-  async sampleMesh(mesh, given) {
-    const options = optionsOf('sampleMesh', given);
-    const own = asMesh(mesh);
-    return this.#request((remote) => remote.sampleMesh(own, options));
-  }
-
-  /**
    * @param {import('./types.js').Mesh} mesh
    * @param {import('./index.js').FitMeshOptions} [given]
    * @returns {Promise<import('./types.js').MeshSurface>}
@@ -203,58 +95,6 @@ export class DevelopableWorker {
   }
 
   /**
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').MeshAnalyzeOptions} [given]
-   */
-  async analyzeMesh(mesh, given) {
-    const options = optionsOf('analyzeMesh', given);
-    const { shape } = wholeOf(mesh);
-    return this.#request((remote) => remote.analyzeMesh(shape, options));
-  }
-
-  /**
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').MeshRulingOptions} [given]
-   */
-  async meshRulings(mesh, given) {
-    const options = optionsOf('meshRulings', given);
-    const { shape } = wholeOf(mesh);
-    return this.#request((remote) => remote.meshRulings(shape, options));
-  }
-
-  /**
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').MeshUnrollOptions} [given]
-   */
-  async unrollMesh(mesh, given) {
-    const options = optionsOf('unrollMesh', given);
-    const { shape } = wholeOf(mesh);
-    return this.#request((remote) => remote.unrollMesh(shape, options));
-  }
-
-  /**
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').MeshPatternOptions} [given]
-   */
-  async patternMesh(mesh, given) {
-    const options = optionsOf('patternMesh', given);
-    const { shape } = wholeOf(mesh);
-    return this.#request((remote) => remote.patternMesh(shape, options));
-  }
-
-  /**
-   * @param {HeightImage} input
-   * @param {import('./types.js').Intrinsics} intrinsics
-   * @param {import('./types.js').DepthOptions} [given]
-   */
-  async backProject(input, intrinsics, given) {
-    const known = asDepthOptions(given);
-    const camera = /** @type {import('./types.js').Intrinsics} */ (optionsOf('camera', intrinsics));
-    const { field, buffers } = detached(asImage(input));
-    return this.#request((remote) => remote.backProject(transfer(field, buffers), camera, known));
-  }
-
-  /**
    * @template {Heightfield} F
    * @param {F} input
    * @param {import('./types.js').Picture | Blob} picture
@@ -264,42 +104,11 @@ export class DevelopableWorker {
   async paint(input, picture, given) {
     const own = reading('INPUT', 'the input', () => ({ ...input }));
     const { extent, camera } = optionsOf('paint', given);
-    const { field, buffers } = detached(asLattice(own));
-    const found = asPicture(isBlob(picture) ? await ownBytes(picture) : picture);
+    const field = handedOver(asLattice(own));
+    const found = asPicture(isBlob(picture) ? await copyOfFile(picture) : picture);
     const known = camera ?? field.camera ?? field.uvs;
     const place = { camera, extent: extent ?? (known ? undefined : extentOf(own)) };
-    return { ...own, ...await this.#request((remote) => remote.paint(transfer(field, buffers), found, place)) };
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').AnalyzeOptions} [given]
-   */
-  async analyze(input, given) {
-    const { reference, ...options } = optionsOf('analyze', given);
-    const { field, buffers } = detached(asField(input));
-    const other = reference === undefined ? undefined : asField(reference);
-    return this.#request((remote) => remote.analyze(transfer(field, buffers), { ...options, reference: other }));
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').PatchOptions} [given]
-   */
-  async patches(input, given) {
-    const options = optionsOf('patches', given);
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.patches(transfer(field, buffers), options));
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').PictureOptions} [given]
-   */
-  async picture(input, given) {
-    const options = placedOptions('picture', input, given);
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.picture(transfer(field, buffers), options));
+    return { ...own, ...await this.#request((remote) => remote.paint(field, found, place)) };
   }
 
   /**
@@ -309,43 +118,8 @@ export class DevelopableWorker {
    */
   async draw(canvas, input, given) {
     const context = contextOf(canvas);
-    put(context, await this.picture(input, given));
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').RulingOptions} [given]
-   */
-  async rulings(input, given) {
-    const options = optionsOf('rulings', given);
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.rulings(transfer(field, buffers), options));
-  }
-
-  /** @param {Heightfield} input */
-  async fitCylinder(input) {
-    const { field, buffers } = detached(asHeights(input));
-    return this.#request((remote) => remote.fitCylinder(transfer(field, buffers)));
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').UnrollOptions} [given]
-   */
-  async unroll(input, given) {
-    const options = optionsOf('unroll', given);
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.unroll(transfer(field, buffers), options));
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').PatternOptions} [given]
-   */
-  async pattern(input, given) {
-    const options = optionsOf('pattern', given);
-    const { field, buffers } = detached(asField(input));
-    return this.#request((remote) => remote.pattern(transfer(field, buffers), options));
+    const { picture } = /** @type {DevelopableWorkerApi} */ (/** @type {unknown} */ (this));
+    put(context, await picture.call(this, input, given));
   }
 
   /**
@@ -364,78 +138,6 @@ export class DevelopableWorker {
     return exploredMesh(/** @type {import('./index.js').DevelopableWorker} */ (/** @type {unknown} */ (this)), mesh, given);
   }
 
-  /** @param {import('./types.js').Drawing} drawing */
-  async writeSvg(drawing) {
-    const own = plainCopy('the drawing', drawing);
-    return this.#request((remote) => remote.writeSvg(own));
-  }
-
-  /**
-   * @param {import('./types.js').Drawing} drawing
-   * @param {import('./types.js').WritePdfOptions} [given]
-   */
-  async writePdf(drawing, given) {
-    const own = plainCopy('the drawing', drawing);
-    const options = optionsOf('writePdf', given);
-    return this.#request((remote) => remote.writePdf(own, options));
-  }
-
-  /** @param {import('./types.js').Drawing} drawing */
-  async writeDxf(drawing) {
-    const own = plainCopy('the drawing', drawing);
-    return this.#request((remote) => remote.writeDxf(own));
-  }
-
-  /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./types.js').Photo} photo
-   * @param {import('./types.js').DewarpOptions & import('./index.js').HandOver} [given]
-   */
-  async dewarp(input, photo, given) {
-    const { transfer: handOver, ...options } = placedOptions('dewarp', input, given);
-    const { field, buffers } = detached(asField(input));
-    const sent = sending(photo, handOver);
-    return this.#request((remote) => remote.dewarp(transfer(field, buffers), sent, options));
-  }
-
-  /**
-   * @param {import('./types.js').Photo & { film35?: number }} photo
-   * @param {import('./types.js').PageEdges | readonly import('./types.js').PageEdges[]} edges
-   * @param {import('./types.js').DewarpPageOptions & import('./index.js').HandOver} [given]
-   */
-  async dewarpPage(photo, edges, given) {
-    const { transfer: handOver, ...options } = pageOptions(photo, given);
-    const pages = plainEdges(asEdges(edges));
-    const sent = sending(photo, handOver);
-    return this.#request((remote) => remote.dewarpPage(sent, pages, options));
-  }
-
-  /** @param {Uint8Array | ArrayBuffer | Blob} bytes */
-  async readPhoto(bytes) {
-    const file = await ownBytes(bytes);
-    return this.#request((remote) => remote.readPhoto(transfer(file, [file.buffer])));
-  }
-
-  /**
-   * @param {import('./types.js').SizedPhoto} photo
-   * @param {import('./types.js').WritePhotoOptions & import('./index.js').HandOver} [given]
-   */
-  async writePhoto(photo, given) {
-    const { transfer: handOver, ...options } = printOptions(photo, given);
-    const sent = sending(photo, handOver);
-    return this.#request((remote) => remote.writePhoto(sent, options));
-  }
-
-  /**
-   * @param {import('./types.js').ExampleName} name
-   * @param {import('./types.js').ExampleOptions} [given]
-   */
-  async example(name, given) {
-    const options = optionsOf('example', given);
-    const own = /** @type {import('./types.js').ExampleName} */ (asText('OPTION', 'the name of the example', name));
-    return this.#request((remote) => remote.example(own, options));
-  }
-
   get connected() {
     return this.#connection?.open === true;
   }
@@ -447,6 +149,18 @@ export class DevelopableWorker {
   dispose() {
     this.#disposed = true;
     this.#connection?.close(new DevelopableError('DISPOSED', 'this worker has been disposed'));
+  }
+
+  static {
+    for (const [name, { send }] of Object.entries(CALLS)) {
+      /** @this {DevelopableWorker} @param {any[]} given */
+      const method = async function (...given) {
+        const sent = await /** @type {import('./calls.js').Call['send']} */ (send)(...given);
+        return this.#request((remote) => remote.answer(/** @type {keyof typeof CALLS} */ (name), ...sent));
+      };
+      Object.defineProperty(method, 'name', { value: name });
+      Object.defineProperty(this.prototype, name, { value: method, configurable: true, writable: true });
+    }
   }
 
   /**
@@ -472,39 +186,6 @@ export class DevelopableWorker {
   }
 }
 makeDisposable(DevelopableWorker);
-
-/**
- * A photo on its way to the worker: itself, if it is to be handed over and that is possible, or a copy.
- * @param {import('./types.js').Photo} photo
- * @param {boolean} [handOver]
- */
-function sending(photo, handOver = false) {
-  const { width, height, data } = asPhoto(photo);
-  const whole = data.buffer instanceof ArrayBuffer && data.byteLength === data.buffer.byteLength;
-  const own = handOver && whole ? data : new Uint8Array(data);
-  return transfer({ width, height, data: own }, [/** @type {ArrayBuffer} */ (own.buffer)]);
-}
-
-/**
- * A copy of a file's bytes, to be handed over.
- * @param {Uint8Array | ArrayBuffer | Blob} bytes
- */
-async function ownBytes(bytes) {
-  if (!isBlob(bytes)) return new Uint8Array(asBytes(bytes));
-  try {
-    return new Uint8Array(await bytes.arrayBuffer());
-  } catch (cause) {
-    throw new DevelopableError('INPUT', `the file could not be read: ${messageOf(cause)}`, { cause });
-  }
-}
-
-/**
- * @param {unknown} value
- * @returns {value is Blob}
- */
-function isBlob(value) {
-  return typeof Blob === 'function' && reading('INPUT', 'the file', () => value instanceof Blob);
-}
 
 /**
  * What a worker can be told about where the wasm is, again and again.

@@ -6,7 +6,7 @@ import { optionsOf } from './options.js';
  * @typedef {object} Control
  * @property {AbortSignal} [signal]
  * @property {boolean} keep whether an abort is to give the best surface so far
- * @property {(progress: Progress) => void} [onProgress]
+ * @property {(progress: Progress) => unknown} [onProgress] awaited, if it gives a promise
  */
 
 /**

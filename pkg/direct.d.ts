@@ -1,4 +1,7 @@
-/** The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks. */
+/**
+ * The synchronous API: runs where it is called. Meant for workers and Node; in a page it blocks.
+ * @module developable/direct
+ */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
@@ -85,7 +88,7 @@ export class Solver {
 }
 
 export interface DirectFitOptions extends SolverOptions {
-  /** Called several times a second; `false` stops and keeps the best surface so far. */
+  /** Called several times a second, and not async; `false` stops and keeps the best surface so far. */
   onProgress?: (progress: Progress) => boolean | void;
 }
 

@@ -2,10 +2,10 @@
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isGltf, isImage, refuseMesh } from './formats.js';
-import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf, isScan } from './input.js';
+import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, sheets, solver } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, wholeOf } from './mesh-input.js';
-import { forScan, optionsOf } from './options.js';
+import { optionsOf } from './options.js';
 import { asEdges, pageOptions } from './page-input.js';
 import { inColour, paintOf, readPhoto } from './paint.js';
 import { makeDisposable } from './platform.js';
@@ -40,8 +40,6 @@ const PROGRESS_INTERVAL = 60;
 export class Solver extends Steps {
   /** What the surface has from the input. */
   #carried;
-  /** Whether there are heights, rather than constraints alone. */
-  #scan;
 
   /**
    * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
@@ -49,18 +47,17 @@ export class Solver extends Steps {
    */
   constructor(input, given) {
     const field = asInput(input);
-    const options = forScan(isScan(field), optionsOf('solver', given));
+    const options = optionsOf('solver', given);
     super(solver, solver.call(({ Solver: { onImage, onLattice } }) =>
       field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
     ));
     this.#carried = carriedOf(field);
-    this.#scan = isScan(field);
   }
 
   /** @param {import('./types.js').SolverOptions} [given] */
   restart(given) {
     const handle = this.live();
-    const options = forScan(this.#scan, optionsOf('solver', given));
+    const options = optionsOf('solver', given);
     solver.call(() => handle.restart(options));
     this.restarted();
   }
@@ -72,13 +69,11 @@ export class Solver extends Steps {
   restartWith(input, given) {
     const handle = this.live();
     const field = asInput(input);
-    const scan = isScan(field);
-    const options = forScan(scan, optionsOf('solver', given));
+    const options = optionsOf('solver', given);
     solver.call(() =>
       field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
     );
     this.#carried = carriedOf(field);
-    this.#scan = scan;
     this.restarted();
   }
 
@@ -141,13 +136,28 @@ export function fitMesh(mesh, given) {
 function run(solve, onProgress) {
   try {
     while (solve.advance(PROGRESS_INTERVAL)) {
-      if (onProgress?.(solve.progress()) === false) solve.cancel();
+      if (answerOf(onProgress, solve.progress()) === false) solve.cancel();
     }
-    onProgress?.(solve.progress());
+    answerOf(onProgress, solve.progress());
     return solve.surface();
   } finally {
     solve.dispose();
   }
+}
+
+/**
+ * What `onProgress` returns. A promise is refused: nothing can wait for it here, and nobody would hear of its rejection.
+ * @param {((progress: import('./types.js').Progress) => unknown) | undefined} onProgress
+ * @param {import('./types.js').Progress} progress
+ */
+function answerOf(onProgress, progress) {
+  const answer = onProgress?.(progress);
+  if (typeof Object(answer).then !== 'function') return answer;
+  Promise.resolve(answer).catch(() => {});
+  throw new DevelopableError(
+    'OPTION',
+    'option `onProgress` returned a promise, for which this call cannot wait: pass a function that is not async, or use the promise API',
+  );
 }
 
 /** @type {typeof import('./direct.js').occlusions} */

@@ -39,7 +39,8 @@ export async function explored(worker, input, given) {
   const open = await worker.open(input);
   const solved = async (/** @type {number} */ lambda) => {
     const begun = performance.now();
-    const surface = await open.fit({ ...solver, lambda, signal });
+    // The nuclear norm makes few large sheets.
+    const surface = await open.fit({ paper: true, ...solver, lambda, signal });
     const { deviation } = await worker.analyze(surface, { reference: input, ...(spacing !== undefined && { spacing }) });
     return { surface, distance: deviation?.rms ?? NaN, seconds: (performance.now() - begun) / 1000 };
   };
@@ -100,7 +101,7 @@ async function tried(lambdas, { smallest = SMALLEST, sheets = Infinity, signal, 
       const seconds = fitting + (performance.now() - started) / 1000;
       const plan = { lambda, smallest: share, distance, seconds, ...found };
       plans.push(plan);
-      onPlan?.(plan);
+      await onPlan?.(plan);
       if (sheets < Infinity && plan.drawing !== undefined && plan.drawing.sheets.length <= sheets) return { plans, chosen: plan };
     }
   }

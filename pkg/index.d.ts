@@ -1,4 +1,7 @@
-/** The promise API: the solver runs in a module worker (in Node, a worker thread). */
+/**
+ * The promise API: the solver runs in a module worker (in Node, a worker thread).
+ * @module developable
+ */
 import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
@@ -51,7 +54,10 @@ export interface OpenFitOptions extends SolverOptions {
   signal?: AbortSignal;
   /** What an abort does: reject with the signal's reason (default), or resolve with the best surface so far. */
   onAbort?: 'reject' | 'keep';
-  /** Called in the caller's thread, several times a second. */
+  /**
+   * Called in the caller's thread, several times a second. Where it returns a promise, that is awaited before the next
+   * call and before the result; if it is rejected, so is the call, as with an exception.
+   */
   onProgress?: (progress: Progress) => void;
 }
 
@@ -68,7 +74,10 @@ export interface FitMeshOptions extends MeshSolverOptions {
   signal?: AbortSignal;
   /** What an abort does: reject with the signal's reason (default), or resolve with the best surface so far. */
   onAbort?: 'reject' | 'keep';
-  /** Called in the caller's thread, several times a second. */
+  /**
+   * Called in the caller's thread, several times a second. Where it returns a promise, that is awaited before the next
+   * call and before the result; if it is rejected, so is the call, as with an exception.
+   */
   onProgress?: (progress: Progress) => void;
 }
 
@@ -86,7 +95,7 @@ export interface ExplorePatternOptions {
   /** Of the patterns, but for the smallest patch. */
   pattern?: Omit<PatternOptions, 'smallest'>;
   signal?: AbortSignal;
-  /** Called with each plan as it is found. */
+  /** Called with each plan as it is found, and awaited if it returns a promise. */
   onPlan?: (plan: PatternPlan) => void;
 }
 

@@ -241,12 +241,6 @@ function tuple(name, length, given) {
 }
 
 /**
- * Whether there are heights, rather than constraints alone.
- * @param {Image | Lattice} field
- */
-export const isScan = (field) => (field.kind === 'image' ? field.data : field.heights) !== undefined;
-
-/**
  * What a surface has from its input: the unit, the axes of a view, the camera, colours, texture coordinates and texture.
  * @param {Image | Lattice} field
  * @returns {Partial<Pick<import('./types.js').Surface, 'unit' | 'frame' | 'camera' | 'colors' | 'uvs' | 'texture'>>}

@@ -34,10 +34,10 @@ const callback = { must: 'must be a function', take: (value) => (typeof value ==
 /** What is checked by who takes it. @type {Kind} */
 const anything = { must: '', take: (value) => value };
 
-/** @type {(...names: string[]) => Kind} */
+/** One of several names, in whatever case. @type {(...names: string[]) => Kind} */
 const choice = (...names) => ({
   must: `must be ${names.slice(0, -1).join(', ')} or ${names.at(-1)}`,
-  take: (value) => names.find((name) => name === value),
+  take: (value) => names.find((name) => typeof value === 'string' && name.toLowerCase() === value.toLowerCase()),
 });
 
 /** @type {(length: number, what: string) => Kind} */
@@ -77,6 +77,21 @@ const signal = {
       return undefined;
     }
   },
+};
+
+/** The width of holes that are bridged; `false` for none. @type {Kind} */
+const bridging = {
+  must: 'must be a number, true for the default, or false, 0, none or off',
+  take: (value) => (value === 0 || choice('none', 'off').take(value) ? false : flag.take(value) ?? number.take(value)),
+};
+
+/** The threshold for occlusions of the paper's authors. */
+const AUTHORS_THRESHOLD = 4e4;
+
+/** @type {Kind} */
+const threshold = {
+  must: 'must be auto or a number',
+  take: (value) => (choice('auto').take(value) ? AUTHORS_THRESHOLD : number.take(value)),
 };
 
 /** @type {Kind} */
@@ -132,6 +147,7 @@ const unrolling = { tolerance: number, maxIterations: whole };
 
 const solver = {
   ...resampled,
+  paper: flag,
   lambda: either(choice('small', 'medium', 'big', 'auto'), number),
   schedule: choice('default', 'paper'),
   gap: number,
@@ -144,8 +160,8 @@ const solver = {
   creaseRadius: number,
   creasePasses: whole,
   tieBreak: number,
-  occlusionThreshold: number,
-  bridge: either(flag, number),
+  occlusionThreshold: threshold,
+  bridge: bridging,
 };
 
 const meshFit = {
@@ -174,7 +190,7 @@ const drawing = {
   innerRadius: number,
   kFactor: number,
   smoothing: number,
-  paper: stock,
+  stock,
   assembly: flag,
 };
 
@@ -248,7 +264,7 @@ export const OPTIONS = {
   },
   writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: whole, dotsPerMillimetre: number, ...handOver },
   writeObj: { materials: text },
-  writePdf: { paper: stock },
+  writePdf: { stock },
   writeGlb: { texture: anything },
   example: { size: whole, noise: number, seed: whole },
   worker: {
@@ -262,6 +278,9 @@ export const OPTIONS = {
     patternsWasm: anything,
   },
 };
+
+/** Names of options that have another one now, and go on working. @type {Record<string, string>} */
+const FORMER_NAMES = { paper: 'stock' };
 
 /**
  * The options of a call, as a plain object without anything that is undefined.
@@ -279,28 +298,15 @@ export function optionsOf(call, given) {
     /** @type {Record<string, Kind>} */
     const kinds = OPTIONS[call];
     const names = Object.keys(kinds);
-    refuseUnknown('OPTION', 'option', given, names);
-    const entries = Object.entries(record('OPTION', 'the options', given, names));
-    const copies = entries.map(([name, value]) => [name, taken(name, kinds[name], value)]);
+    const former = Object.keys(FORMER_NAMES).filter((name) => !(name in kinds) && FORMER_NAMES[name] in kinds);
+    refuseUnknown('OPTION', 'option', given, [...names, ...former]);
+    const entries = Object.entries(record('OPTION', 'the options', given, [...names, ...former]));
+    const copies = entries.map(([given, value]) => {
+      const name = given in kinds ? given : FORMER_NAMES[given];
+      return [name, taken(given, kinds[name], value)];
+    });
     return /** @type {Partial<T>} */ (Object.fromEntries(copies));
   });
-}
-
-/** What says how closely to follow heights, or what to minimise. */
-const ENERGY = /** @type {const} */ (['lambda', 'energy', 'reweighting']);
-
-/**
- * The options of a solve, with what they leave open: of heights about which nothing is said, how large their noise is
- * says how closely to follow them, and what bends smoothly is to stay smooth. A design has no noise; the paper's schedule is for
- * the paper's energy.
- * @param {boolean} scan whether there are heights, rather than constraints alone
- * @param {import('./types.js').SolverOptions} options
- * @returns {import('./types.js').SolverOptions}
- */
-export function forScan(scan, options) {
-  const said = ENERGY.some((name) => options[name] !== undefined) || options.schedule === 'paper';
-  if (said || !scan) return options;
-  return { ...options, lambda: 'auto', energy: 'huber' };
 }
 
 /**

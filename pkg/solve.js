@@ -33,11 +33,12 @@ export async function solve(remote, start, { signal, keep, onProgress }) {
     for (;;) {
       // Asked for piece by piece, so that a busy page is not flooded with old news.
       const { progress, surface } = await remote.next(id);
-      onProgress?.(progress);
+      // Awaited, so that a promise that is rejected ends the solve as an exception does.
+      await onProgress?.(progress);
       if (surface) return surface;
     }
   } catch (error) {
-    stop(false); // it may be `onProgress` that threw
+    stop(false); // it may be `onProgress` that failed
     throw error;
   } finally {
     signal?.removeEventListener('abort', onAbort);

@@ -1,8 +1,12 @@
-/** The synchronous API (`developable/direct`) with a synchronous start, from bytes that are there already. */
+/**
+ * The synchronous API (`developable/direct`) with a synchronous start, from bytes that are there already.
+ * @module developable/sync
+ */
 import type { PartName } from './direct.js';
+import type { WasmModule } from './types.js';
 export * from './direct.js';
 
 /** Compiles the solver's wasm, once; may be repeated after a failure. */
-export function initSync(input: ArrayBuffer | ArrayBufferView | WebAssembly.Module): void;
+export function initSync(input: ArrayBuffer | ArrayBufferView | WasmModule): void;
 /** The same for other parts: `loadSync({ files: bytes })`. */
-export function loadSync(inputs: Partial<Record<PartName, ArrayBuffer | ArrayBufferView | WebAssembly.Module>>): void;
+export function loadSync(inputs: Partial<Record<PartName, ArrayBuffer | ArrayBufferView | WasmModule>>): void;

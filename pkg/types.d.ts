@@ -142,7 +142,7 @@ export interface MeshSolverOptions {
   flatness?: number;
   /** What bends more tightly is a crease; default 0.1. */
   creaseRadius?: number;
-  /** Passes that give creases their angle back, each about another linearisation; default 2. */
+  /** Number of crease passes, each of another linearisation; default: 2, or 0 where lambda is large for the noise. */
   creasePasses?: number;
   /** Which vertices stay where they are. */
   held?: readonly (boolean | number)[] | Uint8Array;
@@ -363,22 +363,27 @@ export type Energy = 'nuclear' | 'frobenius' | 'squaredNuclear' | 'secondFormOfI
 
 export interface SolverOptions {
   /**
+   * The paper's setting, `lambda: 'medium'` and `energy: 'nuclear'`, for what is not given otherwise. Default false.
+   * It suits shapes that are to be approximated by few large sheets; the smaller `lambda`, the fewer.
+   */
+  paper?: boolean;
+  /**
    * Weight of the fidelity term, for coordinates normalised to the unit square:
    * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
-   * (nearly developable input), or a number from 1e-12 to 1e15. Default `'medium'`, but for heights
-   * about which nothing is said (no `lambda`, `energy` or `reweighting`, and not the paper's
-   * schedule): then `'auto'`, with the energy `'huber'`. Terrain, busts and other shapes that are not
-   * noisy, but are to be approximated, want a number: the smaller, the fewer and larger the sheets.
+   * (nearly developable input), a number from 1e-12 to 1e15, or `'auto'`. Default `'auto'`.
    *
-   * `'auto'`, for heights with noise: from how large that is, and then the one that predicts best what
-   * a part of the heights are, which are held out from some solves on a lattice of twice the spacing.
-   * With the energy `'huber'` what bends cost is chosen likewise, as far as it is not given.
-   * `report.lambdaChoice` tells what was found. It costs about as much as two solves, or several where there are few heights.
+   * `'auto'` finds it from the noise of the heights: a first value from the size of the noise, then the value that predicts
+   * held-out heights best, by some solves on a lattice of twice the spacing. With the energy `'huber'` the parameters of the
+   * energy are found likewise. An input whose noise cannot be measured, as a design, has 1e6. `report.lambdaChoice` tells
+   * what was found. It costs about as much as two solves, or several where there are few heights.
    */
   lambda?: number | 'small' | 'medium' | 'big' | 'auto';
   /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
   schedule?: 'default' | 'paper';
-  /** Certified relative duality gap to stop at, between 0 and 1 (exclusive). Default 0.01. */
+  /**
+   * Certified relative duality gap to stop at, between 0 and 1 (exclusive). Default 0.01. The objective is then at most
+   * 1 / (1 - gap) times the optimum. Refused with the paper's schedule, which stops on residuals.
+   */
   gap?: number;
   /** Most ADMM iterations. Default 20000. */
   maxIterations?: number;
@@ -386,34 +391,34 @@ export interface SolverOptions {
   normalize?: boolean;
   /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
   spacing?: number;
-  /** What is minimised besides the fidelity term. Default `'nuclear'`; see `lambda` for when it is `'huber'`. */
+  /** What is minimised besides the fidelity term. Default `'huber'`; for a design `'nuclear'`. */
   energy?: Energy;
   /**
-   * Passes after the first solve in which each vertex's norm is weighted by one over its size
-   * before: they take away most of the shrinkage of large curvatures. A whole number up to 20;
-   * two or three are usual. Default 0.
+   * Reweighting passes: each solves again with every vertex's penalty divided by its size before, which undoes a
+   * part of the shrinkage of large curvatures. A whole number up to 20. Default 0. Refused with the energy `'huber'`,
+   * which has crease passes.
    */
   reweighting?: number;
   /**
-   * For the energy `'huber'`: bends of a larger radius cost their square, others their size, in
-   * normalised coordinates, from 1e-6 to 1e6. Default 0.1, or by `lambda: 'auto'`.
+   * For the energy `'huber'`, and refused with others: bends of a larger radius cost their square, others their size, in
+   * normalised coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
    */
   bendRadius?: number;
   /**
-   * For the energy `'huber'`: the slope that the cost of bends begins with, from 0 (nothing is quite
-   * flat) to 1 (the nuclear norm). Default 0.3, or by `lambda: 'auto'`, and more where lambda is large
+   * For the energy `'huber'`, and refused with others: the slope that the cost of bends begins with, from 0 (nothing is quite
+   * flat) to 1 (the nuclear norm). Default: found with `lambda: 'auto'`, else 0.3, and more where lambda is large
    * for the noise of the input.
    */
   flatness?: number;
   /**
-   * For the energy `'huber'`: what bends more tightly than this radius is a crease, in normalised
-   * coordinates, from 1e-6 to 1e6. Default 0.1, or by `lambda: 'auto'`.
+   * For the energy `'huber'`, and refused with others: tighter bends than this radius are creases, in normalised
+   * coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
    */
   creaseRadius?: number;
   /**
-   * For the energy `'huber'`: the most passes at creases after the first solve, a whole number up to
-   * 20. They end where they change next to nothing, and there are none where lambda is large for the
-   * noise of the input, which would make creases of it. Default 2.
+   * For the energy `'huber'`, and refused with others: maximum number of crease passes after the first solve, a whole number
+   * up to 20. They end where they change next to nothing. Default: 2, or 0 where lambda is large for the noise of the input,
+   * of which passes would make creases.
    */
   creasePasses?: number;
   /**
@@ -424,18 +429,18 @@ export interface SolverOptions {
   tieBreak?: number;
   /**
    * Looks for occlusions first, as {@link OcclusionOptions.threshold} says; they come to those
-   * that the input names. 4e4 is the authors' value. Default: none are looked for. A design has
-   * no heights to find any in.
+   * that the input names. `'auto'` is the authors' value, 4e4. Default: none are looked for. A design
+   * has no heights to find any in.
    */
-  occlusionThreshold?: number;
+  occlusionThreshold?: number | 'auto';
   /**
    * Holes up to this width are bridged, in pixels of an image or vertices of a lattice, 1 to 16:
    * dead pixels, speckle, lost rows and columns. What counts is a hole's narrow side; large holes,
    * what a mask takes out, and gaps between two levels of depth stay. Bridged places are part of
-   * the surface and of its image; `report.bridged` counts them. `true` is the default, 4; `false`
-   * bridges none. A design has none.
+   * the surface and of its image; `report.bridged` counts them. `true` is the default, 4; `false`,
+   * 0, `'none'` and `'off'` bridge none. A design has none.
    */
-  bridge?: number | boolean;
+  bridge?: number | boolean | 'none' | 'off';
 }
 
 export interface OcclusionOptions {
@@ -1070,7 +1075,7 @@ export interface PatternOptions extends PatchOptions, UnrollOptions {
    * Pages to lay the sheets on, each whole on one where it fits, turned if it fits better so; paper that it is too
    * large for is put together. Default: no pages, the sheets beside each other.
    */
-  paper?: Stock;
+  stock?: Stock;
   /**
    * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
    * length; a quarter of the lattice's spacing is always allowed. Default 0.005.
@@ -1192,7 +1197,7 @@ export interface Drawing {
   sheets: DrawnSheet[];
   /** How they are put together, where that is wanted. */
   assembly?: Assembly;
-  /** The pages that they lie on, all of one size, where there is a `paper`. */
+  /** The pages that they lie on, all of one size, where a `stock` is given. */
   pages?: DrawingPages;
   summary: {
     sheets: number;
@@ -1304,7 +1309,7 @@ export interface DrawingPages {
 
 export interface WritePdfOptions {
   /** Lay it on pages of this size first. Default: the drawing's own pages, or one as large as it is. */
-  paper?: Stock;
+  stock?: Stock;
 }
 
 export interface DewarpOptions extends UnrollOptions {
@@ -1539,7 +1544,13 @@ export interface ReadResult {
   dataType: string;
 }
 
+/**
+ * A `WebAssembly.Module`. That namespace is declared by TypeScript's library for the DOM, without which these types
+ * compile as well.
+ */
+export type WasmModule = typeof globalThis extends { WebAssembly: { Module: { prototype: infer M } } } ? M : object;
+
 /** Where the solver's wasm comes from; nothing means the file beside the package's own modules. */
 export type InitInput =
-  | string | URL | Response | ArrayBuffer | ArrayBufferView | WebAssembly.Module
-  | Promise<Response | ArrayBuffer | ArrayBufferView | WebAssembly.Module>;
+  | string | URL | Response | ArrayBuffer | ArrayBufferView | WasmModule
+  | Promise<Response | ArrayBuffer | ArrayBufferView | WasmModule>;

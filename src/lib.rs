@@ -74,17 +74,23 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod assembly;
+pub mod dewarp;
+pub mod drawing;
 mod error;
 mod examples;
+pub mod explore;
 pub mod files;
 mod fit;
-mod flat;
 mod heights;
 mod lattice;
 mod math;
+pub mod page;
+pub mod pattern;
 pub mod picture;
 mod scene;
 mod shape;
+pub mod unroll;
 
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
@@ -100,7 +106,6 @@ pub use fit::report::{
 };
 pub use fit::solver::{Solver, fit, fit_with};
 pub use fit::surface::Surface;
-pub use flat::{assembly, dewarp, drawing, explore, page, pattern, unroll};
 pub use heights::bridging::{BridgedImage, Bridging};
 pub use heights::heightfield::{HeightImage, Heightfield};
 pub use heights::normalization::Normalization;

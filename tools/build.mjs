@@ -11,9 +11,9 @@ import { compileWasm, packWasm } from './build/wasm.mjs';
  * @param {import('./build/wasm.mjs').Build} [kind]
  */
 export async function build(kind) {
-  const { env } = await setupBuild((found) => compileWasm(found, kind));
+  const { env, bindgen } = await setupBuild((found) => compileWasm(found, kind));
   await buildVendor();
-  await packWasm(env, kind);
+  await packWasm({ env, bindgen }, kind);
   await buildInline();
 }
 

@@ -18,7 +18,7 @@ export async function setupBuild(compile = async () => {}) {
   await rust();
   const target = wasmTarget();
   const [env, bindgen] = await together(target, wasmBindgen(), npmPackages(), target.then(compile));
-  return { env: withPath(env, bindgen) };
+  return { env, bindgen };
 }
 
 /**
@@ -28,9 +28,9 @@ export async function setupBuild(compile = async () => {}) {
 export async function setupTests(compile = async () => {}) {
   await rust();
   const target = wasmTarget();
-  const [env, bindgen, found] =
-    await together(target, wasmBindgenTests(), browser(), npmPackages(), target.then(compile));
-  return { env: withPath(env, bindgen), browser: found };
+  const [env, bindgen, runner, found] =
+    await together(target, wasmBindgen(), wasmBindgenTests(), browser(), npmPackages(), target.then(compile));
+  return { env: withPath(env, runner), bindgen, browser: found };
 }
 
 /**

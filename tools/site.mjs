@@ -1,12 +1,14 @@
 /**
- * `npm run site [-- FOLDER]`: the page as one folder of static files, which works under any path of any static host, and
- * without a network once it was visited.
+ * `npm run site [-- FOLDER]`: the page, the documents and the API reference as one folder of static files, which works
+ * under any path of any static host, and without a network once it was visited.
  */
 import { createHash } from 'node:crypto';
 import { copyFile, mkdir, readFile, readdir, rm, writeFile } from 'node:fs/promises';
 import { join, relative, resolve, sep } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { build } from './build.mjs';
+import { KEPT, writeGuide } from './site/guide.mjs';
+import { writeReferences } from './site/reference.mjs';
 import { root, www } from './util/paths.mjs';
 import { Problem, main } from './util/problem.mjs';
 
@@ -19,8 +21,9 @@ const IMPORTS = [
 /**
  * Writes the site from what is built.
  * @param {string} folder is made anew
+ * @param {{ references?: boolean }} [options] whether the API reference belongs to it, which takes a while; default: no
  */
-export async function writeSite(folder) {
+export async function writeSite(folder, { references = false } = {}) {
   // Only now: on a fresh clone it has just been installed.
   const { build: bundle } = await import('vite');
   const found = new Set();
@@ -56,10 +59,16 @@ export async function writeSite(folder) {
   const page = join(folder, 'index.html');
   const html = await readFile(page, 'utf8');
   await writeFile(page, html.replace('</head>', '  <link rel="manifest" href="./manifest.webmanifest">\n  <script type="module" src="./register.js"></script>\n</head>'));
+  await writeGuide(folder, { references });
+  if (references) await writeReferences(folder);
   await writeWorker(folder);
 }
 
-/** The service worker, with all files and a version that changes with any of them. @param {string} folder */
+/**
+ * The service worker, with the files that it keeps from the start and a version that changes with any file. Guides are
+ * kept from the start, without their pictures; these and the reference are kept when they are opened.
+ * @param {string} folder
+ */
 async function writeWorker(folder) {
   const entries = await readdir(folder, { recursive: true, withFileTypes: true });
   const files = entries.filter((entry) => entry.isFile() && !entry.name.startsWith('LICENSE'))
@@ -67,7 +76,8 @@ async function writeWorker(folder) {
   const code = await readFile(join(www, 'site', 'sw.js'), 'utf8');
   const hash = createHash('sha256').update(code);
   for (const file of files) hash.update(file).update(await readFile(join(folder, file)));
-  const site = { version: hash.digest('hex').slice(0, 16), files: files.map((file) => `./${file}`) };
+  const kept = files.filter((file) => !/^(?:guide|reference)\/|^llms\.txt$/.test(file) || KEPT.includes(file));
+  const site = { version: hash.digest('hex').slice(0, 16), files: kept.map((file) => `./${file}`) };
   await writeFile(join(folder, 'sw.js'), `globalThis.SITE = ${JSON.stringify(site)};\n${code}`);
 }
 
@@ -77,7 +87,7 @@ if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {
     await build();
     await rm(folder, { recursive: true, force: true });
     await mkdir(folder, { recursive: true });
-    await writeSite(folder);
+    await writeSite(folder, { references: true });
     console.log(`\nThe site is in ${folder}: put it on any static host, under any path.`);
   });
 }

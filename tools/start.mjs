@@ -2,8 +2,14 @@
  * `npm start`: sets up, builds, and serves the page until Ctrl-C. `npm run dev` does so with a build that
  * is quick to repeat.
  */
+import { join } from 'node:path';
 import { build } from './build.mjs';
+import { writeGuide } from './site/guide.mjs';
+import { pkg, root, www } from './util/paths.mjs';
 import { main, Problem } from './util/problem.mjs';
+
+/** Where the guides that the page links to are written. */
+const documents = join(root, 'target/documents');
 
 await main(async () => {
   const ports = candidates(process.env.PORT);
@@ -33,9 +39,11 @@ function candidates(wish) {
 async function open(ports) {
   // Only now: on a fresh clone the server's library has just been installed.
   const { serve } = await import('./serve.mjs');
+  await writeGuide(documents, { references: false });
+  const folders = { '/': www, '/pkg/': pkg, '/guide/': join(documents, 'guide') };
   for (const port of ports) {
     try {
-      return await serve({ port, host: process.env.HOST || undefined });
+      return await serve({ port, host: process.env.HOST || undefined, folders });
     } catch (error) {
       if (!isTaken(error)) throw new Problem(`Port ${port} cannot be used (${error}): set PORT to another.`);
     }

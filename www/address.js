@@ -1,6 +1,6 @@
 /** What the page shows, as the part of its address after the #: to be shared, gone back to, and reloaded. */
 import { shortest } from './format.js';
-import { ENERGIES, VIEWS } from './words.js';
+import { ENERGIES, VIEWS } from './messages.js';
 
 /** @import {Energy} from './api.js' */
 /** @import {Settings} from './session.js' */

@@ -242,7 +242,7 @@ export class Analyses {
    * @param {Result} result
    */
   #cylinder({ input: { lattice }, settings: { lambda, energy, occlusionThreshold }, surface }) {
-    const asSeen = lattice && lambda === 'auto' && energy === 'huber' && occlusionThreshold === undefined;
+    const asSeen = lattice && lambda === 'auto' && (energy ?? 'huber') === 'huber' && occlusionThreshold === undefined;
     if (!asSeen || lattice.constraints || lattice.occlusions || lattice.brokenEdges) return undefined;
     return this.#once(surface, 'cylinder', async (worker) => {
       try {

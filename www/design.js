@@ -3,6 +3,7 @@
  * the paper's Figs. 18 and 19, where curves and points are given and the surface finds its folds.
  */
 
+/** @import {Energy} from './api.js' */
 /** @import {Input, Settings} from './session.js' */
 
 /** @typedef {{ x: number, y: number, z: number }} Pin in sides of the square; x and y from 0 to 1, y up */
@@ -143,11 +144,27 @@ export function changed(design, { curve, index }, change) {
 }
 
 /**
- * The settings as they are for an input: a design has no noise for `auto` to go by.
+ * The energy of a solve: the one that was chosen, or the input's default, which the solver has as well.
+ * @param {Pick<Input, 'design'> | null} input
+ * @param {Settings['energy']} chosen
+ * @returns {Energy}
+ */
+export function energyFor(input, chosen) {
+  return chosen ?? (input?.design ? 'nuclear' : 'huber');
+}
+
+/**
+ * The settings of a solve: a design has no noise to find λ by, and the paper's schedule stops on residuals instead of a gap.
  * @param {Pick<Input, 'design'>} input
  * @param {Settings} settings
- * @returns {Settings}
+ * @returns {Omit<Settings, 'gap'> & { energy: Energy, gap?: number }}
  */
-export function settingsOf({ design }, settings) {
-  return design && settings.lambda === 'auto' ? { ...settings, lambda: 1e6, energy: 'nuclear' } : settings;
+export function settingsFor(input, settings) {
+  const { lambda, schedule, gap } = settings;
+  return {
+    ...settings,
+    energy: energyFor(input, settings.energy),
+    lambda: input.design && lambda === 'auto' ? 1e6 : lambda,
+    gap: schedule === 'paper' ? undefined : gap,
+  };
 }

@@ -10,7 +10,7 @@ import { watchDrops } from './panels/drop.js';
 import { editPanel } from './panels/edit.js';
 import { galleryPanel } from './panels/gallery.js';
 import { headline } from './panels/headline.js';
-import { keepPanel } from './panels/keep.js';
+import { keepPanel } from './panels/address-sync.js';
 import { modePanel } from './panels/mode.js';
 import { hideNotice, showNotice } from './panels/notice.js';
 import { openingPanel } from './panels/opening.js';
@@ -22,10 +22,10 @@ import { settingsPanel } from './panels/settings.js';
 import { sourcePanel } from './panels/source.js';
 import { stripPanel } from './panels/strip.js';
 import { viewsPanel } from './panels/views.js';
-import { wholePanel } from './panels/whole.js';
+import { wholePanel } from './panels/mesh-fit.js';
 import { Session } from './session.js';
-import { Whole } from './whole.js';
-import { complaint } from './words.js';
+import { Whole } from './mesh-fit.js';
+import { complaint } from './messages.js';
 
 async function start() {
   const session = new Session(await connect());

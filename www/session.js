@@ -5,16 +5,16 @@
  * Two rules keep it simple. The newest wish wins: a second run, or another input,
  * ends the one before. And once an input has been run, every change of a setting
  * runs it again, so that what is seen is what is set. Until the answer is there, and while a setting is
- * still being chosen, previews show what it is about (`live.js`).
+ * still being chosen, previews show what it is about (`preview.js`).
  */
-import { settingsOf } from './design.js';
+import { settingsFor } from './design.js';
 import { breath } from './dom.js';
 import { Events } from './events.js';
-import { Live } from './live.js';
+import { Live } from './preview.js';
 import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 
 /** @import {Design} from './design.js' */
-/** @import {Preview} from './live.js' */
+/** @import {Preview} from './preview.js' */
 /** @import {Api, DepthOptions, Energy, Heightfield, Mesh, OpenSolver, Occlusions, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
 
 /**
@@ -37,7 +37,7 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
  * @property {string} [kind] of file, in words; examples have none
  * @property {string} [dataType] what the file stores, such as `u16`
  * @property {'mm' | 'm'} [depths] that a camera has seen, and what they seem to be counted in
- * @property {import('./understood.js').Stored} [stored] what the file holds, and how it is understood
+ * @property {import('./import-interpretation.js').Stored} [stored] what the file holds, and how it is understood
  * @property {{ name: string, image: ImageData }} [photo] that came with it
  * @property {Design} [drawn] what a design was made of
  * @property {Beside} [beside] what came with depths, besides
@@ -53,10 +53,10 @@ import { lookAt, lookAtOnce, lookInto } from './surface/known.js';
 /**
  * @typedef {object} Settings
  * @property {number | 'auto'} lambda
- * @property {number} gap
+ * @property {number} gap certified gap to stop at, of the default schedule
  * @property {'default' | 'paper'} schedule
  * @property {number} coarsening lattice spacing in pixels
- * @property {Energy} energy
+ * @property {Energy} [energy] default: by the input
  * @property {number} reweighting passes
  * @property {number} [occlusionThreshold] none are looked for without it
  */
@@ -100,7 +100,7 @@ const SOON = 150;
 /** @extends {Events<SessionEvents>} */
 export class Session extends Events {
   /** @type {Readonly<Settings>} */
-  defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: 'huber', reweighting: 0, occlusionThreshold: undefined };
+  defaults = { lambda: 'auto', gap: 0.01, schedule: 'default', coarsening: 1, energy: undefined, reweighting: 0, occlusionThreshold: undefined };
   /** @type {Settings} */
   settings = { ...this.defaults };
   /** @type {Input | null} */
@@ -307,7 +307,7 @@ export class Session extends Events {
     this.emit('start', settings);
     this.#enter('running');
     if (input.width * input.height > MANY) this.#wish(input);
-    const { coarsening, ...options } = settingsOf(input, settings);
+    const { coarsening, ...options } = settingsFor(input, settings);
     try {
       // A large input is copied for the solver: not within the same moment as all else that is done with it.
       if (this.#kept?.input !== input) await breath();

@@ -7,7 +7,7 @@ use developable::{Heightfield, Normalization, Options, Report, fit};
 use crate::task::{Outcome, Schedule, Settings};
 
 pub fn options(settings: &Settings) -> Options {
-    Options::default()
+    Options::paper()
         .lambda(settings.lambda)
         .schedule(match settings.schedule {
             Schedule::Default => developable::Schedule::Default,

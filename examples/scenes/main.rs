@@ -18,9 +18,7 @@ mod shapes;
 
 use std::path::Path;
 
-use developable::{
-    Energy, Heightfield, Lambda, LambdaReason, Lattice, Options, Report, Result, fit,
-};
+use developable::{Heightfield, LambdaReason, Lattice, Options, Report, Result, fit};
 
 use distance::Distance;
 use noise::Noise;
@@ -114,15 +112,15 @@ fn measure(scene: &Scene, size: usize, noise: Noise) -> Result<Row> {
     };
     let mut nuclear = 0.0;
     for decade in DECADES {
-        let (found, report) = solve(Options::default().lambda(first * 10f64.powf(decade)))?;
+        let (found, report) = solve(Options::paper().lambda(first * 10f64.powf(decade)))?;
         if found.normals < oracle.normals {
             nuclear = report.seconds.total;
         }
         oracle.normals = oracle.normals.min(found.normals);
         oracle.heights = oracle.heights.min(found.heights);
     }
-    let huber = Options::default().energy(Energy::Huber);
-    let (own, report) = solve(huber.lambda(Lambda::Auto))?;
+    let huber = Options::default();
+    let (own, report) = solve(huber)?;
     let mut given = huber.lambda(report.lambda);
     if let Some(used) = report.huber {
         given = given

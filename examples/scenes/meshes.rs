@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use developable::files::wavefront::write_obj;
-use developable::{Energy, Heightfield, Lambda, Lattice, Options, fit};
+use developable::{Heightfield, Lattice, Options, fit};
 
 use super::noise::Noise;
 use super::shapes;
@@ -18,9 +18,7 @@ const SIZE: usize = 80;
 pub fn write(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
     fs::create_dir_all(folder)?;
     let lattice = Lattice::covering([0.0, 0.0], [1.0, 1.0], 1.0 / SIZE as f64)?;
-    let options = Options::default()
-        .energy(Energy::Huber)
-        .lambda(Lambda::Auto);
+    let options = Options::default();
     let mut list = Vec::new();
     for scene in shapes::all().iter().filter(|scene| scene.name != "plane") {
         let truth = Heightfield::from_fn(lattice, scene.height)?;

@@ -7,7 +7,7 @@ use std::path::Path;
 use developable::dewarp::Photo;
 use developable::files::images::{PhotoOptions, write_photo};
 use developable::picture::{Picture, PictureOptions};
-use developable::{Energy, HeightImage, Heightfield, Lambda, Lattice, Options, fit};
+use developable::{HeightImage, Heightfield, Lattice, Options, fit};
 
 use super::DECADES;
 use super::distance::Distance;
@@ -69,18 +69,14 @@ fn show(scene: &Scene, noise: Noise) -> Result<(Sheet, String), Error> {
         let surface = fit(&input, &options)?.into_heightfield();
         Ok((Distance::between(&truth, &surface), surface))
     };
-    let mut nuclear = solve(Options::default().lambda(first))?;
+    let mut nuclear = solve(Options::paper().lambda(first))?;
     for decade in DECADES {
-        let other = solve(Options::default().lambda(first * 10f64.powf(decade)))?;
+        let other = solve(Options::paper().lambda(first * 10f64.powf(decade)))?;
         if other.0.normals < nuclear.0.normals {
             nuclear = other;
         }
     }
-    let own = solve(
-        Options::default()
-            .energy(Energy::Huber)
-            .lambda(Lambda::Auto),
-    )?;
+    let own = solve(Options::default())?;
     let before = Distance::between(&truth, &input);
     let caption = format!(
         "Mean angle between normals and the true ones: {:.2}° in the input, {:.2}° by the nuclear norm, \

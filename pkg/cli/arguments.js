@@ -1,9 +1,9 @@
 /** From the command line to a task. */
-import { realpathSync } from 'node:fs';
-import { extname, resolve } from 'node:path';
+import { extname } from 'node:path';
 import { OPTIONS } from '../options.js';
 import { checkFlags, commandNamed } from './commands.js';
 import { split, usage } from './flags.js';
+import { refuseSameFiles } from './same-file.js';
 
 /**
  * @typedef {import('./flags.js').Flag} Flag
@@ -19,6 +19,7 @@ import { split, usage } from './flags.js';
  * @typedef {object} InputTask what all commands are told about the input
  * @property {string} input
  * @property {string[]} written all files that are to be written
+ * @property {boolean} force whether they may replace files that are read
  * @property {string} output nothing for standard output
  * @property {Extension} extension the output's
  * @property {string} [array] of an NPZ file
@@ -53,7 +54,7 @@ import { split, usage } from './flags.js';
  * @typedef {SheetTask & {
  *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
  *   marks?: number, kerf?: number, allowance?: number, thickness?: number, innerRadius?: number, kFactor?: number, assembly?: string,
- *   smoothing?: number, paper?: import('../types.js').Stock, explore: boolean, sheets?: number,
+ *   smoothing?: number, stock?: import('../types.js').Stock, explore: boolean, sheets?: number,
  * }} PatternTask
  * @typedef {SheetTask & {
  *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, deskew: boolean, map?: string,
@@ -65,7 +66,7 @@ import { split, usage } from './flags.js';
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
  * @typedef {{
- *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], report?: string,
+ *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], force: boolean, report?: string,
  *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, laying: import('../types.js').PatchOptions & { maxStrain?: number },
  *   drawing: Omit<import('../types.js').MeshPatternOptions, 'assembly'>, assembly?: string, explore: boolean, sheets?: number,
  *   options: import('../types.js').MeshSolverOptions,
@@ -78,6 +79,8 @@ const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const units = /** @type {const} */ (['mm', 'm']);
 const shapes = /** @type {const} */ (['auto', 'cylinder', 'developable']);
+const lambdas = /** @type {const} */ (['small', 'medium', 'big', 'auto']);
+const formats = /** @type {const} */ (['a4', 'letter']);
 
 /** @typedef {typeof shapes[number]} Shape what is fitted to the heights of a photo */
 
@@ -96,9 +99,6 @@ const extensions = {
 
 /** Commands that tell something, for which standard output will do. */
 const telling = ['analyze', 'patches', 'rulings'];
-
-/** The threshold of the paper's authors, which `auto` stands for. */
-const THRESHOLD = 4e4;
 
 /**
  * @param {string[]} args
@@ -125,33 +125,34 @@ export function parse(args) {
     if (stray !== undefined) throw usage(`--${stray} is for a photo alone, with --edges`, command);
   }
   const photoCamera = values['photo-camera'];
-  const read = { mask, confidence, constraints, texture, camera: photoCamera, 'occlusion mask': values['occlusion-mask'] };
+  const read = { input, mask, confidence, constraints, texture, camera: photoCamera, 'occlusion mask': values.occlusions };
   const kind = kindOf(input, values);
   checkKind(kind, command, values);
-  if (report !== undefined) apart({ report }, { output, input, map, ...read });
-  if (map !== undefined) apart({ map }, { output, input, ...read });
-  if (values.assembly !== undefined) {
-    extension('assembly', values.assembly, ['.glb', '.svg']);
-    apart({ assembly: values.assembly }, { output, input, report, ...read });
-  }
-  if (mtl !== undefined) apart({ mtl }, { output, input, report, ...read });
-  if (values.output !== undefined) apart({ output }, read);
+  const camera = kind === 'depths' ? intrinsics(values) : undefined;
+  if (values.assembly !== undefined) extension('assembly', values.assembly, ['.glb', '.svg']);
+  const { force = false } = values;
+  refuseSameFiles({
+    written: { output: values.output, report, map, mtl, assembly: values.assembly },
+    read: { ...read, 'file of the intrinsics': camera?.file },
+    force,
+  });
 
   /** @type {InputTask} */
   const about = {
     input,
     output,
     written: [values.output, report, map, mtl, values.assembly].filter((path) => path !== undefined),
+    force,
     extension: values.output === undefined ? '.json' : extension('output', output, extensions[command]),
     array,
     mask,
     lattice: kind !== 'image' ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
-    camera: kind === 'depths' ? intrinsics(values) : undefined,
+    camera,
     view: values.view === undefined ? undefined : view(values.view),
     resolution: number('resolution', values),
     spacing: number('spacing', values),
     pixelSize: number('pixel-size', values),
-    heightScale: number('height-scale', values),
+    heightScale: heightScale(values),
     unit: values.unit === undefined ? undefined : choice('unit', values.unit, units),
     noData: number('no-data', values),
     normalize: !values['no-normalize'],
@@ -175,26 +176,27 @@ export function parse(args) {
     confidence,
     constraints,
     free,
-    occlusionMask: values['occlusion-mask'],
+    occlusionMask: values.occlusions,
     report,
     texture,
     photoCamera,
     mtl,
     options: {
+      paper: values.paper,
       lambda: lambda(values.lambda),
       gap: number('gap', values),
       schedule: one('schedule', values, OPTIONS.solver.schedule),
       maxIterations: number('max-iterations', values),
       normalize: about.normalize,
       energy: one('energy', values, OPTIONS.solver.energy),
-      reweighting: number('reweight', values),
+      reweighting: number('reweighting', values),
       bendRadius: number('bend-radius', values),
       flatness: number('flatness', values),
       creaseRadius: number('crease-radius', values),
       creasePasses: number('crease-passes', values),
       tieBreak: number('tie-break', values),
-      occlusionThreshold: values.occlusions === 'auto' ? THRESHOLD : number('occlusions', values, 'auto or '),
-      bridge: values.bridge === 'none' ? false : number('bridge', values, 'none or '),
+      occlusionThreshold: threshold(values),
+      bridge: isWord(values.bridge, 'none', 'off') ? false : number('bridge', values, 'none or '),
     },
   };
   if (photoCamera !== undefined && kind === 'image') {
@@ -260,7 +262,7 @@ function shape(values, lattice) {
 
 /** What a fit over a whole mesh takes. @satisfies {readonly Flag[]} */
 const wholeFlags = [
-  'surface', 'output', 'report', 'lambda', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'gap', 'max-iterations',
+  'surface', 'output', 'force', 'report', 'lambda', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'gap', 'max-iterations',
 ];
 
 /** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
@@ -271,7 +273,7 @@ const wholeCommands = {
   unroll: ['as-is'],
   pattern: [
     'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor',
-    'smoothing', 'paper', 'assembly', 'explore', 'sheets',
+    'smoothing', 'stock', 'assembly', 'explore', 'sheets',
   ],
 };
 
@@ -284,7 +286,7 @@ const wholeCommands = {
  * @param {Values} values
  * @returns {MeshTask}
  */
-function whole(make, { input, output, written, extension: kind }, values) {
+function whole(make, { input, output, written, force, extension: kind }, values) {
   /** @type {readonly string[]} */
   const known = [...wholeFlags, ...wholeCommands[make]];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
@@ -299,6 +301,7 @@ function whole(make, { input, output, written, extension: kind }, values) {
     input,
     output,
     written,
+    force,
     extension: kind,
     report: values.report,
     asIs: values['as-is'] === true,
@@ -320,7 +323,7 @@ function whole(make, { input, output, written, extension: kind }, values) {
   };
 }
 
-const pageFlags = /** @type {const} */ (['focal', 'fov', 'page']);
+const pageFlags = /** @type {const} */ (['focal-length', 'field-of-view', 'page']);
 
 /**
  * A photo alone.
@@ -332,20 +335,18 @@ const pageFlags = /** @type {const} */ (['focal', 'fov', 'page']);
  */
 function page(input, output, edges, values) {
   const { report, map } = values;
-  const known = ['edges', 'output', 'report', 'map', 'dots', 'quality', ...pageFlags];
+  const known = ['edges', 'output', 'force', 'report', 'map', 'dots', 'quality', ...pageFlags];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
   if (stray !== undefined) throw usage(`--${stray} is for heights, and with --edges the input is a photo`, 'dewarp');
-  if (values.focal !== undefined && values.fov !== undefined) {
-    throw usage('--focal and --fov say the same: give one of them', 'dewarp');
+  if (values['focal-length'] !== undefined && values['field-of-view'] !== undefined) {
+    throw usage('--focal-length and --field-of-view say the same: give one of them', 'dewarp');
   }
   const kind = extension('output', output, extensions.dewarp);
   if (kind === '.pdf' && values.page === undefined) {
     throw usage('a .pdf has its true size: --page a4, letter or WIDTHxHEIGHT in millimetres says how large the page is', 'dewarp');
   }
   if (map !== undefined) extension('map', map, ['.npy', '.json']);
-  if (report !== undefined) apart({ report }, { output, input, map, edges });
-  if (map !== undefined) apart({ map }, { output, input, edges });
-  apart({ output }, { edges });
+  refuseSameFiles({ written: { output, report, map }, read: { input, edges }, force: values.force });
   return {
     command: 'page',
     input,
@@ -358,8 +359,8 @@ function page(input, output, edges, values) {
     quality: number('quality', values),
     options: {
       dots: number('dots', values),
-      focalLength: number('focal', values),
-      fieldOfView: number('fov', values),
+      focalLength: number('focal-length', values),
+      fieldOfView: number('field-of-view', values),
       page: values.page === undefined ? undefined : format(values.page),
     },
   };
@@ -371,12 +372,22 @@ function page(input, output, edges, values) {
  * @returns {'a4' | 'letter' | [number, number]}
  */
 function format(text) {
-  if (text === 'a4' || text === 'letter') return text;
+  const name = formats.find((known) => isWord(text, known));
+  if (name !== undefined) return name;
   const [width, height, ...more] = text.split(/x/i).map((side) => (side.trim() === '' ? NaN : Number(side)));
   if (more.length > 0 || !Number.isFinite(width) || !Number.isFinite(height)) {
     throw usage(`--page must be a4, letter or WIDTHxHEIGHT in millimetres, but is "${text}"`, 'dewarp');
   }
   return [width, height];
+}
+
+/**
+ * Where to look for occlusions.
+ * @param {Values} values
+ * @returns {SolverOptions['occlusionThreshold']}
+ */
+function threshold(values) {
+  return isWord(values['occlusion-threshold'], 'auto') ? 'auto' : number('occlusion-threshold', values, 'auto or ');
 }
 
 /** Where patches end. @param {Values} values */
@@ -406,7 +417,7 @@ function drawing(values) {
     kFactor: number('k-factor', values),
     assembly: values.assembly,
     smoothing: number('smoothing', values),
-    paper: values.paper === undefined || values.paper === 'none' ? undefined : stock(values.paper),
+    stock: values.stock === undefined || isWord(values.stock, 'none') ? undefined : stock(values.stock),
   };
 }
 
@@ -433,26 +444,13 @@ function exploring(values, extension) {
  * @returns {import('../types.js').Stock}
  */
 function stock(text) {
-  if (text === 'a4' || text === 'letter') return text;
+  const name = formats.find((known) => isWord(text, known));
+  if (name !== undefined) return name;
   const [, width, height] = /^(\d*\.?\d+)x(\d*\.?\d+)?$/i.exec(text) ?? [];
   if (width === undefined) {
-    throw usage(`--paper must be a4, letter, none, WIDTHxHEIGHT or, for a roll, WIDTHx in millimetres, but is "${text}"`, 'pattern');
+    throw usage(`--stock must be a4, letter, none, WIDTHxHEIGHT or, for a roll, WIDTHx in millimetres, but is "${text}"`, 'pattern');
   }
   return height === undefined ? [Number(width)] : [Number(width), Number(height)];
-}
-
-/**
- * Nothing that is read is overwritten, but for the input on demand: `-o INPUT`.
- * @param {Record<string, string>} written
- * @param {Record<string, string | undefined>} others
- */
-function apart(written, others) {
-  const [[name, file]] = Object.entries(written);
-  for (const [other, path] of Object.entries(others)) {
-    if (path !== undefined && whereabouts(path) === whereabouts(file)) {
-      throw usage(`the ${other} and the ${name} are the same file`);
-    }
-  }
 }
 
 /** @param {string} input */
@@ -462,9 +460,9 @@ export function isMesh(input) {
 
 /** Flags that are not for an input of this kind. @type {Record<'image' | 'mesh' | 'depths', readonly Flag[]>} */
 const strangers = {
-  image: ['surface', 'view', 'resolution', 'rotate-depth', 'ray'],
-  mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusion-mask', 'rotate-depth', 'ray'],
-  depths: ['surface', 'lattice', 'pixel-size', 'height-scale', 'constraints', 'free', 'occlusion-mask'],
+  image: ['surface', 'view', 'resolution', 'turn', 'ray'],
+  mesh: ['lattice', 'pixel-size', 'height-scale', 'mask', 'no-data', 'confidence', 'constraints', 'free', 'occlusions', 'turn', 'ray'],
+  depths: ['surface', 'lattice', 'pixel-size', 'height-scale', 'constraints', 'free', 'occlusions'],
 };
 
 const plurals = { image: 'meshes and depths', mesh: 'images', depths: 'heights or meshes, and the input is depths' };
@@ -498,9 +496,9 @@ function checkKind(kind, command, values) {
  * @param {Values} values
  * @returns {CameraTask}
  */
-function intrinsics({ intrinsics: text = '', ray = false, 'rotate-depth': rotate }) {
+function intrinsics({ intrinsics: text = '', ray = false, turn: rotate }) {
   const turn = [0, 90, 180, 270].find((degrees) => rotate !== undefined && String(degrees) === rotate);
-  if (rotate !== undefined && turn === undefined) throw usage(`--rotate-depth must be 90, 180 or 270, but is "${rotate}"`);
+  if (rotate !== undefined && turn === undefined) throw usage(`--turn must be 90, 180 or 270, but is "${rotate}"`);
   if (/\.(json|csv|txt)$/i.test(text)) return { file: text, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
   const numbers = list(text);
   if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) {
@@ -529,6 +527,13 @@ function list(text) {
   return text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
 }
 
+/** The height of one step of the file's values. @param {Values} values */
+function heightScale(values) {
+  const scale = number('height-scale', values);
+  if (scale === 0) throw usage('--height-scale must not be 0, which leaves no heights');
+  return scale;
+}
+
 /**
  * A name, or three numbers with commas between them. Names are checked where they are used.
  * @param {string} text
@@ -541,15 +546,6 @@ function view(text) {
     throw usage(`--view must be a name or three numbers as in 0,-1,-1, but is "${text}"`);
   }
   return /** @type {[number, number, number]} */ (/** @type {unknown} */ (vector));
-}
-
-/** A file's place, by whatever links it is reached. @param {string} file */
-function whereabouts(file) {
-  try {
-    return realpathSync(file);
-  } catch {
-    return resolve(file); // not there yet
-  }
 }
 
 /**
@@ -571,8 +567,18 @@ function extension(what, output, known) {
  * @returns {SolverOptions['lambda']}
  */
 function lambda(text) {
-  if (text === 'small' || text === 'medium' || text === 'big' || text === 'auto') return text;
+  const name = lambdas.find((known) => isWord(text, known));
+  if (name !== undefined) return name;
   return number('lambda', { lambda: text }, 'small, medium, big, auto or ');
+}
+
+/**
+ * Whether the value is one of these words, in whatever case.
+ * @param {string | undefined} value
+ * @param {...string} words
+ */
+function isWord(value, ...words) {
+  return value !== undefined && words.includes(value.toLowerCase());
 }
 
 /**
@@ -583,7 +589,7 @@ function lambda(text) {
  * @returns {T}
  */
 function choice(name, value, choices) {
-  const chosen = choices.find((known) => known === value);
+  const chosen = choices.find((known) => isWord(value, known));
   if (chosen !== undefined) return chosen;
   throw usage(`--${name} must be ${choices.join(' or ')}, but is "${value}"`);
 }

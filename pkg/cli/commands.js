@@ -21,21 +21,21 @@ const heights = ['lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'm
 /** Of photos that are written. @satisfies {readonly Flag[]} */
 const printed = ['unit', 'quality'];
 /** @satisfies {readonly Flag[]} */
-const mesh = ['view', 'resolution', 'intrinsics', 'rotate-depth', 'ray'];
+const mesh = ['view', 'resolution', 'intrinsics', 'turn', 'ray'];
 /** @satisfies {readonly Flag[]} */
 const energy = [
-  'lambda', 'energy', 'reweight', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'tie-break', 'no-normalize', 'gap',
+  'paper', 'lambda', 'energy', 'reweighting', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'tie-break', 'no-normalize', 'gap',
   'schedule', 'max-iterations',
 ];
 /** @satisfies {readonly Flag[]} */
-const known = ['confidence', 'constraints', 'free', 'occlusion-mask', 'occlusions', 'bridge'];
+const known = ['confidence', 'constraints', 'free', 'occlusions', 'occlusion-threshold', 'bridge'];
 /** @satisfies {readonly Flag[]} */
-const page = ['edges', 'focal', 'fov', 'page'];
+const page = ['edges', 'focal-length', 'field-of-view', 'page'];
 /** @satisfies {readonly Flag[]} */
 const general = ['help', 'version'];
 
 /** Of all commands that fit a surface. @satisfies {readonly Flag[]} */
-const fitted = ['output', ...energy, ...heights, ...mesh, ...known, ...general];
+const fitted = ['output', 'force', ...energy, ...heights, ...mesh, ...known, ...general];
 
 /** Of those that go on with it. @satisfies {readonly Flag[]} */
 const shaped = [...fitted, 'as-is'];
@@ -70,7 +70,7 @@ export const commands = {
     about: 'Makes a surface that passes through heights and is free elsewhere.',
     terms: { CONSTRAINTS: 'heights, as an image of any kind; transparent pixels and NaN are free', OUTPUT },
     flags: [
-      'output', 'report', ...energy, 'lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'free', 'occlusion-mask', ...general,
+      'output', 'force', 'report', ...energy, 'lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'free', 'occlusions', ...general,
     ],
     examples: ['design pins.png -o surface.obj --free 0 --height-scale 0.1'],
   },
@@ -79,7 +79,7 @@ export const commands = {
     summary: 'look for places where a surface is torn',
     about: 'Looks for places where a surface is torn, and prints how many vertices it has found.',
     terms: { INPUT, MASK: '.png or .npy, white (or 1) where the surface is torn' },
-    flags: ['output', 'threshold', 'no-normalize', ...heights, ...mesh, ...general],
+    flags: ['output', 'force', 'threshold', 'no-normalize', ...heights, ...mesh, ...general],
     words: { 'no-normalize': 'take the coordinates as they are, instead of scaling them to the unit square' },
     examples: ['occlusions scan.png -o torn.png', 'occlusions scan.png -o torn.npy --threshold 1e4'],
   },
@@ -133,9 +133,9 @@ export const commands = {
     summary: 'cut it into sheets of paper or metal',
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
     terms: { INPUT, PATTERN: '.svg, .pdf or .dxf in true size, or .json' },
-    flags: [...shaped, 'surface', 'report', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor', 'smoothing', 'paper', 'assembly', 'explore', 'sheets'],
+    flags: [...shaped, 'surface', 'report', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor', 'smoothing', 'stock', 'assembly', 'explore', 'sheets'],
     words: { report: 'JSON file for the figures of the pattern' },
-    examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --paper a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
+    examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --stock a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
   },
   dewarp: {
     usage: 'INPUT [--texture PHOTO] -o IMAGE [options]',

@@ -3,9 +3,9 @@ import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
-import { about, readInput } from './inputs.js';
+import { about, readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { announce, percent, progressLine } from './terminal.js';
+import { announce, during, percent, progressLine } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').FitTask} FitTask
@@ -20,11 +20,11 @@ export async function fit(task, signal) {
   await checkPlaces(...task.written);
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
   const { photo, camera } = texture === undefined ? {} : await seenBy(task, texture);
-  const bare = await solve(task, await readInput({ ...task, photo }), { signal, transfer: true });
+  const bare = await solve(task, await readForFit({ ...task, photo }, signal), { signal, transfer: true });
   const surface = texture === undefined
     ? bare
     : await about(String(task.texture), () => developable.paint(bare, texture, camera && { camera }));
-  const files = [{ path: task.output, bytes: await encode(task, surface) }];
+  const files = [{ path: task.output, bytes: await during(`making ${task.output}`, () => encode(task, surface)) }];
   if (task.mtl !== undefined) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
   }
@@ -87,6 +87,7 @@ function from(file, other) {
 export async function solve(task, input, control) {
   const options = task.lattice !== 'square' ? task.options : { ...task.options, spacing: task.spacing };
   const line = progressLine();
+  line.begin();
   try {
     return await developable.fit(input, { ...options, ...control, onProgress: line.shown ? line.show : undefined });
   } finally {

@@ -19,38 +19,52 @@ export const sections = {
     flags: {
       output: { short: 'o', value: 'FILE', help: 'the file to write, which appears whole or not at all' },
       report: { value: 'FILE', help: 'JSON file for the figures of the solve' },
+      force: {
+        help: 'let a file that is written replace one that is read, such as INPUT; and fit more than 2,000,000 vertices that --resolution ' +
+          'or --spacing makes without a question (in a terminal) or a warning',
+      },
     },
   },
   energy: {
     title: 'What to minimise',
     flags: {
+      paper: {
+        help: "the paper's setting, --lambda medium --energy nuclear, for what is not given otherwise: few large flat sheets",
+      },
       lambda: {
         value: 'L',
         help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), any number above zero, or auto: by the noise of ' +
-          'the input (default: auto with the energy huber; medium where --energy, --reweight or --schedule paper is given, ' +
-          'and for a design)',
+          'the input, and medium where it has none, as a design (default: auto)',
       },
       energy: {
         value: 'E',
-        help: 'nuclear, huber (smooth bends and sharp creases), frobenius, squaredNuclear, secondFormOfInput or secondForm (default: ' +
-          'nuclear; huber where --lambda is not given either)',
+        help: 'huber (smooth bends and sharp creases), nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm (default: ' +
+          'huber; nuclear for a design)',
       },
-      reweight: {
+      reweighting: {
         value: 'N',
-        option: 'reweighting',
-        help: 'passes that undo the shrinking of curvature; 2 or 3 are usual (default 0)',
+        help: 'passes that undo a part of the shrinking of curvature, for any energy but huber (default 0)',
       },
       'bend-radius': {
         value: 'R',
-        help: 'huber: bends of a larger radius, as a share of the longer side, cost their square (default 0.1)',
+        help: 'huber: bends of a larger radius, as a share of the longer side, cost their square (default: from the noise with ' +
+          '--lambda auto, else 0.1)',
       },
-      flatness: { value: 'A', help: 'huber: from 0 (nothing is quite flat) to 1 (the nuclear norm) (default 0.3)' },
+      flatness: {
+        value: 'A',
+        help: 'huber: from 0 (nothing is quite flat) to 1 (the nuclear norm) (default: from the noise; 0.3 where --lambda is a ' +
+          'number that suits it)',
+      },
       'crease-radius': {
         value: 'R',
-        help: 'huber: what bends more tightly, as a share of the longer side, is a crease (default 0.1)',
+        help: 'huber: what bends more tightly, as a share of the longer side, is a crease (default: from the noise with ' +
+          '--lambda auto, else 0.1)',
       },
-      'crease-passes': { value: 'N', help: 'huber: most passes that give creases their angle back (default 2)' },
-      'tie-break': { value: 'E', help: 'weight that keeps free vertices near a thin plate (default 0.01)' },
+      'crease-passes': {
+        value: 'N',
+        help: 'huber: most passes that give creases their angle back (default: 2, or 0 where lambda is too large for the noise)',
+      },
+      'tie-break': { value: 'E', help: 'weight that keeps free vertices near a thin plate, where there are any (default 0.01)' },
       'no-normalize': {
         option: 'normalize',
         help: 'take the coordinates as they are, instead of scaling them to the unit square, for which lambda is meant',
@@ -60,7 +74,7 @@ export const sections = {
   stop: {
     title: 'When to stop',
     flags: {
-      gap: { value: 'G', help: 'certified relative gap to stop at (default 0.01)' },
+      gap: { value: 'G', help: 'certified relative gap to stop at (default 0.01), which the paper\'s schedule has not' },
       schedule: { value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
       'max-iterations': { value: 'N', help: 'most iterations (default 20000)' },
     },
@@ -125,7 +139,7 @@ export const sections = {
           'calibration has written: .json with fx, fy, cx, cy or a camera matrix (and width, height, distortion), .csv ' +
           'with the matrix; whole numbers are millimetres then, others metres',
       },
-      'rotate-depth': {
+      turn: {
         value: 'DEGREES',
         help: '90, 180 or 270: turn the depths clockwise first, to lie as the photo does (default: as the Exif data of the ' +
           'photo say that it was turned, if its proportions show that the depths were not)',
@@ -147,10 +161,9 @@ export const sections = {
         help: "heights to be met exactly, in the input's scale; transparent pixels and NaN are free",
       },
       free: { value: 'V', help: 'value of the constraints that means free, besides' },
-      'occlusion-mask': { value: 'FILE', help: 'not 0 where the surface is torn' },
-      occlusions: {
+      occlusions: { value: 'FILE', help: 'not 0 where the surface is torn' },
+      'occlusion-threshold': {
         value: 'T',
-        option: 'occlusionThreshold',
         help: "look for more such places: where it bends by more than T; auto is the authors' value, 4e4",
       },
       bridge: {
@@ -230,7 +243,7 @@ export const sections = {
         value: 'CELLS',
         help: 'how far smooth lines may be from those that were found, in cells of the lattice; 0 takes these (default 0.5)',
       },
-      paper: {
+      stock: {
         value: 'P',
         help: 'a4, letter, WIDTHxHEIGHT of plates or WIDTHx of a roll, in millimetres: lay the sheets on pages of that size, each ' +
           'whole on one where it fits; on a4 and letter larger ones on pages that are put together by the crosses on them ' +
@@ -239,8 +252,8 @@ export const sections = {
       shape: {
         value: 'S',
         help: 'what is fitted: cylinder (bent about parallel rulings, as curled sheets, pages of books and parallel folds are), developable, ' +
-          'or auto: of depths and meshes a cylinder where what it leaves of them is noise (default: auto; developable where anything ' +
-          'is said about what to minimise)',
+          'or auto: of depths and meshes a cylinder where what it leaves of them is noise, and where the options of the energy ' +
+          'are the defaults (default: auto)',
       },
       dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
       quality: { value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
@@ -263,15 +276,13 @@ export const sections = {
           'photo, with corners at the ends. Of the two pages of a spread, a list of two of these. Lines of text are found ' +
           'in the photo, unless lines says where they are',
       },
-      focal: {
+      'focal-length': {
         value: 'PIXELS',
-        option: 'focalLength',
         help: "the camera's focal length, in pixels of the photo (default: what the photo's Exif data tell, or else " +
           'what the perspective tells)',
       },
-      fov: {
+      'field-of-view': {
         value: 'DEGREES',
-        option: 'fieldOfView',
         help: "the same as the angle that the photo's longer side covers",
       },
       page: {
@@ -292,7 +303,7 @@ export const sections = {
 
 /**
  * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections]} Flag
- * @typedef {'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
+ * @typedef {'force' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
 
@@ -308,6 +319,49 @@ export function flagOf(option) {
   return `--${renamed.get(option) ?? option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}`;
 }
 
+/** Names that flags had before, which go on working and are not in the help. @type {ReadonlyMap<string, Flag>} */
+const FORMER_NAMES = new Map([
+  ['reweight', 'reweighting'],
+  ['occlusion-mask', 'occlusions'],
+  ['focal', 'focal-length'],
+  ['fov', 'field-of-view'],
+  ['rotate-depth', 'turn'],
+]);
+
+/**
+ * The command line with the names that flags have now, and how those were spelled that had another one before.
+ * @param {string[]} args
+ */
+function withCurrentNames(args) {
+  /** @type {Map<string, string>} */
+  const spelled = new Map();
+  const end = args.includes('--') ? args.indexOf('--') : args.length;
+  const renamed = args.map((arg, i) => {
+    const [, name, value] = /^--([^=]+)(?:=([^]*))?$/.exec(i < end ? arg : '') ?? [];
+    // What is a number or auto is a threshold, for which `--occlusions` stood once.
+    const now = name === 'occlusions' && isThreshold(value ?? args[i + 1]) ? 'occlusion-threshold' : FORMER_NAMES.get(name);
+    if (now === undefined) return arg;
+    spelled.set(now, name);
+    return `--${now}${value === undefined ? '' : `=${value}`}`;
+  });
+  return { renamed, spelled };
+}
+
+/** @param {string | undefined} value */
+function isThreshold(value = '') {
+  return value.toLowerCase() === 'auto' || (value.trim() !== '' && !Number.isNaN(Number(value)));
+}
+
+/**
+ * A message with the flags named as they were spelled on the command line.
+ * @param {string} message
+ * @param {string[]} args
+ */
+export function asSpelled(message, args) {
+  const { spelled } = withCurrentNames(joined(args));
+  return message.replace(/--([a-z][a-z-]*)/g, (whole, flag) => (spelled.has(flag) ? `--${spelled.get(flag)}` : whole));
+}
+
 /**
  * @param {string[]} args
  * @returns {{ values: Values, positionals: string[] }}
@@ -320,7 +374,7 @@ export function split(args) {
     ]),
   );
   try {
-    const { values, positionals } = parseArgs({ args: joined(args), options, allowPositionals: true });
+    const { values, positionals } = parseArgs({ args: withCurrentNames(joined(args)).renamed, options, allowPositionals: true });
     return { values: /** @type {Values} */ (values), positionals };
   } catch (error) {
     const message = messageOf(error).replace(/\. To specify a positional.*$/s, '');
@@ -340,7 +394,11 @@ function joined(args) {
   const out = [];
   for (const arg of args) {
     const last = out.at(-1);
-    if (last?.startsWith('--') && /^-(\.?\d|inf|nan|[xyz]$)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
+    const [, stock] = /^--paper=(.*)$/is.exec(arg) ?? [];
+    if (stock !== undefined) out.push(`--stock=${stock}`);
+    // The old name of --stock, whose value tells it from the paper's setting.
+    else if (last === '--paper' && args.includes('pattern') && !/^-|\.[a-z]/i.test(arg)) out[out.length - 1] = `--stock=${arg}`;
+    else if (last?.startsWith('--') && /^-(\.?\d|inf|nan|[xyz]$)/i.test(arg)) out[out.length - 1] = `${last}=${arg}`;
     else out.push(arg);
   }
   return out;

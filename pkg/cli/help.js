@@ -8,7 +8,8 @@ const [COLUMN, WIDTH] = [25, 80];
 const exits = `\
 Exit status: 0 if all went well (also when --max-iterations ended the solve,
 which is said on standard error), 1 if the library failed, 2 for wrong usage, 3
-if a file cannot be read, used or written, 130 when interrupted.
+if a file cannot be read, used or written, 129, 130 or 143 when the terminal was
+closed, the command interrupted or terminated.
 `;
 
 /** What there is. */

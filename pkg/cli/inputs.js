@@ -5,6 +5,8 @@ import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
 import { Problem, status } from './problem.js';
+import { confirmSize } from './size.js';
+import { during, say } from './terminal.js';
 
 /**
  * @typedef {import('./arguments.js').InputTask} InputTask
@@ -15,6 +17,17 @@ import { Problem, status } from './problem.js';
  * }} Size of a photo, which part of it is wanted, and the camera that took it
  * @typedef {import('../types.js').HeightImage | import('../types.js').Heightfield} Input
  */
+
+/**
+ * An input that is going to be fitted. Whether that is meant is asked where it would take very long.
+ * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
+ * @param {AbortSignal} signal
+ */
+export async function readForFit(task, signal) {
+  const input = await readInput(task);
+  await confirmSize(task, input, signal);
+  return input;
+}
 
 /**
  * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task `photo`: of one that goes with it
@@ -81,9 +94,9 @@ function checkScale({ input, noData, command = '' }, file) {
   if (kind !== undefined) {
     const guess = (pixelSize * side) / 4 / (2 ** Number(bits) - 1);
     if (MEASURING.includes(command) && Math.abs(heightScale / guess - 1) < 1e-9) {
-      process.stderr.write(
-        `developable: warning: ${input} does not say how high its levels are: white is taken for a quarter of the longer ` +
-          'side above black, and lengths on the sheet depend on that; --height-scale says it, --intrinsics that these are depths\n',
+      say(
+        `warning: ${input} does not say how high its levels are: white is taken for a quarter of the longer ` +
+          'side above black, and lengths on the sheet depend on that; --height-scale says it, --intrinsics that these are depths',
       );
     }
     return;
@@ -138,13 +151,14 @@ function hiddenShare({ positions, triangles }, { rows, cols, spacing, origin, he
 /** What is seen of a mesh. @param {InputTask & { photo?: Size }} task */
 async function readSampled(task) {
   const { view, resolution, spacing } = task;
-  const mesh = await readMesh(task);
-  const seen = await developable.sampleMesh({ ...mesh, unit: task.unit ?? mesh.unit }, { view, resolution, spacing });
+  const mesh = await during(`reading ${task.input}`, () => readMesh(task));
+  const seen = await during(`looking at ${task.input}`, () =>
+    developable.sampleMesh({ ...mesh, unit: task.unit ?? mesh.unit }, { view, resolution, spacing }));
   const lost = task.camera ? 0 : hiddenShare(mesh, seen);
   if (lost > HIDDEN) {
-    process.stderr.write(
-      `developable: warning: ${Math.round(100 * lost)} % of the area of ${task.input} is not seen in this view, and not in the ` +
-        'result; fit --surface fits the whole mesh as it is\n',
+    say(
+      `warning: ${Math.round(100 * lost)} % of the area of ${task.input} is not seen in this view, and not in the ` +
+        'result; fit --surface fits the whole mesh as it is',
     );
   }
   return seen;
@@ -154,11 +168,11 @@ async function readSampled(task) {
  * The mesh itself, or what a depth camera has seen. The numbers of a camera may be about the photo.
  * @param {InputTask & Partial<KnownTask> & { photo?: Size }} task
  */
-export async function readMesh({ input, array, camera, mask, confidence, noData, written, photo }) {
+export async function readMesh({ input, array, camera, mask, confidence, noData, written, force, photo }) {
   if (!camera) {
-    const mesh = await readMeshFile(input, await readBytes(input), written);
+    const mesh = await readMeshFile(input, await readBytes(input), force ? [] : written);
     for (const name of mesh.missing ?? []) {
-      process.stderr.write(`developable: warning: ${input} names ${JSON.stringify(name)}, which is not there\n`);
+      say(`warning: ${input} names ${JSON.stringify(name)}, which is not there`);
     }
     return mesh;
   }
@@ -198,13 +212,13 @@ function turnOf(depths, photo) {
     if (turn === 90 || turn === 270) return turn;
     throw new Problem(
       status.usage,
-      `${sizes}: one of them lies on its side. --rotate-depth 90 or 270 turns the depths clockwise to lie as the photo does`,
+      `${sizes}: one of them lies on its side. --turn 90 or 270 turns the depths clockwise to lie as the photo does`,
     );
   }
   if (turn === 180) {
     process.stderr.write(
       'developable: warning: the photo was turned upside down, as its Exif data say, and its size does not tell whether the ' +
-        'depths were, too: they are taken as they are; --rotate-depth 180 turns them, and 0 says that this is right\n',
+        'depths were, too: they are taken as they are; --turn 180 turns them, and 0 says that this is right\n',
     );
   }
   return 0;
@@ -256,7 +270,10 @@ export async function readMeshFile(input, bytes, written = []) {
       if (path === undefined) continue;
       for (const output of written) {
         if ((await realpath(output).catch(() => undefined)) === path) {
-          throw new Problem(status.usage, `${output} is a file that ${input} is read with, and would be overwritten`);
+          throw new Problem(
+            status.usage,
+            `${output} is a file that ${input} is read with, and would be replaced: choose another name, or add --force to replace it`,
+          );
         }
       }
       files.set(name, await readBytes(path));

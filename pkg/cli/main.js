@@ -5,7 +5,7 @@ import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
 import { fit } from './fit.js';
-import { flagOf } from './flags.js';
+import { asSpelled, flagOf } from './flags.js';
 import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
@@ -15,14 +15,17 @@ import { analyze, patches, rulings } from './tell.js';
 import { whole } from './whole.js';
 import { print } from './terminal.js';
 
+/** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */
+const SIGNALS = { SIGHUP: status.hungUp, SIGINT: status.interrupted, SIGTERM: status.terminated };
+
 /**
  * @param {string[]} args
  * @returns {Promise<number>} the exit status
  */
 export async function main(args) {
   const interruption = new AbortController();
-  // Once each: who asks again gets it at once.
-  for (const [signal, code] of Object.entries({ SIGINT: status.interrupted, SIGTERM: status.terminated })) {
+  // Once each: a second signal of the same kind ends the process at once.
+  for (const [signal, code] of Object.entries(SIGNALS)) {
     process.once(signal, () => interruption.abort(new Problem(code, '')));
   }
   try {
@@ -31,7 +34,7 @@ export async function main(args) {
     return status.success;
   } catch (error) {
     const problem = interruption.signal.aborted ? interruption.signal.reason : explain(error);
-    if (problem.message) process.stderr.write(`developable: ${problem.message}\n`);
+    if (problem.message) process.stderr.write(`developable: ${asSpelled(problem.message, args)}\n`);
     return problem.status;
   } finally {
     dispose();

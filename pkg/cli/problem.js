@@ -5,6 +5,8 @@ export const status = {
   failure: 1,
   usage: 2,
   input: 3,
+  /** The terminal was closed. */
+  hungUp: 129,
   interrupted: 130,
   terminated: 143,
 };

@@ -3,7 +3,7 @@ import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { solve } from './fit.js';
-import { about, readInput } from './inputs.js';
+import { about, readForFit, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { percent, print, statusLine } from './terminal.js';
 
@@ -82,9 +82,9 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
 }
 
 /** @param {PatternTask} task */
-function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, paper, assembly, report }) {
+function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, stock, assembly, report }) {
   const told = assembly !== undefined || report !== undefined;
-  return { maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, paper, assembly: told };
+  return { maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, stock, assembly: told };
 }
 
 /**
@@ -126,7 +126,7 @@ export function chosenOf(task, { plans, chosen }) {
  * @param {AbortSignal} signal
  */
 async function explored(task, signal) {
-  const input = await readInput(task);
+  const input = await readForFit(task, signal);
   const { lambda, ...solver } = { ...task.options, ...spacing(task) };
   const { smallest, ...patching } = task.patching;
   const pattern = { ...patching, ...drawingOptions(task) };
@@ -333,12 +333,17 @@ async function textureOf(input, surface) {
  * @param {(input: Input) => void} [check] whether it will do, before the work
  */
 export async function flattened(task, signal, check = () => {}) {
-  const input = await readInput(task);
+  const input = await (task.asIs ? readInput(task) : readForFit(task, signal));
   check(input);
   if (task.asIs) return { surface: input, options: spacing(task) };
   const cylinder = await cylinderFor(task, input);
   return { surface: cylinder ?? await solve(task, input, { signal }), options: {} };
 }
+
+/** The defaults of a fit, which say nothing about the energy when they are given. @type {Record<string, unknown>} */
+const DEFAULTS = {
+  lambda: 'auto', energy: 'huber', schedule: 'default', gap: 0.01, maxIterations: 20000, normalize: true, reweighting: 0, bridge: 4,
+};
 
 /**
  * The cylinder that is to be laid flat, if it is one.
@@ -349,9 +354,9 @@ async function cylinderFor({ shape, lattice, options }, input) {
   if (shape === undefined || shape === 'developable') return undefined;
   const field = /** @type {import('../types.js').Heightfield} */ (input);
   if (shape === 'cylinder') return developable.fitCylinder(field);
-  // What is said of a surface is about one that is fitted by its energy.
-  const free = Object.entries(options).every(([name, value]) => value === undefined || (name === 'normalize' && value === true));
-  if (!free || lattice !== 'mesh' || field.constraints !== undefined || field.occlusions !== undefined) return undefined;
+  // What is said about the energy is about a surface that is fitted by it.
+  const said = Object.entries(options).some(([name, value]) => value !== undefined && value !== DEFAULTS[name]);
+  if (said || lattice !== 'mesh' || field.constraints !== undefined || field.occlusions !== undefined) return undefined;
   try {
     const found = await developable.fitCylinder(field);
     return found.report.verdict === 'cylinder' ? found : undefined;

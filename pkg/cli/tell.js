@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { solve } from './fit.js';
-import { readInput } from './inputs.js';
+import { readForFit, readInput } from './inputs.js';
 import { flattened, json, linesObj, spacing } from './sheets.js';
 import { print } from './terminal.js';
 
@@ -19,7 +19,7 @@ import { print } from './terminal.js';
  */
 export async function analyze(task, signal) {
   await checkPlaces(...task.written);
-  const input = await readInput(task);
+  const input = await (task.asIs ? readInput(task) : readForFit(task, signal));
   const { threshold } = task;
   const before = await developable.analyze(input, { threshold, ...spacing(task) });
   /** @type {Record<string, unknown>} */

@@ -20,6 +20,11 @@ export function print(text) {
   });
 }
 
+/** Says something on standard error, in the place of what a terminal shows of the work. @param {string} text */
+export function say(text) {
+  terminal.write(`${terminal.isTTY ? '\r\x1b[K' : ''}developable: ${text}\n`);
+}
+
 /** One line that is written over and over. */
 export function statusLine() {
   const shown = terminal.isTTY === true;
@@ -33,11 +38,30 @@ export function statusLine() {
   };
 }
 
+/**
+ * Shows on a terminal what is done while it is done.
+ * @template T
+ * @param {string} text
+ * @param {() => Promise<T>} work
+ * @returns {Promise<T>}
+ */
+export async function during(text, work) {
+  const line = statusLine();
+  if (line.shown) line.show(`${text}...`);
+  try {
+    return await work();
+  } finally {
+    line.clear();
+  }
+}
+
 /** How a solve goes on, in one line. */
 export function progressLine() {
   const line = statusLine();
   return {
     ...line,
+    /** Before there is any progress, which may take long where there are many vertices. */
+    begin: () => line.shown && line.show('setting up...'),
     /** @param {import('../types.js').Progress} progress */
     show({ level, iteration, gap, elapsed }) {
       const state = level > 0 ? `coarse lattice, ${level} finer to come` : gap === undefined ? 'gap unknown' : `gap ${percent(gap)}`;

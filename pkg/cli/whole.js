@@ -34,6 +34,7 @@ export async function whole(task, signal) {
  */
 function fitted(task, mesh, signal) {
   const line = progressLine();
+  line.begin();
   return developable
     .fitMesh(mesh, { ...task.options, signal, onProgress: line.shown ? line.show : undefined })
     .finally(() => line.clear());

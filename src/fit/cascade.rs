@@ -71,10 +71,10 @@ impl Cascade {
         plan: Plan,
         options: &Options,
     ) -> Result<Self> {
-        let (crease_radius, passes_left) = match options.energy {
+        let (crease_radius, passes_left) = match options.energy_or_default() {
             Energy::Huber => {
                 let Bending { crease_radius, .. } = Bending::SMOOTH.within(options);
-                (Some(crease_radius), options.crease_passes)
+                (Some(crease_radius), options.crease_passes_or_default())
             }
             _ => (None, options.reweighting),
         };
@@ -88,7 +88,7 @@ impl Cascade {
             passes: 0,
             passes_left,
             crease_radius,
-            loads_within: (options.border == Border::Loaded)
+            loads_within: (options.border_or_default() == Border::Loaded)
                 .then(|| Bending::SMOOTH.within(options).bend_radius),
             creases: Creases::default(),
             ends: false,

@@ -7,7 +7,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
-use crate::math::forest::Forest;
+use crate::math::union_find::UnionFind;
 
 /// Vertices that are connected by stencils.
 #[derive(Debug, Clone, Copy)]
@@ -31,7 +31,7 @@ const NONE: u32 = u32::MAX;
 impl Components {
     /// Costs little more than a look at each cell.
     pub(crate) fn new(domain: &Domain) -> Result<Self> {
-        let mut forest = Forest::new("components", domain.cells())?;
+        let mut sets = UnionFind::new("components", domain.cells())?;
         let stride = domain.stride();
         for row in 1..=domain.rows() {
             let [west, east, above, above_east, below, below_east] = domain.neighbour_offsets(row);
@@ -39,7 +39,7 @@ impl Components {
                 // All that the stencils of a run touch: a piece of its row, and of those beside it.
                 for (first, last) in [(west, east), (above, above_east), (below, below_east)] {
                     let end = run.end.wrapping_add_signed(last);
-                    forest.join_all(run.start, run.start.wrapping_add_signed(first)..end);
+                    sets.union_range(run.start, run.start.wrapping_add_signed(first)..end);
                 }
             }
         }
@@ -50,7 +50,7 @@ impl Components {
         for run in domain.active().all() {
             let row = run.start / stride;
             for cell in run.start..run.end {
-                let root = forest.root(cell as u32) as usize;
+                let root = sets.find(cell as u32) as usize;
                 if numbers[root] == NONE {
                     numbers[root] = boxes.len() as u32;
                     boxes.push([row, row, usize::MAX, 0]);
@@ -62,7 +62,7 @@ impl Components {
             }
         }
         for cell in domain.interior().cells() {
-            interior[numbers[forest.root(cell as u32) as usize] as usize] += 1;
+            interior[numbers[sets.find(cell as u32) as usize] as usize] += 1;
         }
         let (top, first) = domain.corner();
         let part = |number: usize| {
@@ -93,7 +93,7 @@ impl Components {
         }
         let mut labels = try_filled("components", domain.cells(), NONE)?;
         for cell in domain.active().cells() {
-            labels[cell] = place[numbers[forest.root(cell as u32) as usize] as usize];
+            labels[cell] = place[numbers[sets.find(cell as u32) as usize] as usize];
         }
         Ok(Components { labels, list })
     }

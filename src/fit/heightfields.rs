@@ -42,9 +42,9 @@ impl Problem {
         problem.set_fidelity(
             |cell| input.weight(domain.lattice_index(cell)),
             |cell| input.is_constrained(domain.lattice_index(cell)),
-            options.tie_break,
+            options.tie_break_or_default(),
         )?;
-        problem.take_first_normals(options.energy)?;
+        problem.take_first_normals(options.energy_or_default())?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
         problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
         Ok(problem)

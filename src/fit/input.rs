@@ -239,6 +239,21 @@ impl Input {
         self.confidence.get(vertex).copied().unwrap_or(1.0)
     }
 
+    /// Whether no height of the surface has a fidelity term: there are constraints and free vertices alone.
+    pub(crate) fn is_design(&self) -> bool {
+        let valid = |vertex: &usize| !self.field.heights()[*vertex].is_nan();
+        let mut vertices = (0..self.field.heights().len()).filter(valid);
+        vertices.all(|vertex| self.is_constrained(vertex) || self.weight(vertex) == 0.0)
+    }
+
+    /// Whether the height of some vertex of the surface has neither a fidelity term nor a constraint.
+    pub(crate) fn has_free_vertices(&self) -> bool {
+        let heights = self.field.heights().iter().enumerate();
+        heights
+            .filter(|(_, height)| !height.is_nan())
+            .any(|(vertex, _)| !self.is_given(vertex))
+    }
+
     /// Whether the height of a vertex means anything.
     pub(crate) fn is_given(&self, vertex: usize) -> bool {
         self.weight(vertex) > 0.0 || self.is_constrained(vertex)

@@ -11,8 +11,17 @@ const LAMBDAS: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 /// In normalised coordinates: from far below a spacing to far beyond any surface.
 const RADII: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
-/// More passes change nothing any more.
-const MOST_PASSES: usize = 20;
+/// Maximum number of reweighting or crease passes; more of them change nothing.
+const MAX_PASSES: usize = 20;
+
+/// Certified relative duality gap to stop at, unless one is given.
+const DEFAULT_GAP: f64 = 0.01;
+
+/// Weight of the thin plate at free vertices, unless one is given.
+const DEFAULT_TIE_BREAK: f64 = 0.01;
+
+/// Maximum number of crease passes, unless one is given.
+pub(crate) const DEFAULT_CREASE_PASSES: usize = 2;
 
 /// Weight λ of the fidelity term, stated for coordinates normalised to the
 /// unit square. The presets are the paper's (Sec. 5).
@@ -22,23 +31,24 @@ pub enum Lambda {
     /// 10⁵: for heavy, widespread noise, or for few large patches.
     Small,
     /// 10⁶.
-    #[default]
     Medium,
     /// 10⁷: for input that is developable but for small artefacts.
     Big,
     /// Any number from 10⁻¹² to 10¹⁵.
     Value(f64),
-    /// From the data, for heights with noise: a first λ from how large that is, then the one that
-    /// predicts best what a part of the heights are, which are held out from solves on a lattice
-    /// of twice the spacing. With [`Energy::Huber`] what bends cost is chosen likewise, as far as it
-    /// is not given. [`Report::lambda_choice`](crate::Report::lambda_choice) tells what was found.
+    /// From the noise of the input: a first λ from the size of the noise, then the λ that predicts
+    /// held-out heights best (cross-validation on a lattice of twice the spacing). With
+    /// [`Energy::Huber`] the parameters of the penalty are chosen the same way. An input whose noise
+    /// cannot be measured, such as a [design](crate::Input::design), gets [`Lambda::Medium`].
+    /// [`Report::lambda_choice`](crate::Report::lambda_choice) tells what was found.
+    #[default]
     Auto,
 }
 
 impl Lambda {
-    /// That of the name `small`, `medium`, `big` or `auto`.
+    /// The weight with the name `small`, `medium`, `big` or `auto`, in any case of letters.
     pub fn named(name: &str) -> Option<Self> {
-        match name {
+        match name.to_ascii_lowercase().as_str() {
             "small" => Some(Lambda::Small),
             "medium" => Some(Lambda::Medium),
             "big" => Some(Lambda::Big),
@@ -47,7 +57,7 @@ impl Lambda {
         }
     }
 
-    /// The number that stands in the energy; of [`Lambda::Auto`], which has none yet, that of
+    /// The number that stands in the energy. [`Lambda::Auto`] has none before a solve and counts as
     /// [`Lambda::Medium`].
     pub fn value(self) -> f64 {
         match self {
@@ -118,8 +128,8 @@ impl FromStr for Schedule {
 )]
 #[non_exhaustive]
 pub enum Energy {
-    /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15).
-    #[default]
+    /// `Σ ‖H‖_*`, the nuclear norm of the Hessian: piecewise developable (paper, Eq. 15). The default
+    /// of a [design](crate::Input::design).
     Nuclear,
     /// `Σ ‖H‖_F`: smooth where it should crease (Fig. 21).
     Frobenius,
@@ -131,12 +141,13 @@ pub enum Energy {
     /// The same with the factor of the surface itself, updated in each iteration: not convex
     /// (Fig. 7, centre right). What is certified is the energy with the last factor kept.
     SecondForm,
-    /// `Σ φ(‖H‖_*)`, where `φ` grows with the square of small bends and with the size of large ones,
-    /// with the slope `min(α + s/δ, 1)`: smooth where the surface bends smoothly, without the flat
-    /// strips that the nuclear norm makes of it, and still creased, and developable. Bends tighter
-    /// than [`Options::crease_radius`] then cost less in up to [`Options::crease_passes`] further
-    /// solves, so that they keep their angle. The figures of the report are those of the last one's
-    /// energy.
+    /// `Σ φ(‖H‖_*)`, where `φ` is quadratic for small bends and linear for large ones, with the slope
+    /// `min(α + s/δ, 1)` at the size `s`: the surface stays smooth where it bends smoothly, without the
+    /// flat strips of the nuclear norm, and is still creased and developable. Up to
+    /// [`Options::crease_passes`] further solves lower the cost of bends tighter than
+    /// [`Options::crease_radius`], so that creases keep their angle. The figures of the report belong
+    /// to the last solve's energy. The default of everything but a design.
+    #[default]
     Huber,
 }
 
@@ -230,7 +241,8 @@ impl Bending {
     }
 }
 
-/// Options of a solve; `Options::default()` suits most inputs.
+/// Options of a solve. `Options::default()` suits scans and other heights with noise; an option that is
+/// given changes that option alone.
 ///
 /// ```
 /// use developable::{Lambda, Options};
@@ -242,41 +254,49 @@ impl Bending {
 pub struct Options {
     pub(crate) lambda: Lambda,
     pub(crate) schedule: Schedule,
-    pub(crate) gap: f64,
+    pub(crate) gap: Option<f64>,
     pub(crate) max_iterations: usize,
     pub(crate) normalization: Normalization,
-    pub(crate) energy: Energy,
+    pub(crate) energy: Option<Energy>,
     pub(crate) reweighting: usize,
-    pub(crate) tie_break: f64,
+    pub(crate) tie_break: Option<f64>,
     pub(crate) bend_radius: Option<f64>,
     pub(crate) flatness: Option<f64>,
     pub(crate) crease_radius: Option<f64>,
-    pub(crate) crease_passes: usize,
-    pub(crate) border: Border,
+    pub(crate) crease_passes: Option<usize>,
+    pub(crate) border: Option<Border>,
 }
 
 impl Default for Options {
     fn default() -> Self {
         Options {
-            lambda: Lambda::Medium,
+            lambda: Lambda::Auto,
             schedule: Schedule::Default,
-            gap: 0.01,
+            gap: None,
             max_iterations: 20_000,
             normalization: Normalization::UnitSquare,
-            energy: Energy::Nuclear,
+            energy: None,
             reweighting: 0,
-            tie_break: 0.01,
+            tie_break: None,
             bend_radius: None,
             flatness: None,
             crease_radius: None,
-            crease_passes: 2,
-            border: Border::default(),
+            crease_passes: None,
+            border: None,
         }
     }
 }
 
 impl Options {
-    /// Weight of the fidelity term; default [`Lambda::Medium`].
+    /// The paper's setting: [`Energy::Nuclear`] at [`Lambda::Medium`]. Everything else is as by
+    /// default; [`Schedule::Paper`] is a choice of its own.
+    pub fn paper() -> Self {
+        Options::default()
+            .lambda(Lambda::Medium)
+            .energy(Energy::Nuclear)
+    }
+
+    /// Weight of the fidelity term; default [`Lambda::Auto`].
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
         self.lambda = lambda.into();
         self
@@ -288,10 +308,10 @@ impl Options {
         self
     }
 
-    /// Certified relative duality gap at which [`Schedule::Default`] stops,
-    /// between 0 and 1; default 0.01.
+    /// Certified relative duality gap `(P − D)/P` at which [`Schedule::Default`] stops, between 0 and
+    /// 1; default 0.01. The objective is then at most `1/(1 − gap)` times the optimum.
     pub fn gap(mut self, gap: f64) -> Self {
-        self.gap = gap;
+        self.gap = Some(gap);
         self
     }
 
@@ -307,77 +327,114 @@ impl Options {
         self
     }
 
-    /// Default [`Energy::Nuclear`].
+    /// Penalty of the Hessian; default [`Energy::Huber`], for a
+    /// [design](crate::Input::design) [`Energy::Nuclear`].
     pub fn energy(mut self, energy: Energy) -> Self {
-        self.energy = energy;
+        self.energy = Some(energy);
         self
     }
 
-    /// Passes after the first solve in which each vertex's norm is weighted by
-    /// one over its size around there in the solution before, which takes away a
-    /// part of the shrinkage that the energy does to large curvatures. It pays
-    /// where λ is small for the noise: at 10⁴ a noisy roof comes three times
-    /// closer to the truth, and a cylinder's curvature a fifth of the way; where
-    /// λ is large already, noise comes back. One pass does most of it. Default
-    /// 0, at most 20. The figures of the report are those of the last pass's
-    /// weighted energy.
+    /// Number of reweighting passes, at most 20; default 0. Each pass solves again with the penalty of
+    /// every vertex divided by its size around there in the solution before (iteratively reweighted
+    /// nuclear norm), which undoes a part of the shrinkage of large curvatures. It pays where λ is
+    /// small for the noise (`benches/choices.md`). The figures of the report belong to the
+    /// last pass's weighted energy. Not for [`Energy::Huber`], which has crease passes.
     pub fn reweighting(mut self, passes: usize) -> Self {
         self.reweighting = passes;
         self
     }
 
-    /// Weight, in place of λ, of the squared distance from the thin plate
-    /// through the constraints, at vertices that have no fidelity term of their
-    /// own: without it minimisers need not be unique. Beside vertices that have
-    /// one, at most λ counts. Default 0.01.
+    /// Weight, in place of λ, that ties free vertices to the thin plate through the constraints;
+    /// default 0.01. Without it minimisers need not be unique. Next to vertices with a fidelity term
+    /// at most λ counts. Refused where no vertex is free.
     pub fn tie_break(mut self, weight: f64) -> Self {
-        self.tie_break = weight;
+        self.tie_break = Some(weight);
         self
     }
 
-    /// For [`Energy::Huber`]: radius `1/δ` below which bends cost their size, and above which they
-    /// cost their square, in normalised coordinates; default 0.1, or by [`Lambda::Auto`]. The
-    /// larger, the more it is like the nuclear norm.
+    /// Bend radius `1/δ` of [`Energy::Huber`], in normalised coordinates: tighter bends cost their
+    /// size, wider ones their square. Default: chosen with λ by [`Lambda::Auto`], else 0.1. The larger,
+    /// the more the energy is like the nuclear norm.
     pub fn bend_radius(mut self, radius: f64) -> Self {
         self.bend_radius = Some(radius);
         self
     }
 
-    /// For [`Energy::Huber`]: the slope `α` that the cost of bends begins with, from 0 (nothing is
-    /// quite flat) to 1 (the nuclear norm); default 0.3, or by [`Lambda::Auto`], and more where λ is
-    /// large for the noise of the input.
+    /// Slope `α` that the cost of bends begins with under [`Energy::Huber`], from 0 (nothing is quite
+    /// flat) to 1 (the nuclear norm). Default: chosen with λ by [`Lambda::Auto`], else 0.3, and more
+    /// where λ is large for the noise of the input.
     pub fn flatness(mut self, slope: f64) -> Self {
         self.flatness = Some(slope);
         self
     }
 
-    /// For [`Energy::Huber`]: what bends more tightly than this radius `1/T` is a crease, in
-    /// normalised coordinates; default 0.1, or by [`Lambda::Auto`].
+    /// Crease radius `1/T` of [`Energy::Huber`], in normalised coordinates: tighter bends are creases.
+    /// Default: chosen with λ by [`Lambda::Auto`], else 0.1.
     pub fn crease_radius(mut self, radius: f64) -> Self {
         self.crease_radius = Some(radius);
         self
     }
 
-    /// For [`Energy::Huber`]: the most passes at creases after the first solve; default 2, at most
-    /// 20. Passes end where they change next to nothing, and there is none where the noise of the
-    /// input is too large for λ, which would make creases of it.
+    /// Maximum number of crease passes of [`Energy::Huber`] after the first solve, at most 20.
+    /// Default: 2, or 0 where λ is large for the noise of the input, whose passes would make
+    /// creases of noise. Passes end early where they change next to nothing.
     pub fn crease_passes(mut self, passes: usize) -> Self {
-        self.crease_passes = passes;
+        self.crease_passes = Some(passes);
         self
     }
 
-    /// What is beyond the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one of
+    /// Condition at the border under [`Energy::Huber`]; default [`Border::Loaded`], which takes one of
     /// the [`Options::crease_passes`].
     pub fn border(mut self, border: Border) -> Self {
-        self.border = border;
+        self.border = Some(border);
         self
     }
 
-    /// Whether every option is within its range.
+    /// The certified gap to stop at: the given one or the default.
+    pub(crate) fn gap_or_default(&self) -> f64 {
+        self.gap.unwrap_or(DEFAULT_GAP)
+    }
+
+    /// The energy to minimise: the given one or the default.
+    pub(crate) fn energy_or_default(&self) -> Energy {
+        self.energy.unwrap_or_default()
+    }
+
+    /// The weight that ties free vertices to the thin plate: the given one or the default.
+    pub(crate) fn tie_break_or_default(&self) -> f64 {
+        self.tie_break.unwrap_or(DEFAULT_TIE_BREAK)
+    }
+
+    /// The maximum number of crease passes: the given one or the default.
+    pub(crate) fn crease_passes_or_default(&self) -> usize {
+        self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
+    }
+
+    /// The condition at the border: the given one or the default.
+    pub(crate) fn border_or_default(&self) -> Border {
+        self.border.unwrap_or_default()
+    }
+
+    /// The options with the default energy of an input filled in.
+    pub(crate) fn with_energy_for(mut self, is_design: bool) -> Self {
+        let default = match is_design {
+            true => Energy::Nuclear,
+            false => Energy::default(),
+        };
+        self.energy.get_or_insert(default);
+        self
+    }
+
+    /// Whether every option is within its range and has an effect beside the others that are given.
     ///
     /// # Errors
     /// [`Error::Option`] with the name of the first that is not.
     pub fn validate(&self) -> Result<()> {
+        self.check_ranges()?;
+        self.check_effects()
+    }
+
+    fn check_ranges(&self) -> Result<()> {
         if !LAMBDAS.contains(&self.lambda.value()) {
             return Err(Error::option(
                 "lambda",
@@ -385,24 +442,28 @@ impl Options {
                 "must lie between 1e-12 and 1e15",
             ));
         }
-        if !(self.gap > 0.0 && self.gap < 1.0) {
+        if let Some(gap) = self.gap
+            && !(gap > 0.0 && gap < 1.0)
+        {
             return Err(Error::option(
                 "gap",
-                self.gap,
+                gap,
                 "must lie between 0 and 1, both excluded",
             ));
         }
-        if self.reweighting > MOST_PASSES {
+        if self.reweighting > MAX_PASSES {
             return Err(Error::option(
                 "reweighting",
                 self.reweighting,
                 "must be at most 20",
             ));
         }
-        if !LAMBDAS.contains(&self.tie_break) {
+        if let Some(weight) = self.tie_break
+            && !LAMBDAS.contains(&weight)
+        {
             return Err(Error::option(
                 "tie_break",
-                format!("{:e}", self.tie_break),
+                format!("{weight:e}"),
                 "must lie between 1e-12 and 1e15",
             ));
         }
@@ -427,24 +488,83 @@ impl Options {
                 "must lie between 0 and 1",
             ));
         }
-        if self.crease_passes > MOST_PASSES {
-            return Err(Error::option(
-                "crease_passes",
-                self.crease_passes,
-                "must be at most 20",
-            ));
-        }
-        if self.energy == Energy::Huber && self.reweighting > 0 {
-            return Err(Error::option(
-                "reweighting",
-                self.reweighting,
-                "must be 0 for the energy huber, which has passes at creases of its own",
-            ));
+        if let Some(passes) = self.crease_passes
+            && passes > MAX_PASSES
+        {
+            return Err(Error::option("crease_passes", passes, "must be at most 20"));
         }
         if self.max_iterations == 0 {
             return Err(Error::option("max_iterations", 0, "must be at least 1"));
         }
         Ok(())
+    }
+
+    /// Refuses options that the others leave without effect.
+    fn check_effects(&self) -> Result<()> {
+        if let (Schedule::Paper, Some(gap)) = (self.schedule, self.gap) {
+            return Err(Error::option(
+                "gap",
+                gap,
+                "has no effect with the schedule paper, which stops on its residuals: leave one of them out",
+            ));
+        }
+        match self.energy {
+            Some(Energy::Huber) => self.check_reweighting(),
+            Some(_) => self.check_huber(
+                "is a parameter of the energy huber and another energy is given: leave one of them out",
+            ),
+            None => Ok(()),
+        }
+    }
+
+    fn check_reweighting(&self) -> Result<()> {
+        if self.reweighting == 0 {
+            return Ok(());
+        }
+        Err(Error::option(
+            "reweighting",
+            self.reweighting,
+            "must be 0 for the energy huber, which has crease passes in its place: \
+             choose another energy, as nuclear",
+        ))
+    }
+
+    /// Refuses parameters of [`Energy::Huber`] beside another energy.
+    fn check_huber(&self, requirement: &'static str) -> Result<()> {
+        let radii_and_slope = [
+            ("bend_radius", self.bend_radius),
+            ("flatness", self.flatness),
+            ("crease_radius", self.crease_radius),
+        ];
+        for (name, value) in radii_and_slope {
+            if let Some(value) = value {
+                return Err(Error::option(name, value, requirement));
+            }
+        }
+        if let Some(passes) = self.crease_passes {
+            return Err(Error::option("crease_passes", passes, requirement));
+        }
+        Ok(())
+    }
+
+    /// Refuses options that have no effect on this input: [`Options::tie_break`] where no vertex is
+    /// free, and parameters that belong to another energy than its default one.
+    pub(crate) fn check_effects_on(&self, is_design: bool, has_free_vertices: bool) -> Result<()> {
+        if let (Some(weight), false) = (self.tie_break, has_free_vertices) {
+            return Err(Error::option(
+                "tie_break",
+                weight,
+                "has no effect where every vertex has an input height: leave it out",
+            ));
+        }
+        match (self.energy, is_design) {
+            (None, true) => self.check_huber(
+                "is a parameter of the energy huber and a design has the energy nuclear unless another one is given: \
+                 give the energy huber as well",
+            ),
+            (None, false) => self.check_reweighting(),
+            _ => Ok(()),
+        }
     }
 }
 

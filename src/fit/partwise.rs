@@ -212,7 +212,9 @@ impl Partwise {
         for answer in &self.answers {
             total.add(&answer.best, 1.0);
         }
-        let certified = total.gap().is_some_and(|gap| gap <= self.options.gap);
+        let certified = total
+            .gap()
+            .is_some_and(|gap| gap <= self.options.gap_or_default());
         let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
         [
             StopReason::Cancelled,
@@ -362,7 +364,7 @@ impl Partwise {
             Status::Stopped(reason) => reason,
         };
         let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
-        let at_creases = self.options.energy == Energy::Huber;
+        let at_creases = self.options.energy_or_default() == Energy::Huber;
         let Bending {
             bend_radius,
             flatness,
@@ -380,7 +382,7 @@ impl Partwise {
             iterations: total.iterations,
             cg_iterations: total.cg_iterations,
             levels,
-            energy: self.options.energy,
+            energy: self.options.energy_or_default(),
             reweighting: if at_creases { 0 } else { passes },
             huber: at_creases.then(|| HuberReport {
                 bend_radius,

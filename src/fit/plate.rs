@@ -98,7 +98,7 @@ mod tests {
             coarse = coarsen(&coarse, domains.last().unwrap()).unwrap();
             domains.push(Arc::new(coarse.domain().unwrap()));
         }
-        let options = Options::default().lambda(1e6);
+        let options = Options::paper().lambda(1e6);
         // Planes are taken away from both alike.
         let coordinates = Coordinates::new(&input, &domains[0], 1.0 / n as f64);
         let problem = Problem::new(&input, domains[0].clone(), &coordinates, &options).unwrap();

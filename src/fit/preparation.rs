@@ -105,7 +105,7 @@ impl Preparation {
         let trivial = energy <= problem.rounding && problem.free.is_empty();
         let (guess, warm) = match memory {
             Some((memory, corner)) => (
-                match options.gap >= WATCHED {
+                match options.gap_or_default() >= WATCHED {
                     true => memory.plate(&mut problem, corner),
                     false => Guess::Plane,
                 },
@@ -180,7 +180,8 @@ impl Lattices {
             }
             Next::Fill => {
                 plate::fill(&mut self.problem, &self.domains, &self.plan, self.guess)?;
-                self.problem.take_first_normals(self.options.energy)?;
+                self.problem
+                    .take_first_normals(self.options.energy_or_default())?;
                 give_back(&mut self.input, &self.problem)?;
                 self.domains.truncate(1);
                 self.coarse.clear();

@@ -134,7 +134,7 @@ mod tests {
         let coarse_domain = coarse_field.domain().unwrap();
         let domains = [fine_domain, coarse_domain].map(Arc::new);
         let coordinates = Coordinates::new(&field, &domains[0], 1.0);
-        let options = Options::default().lambda(1e3);
+        let options = Options::paper().lambda(1e3);
         let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
             .map(|(f, d)| Problem::new(f, d.clone(), &coordinates, &options).unwrap());
         let mut state = State::new(&coarse, 0.4).unwrap();

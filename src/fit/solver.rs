@@ -55,10 +55,12 @@ impl Solver {
     fn set_up(input: Input, options: &Options, memory: Option<Arc<WarmStart>>) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
+        let is_design = input.is_design();
+        options.check_effects_on(is_design, input.has_free_vertices())?;
         let solvable = Solvable::new(input)?;
-        let known = Known::of(&solvable.input, options)?;
+        let asked = options.with_energy_for(is_design);
+        let known = Known::of(&solvable.input, &asked)?;
         let Known { scale, noise } = known;
-        let asked = *options;
         let (mut options, mut choice, mut search) = (asked, None, None);
         if asked.lambda == Lambda::Auto {
             let (first, found) = tuning::first(&asked, noise, scale);

@@ -149,9 +149,9 @@ impl HeightImage {
     /// All values times `scale`: from grey steps to units of height.
     ///
     /// # Errors
-    /// [`Error::Option`] if `scale` is not finite or makes a value infinite.
+    /// [`Error::Option`] if `scale` is 0, is not finite or makes a value infinite.
     pub fn scaled(mut self, scale: f64) -> Result<Self> {
-        let sound = scale.is_finite() && {
+        let sound = scale.is_finite() && scale != 0.0 && {
             self.values.iter_mut().for_each(|v| *v *= scale);
             self.values.iter().all(|v| !v.is_infinite())
         };
@@ -161,7 +161,7 @@ impl HeightImage {
             Err(Error::option(
                 "height_scale",
                 scale,
-                "must be finite and leave every height finite",
+                "must be finite and not 0, and leave every height finite",
             ))
         }
     }

@@ -1,10 +1,12 @@
-//! Small numerics that know nothing of lattices: symmetric 2×2 matrices in closed form, two
-//! precisions, sums in lanes, polygons, disjoint sets, a hash for numbers.
+//! Numerics that know nothing of lattices and surfaces: symmetric 2×2 and 3×3 matrices, least squares, planar
+//! geometry, medians, disjoint sets, and sums in single and double precision.
 
-pub(crate) mod axes;
-pub(crate) mod forest;
-pub(crate) mod hash;
+pub(crate) mod index;
 pub(crate) mod lanes;
-pub(crate) mod polygon;
+pub(crate) mod least_squares;
+pub(crate) mod planar;
 pub(crate) mod real;
+pub(crate) mod statistics;
 pub(crate) mod sym2;
+pub(crate) mod symmetric_eigen;
+pub(crate) mod union_find;

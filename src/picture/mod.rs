@@ -14,8 +14,8 @@
 
 pub(crate) mod colours;
 
+use crate::dewarp::Extent;
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
-use crate::flat::dewarp::Extent;
 use crate::heights::heightfield::Heightfield;
 use crate::heights::normalization::{Normalization, bounds};
 use crate::shape::analysis::Curvatures;

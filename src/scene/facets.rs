@@ -7,8 +7,10 @@ use std::collections::{BinaryHeap, HashMap};
 use nalgebra::Vector3;
 
 use crate::error::{Result, try_filled};
-use crate::math::forest::Forest;
-use crate::scene::twins::{NONE, ends, twins};
+use crate::math::index::NO_INDEX;
+use crate::math::statistics::median;
+use crate::math::union_find::UnionFind;
+use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 
 /// The usual threshold between these angles: flat facets of a round shape fold by less, and what is left of
 /// noise does, too.
@@ -33,7 +35,7 @@ pub(crate) struct Facets {
 
 impl Facets {
     pub fn new(places: Vec<Vector3<f64>>, triangles: Vec<[u32; 3]>) -> Result<Self> {
-        let twins = twins(&triangles);
+        let twins = twin_half_edges(&triangles);
         let mut normals = try_filled("patches", triangles.len(), Vector3::zeros())?;
         let mut areas = try_filled("patches", triangles.len(), 0.0)?;
         for (corners, (normal, area)) in triangles.iter().zip(normals.iter_mut().zip(&mut areas)) {
@@ -45,9 +47,9 @@ impl Facets {
         let mut angles = try_filled("patches", twins.len(), 0.0)?;
         let mut lengths = try_filled("patches", twins.len(), 0.0)?;
         for side in 0..twins.len() {
-            let [a, b] = ends(&triangles, side as u32).map(|v| places[v as usize]);
+            let [a, b] = half_edge_ends(&triangles, side as u32).map(|v| places[v as usize]);
             lengths[side] = (b - a).norm();
-            if twins[side] != NONE {
+            if twins[side] != NO_INDEX {
                 let [m, n] = [side, twins[side] as usize].map(|side| normals[side / 3]);
                 angles[side] = m.cross(&n).norm().atan2(m.dot(&n));
             }
@@ -65,19 +67,14 @@ impl Facets {
     /// Sides with another one, each pair once.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let all = self.twins.iter().enumerate();
-        all.filter(|(side, twin)| **twin != NONE && *side < **twin as usize)
+        all.filter(|(side, twin)| **twin != NO_INDEX && *side < **twin as usize)
             .map(|(side, twin)| (side, *twin as usize))
     }
 
     pub fn usual_bend(&self) -> f64 {
         let pairs = self.pairs().map(|(side, _)| self.angles[side]);
         let mut angles: Vec<f64> = pairs.filter(|angle| *angle > FLAT).collect();
-        let middle = angles.len() / 2;
-        let median = match angles.is_empty() {
-            true => 0.0,
-            false => *angles.select_nth_unstable_by(middle, f64::total_cmp).1,
-        };
-        (6.0 * median).clamp(BEND[0], BEND[1])
+        (6.0 * median(&mut angles).unwrap_or(0.0)).clamp(BEND[0], BEND[1])
     }
 
     /// The smooth parts of the surface, by triangles, none smaller than a share of the area, and none that
@@ -111,9 +108,9 @@ impl Facets {
 
     /// Where water would gather that does not pass sharper edges; the rest by where it runs.
     fn basins(&self, heights: &[f64], bend: f64) -> Result<Vec<u32>> {
-        let mut forest = Forest::new("patches", heights.len())?;
+        let mut sets = UnionFind::new("patches", heights.len())?;
         let around = |t: usize| {
-            let sides = (3 * t..3 * t + 3).filter(|side| self.twins[*side] != NONE);
+            let sides = (3 * t..3 * t + 3).filter(|side| self.twins[*side] != NO_INDEX);
             sides.map(|side| (side, self.twins[side] as usize / 3))
         };
         // Vertices without a sharper edge: where there are none beside it, a strip is what it is.
@@ -125,7 +122,7 @@ impl Facets {
             .map_or(0, |v| *v as usize);
         let mut smooth = try_filled("patches", count, true)?;
         for (side, _) in self.pairs().filter(|(side, _)| self.angles[*side] > bend) {
-            for end in ends(&self.triangles, side as u32) {
+            for end in half_edge_ends(&self.triangles, side as u32) {
                 smooth[end as usize] = false;
             }
         }
@@ -142,10 +139,10 @@ impl Facets {
         for (side, twin) in self.pairs() {
             let (a, b) = (side / 3, twin / 3);
             if !open[a] && !open[b] && self.angles[side] <= bend {
-                forest.join(a as u32, b as u32);
+                sets.union(a as u32, b as u32);
             }
         }
-        let mut labels: Vec<u32> = (0..heights.len() as u32).map(|t| forest.root(t)).collect();
+        let mut labels: Vec<u32> = (0..heights.len() as u32).map(|t| sets.find(t)).collect();
         self.flood(&mut labels, open, |side| {
             heights[self.twins[side] as usize / 3].max(self.angles[side])
         });
@@ -160,7 +157,7 @@ impl Facets {
         let ways = |t: usize, open: &[bool], queue: &mut BinaryHeap<_>| {
             for side in 3 * t..3 * t + 3 {
                 let twin = self.twins[side];
-                if twin != NONE && open[twin as usize / 3] {
+                if twin != NO_INDEX && open[twin as usize / 3] {
                     queue.push(Reverse((way(side).to_bits(), twin, side)));
                 }
             }
@@ -191,7 +188,7 @@ impl Facets {
 
     /// Regions that fold by less than an angle on average are one, those that fold least first.
     fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
-        let mut forest = Forest::new("patches", labels.len())?;
+        let mut sets = UnionFind::new("patches", labels.len())?;
         let mut regions = Regions {
             between: HashMap::new(),
             around: try_filled("patches", labels.len(), Vec::new())?,
@@ -209,11 +206,11 @@ impl Facets {
             regions.wait(a);
         }
         while let Some((a, b)) = regions.next() {
-            forest.join(a, b);
+            sets.union(a, b);
             regions.join(a, b);
         }
         for label in labels {
-            *label = forest.root(*label);
+            *label = sets.find(*label);
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 pub(crate) mod camera;
 mod depth;
 pub(crate) mod facets;
+pub(crate) mod half_edges;
 pub(crate) mod mesh;
 mod parts;
 pub(crate) mod quarter;
@@ -10,5 +11,4 @@ pub(crate) mod region;
 pub(crate) mod sampling;
 mod splats;
 pub(crate) mod triangulation;
-pub(crate) mod twins;
 pub(crate) mod view;

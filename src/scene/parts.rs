@@ -2,7 +2,7 @@
 
 use super::mesh::Mesh;
 use crate::error::{Result, try_filled};
-use crate::math::forest::Forest;
+use crate::math::union_find::UnionFind;
 
 /// A part with less than this share of the largest one's triangles is a scrap.
 const SCRAP: f64 = 0.25;
@@ -15,18 +15,21 @@ impl Mesh {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn without_scraps(self) -> Result<Mesh> {
-        let mut forest = Forest::new("parts of a mesh", self.positions().len())?;
+        let mut sets = UnionFind::new("parts of a mesh", self.positions().len())?;
         for [a, b, c] in self.triangles() {
-            forest.join(*a, *b);
-            forest.join(*b, *c);
+            sets.union(*a, *b);
+            sets.union(*b, *c);
         }
         let mut counts = try_filled("parts of a mesh", self.positions().len(), 0usize)?;
         for triangle in self.triangles() {
-            counts[forest.root(triangle[0]) as usize] += 1;
+            counts[sets.find(triangle[0]) as usize] += 1;
         }
         let most = counts.iter().copied().max().unwrap_or(0);
-        Ok(self
-            .keep(|[first, ..]| counts[forest.root(first) as usize] as f64 >= SCRAP * most as f64))
+        Ok(
+            self.keep(|[first, ..]| {
+                counts[sets.find(first) as usize] as f64 >= SCRAP * most as f64
+            }),
+        )
     }
 }
 

@@ -3,7 +3,7 @@
 use super::camera::{Camera, Intrinsics};
 use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
-use crate::math::polygon::{check_corners, contains};
+use crate::math::planar::polygon_contains;
 
 /// A part of a photo that shows what the depths show.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ impl Region<'_> {
         }
         match self {
             Region::Mask(_, flags) => check_count("mask", height, width, flags.len()),
-            Region::Polygon(_, corners) => check_corners(corners),
+            Region::Polygon(_, corners) => check_crop(corners),
         }
     }
 
@@ -42,9 +42,18 @@ impl Region<'_> {
                     (0.0..*width as f64).contains(&col) && (0.0..*height as f64).contains(&row);
                 inside && flags[row as usize * width + col as usize] != 0
             }
-            Region::Polygon(_, corners) => contains(corners, place),
+            Region::Polygon(_, corners) => polygon_contains(corners, place),
         }
     }
+}
+
+/// Checks that the option `crop` is a polygon.
+pub(crate) fn check_crop(polygon: &[[f64; 2]]) -> Result<()> {
+    if polygon.len() >= 3 && polygon.as_flattened().iter().all(|v| v.is_finite()) {
+        return Ok(());
+    }
+    let requirement = "must be three or more corners, each with a finite x and y";
+    Err(Error::option("crop", format!("{polygon:?}"), requirement))
 }
 
 impl Intrinsics {

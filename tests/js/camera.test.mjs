@@ -210,7 +210,10 @@ test('cameras from the files of other programs', () => {
     [JSON.stringify({ camera_matrix: { data: [1400, 0, 960, 0, 1410, 720, 0, 0, 1] }, distortion_coefficients: { data: [0.1, 0, 0, 0, 0.02] } }),
       { ...sized, k1: 0.1, k2: 0, p1: 0, p2: 0, k3: 0.02 }],
   ];
-  for (const [text, expected] of known) assert.deepEqual(developable.parseCamera(text, images), expected, text);
+  for (const [text, expected] of known) {
+    assert.deepEqual(developable.parseCamera(text, images), expected, text);
+    assert.deepEqual(developable.parseCamera(`\uFEFF${text}`, images), expected, 'after a byte order mark');
+  }
   assert.deepEqual(direct.parseCamera(known[0][0]), numbers, 'of no image that is known');
   for (const [text, message] of /** @type {[string, RegExp][]} */ ([
     ['', /no camera/], ['{', /no camera/], ['[]', /no camera/], ['{"camera":null}', /no camera/], ['1,2,3', /no camera/],

@@ -30,9 +30,11 @@ test('energies, passes and thresholds reach the solver', async () => {
   await store('step.npy', step);
   const plain = await report('fit step.npy -o out.npy');
   assert.deepEqual([plain.energy, plain.reweighting, plain.occluded], ['huber', 0, 0]);
-  assert.equal((await report('fit step.npy -o out.npy --lambda medium')).energy, 'nuclear');
+  assert.equal((await report('fit step.npy -o out.npy --lambda medium')).energy, 'huber');
+  const paper = await report('fit step.npy -o out.npy --paper');
+  assert.deepEqual([paper.energy, paper.lambda], ['nuclear', 1e6]);
   assert.equal((await report('fit step.npy -o out.npy --energy frobenius')).energy, 'frobenius');
-  assert.equal((await report('fit step.npy -o out.npy --reweight 2')).reweighting, 2);
+  assert.equal((await report('fit step.npy -o out.npy --energy nuclear --reweight 2')).reweighting, 2);
   const huber = await report('fit step.npy -o out.npy --energy huber --bend-radius 0.2 --flatness 0.5 --crease-passes 0');
   assert.deepEqual([huber.huber.bendRadius, huber.huber.flatness, huber.huber.creasePasses], [0.2, 0.5, 0]);
   const own = await report('fit step.npy -o out.npy --lambda auto');

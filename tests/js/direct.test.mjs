@@ -209,6 +209,22 @@ test('progress is told, and `false` stops', () => {
   assert.ok(calls >= 3);
 });
 
+test('a callback that is async is refused where nothing can wait for it', async () => {
+  const { input, options } = endless();
+  /** @type {unknown[]} */
+  const unhandled = [];
+  /** @param {unknown} reason */
+  const listen = (reason) => unhandled.push(reason);
+  process.on('unhandledRejection', listen);
+  const onProgress = /** @type {any} */ (async () => Promise.reject(new Error('mine')));
+  const refused = { code: 'OPTION', message: /`onProgress` returned a promise.*promise API/ };
+  assert.throws(() => direct.fit(input, { ...options, maxIterations: 400, onProgress }), refused);
+  assert.throws(() => direct.fit(image(12, 10, plane), { onProgress }), refused);
+  await new Promise((resolve) => setImmediate(resolve));
+  process.off('unhandledRejection', listen);
+  assert.deepEqual(unhandled, []);
+});
+
 test('disposal gives the memory back', () => {
   const { input } = endless(300);
   const solve = () => {

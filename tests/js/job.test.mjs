@@ -1,26 +1,25 @@
 /** The solves of a worker, looked at from inside: here the iterations can be counted. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { setTimeout as sleep } from 'node:timers/promises';
 import { Solver, init } from '../../pkg/direct.js';
 import { Job } from '../../pkg/job.js';
 import { service } from '../../pkg/service.js';
 import { endless } from './support/shapes.mjs';
+import { until } from './support/waiting.mjs';
 
 await init();
 
-/** A solver that counts: iterations, and the longest time it kept the thread. */
+/** A solver that counts: iterations, and batches of them. */
 class Counted extends Solver {
   iterations = 0;
-  longest = 0;
+  batches = 0;
   /**
    * @override
    * @param {number} milliseconds
    */
   advance(milliseconds) {
-    const start = performance.now();
     const more = super.advance(milliseconds);
-    this.longest = Math.max(this.longest, performance.now() - start);
+    this.batches += 1;
     this.iterations = this.progress().cgIterations;
     return more;
   }
@@ -29,6 +28,25 @@ class Counted extends Solver {
 function counted() {
   const { input, options } = endless();
   return new Counted(input, options);
+}
+
+/**
+ * Waits until solvers have had some batches each.
+ * @param {number} count
+ * @param {...Counted} solvers
+ */
+const batches = (count, ...solvers) =>
+  until(`${count} batches`, () => solvers.every((solver) => solver.batches >= count));
+
+/** Lets another job have some batches: jobs take turns, so that each one that goes on has had as many. */
+async function othersTurns() {
+  const solver = counted();
+  const job = new Job(() => solver, Infinity);
+  try {
+    await batches(4, solver);
+  } finally {
+    job.drop();
+  }
 }
 
 test('a dropped job does not iterate any more', async (t) => {
@@ -46,14 +64,14 @@ test('a dropped job does not iterate any more', async (t) => {
   await assert.rejects(news, { code: 'DISPOSED' });
   const { iterations } = solver;
   assert.equal(solver.disposed, true);
-  await sleep(200);
+  await othersTurns();
   assert.equal(solver.iterations, iterations);
 });
 
 test('a finished job gives its best surface and is done', async () => {
   const solver = counted();
   const job = new Job(() => solver, Infinity);
-  await sleep(200);
+  await batches(2, solver);
   const news = job.next();
   job.finish();
   const { surface } = await news;
@@ -63,12 +81,13 @@ test('a finished job gives its best surface and is done', async () => {
   assert.equal(solver.disposed, true);
 });
 
-test('the event loop gets its turn between batches, and two jobs share the thread', async () => {
+test('the event loop gets its turn between batches, and two jobs share the thread', async (t) => {
   const [a, b] = [counted(), counted()];
   const jobs = [new Job(() => a, 60), new Job(() => b, 60)];
+  t.after(() => jobs.forEach((job) => job.drop()));
   let turns = 0;
   const timer = setInterval(() => (turns += 1), 1);
-  await sleep(600);
+  await batches(8, a, b);
   clearInterval(timer);
   for (const job of jobs) job.drop();
   assert.ok(turns >= 3, `${turns} turns`);
@@ -86,7 +105,7 @@ test('a job that is dropped before its turn is never begun', async () => {
   const news = job.next();
   job.drop();
   await assert.rejects(news, { code: 'DISPOSED' });
-  await sleep(50);
+  await othersTurns();
   assert.equal(begun, 0);
 });
 
@@ -98,7 +117,7 @@ test('a job can leave its solver as it is', async () => {
   await job.next();
   job.drop();
   job.drop();
-  await sleep(50);
+  await othersTurns();
   assert.deepEqual([solver.disposed, released.length, released[0] === solver], [false, 1, true]);
   solver.dispose();
 });

@@ -2,12 +2,12 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, test } from 'node:test';
-import { setTimeout as sleep } from 'node:timers/promises';
 import { Solver, init } from '../../pkg/direct.js';
 import * as developable from '../../pkg/index.js';
 import { KeptSolver } from '../../pkg/kept.js';
 import { wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, noisy, plane } from './support/shapes.mjs';
+import { Listener } from './support/waiting.mjs';
 import { trapping } from './support/wasm-surgery.mjs';
 
 const { DevelopableWorker } = developable;
@@ -35,11 +35,9 @@ test('the first solve is cold, later ones are warm, and all are right', async ()
 
 test('the newest wish wins', async () => {
   const solver = await developable.open(rough);
-  let told = 0;
-  const old = solver.fit({ ...forever, onProgress: () => (told += 1) });
-  const ended = outcome(old);
-  await sleep(300);
-  assert.ok(told > 0);
+  const told = new Listener();
+  const ended = outcome(solver.fit({ ...forever, onProgress: told.hear }));
+  await told.more();
   // Of many at once only the last one is worked on.
   const calls = Array.from({ length: 40 }, (_, i) => solver.fit({ lambda: 1e6 * (1 + i / 40) }));
   const ends = Promise.all(calls.map(outcome));
@@ -47,10 +45,13 @@ test('the newest wish wins', async () => {
   assert.equal(last.report.lambda, 1e6 * (1 + 39 / 40));
   assert.equal(await ended, 'REPLACED');
   assert.deepEqual(await ends, [...new Array(39).fill('REPLACED'), 'done']);
-  const before = told;
-  await sleep(150);
-  assert.equal(told, before, 'nothing more is told of what was replaced');
+  const { count } = told;
+  const next = new Listener();
+  const later = outcome(solver.fit({ ...forever, onProgress: next.hear }));
+  await next.more(3);
+  assert.equal(told.count, count, 'nothing more is told of what was replaced');
   solver.dispose();
+  assert.equal(await later, 'DISPOSED');
 });
 
 test('what is overtaken before its turn is never set up', async () => {
@@ -78,9 +79,9 @@ test('what is overtaken before its turn is never set up', async () => {
 test('an abort rejects, or keeps the best so far, and the solver stays', async () => {
   const solver = await developable.open(rough);
   const controller = new AbortController();
-  const solve = solver.fit({ ...forever, signal: controller.signal });
-  const ended = outcome(solve);
-  await sleep(200);
+  const told = new Listener();
+  const ended = outcome(solver.fit({ ...forever, signal: controller.signal, onProgress: told.hear }));
+  await told.more();
   controller.abort();
   // The rejection does not wait for the worker.
   const answered = developable.example('cylinder', { size: 8 }).then(() => 'answered');
@@ -130,8 +131,9 @@ test('wrong inputs and options reject, and can be put right', async () => {
 
 test('after disposal there is an error, and the memory can be used again', async () => {
   const solver = await developable.open(rough);
-  const pending = outcome(solver.fit(forever));
-  await sleep(100);
+  const told = new Listener();
+  const pending = outcome(solver.fit({ ...forever, onProgress: told.hear }));
+  await told.more();
   solver.dispose();
   solver.dispose();
   solver[Symbol.dispose]();

@@ -133,3 +133,26 @@ test('a limit on the size of files, a full output and a closed one are told plai
   const full = await run(folder, ['-c', `exec "$0" "$1" --help > /dev/full`, process.execPath, command], { program: ['sh'] });
   assert.deepEqual([full.status, full.stderr], [3, 'developable: cannot write to standard output: the disk is full\n']);
 });
+
+for (const [signal, expected] of /** @type {const} */ ([['SIGHUP', 129], ['SIGINT', 130], ['SIGTERM', 143]])) {
+  test(`${signal} takes away a draft that is there`, async (t) => {
+    if (process.platform === 'win32') return t.skip('there are no such signals');
+    await writeFile(at('scan.pfm'), Buffer.concat([bytes('Pf\n4 4\n-1\n'), Buffer.from(new Float32Array(16).buffer)]));
+    await writeFile(at('surface.npy'), 'old');
+    const pause = new URL('support/pause-at-draft.mjs', import.meta.url).href;
+    let seen = -1;
+    const result = await run(folder, ['fit', 'scan.pfm', '-o', 'surface.npy', '--report', 'surface.json'], {
+      program: [process.execPath, '--import', pause, command],
+      env: { AWAITED_SIGNAL: signal },
+      channel: true,
+      onStart: (child) => child.once('message', async () => {
+        seen = (await drafts()).length;
+        child.kill(signal);
+      }),
+    });
+    assert.equal(seen, 1, 'the draft was there when the signal was sent');
+    assert.deepEqual(result, { status: expected, stdout: '', stderr: '' });
+    assert.deepEqual([await drafts(), await text('surface.npy')], [[], 'old']);
+    await assert.rejects(stat(at('surface.json')));
+  });
+}

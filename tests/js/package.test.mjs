@@ -3,12 +3,13 @@ import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { cp, mkdir, readdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
+import { dirname, join as joinPaths, normalize } from 'node:path/posix';
 import { after, before, test } from 'node:test';
 import { promisify } from 'node:util';
 import { build as bundle } from 'rolldown';
 import { build, createServer } from 'vite';
 import { withBlobs, withOrigin } from '../../tools/consumers/browse.mjs';
-import { compilerOptions, program, resolutions } from '../../tools/consumers/types.mjs';
+import { configurations, program } from '../../tools/consumers/types.mjs';
 import { serve as serveWith } from '../../tools/serve.mjs';
 import { launch, openPage, serve, skip } from './support/browser.mjs';
 import { temporaryFolder } from './support/command.mjs';
@@ -32,21 +33,79 @@ before(async () => {
   await exec(npm, ['install', '--offline', '--no-audit', '--no-fund', `./${packed.filename}`], { cwd: app });
 });
 
-test('the package holds what it needs and nothing else', async () => {
-  const paths = packed.files.map(({ path }) => path);
-  const needed = [
-    'index.js', 'index.d.ts', 'direct.js', 'direct.d.ts', 'types.d.ts', 'worker.js', 'bin/developable.js',
-    'wasm/solver.js', 'wasm/solver_bg.wasm', 'wasm/files.js', 'wasm/files_bg.wasm',
-    'wasm/images.js', 'wasm/images_bg.wasm', 'wasm/meshes.js', 'wasm/meshes_bg.wasm',
-    'wasm/fitmesh.js', 'wasm/fitmesh_bg.wasm', 'wasm/unroll.js', 'wasm/unroll_bg.wasm', 'wasm/patterns.js', 'wasm/patterns_bg.wasm', 'vendor/comlink.mjs', 'vendor/LICENSE-comlink',
-    'inline/worker.js', 'inline/solver.js', 'LICENSE-MIT', 'LICENSE-APACHE', 'README.md',
-  ];
-  for (const path of needed) assert.ok(paths.includes(path), path);
-  for (const path of paths) assert.match(path, /\.(js|mjs|d\.ts|d\.mts|wasm|json|md)$|LICENSE/);
-  assert.ok(!paths.some((path) => /tsconfig|test|draft|made-from/.test(path)), paths.join());
+/** What npm has packed. */
+const paths = () => packed.files.map(({ path }) => path).sort();
+
+test('the package holds nothing that its users do not need', async () => {
+  for (const path of paths()) assert.match(path, /\.(js|mjs|d\.ts|d\.mts|wasm|json|md)$|LICENSE/);
+  assert.ok(!paths().some((path) => /tsconfig|test|draft|made-from/.test(path)), paths().join());
   const installed = (await readdir(join(app, 'node_modules'))).filter((name) => !name.startsWith('.'));
   assert.deepEqual(installed, ['developable'], 'no dependencies');
 });
+
+test('the package holds whatever its package.json names', async () => {
+  const { exports, files, bin, types, alias, sideEffects } = JSON.parse(await readFile(join(pkg, 'package.json'), 'utf8'));
+  const targets = Object.values(exports).flatMap((target) => (typeof target === 'string' ? [target] : Object.values(target)));
+  const named = [...targets, ...Object.values(bin), types, ...Object.keys(alias), ...sideEffects];
+  assert.ok(targets.length > 20 && named.length > targets.length);
+  const held = new Set(paths());
+  const missing = named.filter((path) => !held.has(normalize(path)));
+  assert.deepEqual(missing, []);
+  // Each of the patterns stands for something.
+  const empty = files.filter((/** @type {string} */ pattern) => !paths().some((path) => matches(path, pattern)));
+  assert.deepEqual(empty, []);
+  for (const path of ['README.md', 'LICENSE-MIT', 'LICENSE-APACHE', 'vendor/LICENSE-comlink']) assert.ok(held.has(path), path);
+});
+
+test('each wasm file has its JavaScript, the types of both, and a copy', () => {
+  const names = paths().flatMap((path) => /^wasm\/(.*)_bg\.wasm$/.exec(path)?.[1] ?? []);
+  assert.deepEqual(names, ['files', 'fitmesh', 'images', 'meshes', 'patterns', 'solver', 'unroll']);
+  const parts = names.flatMap((name) => [`${name}.d.ts`, `${name}.js`, `${name}_bg.wasm`, `${name}_bg.wasm.d.ts`]);
+  assert.deepEqual(paths().filter((path) => path.startsWith('wasm/')), parts.map((part) => `wasm/${part}`).sort());
+  const copies = [...names, 'worker'].flatMap((name) => [`inline/${name}.d.ts`, `inline/${name}.js`]);
+  assert.deepEqual(paths().filter((path) => path.startsWith('inline/')), copies.sort());
+});
+
+test('whatever a file of the package imports is in the package', async () => {
+  const held = new Set(paths());
+  let count = 0;
+  for (const path of paths().filter((one) => /\.m?[jt]s$/.test(one))) {
+    const text = await readFile(join(app, 'node_modules/developable', path), 'utf8');
+    for (const { place, typesOnly } of references(path, text)) {
+      count += 1;
+      const target = joinPaths(dirname(path), place);
+      const declared = target.replace(/\.(m?)js$/, '.d.$1ts');
+      assert.ok((typesOnly && held.has(declared)) || held.has(target), `${path} asks for ${place}`);
+    }
+  }
+  assert.ok(count > 100, `${count} imports`);
+});
+
+/**
+ * The places of its own package that a module names: in imports, in URLs, and in comments for its types.
+ * @param {string} path
+ * @param {string} text
+ */
+function references(path, text) {
+  const declaration = /\.d\.m?ts$/.test(path);
+  const comments = [...text.matchAll(/\/\*[^]*?\*\/|\/\/.*$/gm)].map(({ 0: { length }, index }) => [index, index + length]);
+  const pattern = /(?:\bfrom|\bimport\s*\(?|\bnew URL\()\s*(['"])(\.{1,2}\/[^'"]+)\1/g;
+  return [...text.matchAll(pattern)].flatMap(({ 0: found, 2: place, index }) => {
+    const inComment = comments.some(([start, end]) => index >= start && index < end);
+    // Of what stands in comments only `import('./types.js').Surface` and the like is code.
+    return inComment && !/^import\s*\(/.test(found) ? [] : { place, typesOnly: declaration || inComment };
+  });
+}
+
+/**
+ * Whether a path is meant by an entry of `files` in package.json.
+ * @param {string} path
+ * @param {string} pattern
+ */
+function matches(path, pattern) {
+  if (pattern.endsWith('/')) return path.startsWith(pattern);
+  return new RegExp(`^${pattern.replaceAll('.', '\\.').replaceAll('*', '[^/]*')}$`).test(path);
+}
 
 test('every entry point can be imported in Node', async () => {
   const script = `
@@ -78,7 +137,7 @@ test('its own JavaScript is type-checked strictly', async () => {
   await node([tsc, '-p', join(pkg, 'tsconfig.json')]).catch(({ stdout }) => assert.fail(stdout));
 });
 
-test('TypeScript users get types, with each kind of module resolution', async () => {
+test('TypeScript users get types, with each kind of module resolution, and of the DOM or of Node alone', async () => {
   await writeFile(join(app, 'use.ts'), `
     import { fit, open, read, example, writeNpy, init, DevelopableError, DevelopableWorker } from 'developable';
     import type { Surface, Progress, FitOptions, ErrorCode, Report } from 'developable';
@@ -127,11 +186,21 @@ test('TypeScript users get types, with each kind of module resolution', async ()
   // With them the first example of the README and an import of each path.
   const others = Object.entries(await program(app));
   for (const [name, text] of others) await writeFile(join(app, name), text);
-  const files = ['use.ts', ...others.map(([name]) => name)];
-  for (const resolution of resolutions) {
-    const options = { ...compilerOptions, ...resolution };
-    await writeFile(join(app, 'tsconfig.json'), JSON.stringify({ compilerOptions: options, files }));
-    await node([tsc, '-p', app]).catch(({ stdout }) => assert.fail(`${resolution.module}: ${stdout}`));
+  // A compiled module is taken with each library.
+  await writeFile(join(app, 'modules.ts'), `
+    import { init } from 'developable';
+    import { initSync, loadSync } from 'developable/sync';
+    export async function start(bytes: ArrayBuffer) {
+      const module = await (globalThis as any).WebAssembly.compile(bytes) as import('developable').WasmModule;
+      await init({ wasm: module });
+      initSync(module);
+      loadSync({ files: module });
+    }
+  `);
+  const files = ['use.ts', 'modules.ts', ...others.map(([name]) => name)];
+  for (const { name, compilerOptions } of configurations()) {
+    await writeFile(join(app, 'tsconfig.json'), JSON.stringify({ compilerOptions, files }));
+    await node([tsc, '-p', app]).catch(({ stdout }) => assert.fail(`${name}: ${stdout}`));
   }
 });
 

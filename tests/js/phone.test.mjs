@@ -132,7 +132,8 @@ test('the command takes what capture apps write', async () => {
   for (let i = 0; i < map.length; i += 2) {
     if (!Number.isNaN(map[i])) largest = Math.max(largest, Math.hypot(map[i] - flat.map[i], map[i + 1] - flat.map[i + 1]));
   }
-  assert.ok(largest <= 0.251 && Math.abs(largest - stated.maximum) < 0.002 && stated.rms < stated.maximum, `${largest} ${stated.maximum}`);
+  // The grid is refined by a sample of the pixels, and what it states is measured at all of them.
+  assert.ok(largest <= 0.26 && Math.abs(largest - stated.maximum) < 0.002 && stated.rms < stated.maximum, `${largest} ${stated.maximum}`);
   assert.doesNotMatch(full.stderr, /rim/);
   // With the table around it, at the page's own height, it is no page that is made flat, and that is said.
   await writeFile(join(folder, 'table.exr'), direct.writeExr({ width, height, data: data.map((depth) => depth || 0.44) }));
@@ -376,7 +377,7 @@ test('depths that lie as the sensor does, and a photo that was turned', async ()
   for (const args of [
     ['--texture', 'upright.jpg', '--intrinsics', 'camera.json'],
     ['--texture', 'upright.jpg', '--intrinsics', '205,205,126,97'],
-    ['--texture', 'bare.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '90'],
+    ['--texture', 'bare.jpg', '--intrinsics', 'camera.json', '--turn', '90'],
   ]) {
     const done = await command(...args);
     assert.equal(done.status, 0, done.stderr);
@@ -391,13 +392,13 @@ test('depths that lie as the sensor does, and a photo that was turned', async ()
   }
   const refused = await command('--texture', 'bare.jpg', '--intrinsics', 'camera.json');
   assert.equal(refused.status, 2);
-  assert.match(refused.stderr, /on its side.*--rotate-depth 90 or 270/);
+  assert.match(refused.stderr, /on its side.*--turn 90 or 270/);
   const told = await command('--texture', 'over.jpg', '--intrinsics', 'camera.json');
   assert.equal(told.status, 0);
-  assert.match(told.stderr, /upside down.*--rotate-depth 180/);
-  assert.equal((await command('--texture', 'over.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '180')).stderr, '');
-  assert.match((await command('--texture', 'bare.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '45')).stderr, /90, 180 or 270/);
-  assert.match((await command('--texture', 'upright.jpg', '--intrinsics', 'camera.json', '--rotate-depth', '180')).stderr, /on its side/);
+  assert.match(told.stderr, /upside down.*--turn 180/);
+  assert.equal((await command('--texture', 'over.jpg', '--intrinsics', 'camera.json', '--turn', '180')).stderr, '');
+  assert.match((await command('--texture', 'bare.jpg', '--intrinsics', 'camera.json', '--turn', '45')).stderr, /90, 180 or 270/);
+  assert.match((await command('--texture', 'upright.jpg', '--intrinsics', 'camera.json', '--turn', '180')).stderr, /on its side/);
 
   // All that is about the depths turns with them.
   const levels = { width, height, data: Uint8Array.from({ length: width * height }, (_, i) => level(i)) };

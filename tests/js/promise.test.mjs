@@ -3,25 +3,17 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { readFile } from 'node:fs/promises';
 import { after, test } from 'node:test';
-import { setTimeout as sleep } from 'node:timers/promises';
 import { pathToFileURL } from 'node:url';
+import { breathe } from '../../pkg/breathe.js';
 import * as developable from '../../pkg/index.js';
 import { filesWasmFile, pkg, wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
+import { Listener, rest } from './support/waiting.mjs';
 
 const { DevelopableWorker } = developable;
 const ramp = image(12, 10, plane);
 
 after(() => developable.dispose());
-
-/** Share of one core that this process, with all its threads, is using. */
-async function load() {
-  const before = process.cpuUsage();
-  const start = performance.now();
-  await sleep(400);
-  const { user, system } = process.cpuUsage(before);
-  return (user + system) / 1000 / (performance.now() - start);
-}
 
 test('a plane comes back, image or lattice, in any kind of array', async () => {
   const surface = await developable.fit(ramp);
@@ -62,20 +54,19 @@ test('errors arrive with their code, as errors of the package', async () => {
 test('an abort rejects at once and stops the work', async () => {
   const { input, options } = endless();
   const controller = new AbortController();
-  let told = 0;
-  const solve = developable.fit(input, { ...options, signal: controller.signal, onProgress: () => (told += 1) });
+  const told = new Listener();
+  const solve = developable.fit(input, { ...options, signal: controller.signal, onProgress: told.hear });
   solve.catch(() => {});
-  await sleep(300);
-  assert.ok((await load()) > 0.1, 'it works, even if the machine is busy');
+  await told.more(2);
   const reason = new Error('enough');
   controller.abort(reason);
   // Neither waits for the solve, which has no end of its own; the rejection does not wait for the worker either.
   const answered = developable.example('cylinder', { size: 8 }).then(() => 'answered');
   await assert.rejects(Promise.race([solve, answered]), (error) => error === reason);
   await answered;
-  const last = told;
-  assert.ok((await load()) < 0.1, 'nothing goes on');
-  assert.equal(told, last);
+  const last = told.count;
+  await rest();
+  assert.equal(told.count, last);
 });
 
 test('an abort before the start, or while the worker starts, works as well', async () => {
@@ -87,7 +78,7 @@ test('an abort before the start, or while the worker starts, works as well', asy
   controller.abort();
   await assert.rejects(solve, { name: 'AbortError' });
   await worker.init();
-  assert.ok((await load()) < 0.1);
+  await rest();
   worker.dispose();
 });
 
@@ -138,7 +129,56 @@ test('an error in onProgress ends the solve and comes out', async () => {
   };
   await assert.rejects(developable.fit(input, { ...options, onProgress }), (error) => error === mine);
   await developable.example('cylinder', { size: 8 });
-  assert.ok((await load()) < 0.1);
+  await rest();
+});
+
+test('a rejected promise of onProgress ends the solve and comes out', async () => {
+  const { input, options: without } = endless();
+  // Where nobody hears of the rejection the solve ends all the same.
+  const options = { ...without, maxIterations: 400 };
+  const mine = new Error('mine');
+  /** @type {unknown[]} */
+  const unhandled = [];
+  /** @param {unknown} reason */
+  const listen = (reason) => unhandled.push(reason);
+  process.on('unhandledRejection', listen);
+  const isMine = (/** @type {unknown} */ error) => error === mine;
+  const late = async () => {
+    await breathe();
+    throw mine;
+  };
+  const solver = await developable.open(input);
+  for (const onProgress of [async () => Promise.reject(mine), late]) {
+    await assert.rejects(developable.fit(input, { ...options, onProgress }), isMine);
+    // The last news of all comes with the surface.
+    await assert.rejects(developable.fit(ramp, { onProgress }), isMine);
+    await assert.rejects(solver.fit({ ...options, onProgress }), isMine);
+  }
+  solver.dispose();
+  const onPlan = async () => Promise.reject(mine);
+  await assert.rejects(developable.explorePattern(ramp, { lambdas: [1e6], smallest: [0.1], onPlan }), isMine);
+  // The process hears of rejections that nobody has handled before it goes on to its timers.
+  await new Promise((resolve) => setImmediate(resolve));
+  process.off('unhandledRejection', listen);
+  assert.deepEqual(unhandled, []);
+});
+
+test('the promises of onProgress are awaited one after the other', async () => {
+  const { input, options } = endless();
+  let [running, most, calls] = [0, 0, 0];
+  await developable.fit(input, {
+    ...options,
+    maxIterations: 400,
+    onProgress: async () => {
+      calls += 1;
+      running += 1;
+      most = Math.max(most, running);
+      await breathe();
+      running -= 1;
+    },
+  });
+  assert.deepEqual([running, most], [0, 1], 'the last one has ended as well');
+  assert.ok(calls > 0);
 });
 
 test('solves on one worker take turns', async () => {
@@ -203,11 +243,12 @@ test('a worker of one\'s own is disposed of once, for good', async () => {
   await worker.init();
   assert.equal(worker.connected, true);
   const { input, options } = endless();
-  const pending = worker.fit(input, options);
+  const told = new Listener();
+  const pending = worker.fit(input, { ...options, onProgress: told.hear });
   const other = worker.example('cone', { size: 8 });
   pending.catch(() => {});
   other.catch(() => {});
-  await sleep(100);
+  await told.more();
   worker.dispose();
   worker.dispose();
   worker[Symbol.dispose]();

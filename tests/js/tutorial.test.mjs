@@ -1,4 +1,4 @@
-/** The commands of the tutorial, as they stand there. */
+/** The commands of docs/patterns.md, as they stand there. */
 import assert from 'node:assert/strict';
 import { readFile, readdir, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -22,9 +22,9 @@ test('a tutorial that does what it says', async () => {
   // A channel, for metal.
   const box = image(72, 60, (x) => 20 - 0.9 * Math.max(Math.abs(x - 35.3) - 14, 0));
   await writeFile(join(folder, 'box.tif'), direct.writeTiff(box));
-  const text = await readFile(new URL('../../docs/paper-model.md', import.meta.url), 'utf8');
+  const text = await readFile(new URL('../../docs/patterns.md', import.meta.url), 'utf8');
   const commands = [...text.matchAll(/^```sh\n([\s\S]*?)^```/gm)].flatMap(([, lines]) => lines.trim().split('\n'));
-  assert.equal(commands.length, 6);
+  assert.equal(commands.length, 7);
   const told = [];
   for (const line of commands) {
     const [npx, name, ...args] = line.split(' ');
@@ -33,7 +33,7 @@ test('a tutorial that does what it says', async () => {
     assert.equal(done.status, 0, `${line}: ${done.stderr}`);
     told.push(done);
   }
-  assert.match(told[0].stdout, /^lambda +smallest +sheets/);
+  assert.match(told[1].stdout, /^lambda +smallest +sheets/);
   const files = await readdir(folder);
   for (const file of ['model.pdf', 'model.glb', 'model.json', 'model.svg', 'numbered.svg', 'model.dxf', 'cloth.svg', 'box.dxf']) {
     assert.ok(files.includes(file), file);

@@ -51,7 +51,7 @@ fn random_weights_some_of_them_zero() {
 #[test]
 fn the_same_weight_everywhere_is_a_factor_of_lambda() {
     let field = noisy(&unit_square(40, bumps), 0.02, 6);
-    let options = Options::default().gap(1e-6);
+    let options = Options::paper().gap(1e-6);
     for weight in [0.1, 1.0, 7.0] {
         let input = Input::new(field.clone())
             .with_confidence(vec![weight; field.lattice().len()])
@@ -72,7 +72,7 @@ fn the_same_weight_everywhere_is_a_factor_of_lambda() {
 #[test]
 fn weights_of_next_to_nothing_certify_nothing_false() {
     let field = noisy(&unit_square(80, bumps), 0.02, 7);
-    let options = Options::default().lambda(1e5).gap(1e-3);
+    let options = Options::paper().lambda(1e5).gap(1e-3);
     let optimum = fit(&field, &options).unwrap().report().objective;
     for weight in [1e-300, 1e-310] {
         let mut confidence = vec![1.0; field.lattice().len()];
@@ -104,7 +104,7 @@ fn where_nothing_is_trusted_the_surface_goes_on_from_around() {
     let input = Input::new(Heightfield::new(lattice, heights.collect()).unwrap())
         .with_confidence(confidence)
         .unwrap();
-    let surface = fit(input, &Options::default().lambda(1e7).gap(1e-3)).unwrap();
+    let surface = fit(input, &Options::paper().lambda(1e7).gap(1e-3)).unwrap();
     let worst = max_difference(&truth, surface.heightfield());
     assert!(worst < 2e-3, "{worst}");
     assert!(surface.report().is_certified(1e-3));
@@ -127,7 +127,7 @@ fn heights_that_are_not_trusted_do_not_matter() {
                 let input = Input::new(Heightfield::new(lattice, heights.collect()).unwrap())
                     .with_confidence(confidence)
                     .unwrap();
-                fit(input, &Options::default().energy(energy)).unwrap()
+                fit(input, &Options::paper().energy(energy)).unwrap()
             })
             .collect();
         for other in &surfaces[1..] {

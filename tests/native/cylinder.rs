@@ -69,7 +69,7 @@ fn curled_and_folded_sheets_are_found_under_noise_and_more_exactly_than_by_the_e
             let angle = (along.abs() / 1.01f64.sqrt()).min(1.0).acos().to_degrees();
             assert!(angle < 1.0, "{angle}° {report:?}");
             let off = rms_difference(&truth, cylinder.heightfield());
-            let options = Options::default().lambda(Lambda::Auto);
+            let options = Options::paper().lambda(Lambda::Auto);
             let by_energy = fit(input, &options).unwrap();
             let other = rms_difference(&truth, by_energy.heightfield());
             assert!(

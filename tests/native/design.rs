@@ -97,7 +97,7 @@ fn points_of_a_plane_span_it() {
         [(0, 0), (0, 30), (mid, 1)],
     ] {
         let points = constraints(&plane, |r, c| held.contains(&(r, c)));
-        let surface = fit(Input::design(points, None).unwrap(), &Options::default()).unwrap();
+        let surface = fit(Input::design(points, None).unwrap(), &Options::paper()).unwrap();
         let worst = max_difference(&plane, surface.heightfield());
         assert!(worst < 1e-9, "{worst:e} {:?}", surface.report());
         assert_eq!(surface.report().stop_reason, StopReason::Rounding);
@@ -120,7 +120,7 @@ fn the_rims_of_cylinders_and_cones_give_them_back() {
         for n in [25, 50] {
             let truth = unit_square(n, f);
             let band = constraints(&truth, rim(truth.lattice(), 2));
-            let options = Options::default().gap(1e-3);
+            let options = Options::paper().gap(1e-3);
             let surface = fit(Input::design(band, None).unwrap(), &options).unwrap();
             assert!(surface.report().is_certified(1e-3));
             let worst = max_difference(&truth, surface.heightfield());
@@ -139,7 +139,7 @@ fn what_is_not_held_is_named() {
             heights[lattice.index(*row, *col)] = 1.0;
         }
         let points = Heightfield::new(lattice, heights).unwrap();
-        let error = fit(Input::design(points, shape).unwrap(), &Options::default()).err();
+        let error = fit(Input::design(points, shape).unwrap(), &Options::paper()).err();
         match error? {
             Error::Underdetermined { row, col, vertices } => Some((row, col, vertices)),
             other => panic!("{other}"),
@@ -179,10 +179,10 @@ fn what_is_not_held_is_named() {
                 .collect(),
         )
         .unwrap();
-    assert!(fit(input.clone(), &Options::default()).is_ok());
+    assert!(fit(input.clone(), &Options::paper()).is_ok());
     let untrusted = input.with_confidence(vec![0.0; lattice.len()]).unwrap();
     assert_eq!(
-        fit(untrusted, &Options::default()).unwrap_err().code(),
+        fit(untrusted, &Options::paper()).unwrap_err().code(),
         "UNDERDETERMINED"
     );
 }
@@ -196,7 +196,7 @@ fn constraints_outside_of_the_shape_are_ignored() {
         .collect();
     let solve = |held: &dyn Fn(usize, usize) -> bool| {
         let input = Input::design(constraints(&field, held), Some(&shape)).unwrap();
-        fit(input, &Options::default()).unwrap()
+        fit(input, &Options::paper()).unwrap()
     };
     let inside = solve(&|r, c| (3..15).contains(&c) && (r + 2 * c) % 7 == 0);
     let everywhere = solve(&|r, c| (r + 2 * c) % 7 == 0);

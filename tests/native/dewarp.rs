@@ -3,7 +3,7 @@
 use crate::common::{noisy, unit_square};
 use developable::dewarp::{DewarpOptions, Extent, Photo, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, unroll};
-use developable::{Heightfield, Lambda, Options, fit};
+use developable::{Heightfield, Options, fit};
 
 const RADIUS: f64 = 0.7;
 
@@ -64,7 +64,7 @@ fn a_curled_page_is_flat_again_to_a_fifth_of_a_percent() {
 
     let range = RADIUS - (RADIUS * RADIUS - 0.25f64).sqrt();
     let input = noisy(&curled(), 0.01 * range * 3f64.sqrt(), 3);
-    let surface = fit(&input, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let surface = fit(&input, &Options::paper()).unwrap();
     let solved = error(&map_of(surface.heightfield(), &DewarpOptions::default()));
     println!("solved {solved:.1e}");
     assert!(solved < 0.002, "{solved}");

@@ -109,7 +109,7 @@ fn lines_of_a_noisy_surface_are_straight_or_smooth() {
         if out { f64::NAN } else { vault.heights()[i] }
     });
     let round = Heightfield::new(lattice, heights.collect()).unwrap();
-    let scan = fit(&round, &Options::default()).unwrap();
+    let scan = fit(&round, &Options::paper()).unwrap();
     let found = sheets(scan.heightfield());
     let scale = 200.0;
     let cell = scale / 80.0;
@@ -373,8 +373,8 @@ fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
     }
     let code = |stock| drawing.clone().onto(stock).unwrap_err().to_string();
     assert!(code(Stock::Plate([100.0, 60.0])).contains("Sheet"));
-    assert!(code(Stock::Roll(-3.0)).contains("paper"));
-    assert!(code(Stock::Plate([8.0, f64::NAN])).contains("paper"));
+    assert!(code(Stock::Roll(-3.0)).contains("stock"));
+    assert!(code(Stock::Plate([8.0, f64::NAN])).contains("stock"));
 }
 
 #[test]

@@ -154,7 +154,7 @@ fn work(report: &Report, vertices: usize) -> f64 {
 
 fn bridged(field: &Heightfield, bridging: Bridging) -> Result<Surface, Error> {
     let input = Input::new(field.clone()).with_bridging(bridging)?;
-    fit(input, &Options::default())
+    fit(input, &Options::paper())
 }
 
 /// A solve of what a mask leaves ends properly. Says how many iterations a part takes.
@@ -242,7 +242,7 @@ fn dead_pixels_cost_little_time_and_little_accuracy() {
     ] {
         let mask = Mask::Speckle { share, seed: 5 };
         let [truth, field] = scene(SIZE, SIGMA, |row, col| mask.keeps(SIZE, row, col));
-        let surface = fit(&field, &Options::default()).unwrap();
+        let surface = fit(&field, &Options::paper()).unwrap();
         let on_lattice = (
             SIGMA / crate::common::rms_difference(surface.heightfield(), &truth),
             work(surface.report(), field.heights().len()),
@@ -251,7 +251,7 @@ fn dead_pixels_cost_little_time_and_little_accuracy() {
         let image = image.bridged(Bridging::default()).unwrap();
         let surface = fit(
             Input::from_bridged(&image, None).unwrap(),
-            &Options::default(),
+            &Options::paper(),
         )
         .unwrap();
         let pixels = surface.heightfield().to_image(image.image()).unwrap();
@@ -379,7 +379,7 @@ fn noise_does_not_join_two_levels() {
                 col => SIGMA * normal(noise) + if col < 40 { 0.0 } else { height },
             });
             let field = Heightfield::new(lattice, heights.collect()).unwrap();
-            fit(&field, &Options::default()).unwrap().report().bridged
+            fit(&field, &Options::paper()).unwrap().report().bridged
         };
         assert!(level(0.0, &mut noise) >= 74 * missing);
         let found = level(15.0 * SIGMA, &mut noise);
@@ -393,7 +393,7 @@ fn nothing_is_bridged_beside_an_occlusion_or_outside_of_a_mask() {
     let lattice = Lattice::new(40, 40, 1.0).unwrap();
     let field = Heightfield::from_fn(lattice, bowl).unwrap();
     let keep: Vec<u8> = (0..1600).map(|i| u8::from(hole(i / 40, i % 40))).collect();
-    let count = |input: Input| fit(input, &Options::default()).unwrap().report().bridged;
+    let count = |input: Input| fit(input, &Options::paper()).unwrap().report().bridged;
     let holed = field.clone().masked(&keep).unwrap();
     assert_eq!(count(Input::new(holed.clone())), 3);
     assert_eq!(count(Input::new(field).masked(&keep).unwrap()), 0);
@@ -416,7 +416,7 @@ fn a_plane_comes_back_in_its_holes_too() {
         .collect();
     let holed = truth.clone().masked(&keep).unwrap();
     let missing = keep.iter().filter(|keep| **keep == 0).count();
-    let surface = fit(&holed, &Options::default()).unwrap();
+    let surface = fit(&holed, &Options::paper()).unwrap();
     assert!(surface.report().bridged > missing * 9 / 10);
     assert!(crate::common::max_difference(surface.heightfield(), &truth) < 1e-9);
 }

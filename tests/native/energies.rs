@@ -69,7 +69,7 @@ fn the_second_fundamental_form_changes_little() {
         Energy::SecondFormOfInput,
         Energy::SecondForm,
     ]
-    .map(|energy| fit(&field, &Options::default().energy(energy).gap(1e-3)).unwrap());
+    .map(|energy| fit(&field, &Options::paper().energy(energy).gap(1e-3)).unwrap());
     for other in [&plain, &input] {
         let distance = max_difference(own.heightfield(), other.heightfield());
         assert!(distance > 1e-6 && distance < 0.01, "{distance}");

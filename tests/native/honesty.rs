@@ -296,7 +296,7 @@ fn case() -> impl Strategy<Value = Case> {
             Case {
                 field: Heightfield::new(lattice, heights).unwrap(),
                 weights,
-                options: Options::default()
+                options: Options::paper()
                     .lambda(lambda)
                     .gap(gap)
                     .energy(energy)
@@ -334,7 +334,7 @@ fn plain(field: Heightfield, lambda: f64) -> Case {
     Case {
         field,
         weights: Vec::new(),
-        options: Options::default().lambda(lambda).max_iterations(2000),
+        options: Options::paper().lambda(lambda).max_iterations(2000),
         lambda,
         gap: 0.01,
         energy: Energy::Nuclear,
@@ -453,8 +453,7 @@ fn confidences_out_of_range_are_named() {
         assert_eq!(weights(bad).unwrap_err().code(), "OPTION");
     }
     // As if there were none.
-    let [tiny, none] =
-        [1e-300, 0.0].map(|w| fit(weights(w).unwrap(), &Options::default()).unwrap());
+    let [tiny, none] = [1e-300, 0.0].map(|w| fit(weights(w).unwrap(), &Options::paper()).unwrap());
     assert_eq!(tiny.report().objective, none.report().objective);
     assert_eq!(tiny.report().free, 1);
 }
@@ -468,8 +467,7 @@ fn what_double_precision_cannot_hold_is_an_error() {
         let heights = field.heights().iter().map(|z| height * z).collect();
         Heightfield::new(lattice, heights).unwrap()
     };
-    let code =
-        |spacing, height| fit(of(spacing, height), &Options::default()).map_err(|e| e.code());
+    let code = |spacing, height| fit(of(spacing, height), &Options::paper()).map_err(|e| e.code());
     for (spacing, height) in [(1e-200, 1.0), (1.0, 1e200), (1e-320, 1.0), (1e-5, 1e305)] {
         assert_eq!(
             code(spacing, height).unwrap_err(),

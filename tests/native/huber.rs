@@ -24,7 +24,7 @@ fn roof(x: f64, y: f64) -> f64 {
 
 fn options() -> Options {
     Options::default()
-        .energy(Energy::Huber)
+        .lambda(Lambda::Medium)
         .normalization(Normalization::Off)
 }
 
@@ -86,7 +86,7 @@ fn full_flatness_is_the_nuclear_norm_and_large_curvatures_its_square() {
         assert_eq!(surface.report().stop_reason, StopReason::Gap);
         surface.into_heightfield()
     };
-    let base = Options::default().normalization(Normalization::Off);
+    let base = Options::paper().normalization(Normalization::Off);
     let huber = base.energy(Energy::Huber).crease_passes(0);
     let nuclear = solve(base.lambda(1e5));
     let flat = solve(huber.lambda(1e5).flatness(1.0));
@@ -164,7 +164,7 @@ fn options_of_its_own_are_checked() {
         assert!(code(options().flatness(bad)).contains("flatness"));
     }
     assert!(code(options().crease_passes(21)).contains("crease_passes"));
-    assert!(code(options().reweighting(1)).contains("reweighting"));
+    assert!(code(options().energy(Energy::Huber).reweighting(1)).contains("reweighting"));
 }
 
 /// A free border of a plate on a foundation, bent by the moment `M`, goes off by `2β²M/k` (Hetényi,
@@ -181,7 +181,6 @@ fn bent_sheet_keeps_its_border() {
         .collect();
     let field = Heightfield::new(lattice, truth.clone()).unwrap();
     let options = Options::default()
-        .energy(Energy::Huber)
         .lambda(lambda)
         .flatness(flatness)
         .bend_radius(bend_radius)
@@ -213,7 +212,7 @@ fn what_rises_steeply_to_its_border_is_not_folded_along_it() {
         0.5 * (1.0 - across * across).sqrt()
     });
     let input = noisy(&truth, 0.05, 2);
-    let options = Options::default().energy(Energy::Huber).lambda(3e4);
+    let options = Options::default().lambda(3e4);
     let [free, loaded] = [Border::Free, Border::Loaded].map(|border| {
         let surface = fit(&input, &options.border(border)).unwrap();
         rms_difference(surface.heightfield(), &truth)

@@ -6,7 +6,7 @@ use developable::{
 };
 
 fn solve(field: &Heightfield, lambda: impl Into<Lambda>, gap: f64) -> Surface {
-    fit(field, &Options::default().lambda(lambda).gap(gap)).unwrap()
+    fit(field, &Options::paper().lambda(lambda).gap(gap)).unwrap()
 }
 
 fn waves(x: f64, y: f64) -> f64 {
@@ -32,7 +32,7 @@ fn affine_input_comes_back_unchanged() {
     ] {
         let plane = unit_square(40, |x, y| a * x + b * y + c);
         for schedule in [Schedule::Default, Schedule::Paper] {
-            let surface = fit(&plane, &Options::default().schedule(schedule)).unwrap();
+            let surface = fit(&plane, &Options::paper().schedule(schedule)).unwrap();
             assert_eq!(surface.report().stop_reason, StopReason::Rounding);
             let size = a.abs() + b.abs() + c.abs();
             assert!(max_difference(&plane, surface.heightfield()) <= 1e-13 * size);
@@ -181,7 +181,7 @@ fn refining_the_lattice_changes_the_surface_less_each_time() {
         .map(|n| {
             let lattice = Lattice::new(n + 1, n + 2, 1.0 / n as f64).unwrap();
             let field = Heightfield::from_fn(lattice, |x, y| dome(x, y + 0.9)).unwrap();
-            let options = Options::default()
+            let options = Options::paper()
                 .lambda(1e5)
                 .gap(1e-4)
                 .normalization(Normalization::Off);
@@ -215,7 +215,7 @@ fn the_division_into_steps_changes_nothing() {
         (x - 0.4).hypot(y - 0.5) > 0.1
     });
     for schedule in [Schedule::Default, Schedule::Paper] {
-        let options = Options::default().schedule(schedule).max_iterations(60);
+        let options = Options::paper().schedule(schedule).max_iterations(60);
         let whole = fit(&field, &options).unwrap();
         for work in [1, 7, 1000] {
             let mut solver = developable::Solver::new(&field, &options).unwrap();
@@ -239,7 +239,7 @@ fn the_division_into_steps_changes_nothing() {
 fn the_best_iterate_and_the_best_bound_are_kept() {
     // So small a λ makes ADMM's own objective rise in between.
     let field = noisy(&unit_square(20, waves), 0.05, 6);
-    let options = Options::default().lambda(300.0).gap(1e-10);
+    let options = Options::paper().lambda(300.0).gap(1e-10);
     let mut solver = developable::Solver::new(&field, &options.max_iterations(400)).unwrap();
     let mut last = solver.progress();
     while solver.advance(1).unwrap() == developable::Status::Running {
@@ -254,7 +254,7 @@ fn the_best_iterate_and_the_best_bound_are_kept() {
 #[test]
 fn a_cancelled_solve_returns_its_best_iterate() {
     let field = noisy(&unit_square(40, waves), 0.02, 5);
-    let options = Options::default().gap(1e-9);
+    let options = Options::paper().gap(1e-9);
     let mut calls = 0;
     let mut last = f64::NAN;
     let surface = developable::fit_with(&field, &options, |progress| {
@@ -285,7 +285,7 @@ fn a_cancelled_solve_returns_its_best_iterate() {
     // Never worse than the input, on whatever level it ends.
     let field = noisy(&unit_square(80, waves), 0.002, 7);
     for (lambda, work) in [(1e9, 1), (1e9, 60), (1e6, 1), (1e3, 1)] {
-        let options = Options::default().lambda(lambda).gap(1e-9);
+        let options = Options::paper().lambda(lambda).gap(1e-9);
         let mut solver = developable::Solver::new(&field, &options).unwrap();
         let _ = solver.advance(work).unwrap();
         let on_coarse = solver.progress().level > 0;
@@ -312,7 +312,7 @@ fn a_cancelled_solve_returns_its_best_iterate() {
 
     // Before the first iteration that is the input itself.
     let field = noisy(&unit_square(40, waves), 0.02, 5);
-    let options = Options::default().gap(1e-9);
+    let options = Options::paper().gap(1e-9);
     let mut solver = developable::Solver::new(&field, &options).unwrap();
     solver.cancel();
     let surface = solver.surface().unwrap();

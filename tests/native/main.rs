@@ -13,6 +13,7 @@ mod camera;
 mod clouds;
 mod confidence;
 mod cylinder;
+mod defaults;
 mod design;
 mod dewarp;
 #[cfg(feature = "patterns")]

@@ -11,7 +11,7 @@ fn scene(x: f64, y: f64) -> f64 {
 }
 
 fn auto() -> Options {
-    Options::default().lambda(Lambda::Auto)
+    Options::paper().lambda(Lambda::Auto)
 }
 
 /// Normal, by the central limit theorem.

@@ -37,7 +37,7 @@ fn solve(field: &Heightfield, occlusions: Occlusions) -> Surface {
     let input = Input::new(field.clone())
         .with_occlusions(occlusions)
         .unwrap();
-    fit(input, &Options::default()).unwrap()
+    fit(input, &Options::paper()).unwrap()
 }
 
 fn check(field: &Heightfield, occlusions: Occlusions) {
@@ -68,7 +68,7 @@ fn a_detected_step_leaves_two_planes() {
     let found = Occlusions::detect(&field, 100.0, Normalization::UnitSquare).unwrap();
     check(&field, found);
     // Without it the planes are drawn towards one another.
-    let whole = fit(&field, &Options::default()).unwrap();
+    let whole = fit(&field, &Options::paper()).unwrap();
     assert!(max_difference(&field, whole.heightfield()) > 0.01);
 }
 
@@ -148,7 +148,7 @@ fn where_everything_is_torn_nothing_is_left() {
     let input = Input::new(field.clone())
         .with_occlusions(Occlusions::from_vertices(field.lattice(), &all).unwrap())
         .unwrap();
-    let error = fit(input, &Options::default()).unwrap_err();
+    let error = fit(input, &Options::paper()).unwrap_err();
     assert!(matches!(error, Error::NoInterior { .. }), "{error}");
     let other = Occlusions::from_vertices(step(10).lattice(), &vec![0; step(10).lattice().len()]);
     let error = Input::new(field).with_occlusions(other.unwrap());

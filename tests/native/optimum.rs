@@ -44,7 +44,7 @@ fn optima_that_are_almost_planes_are_found() {
             0.02 * relief,
             11,
         );
-        let options = Options::default().lambda(lambda);
+        let options = Options::paper().lambda(lambda);
         let report = fit(&field, &options).unwrap().report().clone();
         assert_eq!(report.stop_reason, StopReason::Gap, "{report:?}");
     }
@@ -113,7 +113,7 @@ fn normalisation_solves_the_normalised_problem() {
         small.heights().iter().map(|z| 30.0 * z + 7.0).collect(),
     )
     .unwrap();
-    let surface = fit(&big, &Options::default().gap(1e-8).max_iterations(100_000)).unwrap();
+    let surface = fit(&big, &Options::paper().gap(1e-8).max_iterations(100_000)).unwrap();
     let report = surface.report();
     // Odd rows stick out by half a spacing on the left, and one column more covers them.
     let width = small.lattice().spacing() * (small.lattice().cols() as f64 - 0.5);
@@ -145,7 +145,7 @@ fn normalisation_solves_the_normalised_problem() {
 fn the_paper_schedule_ends_close_to_the_optimum_and_knows_how_close() {
     let field = noisy(&unit_square(14, bumps), 0.02, 9);
     let exact = Instance::new(&field, 1e5).optimum();
-    let options = Options::default()
+    let options = Options::paper()
         .lambda(Lambda::Small)
         .schedule(Schedule::Paper)
         .normalization(Normalization::Off);

@@ -29,7 +29,7 @@ fn archipelago(cols: usize, seed: u64) -> Heightfield {
 }
 
 fn options(gap: f64) -> Options {
-    Options::default()
+    Options::paper()
         .lambda(1e5)
         .gap(gap)
         .max_iterations(100_000)

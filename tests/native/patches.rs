@@ -2,7 +2,7 @@
 
 use crate::common::unit_square;
 use developable::patches::{PatchOptions, Patches};
-use developable::{Example, ExampleOptions, Heightfield, Lambda, Options, fit};
+use developable::{Example, ExampleOptions, Heightfield, Options, fit};
 
 /// The roof of the paper's Fig. 22 over the unit square, and which of its five patches is where.
 fn roof(x: f64, y: f64) -> ([f64; 3], usize) {
@@ -80,7 +80,7 @@ fn and_has_them_still_once_it_was_solved_from_noise() {
     };
     let input = Example::Roof.generate(&options).unwrap().input;
     let lattice = input.to_lattice(None).unwrap();
-    let surface = fit(&lattice, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let surface = fit(&lattice, &Options::paper()).unwrap();
     check(surface.heightfield());
 }
 

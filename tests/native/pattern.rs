@@ -4,7 +4,7 @@ use crate::common::unit_square;
 use developable::drawing::{Drawing, DrawingOptions};
 use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{Direction, Pattern, PatternOptions, Run, Sheet, pattern};
-use developable::{Energy, Example, ExampleOptions, Heightfield, Lambda, Lattice, Options, fit};
+use developable::{Example, ExampleOptions, Heightfield, Lattice, Options, fit};
 
 fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
@@ -264,7 +264,7 @@ fn a_house_is_three_sheets_and_three_folds_once_it_was_solved_from_noise() {
     };
     let input = Example::House.generate(&options).unwrap().input;
     let field = input.to_lattice(None).unwrap();
-    let solved = fit(&field, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let solved = fit(&field, &Options::paper()).unwrap();
     let (_, sheets) = sheets(solved.heightfield());
     let patches: Vec<usize> = sheets.iter().map(|sheet| sheet.patches.len()).collect();
     let folds: Vec<usize> = sheets.iter().map(|sheet| sheet.folds.len()).collect();
@@ -654,7 +654,7 @@ fn joints_of_a_noisy_roof_are_drawn_equally_long() {
     };
     let input = Example::Roof.generate(&options).unwrap().input;
     let field = input.to_lattice(None).unwrap();
-    let solved = fit(&field, &Options::default().lambda(Lambda::Medium)).unwrap();
+    let solved = fit(&field, &Options::paper()).unwrap();
     let (_, sheets) = sheets(solved.heightfield());
     let area: f64 = sheets.iter().map(|sheet| sheet.area).sum();
     let joints = sides(&sheets);
@@ -751,9 +751,7 @@ fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
         let heights = || truth.heights().iter().copied();
         let range = heights().fold(f64::MIN, f64::max) - heights().fold(f64::MAX, f64::min);
         let input = crate::common::noisy(&truth, 0.01 * range * 3f64.sqrt(), 5);
-        let options = Options::default()
-            .energy(Energy::Huber)
-            .lambda(Lambda::Auto);
+        let options = Options::default();
         let solved = fit(&input, &options).unwrap();
         let (_, sheets) = sheets(solved.heightfield());
         assert_eq!(sheets.len(), 1, "{name}");

@@ -46,7 +46,7 @@ fn the_smaller_curvature_is_about_as_small_as_at_a_tenth_of_the_gap() {
     for shape in [cones, wave] {
         let input = noisy(&unit_square(90, shape), 0.008, 5);
         for energy in [Energy::Nuclear, Energy::Huber] {
-            let options = Options::default()
+            let options = Options::paper()
                 .energy(energy)
                 .lambda(1e5)
                 .normalization(Normalization::Off);
@@ -63,7 +63,7 @@ fn the_smaller_curvature_is_about_as_small_as_at_a_tenth_of_the_gap() {
 #[test]
 fn the_certificate_is_that_of_the_surface_that_is_given() {
     let input = noisy(&unit_square(70, wave), 0.01, 6);
-    let options = Options::default()
+    let options = Options::paper()
         .lambda(3e4)
         .normalization(Normalization::Off);
     let surface = fit(&input, &options).unwrap();

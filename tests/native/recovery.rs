@@ -33,7 +33,7 @@ fn normal_error(a: &Heightfield, b: &Heightfield) -> f64 {
 /// Asserts that the solve brings heights and normals closer to the truth by these factors.
 fn check(name: &str, truth: &Heightfield, amplitude: f64, heights: f64, normals: f64) {
     let input = noisy(truth, amplitude, 11);
-    let surface = fit(&input, &Options::default().lambda(Lambda::Small)).unwrap();
+    let surface = fit(&input, &Options::paper().lambda(Lambda::Small)).unwrap();
     let output = surface.heightfield();
     let height_gain = rms_difference(&input, truth) / rms_difference(output, truth);
     let normal_gain = normal_error(&input, truth) / normal_error(output, truth);

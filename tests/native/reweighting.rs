@@ -17,7 +17,7 @@ fn creases_come_closer_to_the_truth() {
     for (amplitude, factor) in [(0.004, 1.8), (0.008, 1.2)] {
         let input = noisy(&truth, amplitude, 3);
         let error = |passes: usize| {
-            let options = Options::default().lambda(Lambda::Small).reweighting(passes);
+            let options = Options::paper().lambda(Lambda::Small).reweighting(passes);
             let surface = fit(&input, &options).unwrap();
             let report = surface.report();
             assert_eq!(
@@ -54,7 +54,7 @@ fn the_curvature_of_a_cylinder_comes_closer_to_the_truth() {
         across.sum::<f64>()
     };
     let missing = |passes: usize| {
-        let options = Options::default().lambda(1e4).reweighting(passes);
+        let options = Options::paper().lambda(1e4).reweighting(passes);
         let options = options.normalization(Normalization::Off);
         1.0 - bend(fit(&input, &options).unwrap().heightfield()) / bend(&truth)
     };
@@ -71,7 +71,7 @@ fn the_curvature_of_a_cylinder_comes_closer_to_the_truth() {
 #[test]
 fn planes_have_nothing_to_reweight() {
     let plane = unit_square(30, |x, y| 2.0 * x - y);
-    let surface = fit(&plane, &Options::default().reweighting(3)).unwrap();
+    let surface = fit(&plane, &Options::paper().reweighting(3)).unwrap();
     assert_eq!(surface.report().stop_reason, StopReason::Rounding);
     assert_eq!(surface.report().reweighting, 0);
 }

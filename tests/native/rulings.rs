@@ -138,7 +138,7 @@ fn most_are_right_once_noise_was_solved_away() {
     let truth = unit_square(150, tube);
     let surface = fit(
         noisy(&truth, 0.003, 4),
-        &Options::default().lambda(Lambda::Small),
+        &Options::paper().lambda(Lambda::Small),
     )
     .unwrap();
     let field = surface.heightfield();

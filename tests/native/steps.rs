@@ -6,7 +6,7 @@ use developable::{Example, ExampleOptions, Options, Solver, Status};
 fn finer_lattices_and_searches_for_a_bound_are_begun_and_pursued_in_steps_of_their_own() {
     let sample = Example::Roof.generate(&ExampleOptions::default()).unwrap();
     let field = sample.input.to_lattice(None).unwrap();
-    let mut solver = Solver::new(&field, &Options::default().gap(1e-3)).unwrap();
+    let mut solver = Solver::new(&field, &Options::paper().gap(1e-3)).unwrap();
     // The coarser lattices are made one at a time, before there is any iteration.
     let mut prepared = 0;
     while solver.progress().level < 2 {
@@ -42,7 +42,7 @@ fn finer_lattices_and_searches_for_a_bound_are_begun_and_pursued_in_steps_of_the
 fn before_the_first_iteration_the_surface_is_the_input() {
     let sample = Example::Roof.generate(&ExampleOptions::default()).unwrap();
     let field = sample.input.to_lattice(None).unwrap();
-    let mut solver = Solver::new(&field, &Options::default()).unwrap();
+    let mut solver = Solver::new(&field, &Options::paper()).unwrap();
     let surface = solver.surface().unwrap();
     let pairs = surface.heightfield().heights().iter().zip(field.heights());
     // But for the few vertices that no stencil touches, which are restored.

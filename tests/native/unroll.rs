@@ -3,7 +3,7 @@
 
 use crate::common::{cut, noisy, unit_square};
 use developable::unroll::{UnrollOptions, Unrolling, unroll};
-use developable::{Heightfield, Lambda, Lattice, Options, fit};
+use developable::{Heightfield, Lattice, Options, fit};
 use nalgebra::Complex;
 use proptest::prelude::*;
 
@@ -111,7 +111,7 @@ fn noisy_surfaces_unroll_to_it_once_they_are_solved() {
         let range = heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min);
         // Uniform noise, whose standard deviation is 1 % of the height range.
         let input = noisy(&truth, 0.01 * range * 3f64.sqrt(), 5);
-        let surface = fit(&input, &Options::default().lambda(Lambda::Medium)).unwrap();
+        let surface = fit(&input, &Options::paper()).unwrap();
         let error = mismatch(&lay_flat(surface.heightfield()), known.flat);
         println!("{name}: {error:.1e}");
         assert!(error < 0.002, "{name}: {error}");
@@ -221,7 +221,7 @@ fn an_oloid_unrolls_to_its_development_before_noise_and_after() {
     // Curvature that grows towards one end is what the energy shrinks most; a reweighted pass takes
     // half of that back.
     let [solved, reweighted] = [0, 1].map(|passes| {
-        let options = Options::default().lambda(Lambda::Medium);
+        let options = Options::paper();
         let surface = fit(&input, &options.reweighting(passes)).unwrap();
         mismatch(&lay_flat(surface.heightfield()), flat)
     });

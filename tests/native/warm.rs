@@ -18,7 +18,7 @@ fn field(seed: u64) -> Heightfield {
 }
 
 fn options(lambda: f64) -> Options {
-    Options::default().lambda(lambda).gap(1e-5)
+    Options::paper().lambda(lambda).gap(1e-5)
 }
 
 fn run(solver: &mut Solver) -> Surface {
@@ -253,7 +253,7 @@ fn in_the_middle_of_a_solve() {
 #[test]
 fn a_warm_start_saves_work() {
     let field = field(9);
-    let options = Options::default();
+    let options = Options::paper();
     let mut solver = solved(&field, &options.lambda(1e6));
     solver.restart(&options.lambda(1.2e6)).unwrap();
     let warm = run(&mut solver);
@@ -298,7 +298,7 @@ fn overtaken_restarts_do_not_slow_the_last_one_down() {
         let field = field(seed);
         let other = noisy(&field, 0.001, 30);
         let smaller = cut(&field, |x, y| x < 0.8 || y > 0.5);
-        let options = |factor: f64| Options::default().lambda(lambda * factor).gap(gap);
+        let options = |factor: f64| Options::paper().lambda(lambda * factor).gap(gap);
         let start = solved(&field, &options(1.0));
         for drag in &drags {
             let last = options(*drag.last().unwrap());

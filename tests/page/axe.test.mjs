@@ -1,9 +1,14 @@
 /** What axe finds wrong with the page, view by view, in both colour schemes. */
 import assert from 'node:assert/strict';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import axe from 'axe-core';
+import { serve } from '../../tools/serve.mjs';
+import { writeGuide } from '../../tools/site/guide.mjs';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
-import { choose, drop, open, pageTest, painted, runBy } from './support/page.mjs';
+import { choose, drop, inChromium, open, pageTest, painted, runBy } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -111,3 +116,18 @@ pageTest('axe finds nothing wrong with surfaces in space, the gallery, dialogs a
   // Pins lie where the surface passes through them, as close to each other as that may be.
   await soundEverywhere(page, 'a design', { small: NARROW.filter((rule) => rule !== 'target-size') });
 }, { arrangement: 'space' });
+
+inChromium('axe finds nothing wrong with guides', async (page) => {
+  const folder = await mkdtemp(join(tmpdir(), 'developable-guide-'));
+  await writeGuide(folder, { references: true });
+  const server = await serve({ folders: { '/': folder } });
+  try {
+    for (const path of ['README', 'docs/scans', 'pkg/README']) {
+      await page.goto(`${server.url}guide/${path}.html`);
+      await soundEverywhere(page, path);
+    }
+  } finally {
+    await server.close();
+    await rm(folder, { recursive: true, force: true });
+  }
+});

@@ -1,7 +1,7 @@
 /** Brush and lasso. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { affected, brushed, enclosed, takenBack } from '../../www/strokes.js';
+import { affected, brushed, enclosed, takenBack } from '../../www/height-edits.js';
 import { pageTest, reported, runBy } from './support/page.mjs';
 import { parsed } from './support/numbers.mjs';
 

@@ -1,8 +1,8 @@
 /** What is guessed about a file of numbers, and what is said of a broken one. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { coarseningFor, depthsIn, guessedPixel, isHexagonal, zeroIsNothing } from '../../www/guess.js';
-import { plainly } from '../../www/plain.js';
+import { coarseningFor, depthsIn, guessedPixel, isHexagonal, zeroIsNothing } from '../../www/metadata-guess.js';
+import { plainly } from '../../www/error-messages.js';
 import { grid } from './support/files.mjs';
 
 /** @param {number} width @param {number} height @param {(col: number, row: number) => number} value @param {string} [dataType] */

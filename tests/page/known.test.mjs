@@ -47,7 +47,7 @@ pageTest('a design passes through what is marked', async (page) => {
   assert.ok(held > 150);
   assert.ok(Math.abs(parsed(await reported(page, 'Free')) + held - vertices) <= 4);
   assert.equal(await page.locator('#lambda').isDisabled(), true);
-  // By the paper's energy, whatever λ was.
+  // A design has the paper's energy unless another one is chosen.
   assert.ok((await names(page)).includes('Nuclear norms'));
   assert.ok((await look(page, '#result-canvas')).covered > 0.3);
   await runBy(page, () => page.locator('input[value="cone"]').check());
@@ -195,10 +195,13 @@ pageTest('λ by the noise, and what came of it, beside the slider', async (page)
   await runBy(page, () => page.getByRole('button', { name: /^big/ }).click());
   assert.equal(await button.getAttribute('aria-pressed'), 'false');
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
+  assert.equal(await page.locator('#energy').inputValue(), 'huber', 'λ changes λ alone');
   await page.locator('summary').click();
   await runBy(page, () => page.locator('#energy').selectOption('nuclear'));
   await runBy(page, () => button.click());
-  assert.equal(await page.locator('#energy').inputValue(), 'huber');
+  // λ by the noise changes λ alone.
+  assert.equal(await page.locator('#energy').inputValue(), 'nuclear');
+  await runBy(page, () => page.locator('#energy').selectOption('huber'));
   assert.equal(parsed(await reported(page, 'λ')), lambda);
   // Without noise there is nothing to go by, and the words say so.
   await runBy(page, () => page.locator('#noise').selectOption('0'));

@@ -10,7 +10,7 @@ import { Light } from '../../www/surface/light.js';
 import { HOLE, UNIT, normalsOf } from '../../www/surface/normals.js';
 import { NOTHING, SIDE, rasterOf } from '../../www/surface/raster.js';
 import { fillTriangles } from '../../www/surface/triangles.js';
-import { lambdaHint, verdict } from '../../www/words.js';
+import { lambdaHint, verdict } from '../../www/messages.js';
 import { grid } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 

@@ -7,6 +7,14 @@ import { serve } from '../../tools/serve.mjs';
 import { writeSite } from '../../tools/site.mjs';
 import { pageTest, settled } from './support/page.mjs';
 
+/** Waits for the pictures of a guide. @param {import('playwright-core').Page} page */
+async function loaded(page) {
+  const pictures = page.locator('main img');
+  await pictures.first().waitFor();
+  await page.waitForFunction(() => [...document.images].every((one) => one.complete));
+  assert.ok((await pictures.evaluateAll((all) => all.map((one) => /** @type {HTMLImageElement} */ (one).naturalWidth))).every((width) => width > 0));
+}
+
 pageTest('the site works under any path and without a network, and is renewed as a whole', async (page) => {
   const folder = await mkdtemp(join(tmpdir(), 'developable-site-'));
   await writeSite(folder);
@@ -27,6 +35,13 @@ pageTest('the site works under any path and without a network, and is renewed as
 
     // Everything is kept once the worker is there.
     await visit.evaluate(async () => { await navigator.serviceWorker.ready; });
+    // Guides are linked from the page, and what of them is opened is kept, pictures too.
+    const guide = await context.newPage();
+    await guide.goto(visit.url());
+    await guide.reload();
+    await guide.getByRole('navigation', { name: 'Documentation' }).getByRole('link').click();
+    await guide.getByRole('heading', { name: 'developable', level: 1 }).waitFor();
+    await loaded(guide);
     await context.setOffline(true);
     await server.close();
     await visit.reload();
@@ -37,6 +52,15 @@ pageTest('the site works under any path and without a network, and is renewed as
     await visit.locator('#save-formats input[value="glb"]').check();
     await visit.locator('#save-size', { hasText: /glb, \d/ }).waitFor();
     await visit.keyboard.press('Escape');
+
+    // Guides: one that was opened, with its picture, one that was not, and what is not kept.
+    await guide.reload();
+    await loaded(guide);
+    await guide.getByRole('link', { name: 'Scans', exact: true }).click();
+    await guide.getByRole('heading', { name: 'Clean up a scan' }).waitFor();
+    await guide.getByRole('link', { name: 'Benchmarks', exact: true }).click();
+    await guide.getByRole('heading', { name: 'Not kept' }).waitFor();
+    await guide.close();
 
     // Another version: not mixed with this one, and taken when it is asked for.
     await context.setOffline(false);

@@ -25,7 +25,7 @@ macro_rules! known_tests {
                     .collect();
                 let constraints = Heightfield::new(lattice(), constraints).unwrap();
                 let input = Input::design(constraints, None).unwrap();
-                let surface = fit(input, &Options::default()).unwrap();
+                let surface = fit(input, &Options::paper()).unwrap();
                 assert_eq!(surface.report().constrained, 3);
                 for (a, b) in surface.heightfield().heights().iter().zip(truth.heights()) {
                     assert!((a - b).abs() < 1e-6, "{a} {b}");
@@ -39,7 +39,7 @@ macro_rules! known_tests {
                 points[40] = 2.0;
                 let points = Heightfield::new(lattice(), points).unwrap();
                 let input = Input::design(points, None).unwrap();
-                let error = fit(input, &Options::default()).unwrap_err();
+                let error = fit(input, &Options::paper()).unwrap_err();
                 assert_eq!(error.code(), "UNDERDETERMINED");
             }
 
@@ -50,7 +50,7 @@ macro_rules! known_tests {
                 let torn = Occlusions::detect(&field, 5.0, Normalization::Off).unwrap();
                 assert!(torn.len() > 14);
                 let input = Input::new(field.clone()).with_occlusions(torn).unwrap();
-                let surface = fit(input, &Options::default()).unwrap();
+                let surface = fit(input, &Options::paper()).unwrap();
                 assert!(surface.report().objective < 1e-9);
                 for (a, b) in surface.heightfield().heights().iter().zip(field.heights()) {
                     assert!((a - b).abs() < 1e-6, "{a} {b}");
@@ -61,9 +61,9 @@ macro_rules! known_tests {
             fn a_restart_is_certified_anew() {
                 let wave = |x: f64, y: f64| plane(x, y) + 0.3 * (9.0 * x).sin() * (7.0 * y).cos();
                 let field = Heightfield::from_fn(lattice(), wave).unwrap();
-                let mut solver = Solver::new(&field, &Options::default()).unwrap();
+                let mut solver = Solver::new(&field, &Options::paper()).unwrap();
                 while solver.advance(50).unwrap() == Status::Running {}
-                let options = Options::default().lambda(2e6).gap(1e-3);
+                let options = Options::paper().lambda(2e6).gap(1e-3);
                 solver.restart(&options).unwrap();
                 while solver.advance(50).unwrap() == Status::Running {}
                 let warm = solver.surface().unwrap();

@@ -21,8 +21,11 @@ async function copyComlink() {
     // The source map is not copied along.
     await writeFile(join(pkgVendor, name), text.replace(/^\/\/# sourceMappingURL=.*\n?/m, ''));
   }
-  await copyFile(join(from, 'dist/esm/comlink.d.ts'), join(pkgVendor, 'comlink.d.mts'));
-  await copyFile(join(from, 'dist/esm/node-adapter.d.ts'), join(pkgVendor, 'node-adapter.d.mts'));
+  for (const name of ['comlink', 'node-adapter']) {
+    const types = await readFile(join(from, 'dist/esm', `${name}.d.ts`), 'utf8');
+    // Node wants the whole name of a file.
+    await writeFile(join(pkgVendor, `${name}.d.mts`), types.replace(/(from "\.\/\w+)"/g, '$1.js"'));
+  }
   await copyFile(join(from, 'dist/esm/protocol.d.ts'), join(pkgVendor, 'protocol.d.ts'));
   await copyFile(join(from, 'LICENSE'), join(pkgVendor, 'LICENSE-comlink'));
 }

@@ -1,8 +1,9 @@
 /** Rust to wasm: cargo, wasm-bindgen, wasm-opt, and a look at the size. */
 import { createHash } from 'node:crypto';
-import { chmod, copyFile, mkdtemp, readFile, readdir, rename, rm, writeFile } from 'node:fs/promises';
+import { existsSync } from 'node:fs';
+import { chmod, copyFile, mkdtemp, readFile, rename, rm, writeFile } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
-import { basename, join } from 'node:path';
+import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { target } from '../setup/wasm-target.mjs';
 import { pkg, pkgWasm, root } from '../util/paths.mjs';
@@ -10,6 +11,12 @@ import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
 
 /** @typedef {import('../util/process.mjs').Env} Env */
+
+/**
+ * @typedef {object} Tools what the set-up has found
+ * @property {Env} env in which cargo builds for wasm
+ * @property {string} bindgen the program that makes JavaScript and types
+ */
 
 /**
  * The package's wasm files, each of the crate `wasm/NAME`. `limit` is the most bytes that a server may
@@ -31,14 +38,17 @@ const files = [
  * @typedef {'release' | 'quick'} Build
  */
 
-/** @param {Env} env */
-export async function buildWasm(env) {
-  await compileWasm(env);
-  await packWasm(env);
+/** @param {Tools} tools */
+export async function buildWasm(tools) {
+  await compileWasm(tools.env);
+  await packWasm(tools);
 }
 
+/** What the package's wasm files are called. */
+export const names = files.map(({ name }) => name);
+
 /** The package's crates, as cargo is told. */
-export const crates = files.flatMap(({ name }) => ['--package', `developable-wasm-${name}`]);
+export const crates = names.flatMap((name) => ['--package', `developable-wasm-${name}`]);
 
 /**
  * Compiles the crates, in one call and one folder, so that what they share is compiled once.
@@ -55,17 +65,16 @@ export async function compileWasm(env, kind = 'release') {
 /**
  * Makes the package's files of the modules that have changed: in a new folder beside the old one, so
  * that who reads there finds one or the other.
- * @param {Env} env
+ * @param {Tools} tools
  * @param {Build} [kind]
  */
-export async function packWasm(env, kind = 'release') {
-  const from = join(await targetFolder(env), target, 'release');
-  const tools = await fingerprint(env, kind);
+export async function packWasm({ env, bindgen }, kind = 'release') {
+  const from = await modulesFolder(env);
+  const tools = await fingerprint(bindgen, kind);
   const modules = await Promise.all(files.map(async ({ name }) => {
-    const module = join(from, `developable_wasm_${name}.wasm`);
+    const module = join(from, moduleFile(name));
     const origin = createHash('sha256').update(tools).update(await readFile(module)).digest('hex');
-    const packed = await readFile(made(pkgWasm, name), 'utf8').catch(() => '');
-    return { name, module, origin, current: packed === origin };
+    return { name, module, origin, current: await isCurrent(name, origin) };
   }));
   if (!modules.every(({ current }) => current)) {
     const draft = await mkdtemp(join(pkg, 'wasm-draft-'));
@@ -73,7 +82,7 @@ export async function packWasm(env, kind = 'release') {
       const pending = modules[Symbol.iterator]();
       // As many at a time as there are cores: wasm-opt has but one thread.
       await Promise.all(Array.from({ length: availableParallelism() }, async () => {
-        for (const module of pending) await pack(draft, module, env, kind);
+        for (const module of pending) await pack(draft, module, bindgen, kind);
       }));
       // `mkdtemp` lets nobody else in.
       await chmod(draft, 0o755);
@@ -89,54 +98,84 @@ export async function packWasm(env, kind = 'release') {
 /**
  * @param {string} folder
  * @param {{ name: string, module: string, origin: string, current: boolean }} file
- * @param {Env} env
+ * @param {string} bindgen
  * @param {Build} kind
  */
-async function pack(folder, { name, module, origin, current }, env, kind) {
+async function pack(folder, { name, module, origin, current }, bindgen, kind) {
   if (current) {
-    for (const part of await readdir(pkgWasm)) {
-      if (part === basename(made('', name)) || new RegExp(`^${name}(_bg)?\\.`).test(part)) {
-        await copyFile(join(pkgWasm, part), join(folder, part));
-      }
-    }
+    for (const part of [...partsOf(name), made(name)]) await copyFile(join(pkgWasm, part), join(folder, part));
     return;
   }
-  await must('wasm-bindgen', ['--target', 'web', '--out-dir', folder, '--out-name', name, module], env);
+  await must(bindgen, bindgenArguments(folder, name, module), process.env);
+  const missing = partsOf(name).filter((part) => !existsSync(join(folder, part)));
+  if (missing.length > 0) {
+    throw new Problem(`${bindgen} did not write ${missing.join(', ')}: see what tools/bindgen asks of it.`);
+  }
   if (kind === 'release') {
     const packed = join(folder, `${name}_bg.wasm`);
     // Beyond -O1 it takes twice as long for a file of the same size, gzipped.
-    await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], env);
+    await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], process.env);
   }
-  await writeFile(made(folder, name), origin);
+  await writeFile(join(folder, made(name)), origin);
 }
 
 /**
- * Where it says what a file was made from.
+ * What wasm-bindgen is told; its own command and the program in tools/bindgen understand it alike.
  * @param {string} folder
  * @param {string} name
+ * @param {string} module
  */
-const made = (folder, name) => join(folder, `${name}.made-from`);
+export const bindgenArguments = (folder, name, module) =>
+  ['--target', 'web', '--out-dir', folder, '--out-name', name, module];
+
+/**
+ * The files that wasm-bindgen makes of a module.
+ * @param {string} name
+ */
+const partsOf = (name) => [`${name}.js`, `${name}.d.ts`, `${name}_bg.wasm`, `${name}_bg.wasm.d.ts`];
+
+/**
+ * Where it says what a module's files were made from.
+ * @param {string} name
+ */
+const made = (name) => `${name}.made-from`;
+
+/**
+ * Whether all files of a module are there, and were made from what there is now.
+ * @param {string} name
+ * @param {string} origin
+ */
+async function isCurrent(name, origin) {
+  const from = await readFile(join(pkgWasm, made(name)), 'utf8').catch(() => '');
+  return from === origin && partsOf(name).every((part) => existsSync(join(pkgWasm, part)));
+}
 
 /** npm's binaryen. It takes the module's features from the module itself. */
 const wasmOpt = join(root, 'node_modules/binaryen/bin/wasm-opt');
 
 /**
- * What the result depends on besides the module: the two tools, and this file.
- * @param {Env} env
+ * What the files depend on besides the module: the two tools, and this script.
+ * @param {string} bindgen
  * @param {Build} kind
  */
-async function fingerprint(env, kind) {
-  const bindgen = await run('wasm-bindgen', ['--version'], { env });
+async function fingerprint(bindgen, kind) {
   const binaryen = await readFile(join(root, 'node_modules/binaryen/package.json'));
   const own = await readFile(new URL(import.meta.url));
-  return createHash('sha256').update(bindgen.output).update(binaryen).update(own).update(kind).digest();
+  return createHash('sha256').update(await readFile(bindgen)).update(binaryen).update(own).update(kind).digest();
 }
 
-/** @param {Env} env */
-async function targetFolder(env) {
+/**
+ * Where cargo leaves the modules.
+ * @param {Env} env
+ */
+export async function modulesFolder(env) {
   const { output } = await run('cargo', ['metadata', '--no-deps', '--format-version=1', '--quiet'], { env, cwd: root });
-  return /** @type {string} */ (JSON.parse(output.slice(output.indexOf('{'))).target_directory);
+  const { target_directory: folder } = JSON.parse(output.slice(output.indexOf('{')));
+  return join(folder, target, 'release');
 }
+
+/** @param {string} name */
+export const moduleFile = (name) => `developable_wasm_${name}.wasm`;
 
 /**
  * @param {string} name

@@ -1,21 +1,36 @@
 /** The package's types, in a strict program, with each way of finding modules. */
 import { mkdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
+import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
 
-/** Each with the oldest standard library that suits it; what is not said has its default. */
-export const resolutions = [
+/** How modules are found. */
+const resolutions = [
   { module: 'esnext', moduleResolution: 'bundler' },
   { module: 'node16', moduleResolution: 'node16' },
   { module: 'nodenext', moduleResolution: 'nodenext' },
 ];
 
+/** The oldest standard libraries that will do: a browser's alone, and Node's alone, which has no namespace `WebAssembly`. */
+const libraries = [
+  { name: 'dom', lib: ['es2022', 'dom'], types: [] },
+  { name: 'node', lib: ['es2022'], types: ['node'], typeRoots: [join(root, 'node_modules/@types')] },
+];
+
 /** Strict, the package's own declarations included. */
-export const compilerOptions = {
-  strict: true, exactOptionalPropertyTypes: true, noUncheckedIndexedAccess: true, noEmit: true, skipLibCheck: false,
-  target: 'es2022', lib: ['es2022', 'dom'], types: [],
+const strict = {
+  strict: true, exactOptionalPropertyTypes: true, noUncheckedIndexedAccess: true, noEmit: true, skipLibCheck: false, target: 'es2022',
 };
+
+/** Each way of finding modules with each library. @returns {{ name: string, compilerOptions: object }[]} */
+export function configurations() {
+  return resolutions.flatMap((resolution) =>
+    libraries.map(({ name, ...library }) => ({
+      name: `${resolution.moduleResolution} with ${name}`,
+      compilerOptions: { ...strict, ...library, ...resolution },
+    })));
+}
 
 /**
  * The first example of the README, and uses of all else there are types of.
@@ -46,12 +61,12 @@ export function typesWith(tool) {
     await writeFile(join(place, 'package.json'), '{ "type": "module" }\n');
     const files = await program(folder);
     for (const [name, text] of Object.entries(files)) await writeFile(join(place, name), text);
-    for (const resolution of resolutions) {
-      const config = { compilerOptions: { ...compilerOptions, ...resolution }, files: Object.keys(files) };
-      await writeFile(join(place, 'tsconfig.json'), JSON.stringify(config));
+    const tried = configurations();
+    for (const { name, compilerOptions } of tried) {
+      await writeFile(join(place, 'tsconfig.json'), JSON.stringify({ compilerOptions, files: Object.keys(files) }));
       const { ok, output } = await run(process.execPath, [`node_modules/${tool}/bin/tsc`, '-p', 'types'], { cwd: folder });
-      if (!ok) throw new Problem(`${resolution.moduleResolution}: ${output}`);
+      if (!ok) throw new Problem(`${name}: ${output}`);
     }
-    return `works with ${resolutions.map(({ moduleResolution }) => moduleResolution).join(', ')}`;
+    return `works with ${tried.map(({ name }) => name).join(', ')}`;
   };
 }

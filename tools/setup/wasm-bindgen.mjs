@@ -1,6 +1,7 @@
 /** wasm-bindgen's programs, in the very version that the crates in wasm/ are built with. */
+import { createHash } from 'node:crypto';
 import { existsSync } from 'node:fs';
-import { readFile } from 'node:fs/promises';
+import { readFile, readdir } from 'node:fs/promises';
 import { homedir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { root } from '../util/paths.mjs';
@@ -10,30 +11,37 @@ import { which } from '../util/which.mjs';
 import { entry } from './cached.mjs';
 import { cargoInstall } from './cargo-install.mjs';
 
+const sources = join(root, 'tools/bindgen');
+
 /**
- * The folder of `wasm-bindgen`: of whatever has it already, or else of our own small program, which takes
- * a third of the time that wasm-bindgen's command does.
+ * The program that makes the package's JavaScript and types: always the one in tools/bindgen, which compiles in a
+ * third of the time that wasm-bindgen's own command takes. So the package does not depend on what else is installed.
  */
 export async function wasmBindgen() {
   const version = await wanted();
-  return await there(['wasm-bindgen'], version)
-    ?? sound(['wasm-bindgen'], version, await cargoInstall('wasm-bindgen', version, {
-      time: 'about 30 s',
-      what: "wasm-bindgen's library as a program",
-      source: ['--path', join(root, 'tools/bindgen'), '--profile', 'tool', '--locked'],
-    }));
+  // The cache has one program for each state of its sources.
+  const folder = await cargoInstall('developable-bindgen', `${version}-${await sourceHash()}`, {
+    time: 'about 30 s',
+    what: "wasm-bindgen's library as a program",
+    source: ['--path', sources, '--profile', 'tool', '--locked'],
+  });
+  if (!await holds(folder, ['wasm-bindgen'], version)) throw broken(folder);
+  return join(folder, process.platform === 'win32' ? 'wasm-bindgen.exe' : 'wasm-bindgen');
 }
 
-/** The folder of `wasm-bindgen` and the runner of its tests. */
+/** The folder of wasm-bindgen's own command and the runner of its tests. */
 export async function wasmBindgenTests() {
   const version = await wanted();
   const programs = ['wasm-bindgen', 'wasm-bindgen-test-runner'];
-  return await there(programs, version)
-    ?? sound(programs, version, await cargoInstall('wasm-bindgen-cli', version, {
-      time: 'about 1 minute',
-      // Without TLS: the runner talks to a browser's driver on this machine.
-      source: ['wasm-bindgen-cli', '--version', version, '--no-default-features', ...programs.flatMap((name) => ['--bin', name])],
-    }));
+  const found = await there(programs, version);
+  if (found) return found;
+  const folder = await cargoInstall('wasm-bindgen-cli', version, {
+    time: 'about 1 minute',
+    // Without TLS: the runner talks to a browser's driver on this machine.
+    source: ['wasm-bindgen-cli', '--version', version, '--no-default-features', ...programs.flatMap((name) => ['--bin', name])],
+  });
+  if (!await holds(folder, programs, version)) throw broken(folder);
+  return folder;
 }
 
 /** The version in Cargo.lock. */
@@ -44,6 +52,14 @@ async function wanted() {
   return version;
 }
 
+/** Changes with any file of tools/bindgen. */
+async function sourceHash() {
+  const hash = createHash('sha256');
+  const names = (await readdir(join(sources, 'src'))).sort().map((name) => join('src', name));
+  for (const name of ['Cargo.toml', ...names]) hash.update(name).update(await readFile(join(sources, name)));
+  return hash.digest('hex').slice(0, 12);
+}
+
 /**
  * A folder that has the programs in this version already: on the path, where cargo installs to, in our
  * cache.
@@ -51,7 +67,7 @@ async function wanted() {
  * @param {string} version
  */
 async function there(programs, version) {
-  const onPath = which('wasm-bindgen');
+  const onPath = which('wasm-bindgen-test-runner');
   const folders = [
     ...(onPath ? [dirname(onPath)] : []),
     join(process.env.CARGO_HOME || join(homedir(), '.cargo'), 'bin'),
@@ -64,6 +80,7 @@ async function there(programs, version) {
 }
 
 /**
+ * Whether a folder has the programs in this version.
  * @param {string} folder
  * @param {string[]} programs
  * @param {string} version
@@ -74,12 +91,5 @@ async function holds(folder, programs, version) {
   return results.every(({ ok, output }) => ok && output.trim().endsWith(` ${version}`));
 }
 
-/**
- * @param {string[]} programs
- * @param {string} version
- * @param {string} folder
- */
-async function sound(programs, version, folder) {
-  if (await holds(folder, programs, version)) return folder;
-  throw new Problem(`The programs in ${folder} do not run: delete that folder and try again.`);
-}
+/** @param {string} folder */
+const broken = (folder) => new Problem(`The programs in ${folder} do not run: delete that folder and try again.`);

@@ -8,6 +8,7 @@ import { run } from '../util/process.mjs';
 /**
  * @typedef {object} Context what the set-up has found
  * @property {Env} env for wasm
+ * @property {string} bindgen the program that makes the package's JavaScript and types
  * @property {import('../setup/browser.mjs').Browser} browser
  */
 

@@ -4,7 +4,7 @@ import { buildVendor } from '../build/vendor.mjs';
 import { buildWasm } from '../build/wasm.mjs';
 import { docs, format, lint, nativeTests } from './rust.mjs';
 import { nodeTests, pageTests, types } from './javascript.mjs';
-import { inBrowser, inNode } from './wasm.mjs';
+import { inBrowser, inNode, sameBindings } from './wasm.mjs';
 
 /** @type {import('./step.mjs').Step[]} */
 export const steps = [
@@ -15,12 +15,13 @@ export const steps = [
   {
     name: 'build',
     what: 'the package, and the size of its wasm',
-    run: async ({ env }) => {
+    run: async (context) => {
       await buildVendor();
-      await buildWasm(env);
+      await buildWasm(context);
       await buildInline();
     },
   },
+  { name: 'bindings', what: "tools/bindgen beside wasm-bindgen's own command", run: sameBindings },
   { name: 'wasm-node', what: 'the wasm in Node', run: inNode('wasm_node') },
   { name: 'wasm-browser', what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },

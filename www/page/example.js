@@ -1,5 +1,5 @@
 /** Photos of printed pages in space, made by a camera that is known: something to make flat at once. */
-import { printed } from '../printed.js';
+import { printed } from '../sample-page.js';
 import { fillTriangles } from '../surface/triangles.js';
 
 /** @typedef {'curled' | 'book'} ExampleName */

@@ -1,5 +1,5 @@
 /** A photo that was opened: its pixels once, and a reduced copy of them to show and to look for edges in. */
-import { apart } from '../apart.js';
+import { apart } from '../worker-task.js';
 import { pixelsOf, reducedPhoto } from '../pixels.js';
 
 /** @import {Api} from '../api.js' */

@@ -5,7 +5,7 @@ import { dewarped, photoPicture } from '../views/dewarped.js';
 import { patches } from '../views/patches.js';
 import { flat as laidFlat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
-import { VIEWS as VIEWS_SAY } from '../words.js';
+import { VIEWS as VIEWS_SAY } from '../messages.js';
 import { photoPanel } from './photo.js';
 import { waitingPanel } from './waiting.js';
 

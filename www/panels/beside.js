@@ -1,5 +1,5 @@
 /** Images of what is known besides the heights: how far they are to be trusted, and what must be met. */
-import { apart, readingOf } from '../apart.js';
+import { apart, readingOf } from '../worker-task.js';
 import { choosesFile, element } from '../dom.js';
 import { keepSmall } from '../surface/known.js';
 import { handOver } from '../surface/work.js';

@@ -1,10 +1,10 @@
 /** Depths from a camera, put where it has seen them: a mesh, of which a view is taken. */
-import { apart } from '../apart.js';
+import { apart } from '../worker-task.js';
 import { choosesFile, element } from '../dom.js';
 import { number } from '../format.js';
 
 /** @import {Mesh, PhotoCamera} from '../api.js' */
-/** @import {Called} from '../seen.js' */
+/** @import {Called} from '../mesh-sampling.js' */
 /** @import {Input, Session, Slow} from '../session.js' */
 
 /** Milliseconds for a depth that is put in space, until that was measured. */

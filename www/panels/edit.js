@@ -1,9 +1,9 @@
 /** Brush and lasso on the surface: heights taken out, trusted less, or held; and the way back. */
 import { element } from '../dom.js';
-import { affected, brushed, enclosed, takenBack } from '../strokes.js';
+import { affected, brushed, enclosed, takenBack } from '../height-edits.js';
 
 /** @import {Session} from '../session.js' */
-/** @import {Effect, Past, Place} from '../strokes.js' */
+/** @import {Effect, Past, Place} from '../height-edits.js' */
 /** @typedef {ReturnType<typeof import('./space.js').spacePanel>} SpacePanel */
 
 /** @type {readonly string[]} */

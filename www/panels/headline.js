@@ -2,7 +2,7 @@
 import { element } from '../dom.js';
 import { count } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { closer, outcome, verdict } from '../words.js';
+import { closer, outcome, verdict } from '../messages.js';
 import { hideNotice, showFailure } from './notice.js';
 
 /** @import {Analyses} from '../analyses.js' */

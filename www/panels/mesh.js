@@ -1,12 +1,12 @@
 /** Meshes and point clouds: turned, and seen as heights from a direction. */
-import { apart, readingOf } from '../apart.js';
+import { apart, readingOf } from '../worker-task.js';
 import { element, elements } from '../dom.js';
 import { count, number } from '../format.js';
-import { drawingOf, see } from '../seen.js';
+import { drawingOf, see } from '../mesh-sampling.js';
 import { MeshView } from '../surface/mesh-view.js';
 
 /** @import {Mesh, SampleMeshOptions} from '../api.js' */
-/** @import {Called} from '../seen.js' */
+/** @import {Called} from '../mesh-sampling.js' */
 /** @import {Input, Session, Slow} from '../session.js' */
 
 /** How long the hand rests, in milliseconds, before what it has turned to is solved. */

@@ -1,6 +1,6 @@
 /** What went wrong, at the top of the page. */
 import { element } from '../dom.js';
-import { complaint } from '../words.js';
+import { complaint } from '../messages.js';
 
 /**
  * @param {string} message

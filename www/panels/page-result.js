@@ -6,11 +6,11 @@ import { imagePicture, PictureView } from '../surface/picture.js';
 import { Zoom } from '../surface/zoom.js';
 import { canvasOf } from '../views/dewarped.js';
 import { figures } from '../views/legend.js';
-import { pageErrors, pageVerdict } from '../words.js';
+import { pageErrors, pageVerdict } from '../messages.js';
 import { offerToSave } from './save-dialog.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {Worker} from '../apart.js' */
+/** @import {Worker} from '../worker-task.js' */
 /** @import {DewarpedPage} from '../page/flatten.js' */
 /** @import {PageSession} from '../page/session.js' */
 

@@ -1,5 +1,5 @@
 /** From a photo of a page alone to the flat page: opened or an example, its outline, what is known, what comes of it. */
-import { readingOf } from '../apart.js';
+import { readingOf } from '../worker-task.js';
 import { choosesFile, element, elements } from '../dom.js';
 import { examplePhoto } from '../page/example.js';
 import { openPhoto, photoOf } from '../page/photo.js';

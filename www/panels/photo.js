@@ -1,9 +1,9 @@
 /** The photo that is to be made flat: opened, or printed on an example; and what comes of it, saved. */
-import { readingOf } from '../apart.js';
+import { readingOf } from '../worker-task.js';
 import { choosesFile, element } from '../dom.js';
 import { partAt } from '../mesh-part.js';
 import { pixelsOf } from '../pixels.js';
-import { drawingOf, see } from '../seen.js';
+import { drawingOf, see } from '../mesh-sampling.js';
 import { cropPanel } from './crop.js';
 import { offerToSave } from './save-dialog.js';
 

@@ -2,7 +2,7 @@
 import { element } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { accuracyOf } from '../surface/known.js';
-import { ENERGIES, STOP_REASONS, lambdaFound } from '../words.js';
+import { ENERGIES, STOP_REASONS, lambdaFound } from '../messages.js';
 
 /** @import {Report} from '../api.js' */
 /** @import {Result, Session} from '../session.js' */

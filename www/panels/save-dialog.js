@@ -1,11 +1,11 @@
 /** One dialog for whatever is saved: formats to choose from, how large the file will be, and then the file. */
-import { apart } from '../apart.js';
+import { apart } from '../worker-task.js';
 import { download, element, make } from '../dom.js';
 import { fileSize } from '../format.js';
-import { plainly } from '../plain.js';
+import { plainly } from '../error-messages.js';
 import { SOON, waitingPanel } from './waiting.js';
 
-/** @import {Worker} from '../apart.js' */
+/** @import {Worker} from '../worker-task.js' */
 /** @import {Api} from '../api.js' */
 
 /**

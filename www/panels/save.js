@@ -1,7 +1,7 @@
 /** What to do with the result, one click each: a 3D file, sheets to cut out, a flat photo. */
 import { element } from '../dom.js';
 import { shortest } from '../format.js';
-import { handySide, piecesOf } from '../pieces.js';
+import { handySide, piecesOf } from '../pattern.js';
 import { resultImage } from '../surface/known.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';

@@ -1,11 +1,12 @@
 /** λ on a logarithmic slider with the paper's presets, and the further options. */
+import { energyFor } from '../design.js';
 import { element, elements } from '../dom.js';
 import { shortest } from '../format.js';
-import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint, wholeLambdaFound } from '../words.js';
+import { BY_NOISE, ENERGIES, NO_FIDELITY, lambdaFound, lambdaHint, wholeLambdaFound } from '../messages.js';
 
 /** @import {Energy} from '../api.js' */
 /** @import {Session, Settings} from '../session.js' */
-/** @import {Whole} from '../whole.js' */
+/** @import {Whole} from '../mesh-fit.js' */
 
 /** @param {Session} session @param {Whole} whole */
 export function settingsPanel(session, whole) {
@@ -95,11 +96,18 @@ export function settingsPanel(session, whole) {
   const gap = element('gap', HTMLSelectElement);
   gap.addEventListener('change', () => session.set({ gap: Number(gap.value) }));
   const schedule = element('schedule', HTMLSelectElement);
-  schedule.addEventListener('change', () =>
-    session.set({ schedule: schedule.value === 'paper' ? 'paper' : 'default' }));
+  // The paper's schedule stops on its residuals.
+  const showSchedule = () => {
+    gap.disabled = schedule.value === 'paper';
+  };
+  schedule.addEventListener('change', () => {
+    showSchedule();
+    session.set({ schedule: schedule.value === 'paper' ? 'paper' : 'default' });
+  });
   const coarsening = element('coarsening', HTMLSelectElement);
   coarsening.addEventListener('change', () => session.set({ coarsening: Number(coarsening.value) }));
 
+  const reweighting = element('reweighting', HTMLSelectElement);
   const energy = element('energy', HTMLSelectElement);
   const energyHint = element('energy-hint', HTMLElement);
   const chosen = () => /** @type {Energy} */ (energy.value);
@@ -109,17 +117,20 @@ export function settingsPanel(session, whole) {
     reweighting.disabled = chosen() === 'huber';
     session.set({ energy: chosen(), reweighting: reweighting.disabled ? 0 : Number(reweighting.value) });
   });
-  energyHint.textContent = ENERGIES[chosen()];
+  /** @param {Settings['energy']} wanted */
+  const showEnergy = (wanted) => {
+    energy.value = energyFor(session.input, wanted);
+    energyHint.textContent = ENERGIES[chosen()];
+    reweighting.disabled = chosen() === 'huber';
+  };
+  showEnergy(session.settings.energy);
+  session.on('input', () => showEnergy(session.settings.energy));
   auto.addEventListener('click', () => {
     auto.setAttribute('aria-pressed', 'true');
     for (const preset of presets) preset.setAttribute('aria-pressed', 'false');
-    energy.value = 'huber';
-    energyHint.textContent = ENERGIES.huber;
-    reweighting.disabled = true;
-    session.set({ lambda: 'auto', energy: 'huber', reweighting: 0 });
+    session.set({ lambda: 'auto' });
     explain();
   });
-  const reweighting = element('reweighting', HTMLSelectElement);
   reweighting.addEventListener('change', () => session.set({ reweighting: Number(reweighting.value) }));
 
   const find = element('find-occlusions', HTMLInputElement);
@@ -142,11 +153,10 @@ export function settingsPanel(session, whole) {
       auto.setAttribute('aria-pressed', String(lambda === 'auto'));
       gap.value = String(settings.gap);
       schedule.value = settings.schedule;
+      showSchedule();
       coarsening.value = String(settings.coarsening);
-      energy.value = wanted;
-      energyHint.textContent = ENERGIES[wanted];
       reweighting.value = String(settings.reweighting);
-      reweighting.disabled = wanted === 'huber';
+      showEnergy(wanted);
       find.checked = occlusionThreshold !== undefined;
       element('threshold-field', HTMLElement).hidden = !find.checked;
       if (occlusionThreshold !== undefined) threshold.value = shortest(occlusionThreshold);

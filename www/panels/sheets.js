@@ -1,13 +1,13 @@
 /** The result as sheets to cut out: how large, on what paper, with tabs or without; looked at, then saved. */
 import { make } from '../dom.js';
-import { modelOf, numberedPicture, piecesInFigures, piecesInWords, previewOf } from '../pieces.js';
-import { plainly } from '../plain.js';
+import { modelOf, numberedPicture, piecesInFigures, piecesInWords, previewOf } from '../pattern.js';
+import { plainly } from '../error-messages.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Api} from '../api.js' */
-/** @import {Cut} from '../pieces.js' */
+/** @import {Cut} from '../pattern.js' */
 /** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Depth of tabs in millimetres, at first. */
@@ -153,7 +153,7 @@ export function offerSheets(api, { stem, size, side: handy, cut, svg, stop }) {
         about))],
     formats: [
       { value: 'pdf', name: 'PDF', words: 'to print, in true size', type: 'application/pdf',
-        write: async (worker) => worker.writePdf(await drawing, { paper: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
+        write: async (worker) => worker.writePdf(await drawing, { stock: paper.value === 'a4' || paper.value === 'letter' ? paper.value : undefined }) },
       { value: 'svg', name: 'SVG', words: 'for a cutting plotter or a drawing program', type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
       { value: 'dxf', name: 'DXF', words: 'for a laser cutter or CAD', type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
       { value: 'png', name: 'PNG', words: 'a picture of it built, with the numbers of the sheets and the letters of what is joined', type: 'image/png', write: async () => numberedPicture(await drawing) },

@@ -1,19 +1,19 @@
 /** Where the heights come from: an example, or a file with its scale. */
-import { readingOf } from '../apart.js';
+import { readingOf } from '../worker-task.js';
 import { designInput } from '../design.js';
-import { doubtOf } from '../doubts.js';
+import { doubtOf } from '../unit-check.js';
 import { choosesFiles, element, elements } from '../dom.js';
-import { InColour, inputOf } from '../opened.js';
-import { spanInWords, understood } from '../understood.js';
+import { InColour, inputOf } from '../height-file.js';
+import { spanInWords, understood } from '../import-interpretation.js';
 import { pixelsOf } from '../pixels.js';
-import { isCamera, together } from '../together.js';
+import { isCamera, together } from '../dropped-files.js';
 import { cameraPanel } from './camera.js';
 import { isMesh, meshPanel } from './mesh.js';
 import { hideNotice, showNotice } from './notice.js';
 
 /** @import {ExampleName} from '../api.js' */
 /** @import {Session} from '../session.js' */
-/** @import {Together} from '../together.js' */
+/** @import {Together} from '../dropped-files.js' */
 
 /**
  * @param {Session} session

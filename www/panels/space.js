@@ -3,7 +3,7 @@ import { eachFrame, element, elements } from '../dom.js';
 import { number, readingOf, strainInWords } from '../format.js';
 import { valueOnMesh } from '../surface/anchors.js';
 import { Camera } from '../surface/camera.js';
-import { takeInHand } from '../surface/hands.js';
+import { takeInHand } from '../surface/gestures.js';
 import { inputNormals, resultImage, resultNormals, takenTexels } from '../surface/known.js';
 import { gridOf } from '../surface/lattice.js';
 import { normalsOf } from '../surface/normals.js';
@@ -11,7 +11,7 @@ import { boxAround, boxOf, clamp, heightOn, lengthsOf, pointsOf, reliefOf } from
 import { Space } from '../surface/space.js';
 
 /** @import {Pin} from '../design.js' */
-/** @import {Taken} from '../surface/hands.js' */
+/** @import {Taken} from '../surface/gestures.js' */
 /** @import {Input, Result, Session} from '../session.js' */
 /** @import {Colour} from '../surface/colours.js' */
 /** @import {Layer, Line} from '../surface/layer.js' */

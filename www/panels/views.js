@@ -8,7 +8,7 @@ import { Light } from '../surface/light.js';
 import { PictureView } from '../surface/picture.js';
 import { SurfaceView } from '../surface/view.js';
 import { Zoom } from '../surface/zoom.js';
-import { MARKS } from '../words.js';
+import { MARKS } from '../messages.js';
 import { spacePanel } from './space.js';
 
 /** @import {Occlusions} from '../api.js' */

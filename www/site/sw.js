@@ -1,4 +1,7 @@
-/** Serves one version of the page, all of it kept when it was installed, so that it works without a network. */
+/**
+ * Serves one version of the site without a network. The page and the guides are kept when it is installed; pictures of
+ * guides and pages of the reference are kept when they are opened.
+ */
 /**
  * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, request: Request, respondWith: (response: Promise<Response>) => void }} Occasion
  * @typedef {typeof globalThis & { SITE: { version: string, files: string[] }, skipWaiting: () => Promise<void> }} Globals
@@ -22,11 +25,40 @@ on('activate', (event) => {
 worker.addEventListener('message', ({ data }) => {
   if (data === 'take over') void worker.skipWaiting();
 });
+const scope = new URL('./', location.href);
+
+/** Whether an address is that of a document: a guide or a page of the reference, or what belongs to one. @param {URL} url */
+const isDocument = ({ href }) => ['guide/', 'reference/'].some((folder) => href.startsWith(new URL(folder, scope).href));
+
 on('fetch', (event) => {
   const { request } = event;
-  if (request.method !== 'GET' || new URL(request.url).origin !== location.origin) return;
-  const wanted = request.mode === 'navigate' ? './index.html' : request;
-  event.respondWith(caches.open(NAME)
-    .then((cache) => cache.match(wanted, { ignoreSearch: true, ignoreVary: true }))
-    .then((kept) => kept ?? fetch(request)));
+  const url = new URL(request.url);
+  if (request.method !== 'GET' || url.origin !== location.origin) return;
+  event.respondWith(isDocument(url) ? documentFor(request) : fileFor(request));
 });
+
+/** The page or one of its files. @param {Request} request */
+async function fileFor(request) {
+  const wanted = new URL(request.url).pathname === scope.pathname ? './index.html' : request;
+  return (await found(wanted)) ?? fetch(request);
+}
+
+/** A document, which is kept from now on. @param {Request} request */
+async function documentFor(request) {
+  const kept = await found(request);
+  if (kept) return kept;
+  try {
+    const response = await fetch(request);
+    if (response.ok) await (await caches.open(NAME)).put(request, response.clone());
+    return response;
+  } catch (error) {
+    const instead = request.mode === 'navigate' && await found('./guide/offline.html');
+    if (instead) return instead;
+    throw error;
+  }
+}
+
+/** @param {Request | string} wanted */
+async function found(wanted) {
+  return (await caches.open(NAME)).match(wanted, { ignoreSearch: true, ignoreVary: true });
+}

@@ -1,5 +1,5 @@
 /** The worker in which the page works out what it shows; `work.js` is its other end. */
-import { confidenceOf, constraintsOf, lookedThrough } from '../understood.js';
+import { confidenceOf, constraintsOf, lookedThrough } from '../import-interpretation.js';
 import { photographed } from '../views/print.js';
 import { assembled, bordersOf } from './assembled.js';
 import { meanAngle, rmsError } from './compare.js';

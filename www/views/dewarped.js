@@ -1,8 +1,8 @@
 /** A photo of the surface, and the same made flat. */
-import { doubtOf } from '../doubts.js';
+import { doubtOf } from '../unit-check.js';
 import { count, number, percent } from '../format.js';
 import { imagePicture } from '../surface/picture.js';
-import { FLATTENED, PARALLEL } from '../words.js';
+import { FLATTENED, PARALLEL } from '../messages.js';
 import { figures, say } from './legend.js';
 
 /** @import {Analyses, FlatOptions} from '../analyses.js' */

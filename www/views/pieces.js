@@ -5,7 +5,7 @@ import { CREASE, css, FOLDS, linear } from '../surface/colours.js';
 import { canvasOf } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture.js';
 import { work } from '../surface/work.js';
-import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf, strainOf } from '../pieces.js';
+import { handySide, piecesInFigures, piecesInWords, piecesOf, previewOf, strainOf } from '../pattern.js';
 import { colourBar, figures, key, say } from './legend.js';
 import { sheet } from './sheet.js';
 

@@ -1,5 +1,5 @@
 /** A printed page on an example's true surface, photographed from above: something to make flat. */
-import { printed } from '../printed.js';
+import { printed } from '../sample-page.js';
 import { normalsOf, UNIT } from '../surface/normals.js';
 import { extentOf, fillTriangles } from '../surface/triangles.js';
 

@@ -2,7 +2,7 @@
 import { count, number, percent, signed, strainInWords } from '../format.js';
 import { CREASE, linear } from '../surface/colours.js';
 import { canvasOf } from '../surface/layer.js';
-import { VERDICTS } from '../words.js';
+import { VERDICTS } from '../messages.js';
 import { colourBar, figures, say } from './legend.js';
 
 /** @import {Analyses} from '../analyses.js' */

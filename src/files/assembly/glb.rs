@@ -6,10 +6,10 @@
 use std::fmt::Write as _;
 
 use super::colour;
+use crate::assembly::{Assembly, Pose};
+use crate::drawing::beside;
 use crate::error::{Error, Result, positive};
-use crate::flat::assembly::{Assembly, Pose};
-use crate::flat::drawing::beside;
-use crate::flat::pattern::Sheet;
+use crate::pattern::Sheet;
 
 /// Seconds that each step takes, and that pass between two.
 const STEP: f64 = 1.5;

@@ -7,10 +7,10 @@ use ::svg::Document;
 use ::svg::node::element::{Group, Path, Polyline, Text, Title};
 
 use super::colour;
+use crate::assembly::{Built, faces_up};
+use crate::drawing::{letters, smooth};
 use crate::error::{Error, Result};
-use crate::flat::assembly::{Built, faces_up};
-use crate::flat::drawing::{letters, smooth};
-use crate::flat::pattern::{Faces, Sheet};
+use crate::pattern::{Faces, Sheet};
 
 /// Longer side of the picture, and the room around it, in its units.
 const SIZE: f64 = 1000.0;

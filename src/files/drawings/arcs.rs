@@ -1,6 +1,6 @@
 //! Curves as arcs of circles, for files that have no others.
 
-use crate::flat::drawing::{Curve, Piece};
+use crate::drawing::{Curve, Piece};
 
 /// How far arcs may be from a curve, in millimetres.
 const TOLERANCE: f64 = 0.01;

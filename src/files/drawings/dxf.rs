@@ -9,9 +9,9 @@ use std::io::{self, Write};
 
 use super::arcs::{Corner, arcs};
 use super::{Kind, layers};
+use crate::drawing::{Drawing, Label};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
-use crate::flat::drawing::{Drawing, Label};
 
 /// Every layer with its colour, by its number in AutoCAD's palette.
 const LAYERS: [(&str, u8); 8] = [

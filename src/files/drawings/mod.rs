@@ -29,8 +29,8 @@ mod dxf;
 mod pdf;
 mod svg;
 
-use crate::flat::drawing::{Curve, Drawing, DrawnSheet, Line};
-use crate::flat::pattern::Direction;
+use crate::drawing::{Curve, Drawing, DrawnSheet, Line};
+use crate::pattern::Direction;
 pub use dxf::write_dxf;
 pub use pdf::write_pdf;
 pub use svg::write_svg;

@@ -4,9 +4,9 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::{DROP, GREY, WIDTH, layers};
+use crate::drawing::{Drawing, Label, Pages, Piece, Stock};
 use crate::error::{Error, Result};
 use crate::files::points::{LARGEST, POINTS, points};
-use crate::flat::drawing::{Drawing, Label, Pages, Piece, Stock};
 
 /// Length of each arm of a registration mark, in millimetres.
 const ARM: f64 = 4.0;
@@ -86,7 +86,7 @@ fn check_page(size: [f64; 2]) -> Result<()> {
 fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
     check_page(pages.paper)?;
     let [width, height] = pages.part;
-    let sheet = |page: &crate::flat::drawing::Page| {
+    let sheet = |page: &crate::drawing::Page| {
         let [x, y] = page.corner;
         let mut out = Content::new();
         let shift = [pages.blank - x, pages.blank - y];

@@ -6,8 +6,8 @@ use ::svg::node::element::{Element, Group, Path, Text, Title};
 use ::svg::{Document, Node};
 
 use super::{DROP, GREY, Kind, WIDTH};
+use crate::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 use crate::error::Result;
-use crate::flat::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 
 /// An SVG file of a drawing: its unit is the millimetre, its layers are groups with the ids `cut`,
 /// `mountain`, `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and what belongs to a sheet has its number as
@@ -15,7 +15,7 @@ use crate::flat::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite or larger
-/// than [`MAX_SIZE`](crate::flat::drawing::MAX_SIZE).
+/// than [`MAX_SIZE`](crate::drawing::MAX_SIZE).
 pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
     drawing.check()?;
     let (width, height) = (number(drawing.width), number(drawing.height));

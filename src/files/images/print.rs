@@ -12,9 +12,9 @@ use jpeg_encoder::{
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
 use super::Buffer;
+use crate::dewarp::Photo;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::files::points::{LARGEST, POINTS, points};
-use crate::flat::dewarp::Photo;
 
 /// How a photo is written.
 #[derive(Debug, Clone, Copy, PartialEq)]

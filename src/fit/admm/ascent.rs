@@ -348,7 +348,7 @@ mod tests {
             &input,
             domain.clone(),
             &coordinates,
-            &Options::default().lambda(1.0),
+            &Options::paper().lambda(1.0),
         )
         .unwrap();
         let mut state = State::new(&problem, 1.0).unwrap();

@@ -129,10 +129,10 @@ impl Plan {
             imbalance: 3.0,
             by_costs: false,
             climbable: CLIMBABLE,
-            gap: options.gap,
+            gap: options.gap_or_default(),
             coarse: false,
             max_iterations: options.max_iterations,
-            follows_normals: options.energy == Energy::SecondForm,
+            follows_normals: options.energy_or_default() == Energy::SecondForm,
         };
         match options.schedule {
             Schedule::Default => common,

@@ -242,7 +242,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     pub(crate) fn of(options: &Options) -> Self {
-        match options.energy {
+        match options.energy_or_default() {
             Energy::Nuclear | Energy::SecondFormOfInput | Energy::SecondForm => Kind::Nuclear,
             Energy::Frobenius => Kind::Frobenius,
             Energy::SquaredNuclear => Kind::SquaredNuclear,

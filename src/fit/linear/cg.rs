@@ -211,7 +211,7 @@ mod tests {
             let (field, domains) = lattices(cols);
             let input = Input::new(field);
             let coordinates = Coordinates::new(&input, &domains[0], 1.0);
-            let options = Options::default().lambda(1e4);
+            let options = Options::paper().lambda(1e4);
             let problem = Problem::new(&input, domains[0].clone(), &coordinates, &options).unwrap();
             let rho = 4.0 * problem.operator.spacing;
             let mut cg = ConjugateGradients::new(&problem, &domains, rho).unwrap();

@@ -14,6 +14,7 @@ use crate::fit::energy::law::{Bends, Kind};
 use crate::fit::energy::problem;
 use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
 use crate::lattice::per_cell::PerCell;
+use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
 pub(super) type Problem = problem::Problem<SparseOperator>;
@@ -53,7 +54,7 @@ pub(super) struct Linearised {
     pub problem: Problem,
     pub base: Vec<Point>,
     pub frames: Vec<Frame>,
-    /// The vertices in the middle of stencils, and the stencil about each vertex, or [`NONE`].
+    /// The vertices in the middle of stencils, and the stencil about each vertex, or [`NO_INDEX`].
     pub centres: Vec<u32>,
     pub about: Vec<u32>,
     /// From the unknowns to distances along the rays.
@@ -63,8 +64,6 @@ pub(super) struct Linearised {
     /// Spacing of a hexagonal lattice with so many vertices.
     pub spacing: f64,
 }
-
-pub(super) const NONE: u32 = u32::MAX;
 
 /// Distance between the vertices of a hexagonal lattice where each has such an area.
 pub(super) fn spacing_of(area: f64) -> f64 {
@@ -92,7 +91,7 @@ impl Linearised {
         let ways = sides.map_or_else(Ways::default, |s| Ways::new(given, s, &base, &frames));
         let across = constant + 1;
         let unknowns = count + 1 + ways.all.len();
-        let mut about = try_filled("stencils", count, NONE)?;
+        let mut about = try_filled("stencils", count, NO_INDEX)?;
         let (mut centres, mut rows) = (Vec::new(), Rows::new());
         rows.reserve(count, USUAL);
         let mut row = Vec::new();
@@ -164,7 +163,7 @@ impl Linearised {
         let beside = centres.iter().map(|vertex| {
             let ring = topology.around(*vertex as usize).iter();
             let ring = ring.map(|other| about[*other as usize]);
-            ring.filter(|stencil| *stencil != NONE).collect()
+            ring.filter(|stencil| *stencil != NO_INDEX).collect()
         });
         let operator = SparseOperator::new(Parts {
             beside: beside.collect(),

@@ -4,11 +4,12 @@
 use nalgebra::Matrix3;
 
 use super::geometry::Frame;
-use super::linear::{Linearised, NONE};
+use super::linear::Linearised;
 use super::options::MeshOptions;
 use super::topology::Topology;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::load::Rings;
+use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
 /// Stencils of the ring next to a border or crease reach two rings further. Where all that reach a vertex are
@@ -34,7 +35,7 @@ pub(super) fn load_border(
     let around = |vertex: usize| topology.around(vertex).iter().map(|v| *v as usize);
     let vertices = 0..topology.len() as u32;
     let outermost = vertices.filter(|v| match linear.about[*v as usize] {
-        NONE => true,
+        NO_INDEX => true,
         stencil => known[stencil as usize],
     });
     let reach = linear.problem.reach(options.bend_radius);

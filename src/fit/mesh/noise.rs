@@ -4,9 +4,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::geometry::{Frame, Point};
 use super::topology::Topology;
-
-/// From the median of a normal distribution's absolute values to its standard deviation.
-const MEDIAN: f64 = 1.4826;
+use crate::math::statistics::{MAD_TO_SIGMA, median};
 
 /// Fewer samples say nothing, and more say no more.
 const FEWEST: usize = 50;
@@ -58,7 +56,5 @@ pub(super) fn noise(
     if samples.len() < FEWEST {
         return None;
     }
-    let middle = samples.len() / 2;
-    let (_, median, _) = samples.select_nth_unstable_by(middle, f64::total_cmp);
-    Some(MEDIAN * *median)
+    Some(MAD_TO_SIGMA * median(&mut samples)?)
 }

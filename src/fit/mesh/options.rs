@@ -1,7 +1,7 @@
 //! What may be chosen about a solve over a mesh.
 
 use crate::error::{Error, Result};
-use crate::fit::options::{Lambda, Options};
+use crate::fit::options::{DEFAULT_CREASE_PASSES, Energy, Lambda, Options};
 use crate::math::sym2::Sym2;
 
 /// What a moment is above the flatness where a bend is clear.
@@ -17,7 +17,7 @@ pub struct MeshOptions {
     pub(super) bend_radius: f64,
     pub(super) flatness: f64,
     pub(super) crease_radius: f64,
-    pub(super) crease_passes: usize,
+    pub(super) crease_passes: Option<usize>,
 }
 
 impl Default for MeshOptions {
@@ -29,7 +29,7 @@ impl Default for MeshOptions {
             bend_radius: 0.1,
             flatness: 0.3,
             crease_radius: 0.1,
-            crease_passes: 2,
+            crease_passes: None,
         }
     }
 }
@@ -74,10 +74,16 @@ impl MeshOptions {
         self
     }
 
-    /// Passes in which creases cost less, each about another linearisation; default 2, at most 20.
+    /// Number of crease passes, at most 20; each solves another linearisation, in which creases cost
+    /// less. Default: 2, or 0 where λ is large for the noise of the mesh.
     pub fn crease_passes(mut self, passes: usize) -> Self {
-        self.crease_passes = passes;
+        self.crease_passes = Some(passes);
         self
+    }
+
+    /// The number of crease passes: the given one or the default.
+    pub(super) fn crease_passes_or_default(&self) -> usize {
+        self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
     }
 
     /// Whether what bears a dual is a bend and not next to flat, where its direction is anyone's: from 0 to 1.
@@ -96,13 +102,14 @@ impl MeshOptions {
     /// The same as options of a heightfield.
     pub(super) fn common(&self) -> Options {
         Options::default()
+            .energy(Energy::Huber)
             .lambda(self.lambda)
             .gap(self.gap)
             .max_iterations(self.max_iterations)
             .bend_radius(self.bend_radius)
             .flatness(self.flatness)
             .crease_radius(self.crease_radius)
-            .crease_passes(self.crease_passes)
+            .crease_passes(self.crease_passes_or_default())
     }
 }
 

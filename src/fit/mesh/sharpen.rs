@@ -9,7 +9,7 @@ use super::geometry::{Frame, Point, faces_away, normals};
 use super::linear::Given;
 use super::sides::{FOLD, Sides};
 use super::topology::Topology;
-use crate::math::axes::axes;
+use crate::math::symmetric_eigen::symmetric_eigen3;
 use nalgebra::Matrix3;
 
 /// A vertex goes no further than so many lengths of the edges around it.
@@ -90,7 +90,7 @@ fn meeting(planes: &[(f64, Point)]) -> Option<Point> {
         matrix += normal * normal.transpose();
         right += normal * *rise;
     }
-    let values = axes(matrix);
+    let values = symmetric_eigen3(matrix);
     // Two planes at an angle have 1 ± cos, and none along their line.
     let least = 1.0 - FOLD.cos();
     let known = values

@@ -2,9 +2,9 @@
 
 use super::fans::Fans;
 use super::geometry::Point;
-use super::linear::NONE;
 use super::topology::Topology;
 use crate::error::Result;
+use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
 
 /// Sides that meet at less than this, in radians, do not say well where.
@@ -15,7 +15,7 @@ const SHARE: f64 = 0.003;
 
 /// Which sides of creases vertices are on.
 pub(super) struct Sides {
-    /// The one label of the triangles around a vertex, or [`NONE`].
+    /// The one label of the triangles around a vertex, or [`NO_INDEX`].
     pub of: Vec<u32>,
     pub fans: Fans,
     labels: Vec<u32>,
@@ -30,7 +30,7 @@ impl Sides {
         let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
         let labels = facets.parted(facets.usual_bend(), SHARE, FOLD)?;
         let mut sides = Sides {
-            of: vec![NONE; topology.len()],
+            of: vec![NO_INDEX; topology.len()],
             fans: Fans::new(topology),
             labels,
         };
@@ -44,7 +44,7 @@ impl Sides {
 
     /// Whether a vertex with triangles is on a crease.
     pub(super) fn meet_at(&self, vertex: usize) -> bool {
-        self.of[vertex] == NONE
+        self.of[vertex] == NO_INDEX
     }
 
     /// Whether a vertex has triangles of one side.

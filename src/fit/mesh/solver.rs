@@ -10,7 +10,7 @@ use super::fairing::{curves, fair};
 use super::fans::Fans;
 use super::geometry::{Frame, Point, areas, normals, unfold};
 use super::known::MeshKnown;
-use super::linear::{Given, Linearised, NONE, spacing_of};
+use super::linear::{Given, Linearised, spacing_of};
 use super::load::load_border;
 use super::noise::noise;
 use super::options::MeshOptions;
@@ -31,6 +31,7 @@ use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
 use crate::fit::partwise::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
+use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
 
@@ -156,7 +157,7 @@ impl MeshSolver {
         };
         let mut options = *options;
         if lambda > TOO_LARGE * auto {
-            options.crease_passes = 0;
+            options.crease_passes.get_or_insert(0);
         }
         let before = Shape::of(topology, &given.noisy, &base);
         let linear = linearised(&given, base, frames, &options, lambda, None)?;
@@ -221,7 +222,10 @@ impl MeshSolver {
         let done = |of: fn(&MeshPass) -> usize| self.passes.iter().map(of).sum::<usize>();
         let under_way = self.level.as_ref().map(Level::report);
         Progress {
-            level: self.options.crease_passes.saturating_sub(self.passes.len()),
+            level: self
+                .options
+                .crease_passes_or_default()
+                .saturating_sub(self.passes.len()),
             iteration: done(|pass| pass.iterations) + under_way.map_or(0, |l| l.iterations),
             cg_iterations: done(|pass| pass.cg_iterations)
                 + under_way.map_or(0, |l| l.cg_iterations),
@@ -236,7 +240,7 @@ impl MeshSolver {
     /// Starts to solve the linearised problem, where there is one before from its dual.
     fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised, Sides)>) -> Result<()> {
         let mut options = self.options.common();
-        if warm.is_none() && self.options.crease_passes > 0 {
+        if warm.is_none() && self.options.crease_passes_or_default() > 0 {
             options = options.gap(self.options.gap.max(ROUGH));
         }
         let plan = Plan::new(&options).without_cycles();
@@ -255,7 +259,7 @@ impl MeshSolver {
             state.rho = old.rho;
             for (stencil, centre) in self.linear.centres.iter().enumerate() {
                 let from = before.about[*centre as usize];
-                if from != NONE {
+                if from != NO_INDEX {
                     let (dual, hessian) = old.matrices(&before.problem, from as usize);
                     state.set_matrices_of(problem, stencil, [dual, hessian]);
                     moments[stencil] = bearing(dual, hessian).scale(self.options.bent(dual));
@@ -289,7 +293,7 @@ impl MeshSolver {
             return Ok(());
         };
         let report = level.report();
-        let last = self.passes.len() >= self.options.crease_passes;
+        let last = self.passes.len() >= self.options.crease_passes_or_default();
         let z = &level.best.z;
         let mut next = self.linear.moved(z);
         restore(&self.given, &mut next, &self.linear.frames, None);
@@ -319,7 +323,7 @@ impl MeshSolver {
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
         let (topology, held) = (&self.given.topology, &self.given.held);
         let surface = &mut self.surface;
-        if done && self.options.crease_passes > 0 {
+        if done && self.options.crease_passes_or_default() > 0 {
             let sides = Sides::new(topology, surface)?;
             restore(&self.given, surface, &self.linear.frames, Some(&sides));
             sharpen(&self.given, &sides, surface, &self.linear.frames);

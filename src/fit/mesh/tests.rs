@@ -19,7 +19,7 @@ use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::scene::view::Frame as Frame3;
-use crate::{Energy, Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
+use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
 mod creases;
 mod crossing;
@@ -208,10 +208,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let heights: Vec<f64> = field.heights().iter().map(|z| z + 0.02 * noise()).collect();
     let field = Heightfield::new(lattice, heights).unwrap();
     let input = Input::new(field.clone());
-    let options = Options::default()
-        .energy(Energy::Huber)
-        .lambda(1e4)
-        .gap(1e-5);
+    let options = Options::default().lambda(1e4).gap(1e-5);
     let domain = Arc::new(input.domain().unwrap());
     let coordinates = Coordinates::new(&input, &domain, 1.0);
     let problem =

@@ -3,11 +3,12 @@
 use std::collections::HashMap;
 
 use crate::error::{Error, Result, try_filled};
+use crate::math::index::NO_INDEX;
 use crate::scene::mesh::Mesh;
 
 use super::curve;
 use super::report::Repairs;
-use crate::scene::twins::{NONE, next, twins};
+use crate::scene::half_edges::{next_half_edge, twin_half_edges};
 
 /// The triangles of a mesh, joined where its vertices coincide and all facing the same side.
 #[derive(Debug, Clone)]
@@ -268,23 +269,23 @@ impl Topology {
 
     /// Where one fan of triangles closes around a vertex.
     fn find_inside(&mut self) {
-        let twins = twins(&self.triangles);
+        let twins = twin_half_edges(&self.triangles);
         let mut count = vec![0u32; self.len()];
-        let mut leaving = vec![NONE; self.len()];
+        let mut leaving = vec![NO_INDEX; self.len()];
         for (side, corner) in (0..).zip(self.triangles.as_flattened()) {
             count[*corner as usize] += 1;
             leaving[*corner as usize] = side;
         }
         for vertex in 0..self.len() {
             let start = leaving[vertex];
-            if start == NONE {
+            if start == NO_INDEX {
                 continue;
             }
             let (mut side, mut steps) = (start, 0);
             loop {
-                side = twins[next(next(side)) as usize];
+                side = twins[next_half_edge(next_half_edge(side)) as usize];
                 steps += 1;
-                if side == start || side == NONE {
+                if side == start || side == NO_INDEX {
                     break;
                 }
             }

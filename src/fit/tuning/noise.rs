@@ -4,9 +4,7 @@ use super::merge::merge;
 use crate::error::Result;
 use crate::fit::input::Input;
 use crate::lattice::stencil::Quadratic;
-
-/// From the median of a normal distribution's absolute values to its standard deviation.
-const MEDIAN: f64 = 1.4826;
+use crate::math::statistics::{MAD_TO_SIGMA, median};
 
 /// The same of the smaller principal curvature, at a spacing of 1, for noise of standard deviation 1 that is
 /// independent from vertex to vertex.
@@ -131,7 +129,7 @@ fn ring_noise(input: &Input) -> Option<f64> {
     let found = median_of_rings(input, |_, [w, e, nw, ne, sw, se]| {
         (w - nw) + (ne - e) + (se - sw)
     })?;
-    Some(MEDIAN * found / 6f64.sqrt())
+    Some(MAD_TO_SIGMA * found / 6f64.sqrt())
 }
 
 /// The same by how far surfaces bend both ways: the smaller principal curvature. Of a developable surface it
@@ -164,9 +162,7 @@ fn median_of_rings(input: &Input, value: impl Fn(f64, [f64; 6]) -> f64) -> Optio
     if samples.len() < FEWEST {
         return None;
     }
-    let middle = samples.len() / 2;
-    let (_, median, _) = samples.select_nth_unstable_by(middle, f64::total_cmp);
-    Some(*median)
+    median(&mut samples)
 }
 
 /// Bridged vertices have less, as a share of the largest confidence.

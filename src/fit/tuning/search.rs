@@ -84,7 +84,7 @@ pub(crate) struct Known {
 
 impl Known {
     pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
-        let wanted = options.lambda == Lambda::Auto || options.energy == Energy::Huber;
+        let wanted = options.lambda == Lambda::Auto || options.energy_or_default() == Energy::Huber;
         Ok(Known {
             scale: options.normalization.factor(&input.field),
             noise: if wanted { Noise::of(input)? } else { None },
@@ -144,7 +144,7 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
     };
     let mut out = quiet.within(options).of(options);
     if loudness > LOUD {
-        out.crease_passes = 0;
+        out.crease_passes.get_or_insert(0);
     }
     out
 }
@@ -190,7 +190,9 @@ pub(crate) struct Search {
     /// Whether noise is predictable, so that λ must not be chosen by that, and bendings with care.
     dependent: bool,
     known: Known,
-    /// Those that were asked for, with the first λ.
+    /// The options that were asked for.
+    asked: Options,
+    /// The options of the solves that are compared, with the first λ.
     options: Options,
     bendings: Vec<Choice>,
     /// What has been tried, the best of it, and by how much that missed.
@@ -235,14 +237,13 @@ impl Search {
         for (bending, steps, hurdle) in BENDINGS {
             let steps: &[i32] = if dependent { &[0] } else { steps };
             let hurdle = if noise.merged > 0 { DOUBT } else { hurdle };
-            let bending = bending.within(asked);
-            let new = bendings.iter().all(|(other, ..)| *other != bending);
-            if new && (asked.energy == Energy::Huber || bendings.is_empty()) {
+            if asked.energy_or_default() == Energy::Huber || bendings.is_empty() {
                 bendings.push((bending, steps, hurdle));
             }
         }
         let now = (0, 0);
-        let options = rough(&of(first, &bendings, now));
+        let compared = compared(asked, first.lambda);
+        let options = of(&compared, &bendings, now);
         let solve = trial(&held_out[0], &options, known, None)?;
         Ok(Some(Search {
             held_out,
@@ -255,7 +256,8 @@ impl Search {
             },
             dependent,
             known,
-            options: *first,
+            asked: *asked,
+            options: compared,
             bendings,
             tried: Vec::new(),
             best: now,
@@ -306,7 +308,7 @@ impl Search {
     /// Begins with the next solve of the present candidate.
     fn begin(&mut self) -> Result<()> {
         let held_out = &self.held_out[self.solved];
-        let options = rough(&of(&self.options, &self.bendings, self.now));
+        let options = of(&self.options, &self.bendings, self.now);
         let memory = self.solve.memory(held_out.input.field.lattice());
         *self.solve = trial(held_out, &options, self.known, memory)?;
         Ok(())
@@ -365,7 +367,15 @@ impl Search {
         }
         choice.solves = self.tried.len();
         choice.iterations = self.iterations;
-        of(&self.options, &self.bendings, self.best)
+        let found = of(&self.options, &self.bendings, self.best);
+        Options {
+            lambda: found.lambda,
+            bend_radius: self.asked.bend_radius.or(found.bend_radius),
+            flatness: self.asked.flatness.or(found.flatness),
+            crease_radius: self.asked.crease_radius.or(found.crease_radius),
+            crease_passes: self.asked.crease_passes.or(found.crease_passes),
+            ..self.asked
+        }
     }
 }
 
@@ -396,12 +406,18 @@ fn trial(
     )
 }
 
-/// The options for a solve that is only to be compared with others.
-fn rough(options: &Options) -> Options {
-    let iterations = options.max_iterations.min(ITERATIONS);
-    // What a load does is less than such a gap.
-    let rough = options.border(Border::Free).max_iterations(iterations);
-    rough.gap(options.gap.max(GAP))
+/// The options of solves that are only compared with each other. Energy and coordinates are the ones that were
+/// asked for; no other option changes what λ is found. A load at the border changes less than their gap.
+fn compared(asked: &Options, first: Lambda) -> Options {
+    Options {
+        energy: asked.energy,
+        normalization: asked.normalization,
+        ..Options::default()
+    }
+    .lambda(first)
+    .border(Border::Free)
+    .max_iterations(ITERATIONS)
+    .gap(GAP)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
@@ -440,13 +456,10 @@ mod tests {
     fn candidates_are_guarded() {
         let first = Options::default().energy(Energy::Huber).lambda(1e4);
         let at = |step| of(&first, &BENDINGS, (1, step));
-        assert_eq!((at(0).flatness, at(0).crease_passes), (Some(0.3), 2));
-        assert_eq!((at(-1).flatness, at(-1).crease_passes), (Some(0.3), 2));
-        assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == 0);
+        assert_eq!((at(0).flatness, at(0).crease_passes), (Some(0.3), None));
+        assert_eq!((at(-1).flatness, at(-1).crease_passes), (Some(0.3), None));
+        assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == Some(0));
         assert_eq!(at(2).flatness, Some(1.0));
-        let asked = first.flatness(0.1);
-        let given = of(&asked, &[(BENDINGS[1].0.within(&asked), &[0], 0.0)], (0, 2));
-        assert_eq!(given.flatness, Some(0.1));
     }
 
     /// A lattice without a hole, four times as wide as what the search needs.
@@ -457,7 +470,7 @@ mod tests {
         let field = Heightfield::from_fn(lattice, |x, _| x.max(60.0 - x)).unwrap();
         let heights = field.heights().iter().map(|z| z + random.rand_float());
         let field = Heightfield::new(lattice, heights.collect()).unwrap();
-        let surface = fit(&field, &Options::default().lambda(Lambda::Auto)).unwrap();
+        let surface = fit(&field, &Options::default().energy(Energy::Nuclear)).unwrap();
         let choice = surface.report().lambda_choice.unwrap();
         // The first, one to each side at least; there is but one bending.
         assert!((3..=6).contains(&choice.solves), "{choice:?}");

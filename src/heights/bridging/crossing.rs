@@ -1,10 +1,12 @@
 //! Whether the surface goes on from one side of a hole to the other, and at which height.
 
-use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Vector2};
 
 use super::raster::Raster;
 use super::sites::{Site, Sites, surround};
 use crate::error::{Result, try_filled};
+use crate::math::least_squares::LeastSquares;
+use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
 
 /// By how many standard deviations the slope across a hole may differ from those beside it.
@@ -102,13 +104,13 @@ impl<'a> Crossings<'a> {
         let at = |cell: &usize| self.at(*cell, &mut scratch);
         let found: Vec<Option<Crossing>> = cells.iter().map(at).collect();
         let known = || found.iter().flatten();
+        let spreads = known().filter(|c| c.terms >= TYPICAL);
+        let mut spreads: Vec<f64> = spreads.map(|c| c.spread / c.terms).collect();
+        let strays = known().filter(|c| !c.sees);
+        let mut strays: Vec<f64> = strays.map(|c| c.stray).collect();
         let typical = Typical {
-            spread: median(
-                known()
-                    .filter(|c| c.terms >= TYPICAL)
-                    .map(|c| c.spread / c.terms),
-            ),
-            stray: median(known().filter(|c| !c.sees).map(|c| c.stray)),
+            spread: median(&mut spreads).unwrap_or(0.0),
+            stray: median(&mut strays).unwrap_or(0.0),
         };
         let mut torn = try_filled("bridged holes", self.raster.cells(), false)?;
         for (cell, crossing) in cells.iter().zip(&found) {
@@ -159,18 +161,17 @@ impl<'a> Crossings<'a> {
             shares,
         }: &mut Scratch,
     ) -> Option<Crossing> {
-        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        let mut plane = LeastSquares::<3>::new();
         let mut confidence = 0.0;
         // Heights above one of them: nothing is lost far from 0.
         let first = residuals[*found.first()?];
         for i in &*found {
             let row = sites[*i].place.push(1.0);
-            normal += row * row.transpose();
-            right += row * (residuals[*i] - first);
+            plane.add(&row, [residuals[*i] - first], 1.0);
             let at = cell.wrapping_add_signed(sites[*i].offset);
             confidence += self.confidence.get(at).copied().unwrap_or(1.0);
         }
-        let plane = normal.cholesky()?.solve(&right);
+        let plane = plane.solve()?;
         let mut strays = 0.0;
         for i in &*found {
             let residual = residuals[*i] - first - plane.dot(&sites[*i].place.push(1.0));
@@ -178,8 +179,7 @@ impl<'a> Crossings<'a> {
             strays += residual * residual;
         }
         // Slopes between neighbours, less the plane's.
-        let shift = Matrix2::identity() * SHIFT;
-        let (mut normal, mut right) = (shift, Vector2::zeros());
+        let mut gradient = LeastSquares::<2>::with_ridge([SHIFT; 2]);
         let (mut squares, mut terms) = (0.0, 0.0);
         shares.clear();
         shares.resize(sites.len(), Vector2::zeros());
@@ -188,8 +188,7 @@ impl<'a> Crossings<'a> {
                 let rise = residuals[*k] - residuals[*i];
                 if !rise.is_nan() {
                     let step = sites[*k].place - sites[*i].place;
-                    normal += step * step.transpose();
-                    right += step * rise;
+                    gradient.add(&step, [rise], 1.0);
                     shares[*k] += step;
                     shares[*i] -= step;
                     squares += rise * rise;
@@ -197,11 +196,12 @@ impl<'a> Crossings<'a> {
                 }
             }
         }
-        let variance = found
-            .iter()
-            .fold(shift, |sum, i| sum + shares[*i] * shares[*i].transpose());
+        let variance = found.iter().fold(Matrix2::identity() * SHIFT, |sum, i| {
+            sum + shares[*i] * shares[*i].transpose()
+        });
+        let (normal, right) = (&gradient.matrix, &gradient.right);
         let [_, least] = Sym2::new(normal.m11, normal.m12, normal.m22).eigenvalues();
-        let difference = normal.cholesky()?.solve(&right);
+        let difference = gradient.solve()?;
         let n = found.len() as f64;
         Some(Crossing {
             cell,
@@ -209,7 +209,7 @@ impl<'a> Crossings<'a> {
             confidence: confidence / n,
             distance: distance as f64,
             difference: difference.norm(),
-            evidence: right.dot(&variance.cholesky()?.solve(&right)),
+            evidence: right.dot(&variance.cholesky()?.solve(right)),
             spread: (squares - right.dot(&difference)).max(0.0),
             terms,
             // A pair along each of two directions has an eigenvalue of at least a half.
@@ -240,15 +240,5 @@ impl Crossing {
                 true => noise || bend,
                 false => self.stray <= STRAY * typical.stray + fold,
             }
-    }
-}
-
-/// 0 of nothing.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    let middle = values.len() / 2;
-    match values.is_empty() {
-        true => 0.0,
-        false => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
     }
 }

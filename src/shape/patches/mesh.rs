@@ -9,8 +9,8 @@ use super::{Crease, Patch, PatchOptions};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::fit::mesh::topology::Topology;
 use crate::scene::facets::Facets;
+use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
-use crate::scene::twins::ends;
 
 /// Label of triangles that belong to no patch.
 const NO_PATCH: u32 = super::NO_PATCH;
@@ -122,7 +122,7 @@ fn creases(facets: &Facets, labels: &[u32]) -> Vec<Crease> {
     let mut creases = Vec::new();
     for (patches, sides) in between {
         let edges: Vec<[u32; 2]> = (sides.iter())
-            .map(|side| ends(&facets.triangles, *side as u32))
+            .map(|side| half_edge_ends(&facets.triangles, *side as u32))
             .collect();
         for chain in chains(&edges, |_| false) {
             let (mut bent, mut length) = (0.0, 0.0);

@@ -8,8 +8,8 @@ use crate::fit::mesh::geometry::{Frame, normals};
 use crate::fit::mesh::linear::fit_at;
 use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
+use crate::scene::half_edges::twin_half_edges;
 use crate::scene::mesh::Mesh;
-use crate::scene::twins::twins;
 
 /// What bends by more from vertex to vertex, in radians, says nothing of what lies beside it.
 const CREASE: f64 = 0.2;
@@ -108,7 +108,7 @@ impl MeshRulings {
         let blank = try_filled("rulings", mesh.positions().len(), [f64::NAN; 3])?;
         let unknown = try_filled("rulings", mesh.positions().len(), f64::NAN)?;
         let mut rulings = MeshRulings {
-            twins: twins(&topology.triangles),
+            twins: twin_half_edges(&topology.triangles),
             trust: try_filled("rulings", count, f64::NAN)?,
             spacing: spacing(&topology, &places),
             squares,

@@ -6,7 +6,7 @@ use super::mesh::{MeshRulings, least, within};
 use super::taken::Taken;
 use super::trace::{Ruling, SHORTEST, TraceOptions};
 use crate::error::Result;
-use crate::scene::twins::NONE;
+use crate::math::index::NO_INDEX;
 
 type Place = Vector3<f64>;
 
@@ -93,7 +93,7 @@ impl MeshRulings {
             }
             course.push((place, normal));
             let twin = self.twins[3 * step.triangle + side];
-            if twin == NONE {
+            if twin == NO_INDEX {
                 break;
             }
             step = Step {

@@ -18,16 +18,22 @@ export async function temporaryFolder() {
 /**
  * @param {string} folder
  * @param {string[]} args
- * @param {{ onStart?: (child: import('node:child_process').ChildProcess) => void, program?: string[] }} [options]
+ * @param {object} [options]
+ * @param {(child: import('node:child_process').ChildProcess) => void} [options.onStart]
+ * @param {string[]} [options.program] what is started, in the place of Node with the command
+ * @param {Record<string, string>} [options.env] variables of the environment besides those of this process
+ * @param {boolean} [options.channel] whether the child can send messages
  * @returns {Promise<{ status: number | null, stdout: string, stderr: string }>}
  */
-export function run(folder, args, { onStart, program = [process.execPath, command] } = {}) {
+export function run(folder, args, { onStart, program = [process.execPath, command], env, channel = false } = {}) {
   return new Promise((resolve, reject) => {
     const [file, ...first] = program;
-    const child = spawn(file, [...first, ...args], { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'] });
+    /** @type {import('node:child_process').StdioOptions} */
+    const stdio = ['ignore', 'pipe', 'pipe', ...(channel ? [/** @type {const} */ ('ipc')] : [])];
+    const child = spawn(file, [...first, ...args], { cwd: folder, stdio, env: { ...process.env, ...env } });
     let [stdout, stderr] = ['', ''];
-    child.stdout.on('data', (chunk) => (stdout += chunk));
-    child.stderr.on('data', (chunk) => (stderr += chunk));
+    child.stdout?.on('data', (chunk) => (stdout += chunk));
+    child.stderr?.on('data', (chunk) => (stderr += chunk));
     child.on('error', reject);
     child.on('close', (status) => resolve({ status, stdout, stderr }));
     onStart?.(child);

@@ -129,16 +129,22 @@ impl Instance {
     }
 
     pub fn options(&self) -> Options {
-        Options::default()
+        let mut options = Options::default()
             .lambda(self.lambda)
             .energy(self.energy)
-            .flatness(self.huber[0])
-            .bend_radius(self.huber[1])
-            .crease_passes(0)
-            .tie_break(self.tie_break)
             .gap(self.gap)
             .max_iterations(200_000)
-            .normalization(Normalization::Off)
+            .normalization(Normalization::Off);
+        if self.energy == Energy::Huber {
+            let [flatness, bend_radius] = self.huber;
+            options = options.flatness(flatness).bend_radius(bend_radius);
+            options = options.crease_passes(0);
+        }
+        let is_free = |i: usize| self.confidence[i] == 0.0 && !self.constrained[i];
+        if (0..self.confidence.len()).any(is_free) {
+            options = options.tie_break(self.tie_break);
+        }
+        options
     }
 
     fn stencils(&self) -> Vec<Stencil> {

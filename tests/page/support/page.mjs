@@ -83,11 +83,12 @@ export function brokenStartTest(name, spoil, body) {
 }
 
 /**
+ * A test in a tab of its own, which shows nothing yet.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
  * @param {import('playwright-core').BrowserContextOptions} [options]
  */
-function inChromium(name, body, options = {}) {
+export function inChromium(name, body, options = {}) {
   test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
     context.setDefaultTimeout(PATIENCE);

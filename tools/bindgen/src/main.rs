@@ -37,9 +37,14 @@ fn main() -> ExitCode {
     }
 }
 
-/// Writes the module with its JavaScript and types.
+/// Writes the module with its JavaScript and types, as the command does by default.
 fn bind(module: &str, folder: &str, name: &str) -> Result<(), Box<dyn Error>> {
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(module).out_name(name).web(true)?;
+    bindgen
+        .input_path(module)
+        .out_name(name)
+        .web(true)?
+        .typescript(true)
+        .omit_default_module_path(false);
     Ok(bindgen.generate(folder)?)
 }

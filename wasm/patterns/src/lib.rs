@@ -39,7 +39,9 @@ impl Wanted {
             match name.as_str() {
                 "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
                 "smoothing" => drawing = drawing.smoothing(option("smoothing", value, NUMBER)?),
-                "paper" => stock = Some(paper(value)?),
+                "stock" => stock = Some(stock_option(value)?),
+                // 0 is none.
+                "marks" | "tabs" if value.as_f64() == Some(0.0) => {}
                 "marks" => drawing = drawing.marks(option("marks", value, NUMBER)?),
                 "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
                 "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
@@ -58,7 +60,7 @@ impl Wanted {
                 "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
                 _ if settings.take(&name, &value)? => {}
                 _ => {
-                    let known = "scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, paper, assembly, gap, maxStrain, refold, bend, fold, smallest, \
+                    let known = "scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, stock, assembly, gap, maxStrain, refold, bend, fold, smallest, \
                                  tolerance, maxIterations and spacing";
                     return Err(unknown(&name, known));
                 }
@@ -236,9 +238,9 @@ enum Named {
     Letter,
 }
 
-fn paper(value: JsValue) -> Result<Stock> {
+fn stock_option(value: JsValue) -> Result<Stock> {
     const SIZES: &str = "must be a4, letter, [width, height] of plates or [width] of a roll";
-    Ok(match option("paper", value, SIZES)? {
+    Ok(match option("stock", value, SIZES)? {
         Paper::Named(Named::A4) => Stock::A4,
         Paper::Named(Named::Letter) => Stock::Letter,
         Paper::Plate(sides) => Stock::Plate(sides),
@@ -258,8 +260,8 @@ pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> 
     let mut stock = None;
     for (name, value) in entries(&options)? {
         match name.as_str() {
-            "paper" => stock = Some(paper(value)?),
-            _ => return Err(unknown(&name, "paper")),
+            "stock" => stock = Some(stock_option(value)?),
+            _ => return Err(unknown(&name, "stock")),
         }
     }
     Ok(write_pdf(&drawn(drawing)?, stock)?.as_slice().into())

@@ -19,13 +19,18 @@ pub struct Settings {
 
 impl Settings {
     pub fn new(options: &JsValue) -> Result<Settings> {
-        let mut out = Options::default();
+        let entries = entries(options)?;
+        let mut out = match paper(&entries)? {
+            true => Options::paper(),
+            false => Options::default(),
+        };
         let mut scale = Normalization::default();
         let mut spacing = None;
         let mut occlusion_threshold = None;
         let mut bridge = Bridging::default();
-        for (name, value) in entries(options)? {
+        for (name, value) in entries {
             match name.as_str() {
+                "paper" => {}
                 "lambda" => out = out.lambda(lambda(value)?),
                 "schedule" => {
                     let name: String = option("schedule", value, "must be default or paper")?;
@@ -61,7 +66,7 @@ impl Settings {
                 _ => {
                     return Err(unknown(
                         &name,
-                        "lambda, schedule, gap, maxIterations, normalize, energy, reweighting, \
+                        "paper, lambda, schedule, gap, maxIterations, normalize, energy, reweighting, \
                          bendRadius, flatness, creaseRadius, creasePasses, tieBreak, spacing, occlusionThreshold and bridge",
                     ));
                 }
@@ -96,6 +101,14 @@ impl Settings {
             && self.occlusion_threshold == other.occlusion_threshold
             && self.bridging == other.bridging
             && (self.occlusion_threshold.is_none() || self.normalization == other.normalization)
+    }
+}
+
+/// Whether the options start from the paper's setting, which the others then change.
+fn paper(entries: &[(String, JsValue)]) -> Result<bool> {
+    match entries.iter().find(|(name, _)| name == "paper") {
+        Some((_, value)) => option("paper", value.clone(), "must be true or false"),
+        None => Ok(false),
     }
 }
 

@@ -84,7 +84,7 @@ fn main() -> Outcome<()> {
             if let Some((steps, truth)) = best {
                 add(scan, format!("smoothed, {steps} steps"), truth);
             }
-            let medium = Options::default().lambda(Lambda::Medium);
+            let medium = Options::paper();
             let fitted = fit(&scanned, &medium)?;
             add(scan, "fitted".into(), measured(fitted.heightfield())?);
             let reweighted = fit(&scanned, &medium.reweighting(1))?;
@@ -93,9 +93,7 @@ fn main() -> Outcome<()> {
                 "fitted, reweighted".into(),
                 measured(reweighted.heightfield())?,
             );
-            let scans = Options::default()
-                .energy(Energy::Huber)
-                .lambda(Lambda::Auto);
+            let scans = Options::default();
             let by_itself = fit(&scanned, &scans)?;
             add(
                 scan,

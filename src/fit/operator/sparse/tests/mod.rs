@@ -123,7 +123,7 @@ impl Both {
         let weight = |vertex| input.weight(vertex);
         let constrained = |vertex| input.is_constrained(vertex);
         sparse
-            .set_fidelity(weight, constrained, options.tie_break)
+            .set_fidelity(weight, constrained, options.tie_break_or_default())
             .unwrap();
         Both {
             domain,
@@ -188,7 +188,7 @@ fn assert_alike(both: &Both, lattice: &Level<impl Operator>, sparse: &Level<Spar
 }
 
 fn options(lambda: f64) -> Options {
-    Options::default()
+    Options::paper()
         .lambda(lambda)
         .gap(1e-5)
         .max_iterations(20_000)

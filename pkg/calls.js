@@ -1,0 +1,243 @@
+/**
+ * The calls that the worker answers: what each sends there, and which wasm files it takes. The client sends by this table, the
+ * service loads by it, and the promise API forwards by it; what a call does is in `direct.js`. A new call is one row here.
+ */
+import { asDepthOptions } from './depth-input.js';
+import { DevelopableError, messageOf } from './errors.js';
+import { isImage } from './formats.js';
+import { asBytes, asField, asHeights, asImage, asPixels, detached } from './input.js';
+import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
+import { optionsOf } from './options.js';
+import { asEdges, pageOptions, plainEdges } from './page-input.js';
+import { asPhoto, placedOptions, printOptions } from './sheet-input.js';
+import { asText, plainCopy, reading } from './values.js';
+import { transfer } from './wire.js';
+
+/**
+ * @typedef {import('./direct.js').PartName} PartName
+ * @typedef {keyof typeof import('./options.js').OPTIONS} OptionsName
+ * @typedef {any[]} Arguments of a call, as the caller or the client gives them
+ *
+ * @typedef {object} Call
+ * @property {(...given: Arguments) => Arguments | Promise<Arguments>} send checked copies of a caller's arguments, for the worker
+ * @property {readonly PartName[] | ((...sent: Arguments) => readonly PartName[])} parts wasm files that it takes besides the solver's
+ */
+
+/**
+ * A call about heights, and its options.
+ * @param {OptionsName} name of its options
+ * @param {readonly PartName[]} parts
+ * @returns {Call}
+ */
+const aboutHeights = (name, parts) => ({
+  parts,
+  send(input, given) {
+    const options = optionsOf(name, given);
+    return [handedOver(asField(input)), options];
+  },
+});
+
+/**
+ * A call about a whole mesh, and its options.
+ * @param {OptionsName} name of its options
+ * @param {readonly PartName[]} parts
+ * @returns {Call}
+ */
+const aboutMesh = (name, parts) => ({
+  parts,
+  send(mesh, given) {
+    const options = optionsOf(name, given);
+    return [wholeOf(mesh).shape, options];
+  },
+});
+
+/**
+ * A call that writes a file of one thing.
+ * @param {(input: any) => any} take checks and copies it
+ * @param {readonly PartName[]} parts
+ * @returns {Call}
+ */
+const writing = (take, parts) => ({ parts, send: (input) => [take(input)] });
+
+/** @param {unknown} drawing */
+const drawing = (drawing) => plainCopy('the drawing', drawing);
+
+/** @satisfies {Record<string, Call>} */
+export const CALLS = {
+  occlusions: aboutHeights('occlusions', []),
+  read: {
+    parts: (bytes, options) => [isImage(asBytes(bytes), options) ? 'images' : 'files'],
+    async send(bytes, given) {
+      const options = optionsOf('read', given);
+      return [await fileOf(bytes), options];
+    },
+  },
+  npzArrays: { parts: ['images'], send: async (bytes) => [await fileOf(bytes)] },
+  writeNpy: writing((input) => handedOver(asField(input)), ['files']),
+  writePng: writing((input) => handedOver(asPixels(input)), ['files']),
+  writeTiff: writing((input) => handedOver(asPixels(input)), ['images']),
+  writeExr: writing((input) => handedOver(asPixels(input)), ['images']),
+  writeObj: {
+    parts: ['files'],
+    send(input, given) {
+      const options = optionsOf('writeObj', given);
+      return [handedOver(asMeshOrLattice(input)), options];
+    },
+  },
+  writeMtl: writing((picture) => asText('INPUT', "the picture's name", picture), ['files']),
+  writePly: writing((input) => handedOver(asMeshOrLattice(input)), ['meshes']),
+  writeStl: writing((input) => handedOver(asMeshOrLattice(input)), ['meshes']),
+  writeGlb: {
+    parts: ['meshes'],
+    async send(input, given) {
+      const field = handedOver(asMeshOrLattice(input));
+      const { texture, ...options } = optionsOf('writeGlb', given);
+      return [field, { ...options, texture: texture === undefined || texture === null ? texture : await copyOfFile(texture) }];
+    },
+  },
+  writePhoto: {
+    parts: ['files'],
+    send(photo, given) {
+      const { transfer: handOver, ...options } = printOptions(photo, given);
+      return [sentPhoto(photo, handOver), options];
+    },
+  },
+  writeSvg: writing(drawing, ['patterns']),
+  writePdf: {
+    parts: ['patterns'],
+    send: (input, given) => [drawing(input), optionsOf('writePdf', given)],
+  },
+  writeDxf: writing(drawing, ['patterns']),
+  readMesh: {
+    parts: ['meshes'],
+    async send(bytes, given) {
+      const { files, ...options } = /** @type {import('./types.js').ReadMeshOptions} */ (optionsOf('readMesh', given));
+      const beside = new Map(asFiles(files));
+      return [await fileOf(bytes), { ...options, files: beside }];
+    },
+  },
+  readPhoto: { parts: (bytes) => forPictures([bytes]), send: async (bytes) => [await fileOf(bytes)] },
+  sampleMesh: {
+    parts: (mesh) => ['meshes', ...(mesh.textures ? forPictures(mesh.textures) : [])],
+    send(mesh, given) {
+      const options = optionsOf('sampleMesh', given);
+      return [asMesh(mesh), options];
+    },
+  },
+  backProject: {
+    parts: ['meshes'],
+    send(input, intrinsics, given) {
+      const known = asDepthOptions(given);
+      const camera = optionsOf('camera', intrinsics);
+      return [handedOver(asImage(input)), camera, known];
+    },
+  },
+  analyze: {
+    parts: ['unroll'],
+    send(input, given) {
+      const { reference, ...options } = /** @type {import('./types.js').AnalyzeOptions} */ (optionsOf('analyze', given));
+      const field = handedOver(asField(input));
+      return [field, { ...options, reference: reference === undefined ? undefined : asField(reference) }];
+    },
+  },
+  patches: aboutHeights('patches', ['unroll']),
+  picture: {
+    parts: ['unroll'],
+    send(input, given) {
+      const options = placedOptions('picture', input, given);
+      return [handedOver(asField(input)), options];
+    },
+  },
+  rulings: aboutHeights('rulings', ['unroll']),
+  fitCylinder: writing((input) => handedOver(asHeights(input)), []),
+  unroll: aboutHeights('unroll', ['unroll']),
+  pattern: aboutHeights('pattern', ['patterns']),
+  analyzeMesh: aboutMesh('analyzeMesh', ['fitmesh']),
+  meshRulings: aboutMesh('meshRulings', ['fitmesh']),
+  unrollMesh: aboutMesh('unrollMesh', ['patterns']),
+  patternMesh: aboutMesh('patternMesh', ['patterns']),
+  dewarp: {
+    parts: ['unroll'],
+    send(input, photo, given) {
+      const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (placedOptions('dewarp', input, given));
+      return [handedOver(asField(input)), sentPhoto(photo, handOver), options];
+    },
+  },
+  dewarpPage: {
+    parts: ['unroll'],
+    send(photo, edges, given) {
+      const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (pageOptions(photo, given));
+      const pages = plainEdges(asEdges(edges));
+      return [sentPhoto(photo, handOver), pages, options];
+    },
+  },
+  example: {
+    parts: [],
+    send(name, given) {
+      const options = optionsOf('example', given);
+      return [asText('OPTION', 'the name of the example', name), options];
+    },
+  },
+};
+
+/**
+ * The wasm files that it takes to read pictures, and to paint with them.
+ * @param {readonly import('./types.js').Picture[]} pictures
+ * @returns {PartName[]}
+ */
+export function forPictures(pictures) {
+  const others = pictures.some((picture) => {
+    const given = asPicture(picture);
+    return given instanceof Uint8Array && isImage(given);
+  });
+  return ['files', ...(others ? [/** @type {const} */ ('images')] : [])];
+}
+
+/**
+ * A copy of an input, whose buffers go to the worker.
+ * @template {import('./input.js').Image | import('./input.js').Lattice} T
+ * @param {T} input
+ */
+export function handedOver(input) {
+  const { field, buffers } = detached(/** @type {any} */ (input));
+  return transfer(field, buffers);
+}
+
+/**
+ * A photo on its way to the worker: itself, if it is to be handed over and that is possible, or a copy.
+ * @param {import('./types.js').Photo} photo
+ * @param {boolean} [handOver]
+ */
+function sentPhoto(photo, handOver = false) {
+  const { width, height, data } = asPhoto(photo);
+  const whole = data.buffer instanceof ArrayBuffer && data.byteLength === data.buffer.byteLength;
+  const own = handOver && whole ? data : new Uint8Array(data);
+  return transfer({ width, height, data: own }, [/** @type {ArrayBuffer} */ (own.buffer)]);
+}
+
+/** A copy of a file's bytes, whose buffer goes to the worker. @param {Uint8Array | ArrayBuffer | Blob} bytes */
+async function fileOf(bytes) {
+  const file = await copyOfFile(bytes);
+  return transfer(file, [file.buffer]);
+}
+
+/**
+ * A copy of a file's bytes.
+ * @param {Uint8Array | ArrayBuffer | Blob} bytes
+ */
+export async function copyOfFile(bytes) {
+  if (!isBlob(bytes)) return new Uint8Array(asBytes(bytes));
+  try {
+    return new Uint8Array(await bytes.arrayBuffer());
+  } catch (cause) {
+    throw new DevelopableError('INPUT', `the file could not be read: ${messageOf(cause)}`, { cause });
+  }
+}
+
+/**
+ * @param {unknown} value
+ * @returns {value is Blob}
+ */
+export function isBlob(value) {
+  return typeof Blob === 'function' && reading('INPUT', 'the file', () => value instanceof Blob);
+}

@@ -1,0 +1,68 @@
+//! Which sheet comes next.
+
+use std::collections::BTreeMap;
+
+use super::{Joint, Step};
+use crate::pattern::Sheet;
+
+/// A seam: its length and the sheets on either side.
+type Seams = BTreeMap<usize, Vec<(usize, f64)>>;
+
+pub(super) fn ordered(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
+    let mut seams: Seams = BTreeMap::new();
+    for (number, sheet) in sheets.iter().enumerate() {
+        for run in sheet.outlines.iter().flatten() {
+            if let Some(seam) = run.seam {
+                let pieces = run.points.windows(2);
+                let long = pieces
+                    .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+                    .sum();
+                seams.entry(seam.crease).or_default().push((number, long));
+            }
+        }
+    }
+    let mut there = vec![false; sheets.len()];
+    let mut steps = Vec::new();
+    for _ in 0..sheets.len() {
+        let joints = |sheet: usize| joints(&seams, letters, &there, sheet);
+        let reach = |sheet: usize| -> f64 {
+            let others = joints(sheet).into_iter().filter(|joint| joint.to != sheet);
+            others.map(|joint| joint.length).fold(0.0, |a, b| a + b)
+        };
+        // Of equals the first one: they come with the largest patches first.
+        let left = (0..sheets.len()).filter(|sheet| !there[*sheet]).rev();
+        let Some(sheet) = left.max_by(|a, b| reach(*a).total_cmp(&reach(*b))) else {
+            break;
+        };
+        let joints = joints(sheet);
+        there[sheet] = true;
+        steps.push(Step { sheet, joints });
+    }
+    steps
+}
+
+/// The seams of a sheet with those that are there and with itself, the longest first.
+fn joints(
+    seams: &Seams,
+    letters: &BTreeMap<usize, String>,
+    there: &[bool],
+    sheet: usize,
+) -> Vec<Joint> {
+    let mut out = Vec::new();
+    for (crease, sides) in seams {
+        let own: Vec<f64> = sides.iter().filter(|s| s.0 == sheet).map(|s| s.1).collect();
+        let other = sides.iter().find(|(other, _)| there[*other]);
+        let length: f64 = own.iter().sum();
+        let (to, length) = match (own.len(), other) {
+            (0, _) => continue,
+            (_, Some((other, _))) => (*other, length),
+            // Both sides are its own.
+            (2.., None) => (sheet, 0.5 * length),
+            _ => continue,
+        };
+        let name = letters.get(crease).cloned().unwrap_or_default();
+        out.push(Joint { name, to, length });
+    }
+    out.sort_by(|a, b| b.length.total_cmp(&a.length));
+    out
+}

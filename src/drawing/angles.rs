@@ -1,0 +1,124 @@
+//! Angles of the pieces around a point, against that of the surface around it.
+
+use crate::math::planar::polyline_length;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use super::curve::Curve;
+use super::draft::Lines;
+use super::{FLATNESS, place_at};
+use crate::pattern::{Meeting, Run, Sheet};
+use crate::unroll::pieces::Point;
+
+/// The point where the angles of the pieces differ most from that of the surface, in degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct WorstAngle {
+    /// Where it is on the surface, in its units.
+    pub place: [f64; 3],
+    /// One of the creases that are cut there, whose letter is on the drawing ([`Label`](super::Label)): the lowest one, if any.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub crease: Option<usize>,
+    /// What the angles of the pieces around it come to.
+    pub flat: f64,
+    /// The angle of the surface around it: 360° where that could be laid flat in one piece.
+    pub surface: f64,
+}
+
+impl WorstAngle {
+    pub(super) fn difference(&self) -> f64 {
+        (self.flat - self.surface).abs()
+    }
+}
+
+/// What the pieces around a point come to.
+struct Around {
+    meeting: Meeting,
+    /// Ends of cuts that were seen: each has two sides.
+    ends: usize,
+    angle: f64,
+    crease: Option<usize>,
+}
+
+/// All points where cuts or folds end inside of the surface, as far as they can be measured.
+pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<WorstAngle> {
+    let mut all: BTreeMap<usize, Around> = BTreeMap::new();
+    let mut add = |meeting: &Meeting, ends: usize, angle: f64, crease: Option<usize>| {
+        let around = all.entry(meeting.number).or_insert(Around {
+            meeting: *meeting,
+            ends: 0,
+            angle: 0.0,
+            crease: None,
+        });
+        around.ends += ends;
+        around.angle += angle;
+        around.crease = [around.crease, crease].into_iter().flatten().min();
+    };
+    for fold in sheets.iter().flat_map(|sheet| &sheet.folds) {
+        (fold.ends.iter().flatten()).for_each(|meeting| add(meeting, 0, 0.0, None));
+    }
+    for outline in lines.iter().flat_map(|own| &own.outlines) {
+        for (k, (run, _)) in outline.iter().enumerate() {
+            if is_within(run) {
+                continue;
+            }
+            let crease = run.seam.map(|seam| seam.crease);
+            let ends = run.ends.iter().flatten();
+            ends.for_each(|meeting| add(meeting, 1, 0.0, crease));
+            if let Some(meeting) = run.ends[1] {
+                add(&meeting, 0, corner(outline, k, &meeting, scale), None);
+            }
+        }
+    }
+    let compared = all.into_values().filter_map(|around| {
+        let Meeting {
+            cuts,
+            angle: surface,
+            ..
+        } = around.meeting;
+        // Some were cut off with a loop.
+        (around.ends == 2 * cuts).then(|| {
+            // Angles are known but for full turns: a slit that is hardly open has nearly one.
+            let turns = ((surface - around.angle) / TAU).round();
+            let flat = if cuts == 0 {
+                TAU
+            } else {
+                around.angle + turns * TAU
+            };
+            WorstAngle {
+                place: around.meeting.place,
+                crease: around.crease,
+                flat: flat.to_degrees(),
+                surface: surface.to_degrees(),
+            }
+        })
+    });
+    compared.collect()
+}
+
+/// Whether a run only joins two nodes of one point.
+fn is_within(run: &Run) -> bool {
+    match run.ends {
+        [Some(from), Some(to)] => {
+            from.number == to.number && polyline_length(&run.points) < from.reach
+        }
+        _ => false,
+    }
+}
+
+/// The angle of a sheet between the end of one of its runs and what goes on from there, at the distance at
+/// which that of the surface was measured.
+fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) -> f64 {
+    let count = outline.len();
+    let mut next = (1..=count).map(|i| (k + i) % count);
+    let next = next.find(|i| !is_within(outline[*i].0)).unwrap_or(k);
+    let reach = scale * meeting.reach;
+    let mut back = outline[k].1.points(FLATNESS);
+    back.reverse();
+    let [back, on] = [back, outline[next].1.points(FLATNESS)].map(|points| {
+        let [from, to] = [0.5, 1.0].map(|share| place_at(&points, share * reach).0);
+        Point::new(to[0] - from[0], to[1] - from[1])
+    });
+    (on.conj() * back).arg().rem_euclid(TAU)
+}

@@ -1,0 +1,332 @@
+//! Sheets of metal, which are bent with a radius and have a thickness: their flat length between two faces
+//! differs from what these have up to the crease.
+//!
+//! A bend by an angle θ takes the length of its neutral line, BA = θ (r + k t), with its inner radius r, the
+//! thickness t and the factor k that says how far within the sheet the neutral line lies. It begins
+//! at the setback S before the crease: r tan(θ/2) on the inside of the bend, (r + t) tan(θ/2) on its outside. The
+//! surface is the upper side of the sheet: outside at a mountain, inside at a valley. So what lies within S of
+//! the fold on either side is brought within BA/2 of it, and what is beyond follows.
+
+use super::DrawingOptions;
+use crate::error::{Error, Result, positive};
+use crate::math::planar::{nearest_on_segment, polyline_length};
+use crate::pattern::{Direction, Fold, Run, Sheet};
+use crate::unroll::pieces::Point;
+
+/// How far a fold may be from the straight line between its ends, in spacings, and its ends from the outline.
+const STRAIGHT: f64 = 0.5;
+const NEAR: f64 = 1.0;
+
+/// How metal is bent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Bending {
+    /// Of the sheet, in millimetres.
+    pub thickness: f64,
+    /// Inner radius of all bends, in millimetres. Default: the thickness.
+    pub radius: f64,
+    /// Where the neutral line is, from the inside of a bend, as a share of the thickness: from 0 to 1, mostly 0.33
+    /// to 0.5. Default 0.44.
+    pub k_factor: f64,
+}
+
+impl Bending {
+    /// Metal of a thickness in millimetres.
+    pub fn new(thickness: f64) -> Self {
+        Bending {
+            thickness,
+            radius: thickness,
+            k_factor: 0.44,
+        }
+    }
+
+    /// The same with another inner radius.
+    pub fn radius(self, radius: f64) -> Self {
+        Bending { radius, ..self }
+    }
+
+    /// The same with another K-factor.
+    pub fn k_factor(self, k_factor: f64) -> Self {
+        Bending { k_factor, ..self }
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        positive("thickness", self.thickness)?;
+        if !(self.radius >= 0.0 && self.radius.is_finite()) {
+            return Err(Error::option(
+                "innerRadius",
+                self.radius,
+                "must be 0 or more",
+            ));
+        }
+        match (0.0..=1.0).contains(&self.k_factor) {
+            true => Ok(()),
+            false => Err(Error::option(
+                "kFactor",
+                self.k_factor,
+                "must be from 0 to 1",
+            )),
+        }
+    }
+
+    /// How far before the crease a bend begins, and half of its length, in millimetres.
+    fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
+        let outside = match direction {
+            Direction::Mountain => self.thickness,
+            Direction::Valley => 0.0,
+        };
+        [
+            (self.radius + outside) * (0.5 * angle).tan(),
+            0.5 * angle * (self.radius + self.k_factor * self.thickness),
+        ]
+    }
+}
+
+/// A sheet with what its bends take, or an error for folds that are no straight lines from edge to edge.
+pub(super) fn bent(number: usize, sheet: &Sheet, options: &DrawingOptions) -> Result<Sheet> {
+    let mut out = sheet.clone();
+    let Some(bending) = options.bending else {
+        return Ok(out);
+    };
+    for k in 0..sheet.folds.len() {
+        let fold = out.folds[k].clone();
+        let zone = bending.zone(fold.seam.direction, fold.seam.angle);
+        let zone = zone.map(|millimetres| millimetres / options.scale);
+        let bend = Bend::new(&out, &fold, zone).map_err(|reason| Error::Unsupported {
+            format: "pattern",
+            reason: format!(
+                "fold {} of sheet {} {reason}; without a thickness it is drawn as it is",
+                k + 1,
+                number + 1
+            ),
+        })?;
+        out.area += polyline_length(&fold.points) * 2.0 * (zone[1] - zone[0]);
+        bend.apply(&mut out, k);
+    }
+    Ok(out)
+}
+
+/// A fold across a sheet.
+struct Bend {
+    /// Its ends; the outline that they are on, without its bend.
+    ends: [Point; 2],
+    outline: usize,
+    /// What that outline is on either side of it.
+    sides: [Vec<Corner>; 2],
+    setback: f64,
+    half: f64,
+}
+
+/// A point of an outline, and the run that the piece from it on belongs to.
+type Corner = (Point, usize);
+
+impl Bend {
+    fn new(
+        sheet: &Sheet,
+        fold: &Fold,
+        [setback, half]: [f64; 2],
+    ) -> std::result::Result<Bend, &'static str> {
+        let points: Vec<Point> = fold.points.iter().map(point).collect();
+        let ends = [points[0], points[points.len() - 1]];
+        let near = |p: Point, line: [Point; 2]| {
+            let [x, y] = nearest_on_segment([p.re, p.im], line.map(|p| [p.re, p.im]));
+            Point::new(x, y)
+        };
+        let off = |p: &Point| (p - near(*p, ends)).norm();
+        if !points.iter().all(|p| off(p) <= STRAIGHT * sheet.spacing) {
+            return Err("is curved, and a bend allowance needs straight ones");
+        }
+        if fold.ends.iter().flatten().next().is_some() {
+            return Err(
+                "ends inside of the surface, and a bend allowance needs folds from edge to edge",
+            );
+        }
+        // The nearest piece of an outline to each end.
+        let nearest = |end: Point| {
+            let outlines = sheet.outlines.iter().enumerate();
+            let pieces = outlines.flat_map(|(number, outline)| {
+                let line = ring(outline);
+                let n = line.len();
+                (0..n).map(move |k| (number, k, near(end, [line[k].0, line[(k + 1) % n].0])))
+            });
+            pieces.min_by(|a, b| (a.2 - end).norm().total_cmp(&(b.2 - end).norm()))
+        };
+        let (Some(from), Some(to)) = (nearest(ends[0]), nearest(ends[1])) else {
+            return Err("is on no outline");
+        };
+        let far =
+            |(_, _, p): (usize, usize, Point), end: Point| (p - end).norm() > NEAR * sheet.spacing;
+        if from.0 != to.0 || far(from, ends[0]) || far(to, ends[1]) {
+            return Err(
+                "does not part its sheet in two, and a bend allowance needs folds from edge to edge",
+            );
+        }
+        let line = ring(&sheet.outlines[from.0]);
+        let ends = [from.2, to.2];
+        // From one end of the fold along the outline to the other.
+        let arc = |(_, start, first): (usize, usize, Point),
+                   (_, stop, last): (usize, usize, Point)| {
+            let n = line.len();
+            let count = (stop + n - start) % n;
+            let mut arc = vec![(first, line[start].1)];
+            arc.extend((1..=count).map(|k| line[(start + k) % n]));
+            arc.push((last, line[stop].1));
+            arc
+        };
+        let bend = Bend {
+            ends,
+            outline: from.0,
+            sides: [arc(from, to), arc(to, from)],
+            setback,
+            half,
+        };
+        match [0, 1].iter().all(|side| bend.is_wide(*side)) {
+            true => Ok(bend),
+            false => Err("is nearer to an edge along it than its bend begins"),
+        }
+    }
+
+    /// From the fold towards one of its sides.
+    fn normal(&self, side: usize) -> Point {
+        // The sheet lies to the left of its outline, so that which begins at the fold's first end is to its right.
+        let along = (self.ends[1] - self.ends[0]) / (self.ends[1] - self.ends[0]).norm();
+        along * Point::new(0.0, if side == 0 { -1.0 } else { 1.0 })
+    }
+
+    fn away(&self, side: usize, place: Point) -> f64 {
+        (self.normal(side).conj() * (place - self.ends[0])).re
+    }
+
+    /// Whether a part of a side's outline is beyond the bend.
+    fn is_wide(&self, side: usize) -> bool {
+        let away = |corner: &Corner| self.away(side, corner.0);
+        self.sides[side].iter().map(away).fold(0.0, f64::max) > self.setback
+    }
+
+    /// A place beside the fold after it was bent.
+    fn moved(&self, side: usize, place: Point, is_beside: bool) -> Point {
+        let away = self.away(side, place);
+        let by = match is_beside && away < self.setback && self.setback > 0.0 {
+            true => away.max(0.0) * (self.half / self.setback - 1.0),
+            false => self.half - self.setback,
+        };
+        place + self.normal(side) * by
+    }
+
+    /// Moves all of a sheet but the fold itself.
+    fn apply(&self, sheet: &mut Sheet, own: usize) {
+        let arcs = [0, 1].map(|side| self.arc(side));
+        let area =
+            |side: usize| -> Vec<Point> { self.sides[side].iter().map(|(p, _)| *p).collect() };
+        let areas = [0, 1].map(area);
+        let side = |place: Point| match is_inside(&areas[0], place) {
+            true => 0,
+            false => 1,
+        };
+        let along = self.ends[1] - self.ends[0];
+        let to = |at: &[f64; 2], side: usize| {
+            let place = point(at);
+            let share = (along.conj() * (place - self.ends[0])).re / along.norm_sqr();
+            let moved = self.moved(side, place, (0.0..=1.0).contains(&share));
+            [moved.re, moved.im]
+        };
+        for (number, outline) in sheet.outlines.iter_mut().enumerate() {
+            if number == self.outline {
+                rebuild(outline, &arcs.concat());
+                continue;
+            }
+            // A hole is beside it as a whole.
+            let side = side(point(&outline[0].points[0]));
+            for place in outline.iter_mut().flat_map(|run| &mut run.points) {
+                *place = to(place, side);
+            }
+        }
+        for (k, fold) in sheet.folds.iter_mut().enumerate() {
+            if k != own {
+                let side = side(point(&middle(&fold.points)));
+                fold.points
+                    .iter_mut()
+                    .for_each(|place| *place = to(place, side));
+            } else {
+                fold.points = self.ends.map(|p| [p.re, p.im]).to_vec();
+            }
+        }
+        for spot in &mut sheet.spots {
+            spot.place = to(&spot.place, side(point(&spot.place)));
+        }
+    }
+
+    /// A side's outline after it was bent. Only what goes on from the fold's ends is within the bend.
+    fn arc(&self, side: usize) -> Vec<Corner> {
+        let corners = &self.sides[side];
+        let beyond = |(place, _): &Corner| self.away(side, *place) >= self.setback;
+        let first = corners.iter().position(beyond).unwrap_or(0);
+        let last = corners.iter().rposition(beyond).unwrap_or(0);
+        let mut out = Vec::new();
+        for (k, (place, run)) in corners.iter().enumerate() {
+            let is_beside = k < first || k > last;
+            if k > 0 && (k == first || k == last + 1) {
+                let (before, _) = corners[k - 1];
+                let [from, to] = [before, *place].map(|p| self.away(side, p));
+                let share = (self.setback - from) / (to - from);
+                if share > 0.0 && share < 1.0 {
+                    let edge = before + (place - before) * share;
+                    out.push((self.moved(side, edge, false), corners[k - 1].1));
+                }
+            }
+            out.push((self.moved(side, *place, is_beside), *run));
+        }
+        out
+    }
+}
+
+fn point(place: &[f64; 2]) -> Point {
+    Point::new(place[0], place[1])
+}
+
+fn middle(points: &[[f64; 2]]) -> [f64; 2] {
+    let (a, b) = (points[points.len() / 2], points[(points.len() - 1) / 2]);
+    [0, 1].map(|k| 0.5 * (a[k] + b[k]))
+}
+
+fn ring(outline: &[Run]) -> Vec<Corner> {
+    let runs = outline.iter().enumerate();
+    let corners = runs.flat_map(|(number, run)| {
+        let own = &run.points[..run.points.len() - 1];
+        own.iter().map(move |place| (point(place), number))
+    });
+    corners.collect()
+}
+
+/// Puts the corners of an outline into its runs again.
+fn rebuild(outline: &mut [Run], corners: &[Corner]) {
+    let n = corners.len();
+    // From where its first run begins, unless that is all of it.
+    let start = (0..n).find(|k| corners[*k].1 == 0 && corners[(*k + n - 1) % n].1 != 0);
+    let start = start.unwrap_or(0);
+    for run in outline.iter_mut() {
+        run.points.clear();
+    }
+    for k in 0..n {
+        let (place, run) = corners[(start + k) % n];
+        let place = [place.re, place.im];
+        if outline[run].points.last() != Some(&place) {
+            outline[run].points.push(place);
+        }
+    }
+    let firsts: Vec<[f64; 2]> = outline.iter().map(|run| run.points[0]).collect();
+    let count = outline.len();
+    for (k, run) in outline.iter_mut().enumerate() {
+        run.points.push(firsts[(k + 1) % count]);
+    }
+}
+
+/// Whether a closed line goes around a place.
+fn is_inside(line: &[Point], place: Point) -> bool {
+    let next = line.iter().cycle().skip(1);
+    let crossed = line.iter().zip(next).filter(|(p, q)| {
+        let spans = (p.im > place.im) != (q.im > place.im);
+        spans && place.re < p.re + (place.im - p.im) / (q.im - p.im) * (q.re - p.re)
+    });
+    crossed.count() % 2 == 1
+}

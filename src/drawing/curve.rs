@@ -1,0 +1,282 @@
+//! Lines made of cubic Bézier curves.
+
+use crate::math::planar::distance;
+
+/// Straight pieces and cubic Bézier curves that follow each other, as control points: 4 of them, 7, 10 and
+/// so on. A closed line ends where it begins. The control points of a straight piece lie at its thirds.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(transparent)
+)]
+pub struct Curve(Vec<[f64; 2]>);
+
+/// A piece of a [`Curve`], with its ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Piece {
+    /// A straight one.
+    Line([[f64; 2]; 2]),
+    /// A cubic Bézier curve.
+    Bezier([[f64; 2]; 4]),
+}
+
+impl Curve {
+    /// A line through points, straight from one to the next.
+    pub fn through(points: &[[f64; 2]]) -> Self {
+        let mut curve = Curve(points.iter().take(1).copied().collect());
+        for point in points.iter().skip(1) {
+            curve.line_to(*point);
+        }
+        curve
+    }
+
+    /// A curve by its control points.
+    pub(super) fn of(controls: Vec<[f64; 2]>) -> Self {
+        Curve(controls)
+    }
+
+    /// The control points.
+    pub fn controls(&self) -> &[[f64; 2]] {
+        &self.0
+    }
+
+    /// Whether the number of control points is one that a curve has.
+    #[cfg(feature = "patterns")]
+    pub(super) fn is_whole(&self) -> bool {
+        self.0.len() % 3 == 1
+    }
+
+    /// Its pieces, one after the other.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
+        let starts = (0..self.0.len().saturating_sub(1)).step_by(3);
+        starts.filter_map(|i| Some(Piece::of(self.0.get(i..i + 4)?.try_into().ok()?)))
+    }
+
+    pub(super) fn line_to(&mut self, to: [f64; 2]) {
+        if let Some(from) = self.0.last().copied() {
+            let at = |t: f64| [0, 1].map(|k| from[k] + t * (to[k] - from[k]));
+            self.0.extend([at(1.0 / 3.0), at(2.0 / 3.0)]);
+        }
+        self.0.push(to);
+    }
+
+    /// Goes on with another curve, which begins where this one ends.
+    pub(super) fn append(&mut self, next: &Curve) {
+        let from = usize::from(!self.0.is_empty());
+        self.0.extend(next.0.iter().skip(from));
+    }
+
+    pub(super) fn mapped(&self, f: impl Fn([f64; 2]) -> [f64; 2]) -> Curve {
+        Curve(self.0.iter().map(|p| f(*p)).collect())
+    }
+
+    /// Points on it, the first and the last among them, so that straight lines between them are as near to it as
+    /// the tolerance.
+    pub fn points(&self, tolerance: f64) -> Vec<[f64; 2]> {
+        let mut points: Vec<[f64; 2]> = self.0.iter().take(1).copied().collect();
+        for piece in self.pieces() {
+            let steps = piece.steps(tolerance);
+            points.extend((1..steps).map(|i| piece.at(i as f64 / steps as f64)));
+            points.push(piece.at(1.0));
+        }
+        points
+    }
+
+    /// Its length.
+    pub(super) fn length(&self) -> f64 {
+        self.pieces().map(|piece| piece.length()).sum()
+    }
+
+    /// Its control points, each with the share of the length that lies before it; the inner ones of a piece are
+    /// at its thirds.
+    pub(super) fn placed(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
+        let whole = self.length().max(f64::MIN_POSITIVE);
+        let mut before = 0.0;
+        let mut shares = vec![0.0];
+        for piece in self.pieces() {
+            let long = piece.length();
+            shares.extend([1.0, 2.0, 3.0].map(|third| (before + third / 3.0 * long) / whole));
+            before += long;
+        }
+        self.0.iter().copied().zip(shares)
+    }
+
+    /// The parts of it between places, which are shares of its length, ascending.
+    pub(super) fn split(&self, shares: &[f64]) -> Vec<Curve> {
+        let pieces: Vec<Piece> = self.pieces().collect();
+        let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();
+        let whole: f64 = lengths.iter().sum();
+        let mut out = Vec::new();
+        let mut current = Curve(self.0[..1].to_vec());
+        let mut wanted = shares.iter().map(|share| share * whole).peekable();
+        let mut gone = 0.0;
+        for (piece, length) in pieces.iter().zip(&lengths) {
+            let mut rest = *piece;
+            let mut left = *length;
+            while let Some(at) = wanted.next_if(|at| *at < gone + left) {
+                let (before, after) = rest.cut(rest.parameter((at - gone).max(0.0)));
+                current.push(&before);
+                let end = current.0.last().copied();
+                out.push(std::mem::replace(
+                    &mut current,
+                    Curve(end.into_iter().collect()),
+                ));
+                (rest, left, gone) = (after, gone + left - at, at);
+            }
+            current.push(&rest);
+            gone += left;
+        }
+        out.push(current);
+        out
+    }
+
+    fn push(&mut self, piece: &Piece) {
+        match piece {
+            Piece::Line([_, to]) => self.line_to(*to),
+            Piece::Bezier([_, a, b, to]) => self.0.extend([*a, *b, *to]),
+        }
+    }
+}
+
+/// How many straight lines the length of a piece is measured by.
+const MEASURE: usize = 32;
+
+impl Piece {
+    fn of(controls: [[f64; 2]; 4]) -> Self {
+        let [from, a, b, to] = controls;
+        let long = distance(from, to);
+        let off = |point: [f64; 2], t: f64| {
+            distance(point, [0, 1].map(|k| from[k] + t * (to[k] - from[k])))
+        };
+        match off(a, 1.0 / 3.0).max(off(b, 2.0 / 3.0)) <= 1e-9 * long {
+            true => Piece::Line([from, to]),
+            false => Piece::Bezier(controls),
+        }
+    }
+
+    /// The place at a parameter from 0 to 1.
+    pub fn at(&self, t: f64) -> [f64; 2] {
+        let s = 1.0 - t;
+        match self {
+            Piece::Line([from, to]) => [0, 1].map(|k| s * from[k] + t * to[k]),
+            Piece::Bezier([a, b, c, d]) => [0, 1]
+                .map(|k| s * s * (s * a[k] + 3.0 * t * b[k]) + t * t * (3.0 * s * c[k] + t * d[k])),
+        }
+    }
+
+    /// How many straight lines are as near to it as a tolerance.
+    fn steps(&self, tolerance: f64) -> usize {
+        let Piece::Bezier([a, b, c, d]) = self else {
+            return 1;
+        };
+        let bend = |p: &[f64; 2], q: &[f64; 2], r: &[f64; 2]| {
+            (p[0] - 2.0 * q[0] + r[0]).hypot(p[1] - 2.0 * q[1] + r[1])
+        };
+        // A chord over a step h is off by h²/8 of the second derivative at most.
+        let second = 6.0 * bend(a, b, c).max(bend(b, c, d));
+        let steps = (second / (8.0 * tolerance)).sqrt().ceil();
+        steps.clamp(1.0, 1000.0) as usize
+    }
+
+    fn length(&self) -> f64 {
+        match self {
+            Piece::Line([from, to]) => distance(*from, *to),
+            Piece::Bezier(_) => self.lengths().last().copied().unwrap_or(0.0),
+        }
+    }
+
+    /// The length up to each of so many equal steps of the parameter.
+    fn lengths(&self) -> Vec<f64> {
+        let mut sum = 0.0;
+        let mut last = self.at(0.0);
+        let step = |i: usize| {
+            let place = self.at(i as f64 / MEASURE as f64);
+            sum += distance(last, place);
+            last = place;
+            sum
+        };
+        (1..=MEASURE).map(step).collect()
+    }
+
+    /// The parameter at which it has a length.
+    fn parameter(&self, length: f64) -> f64 {
+        let lengths = self.lengths();
+        let i = lengths.partition_point(|sum| *sum < length);
+        let before = if i == 0 { 0.0 } else { lengths[i - 1] };
+        let step = lengths.get(i).map_or(0.0, |after| after - before);
+        let share = if step > 0.0 {
+            (length - before) / step
+        } else {
+            0.0
+        };
+        ((i as f64 + share) / MEASURE as f64).clamp(0.0, 1.0)
+    }
+
+    /// Its two parts at a parameter (de Casteljau).
+    fn cut(&self, t: f64) -> (Piece, Piece) {
+        let mix = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (1.0 - t) * p[k] + t * q[k]);
+        match *self {
+            Piece::Line([from, to]) => {
+                let middle = mix(from, to);
+                (Piece::Line([from, middle]), Piece::Line([middle, to]))
+            }
+            Piece::Bezier([a, b, c, d]) => {
+                let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
+                let (abc, bcd) = (mix(ab, bc), mix(bc, cd));
+                let middle = mix(abc, bcd);
+                (
+                    Piece::Bezier([a, ab, abc, middle]),
+                    Piece::Bezier([middle, bcd, cd, d]),
+                )
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::planar::polyline_length;
+
+    /// A quarter of a circle of radius 10, to a few thousandths.
+    fn quarter() -> Curve {
+        let k = 10.0 * 0.5522847498;
+        Curve(vec![[10.0, 0.0], [10.0, k], [k, 10.0], [0.0, 10.0]])
+    }
+
+    #[test]
+    fn points_are_as_near_as_they_are_told() {
+        let fine = quarter().points(1e-3);
+        assert!((polyline_length(&fine) - 5.0 * std::f64::consts::PI).abs() < 5e-3);
+        for p in fine.windows(2) {
+            let middle = [0, 1].map(|k| 0.5 * (p[0][k] + p[1][k]));
+            assert!(10.0 - middle[0].hypot(middle[1]) < 1e-3);
+        }
+        assert!(quarter().points(1.0).len() < 5);
+    }
+
+    #[test]
+    fn parts_have_their_share_of_the_length() {
+        let mut curve = quarter();
+        curve.line_to([-20.0, 10.0]);
+        let whole = polyline_length(&curve.points(1e-4));
+        let parts = curve.split(&[0.25, 0.5, 0.9]);
+        assert_eq!(parts.len(), 4);
+        let mut joined = Curve(Vec::new());
+        for (part, share) in parts.iter().zip([0.25, 0.25, 0.4, 0.1]) {
+            assert!((polyline_length(&part.points(1e-4)) / whole - share).abs() < 1e-3);
+            joined.append(part);
+        }
+        assert_eq!(joined.0.first(), curve.0.first());
+        assert_eq!(joined.0.last(), curve.0.last());
+        assert!((polyline_length(&joined.points(1e-4)) - whole).abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_is_straight_is_known_as_such() {
+        let line = Curve::through(&[[0.0, 0.0], [3.0, 1.0], [5.0, -2.0]]);
+        assert!(line.pieces().all(|piece| matches!(piece, Piece::Line(_))));
+        assert!(matches!(quarter().pieces().next(), Some(Piece::Bezier(_))));
+    }
+}

@@ -1,0 +1,192 @@
+//! Sheets in millimetres, with tabs and labels, before they have a place.
+
+use std::collections::BTreeMap;
+
+use super::curve::Curve;
+use super::joints::evened;
+use super::label::Label;
+use super::leader::led;
+use super::offset::outwards;
+use super::pack::Place;
+use super::smooth::smoothed;
+use super::tabs::{Tab, tabbed};
+use super::{DrawingOptions, DrawnSheet, FLATNESS, Line};
+use crate::error::{Error, Result};
+use crate::pattern::{Run, Sheet};
+
+/// Letters for the creases that are cut, in their order.
+pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
+    let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
+    let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
+    creases.sort_unstable();
+    creases.dedup();
+    let name = |mut n: usize| {
+        let mut name = String::new();
+        loop {
+            name.insert(0, char::from(b'a' + (n % 26) as u8));
+            match n / 26 {
+                0 => return name,
+                more => n = more - 1,
+            }
+        }
+    };
+    let names = creases.into_iter().enumerate();
+    names.map(|(n, crease)| (crease, name(n))).collect()
+}
+
+/// What is the same for all sheets: letters of seams, and how many marks each has.
+pub(super) struct Named {
+    pub letters: BTreeMap<usize, String>,
+    pub marks: BTreeMap<usize, usize>,
+}
+
+/// The lines of a sheet, smooth and in millimetres.
+pub(super) struct Lines<'a> {
+    pub outlines: Vec<Vec<(&'a Run, Curve)>>,
+    pub folds: Vec<Line>,
+}
+
+impl<'a> Lines<'a> {
+    /// Those of all sheets, both sides of joints equally long.
+    pub(super) fn all(sheets: &'a [Sheet], options: &DrawingOptions) -> Vec<Lines<'a>> {
+        let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
+        // Where metal is bent, what lies across a fold is drawn as much shorter as it grows there.
+        if options.bending.is_none() {
+            evened(sheets, &mut lines, options);
+        }
+        lines
+    }
+
+    fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
+        let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
+        let smooth = smoothed(sheet, options.smoothing);
+        let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {
+            outline.iter().zip(curves.iter().map(scaled)).collect()
+        };
+        let folds = sheet.folds.iter().zip(&smooth.folds);
+        Lines {
+            outlines: sheet
+                .outlines
+                .iter()
+                .zip(&smooth.outlines)
+                .map(runs)
+                .collect(),
+            folds: folds
+                .map(|(fold, curve)| Line::new(fold.seam, scaled(curve)))
+                .collect(),
+        }
+    }
+}
+
+impl DrawnSheet {
+    pub(super) fn new(
+        number: usize,
+        sheet: &Sheet,
+        lines: &Lines<'_>,
+        options: &DrawingOptions,
+        Named { letters, marks }: &Named,
+    ) -> Result<Self> {
+        let scale = options.scale;
+        let (plain, flaps) = tabbed(&lines.outlines, options.tabs);
+        let out = options.allowance + 0.5 * options.kerf;
+        let name = format!("Sheet {}", number + 1);
+        let curves = match out > 0.0 {
+            true => outwards(&plain, out).ok_or_else(|| Error::Unsupported {
+                format: "pattern",
+                reason: format!(
+                    "the outline of {name} would cross itself {out} mm further out; choose a smaller kerf and allowance"
+                ),
+            })?,
+            false => plain.clone(),
+        };
+        let walls: Vec<[[f64; 2]; 2]> = (curves.iter())
+            .flat_map(|curve| {
+                let points = curve.points(FLATNESS);
+                let pairs: Vec<_> = points.windows(2).map(|p| [p[0], p[1]]).collect();
+                pairs
+            })
+            .collect();
+        let (mut labels, mut leaders): (Vec<Label>, Vec<Curve>) = Default::default();
+        for spot in &sheet.spots {
+            let (place, room) = (spot.place.map(|v| scale * v), scale * spot.room);
+            let label = Label::patch(spot.patch, place, room);
+            let outside = match Label::is_cramped(room) {
+                true => led(&label, &walls, &labels),
+                false => None,
+            };
+            leaders.extend(outside.iter().map(|(_, line)| line.clone()));
+            labels.push(outside.map_or(label, |(label, _)| label));
+        }
+        for (run, curve) in lines.outlines.iter().flatten() {
+            if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
+                labels.push(Label::seam(letter, &curve.points(FLATNESS)));
+            }
+        }
+        labels.extend(lines.folds.iter().map(Label::fold));
+        labels.extend((flaps.iter()).filter_map(|tab: &Tab| {
+            let letter = letters.get(&tab.seam.crease)?;
+            Some(Label::tab(letter, tab))
+        }));
+        let sheet = DrawnSheet {
+            name,
+            patches: sheet.patches.clone(),
+            bounds: [[0.0; 2]; 2],
+            cuts: Vec::new(),
+            curves,
+            folds: lines.folds.clone(),
+            tabs: (flaps.into_iter())
+                .map(|tab| Line::new(tab.seam, tab.base))
+                .collect(),
+            edges: if options.allowance > 0.0 {
+                plain
+            } else {
+                Vec::new()
+            },
+            marks: (lines.outlines.iter().flatten())
+                .flat_map(|(run, curve)| super::marks::marks(run, curve, marks))
+                .collect(),
+            leaders,
+            labels,
+        };
+        Ok(sheet.moved(&Place::NONE))
+    }
+
+    /// This sheet at a place.
+    pub(super) fn moved(mut self, place: &Place) -> Self {
+        for line in self.folds.iter_mut().chain(&mut self.tabs) {
+            line.curve = line.curve.mapped(|p| place.of(p));
+            line.points = line.curve.points(FLATNESS);
+        }
+        let others = [&mut self.edges, &mut self.marks, &mut self.leaders];
+        for curve in self.curves.iter_mut().chain(others.into_iter().flatten()) {
+            *curve = curve.mapped(|p| place.of(p));
+        }
+        let ring = |curve: &Curve| {
+            let mut points = curve.points(FLATNESS);
+            // The last point is joined to the first.
+            points.pop();
+            points
+        };
+        self.cuts = self.curves.iter().map(ring).collect();
+        for label in &mut self.labels {
+            label.place = place.of(label.place);
+            label.turn_by(place.degrees());
+        }
+        self.bounds = bounds(self.cuts.iter().flatten());
+        // Its name stays above it.
+        self.labels.retain(|label| !label.is_sheet());
+        self.labels.push(Label::sheet(&self.name, self.bounds));
+        self
+    }
+}
+
+/// The lower left and upper right corner of a box around points.
+pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
+    let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    points.fold(empty, |[low, high], p| {
+        [
+            [0, 1].map(|k| low[k].min(p[k])),
+            [0, 1].map(|k| high[k].max(p[k])),
+        ]
+    })
+}

@@ -1,0 +1,63 @@
+//! Numbers beside a sheet, with a line to the patch that has no room for its own.
+
+use super::curve::Curve;
+use super::label::Label;
+use crate::math::planar::{distance, nearest_on_segment};
+
+/// Directions that are looked in.
+const DIRECTIONS: u32 = 24;
+
+/// How far beyond the edge the line and the middle of the number are, in millimetres.
+const LINE: f64 = 3.0;
+const TEXT: f64 = 6.0;
+
+/// Puts a label beside the sheet, where its line leaves that soonest and meets nothing else; nothing where there is
+/// no such place.
+pub(super) fn led(
+    label: &Label,
+    walls: &[[[f64; 2]; 2]],
+    others: &[Label],
+) -> Option<(Label, Curve)> {
+    let from = label.place;
+    let ways = (0..DIRECTIONS).filter_map(|k| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
+        let at = |d: f64| [from[0] + d * cos, from[1] + d * sin];
+        let mut hits: Vec<f64> = walls
+            .iter()
+            .filter_map(|w| hit(from, [cos, sin], *w))
+            .collect();
+        hits.sort_by(f64::total_cmp);
+        let edge = *hits.first()?;
+        // An odd number of edges is passed on the way out, and the next one is far.
+        let next = hits.get(1).is_none_or(|next| *next > edge + 2.0 * TEXT);
+        let place = at(edge + TEXT);
+        let free = walls.iter().all(|[p, q]| {
+            let middle = [0, 1].map(|k| 0.5 * (p[k] + q[k]));
+            distance(middle, place) > TEXT.min(4.0) + 0.5 * distance(*p, *q)
+                || from_wall(place, [*p, *q]) > 3.0
+        });
+        let apart = others
+            .iter()
+            .all(|other| distance(other.place, place) > 5.0);
+        (next && free && apart).then(|| (edge, place, at(edge + LINE)))
+    });
+    let (_, place, end) = ways.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((label.clone().outside(place), Curve::through(&[from, end])))
+}
+
+/// How far along a ray it meets a straight line.
+fn hit(from: [f64; 2], [x, y]: [f64; 2], [p, q]: [[f64; 2]; 2]) -> Option<f64> {
+    let side = |r: [f64; 2]| x * (r[1] - from[1]) - y * (r[0] - from[0]);
+    let (a, b) = (side(p), side(q));
+    if (a > 0.0) == (b > 0.0) {
+        return None;
+    }
+    let t = a / (a - b);
+    let place = [0, 1].map(|k| p[k] + t * (q[k] - p[k]));
+    let along = x * (place[0] - from[0]) + y * (place[1] - from[1]);
+    (along > 0.0).then_some(along)
+}
+
+fn from_wall(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
+    distance(point, nearest_on_segment(point, [from, to]))
+}

@@ -1,0 +1,51 @@
+//! Marks along both sides of seams, which lie on each other when these are joined.
+
+use crate::math::planar::polyline_length;
+use std::collections::BTreeMap;
+
+use super::draft::Lines;
+use super::{Curve, FLATNESS, place_at};
+use crate::pattern::Run;
+
+/// Length of a mark, in millimetres.
+const LONG: f64 = 3.0;
+
+/// How many marks each seam has, by its crease: none where one of its sides is not a single line.
+pub(super) fn counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
+    let mut sides: BTreeMap<usize, Vec<(Option<u32>, f64)>> = BTreeMap::new();
+    for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
+        if let Some(seam) = run.seam {
+            let side = (run.patch, polyline_length(&curve.points(FLATNESS)));
+            sides.entry(seam.crease).or_default().push(side);
+        }
+    }
+    let count = |sides: &Vec<(Option<u32>, f64)>| match sides[..] {
+        [(one, a), (other, b)] if one != other => {
+            ((0.5 * (a + b) / distance).round() as usize).saturating_sub(1)
+        }
+        _ => 0,
+    };
+    sides
+        .iter()
+        .map(|(crease, own)| (*crease, count(own)))
+        .collect()
+}
+
+/// The marks of one side of a seam, inwards from the line, at equal shares of its length: the same on the other
+/// side, which runs the other way.
+pub(super) fn marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usize>) -> Vec<Curve> {
+    let count = run
+        .seam
+        .and_then(|seam| counts.get(&seam.crease))
+        .copied()
+        .unwrap_or(0);
+    let points = curve.points(FLATNESS);
+    let whole = polyline_length(&points);
+    (1..=count)
+        .map(|i| {
+            let (place, [x, y]) = place_at(&points, whole * i as f64 / (count + 1) as f64);
+            // The sheet is to the left.
+            Curve::through(&[place, [place[0] - LONG * y, place[1] + LONG * x]])
+        })
+        .collect()
+}

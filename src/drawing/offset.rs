@@ -1,0 +1,168 @@
+//! Outlines moved outwards, for what a beam burns away and for hems.
+
+use super::curve::Curve;
+use super::smooth::smooth;
+use crate::math::planar::polygon_area;
+use crate::pattern::without_loops;
+use crate::unroll::overlap::crossings;
+use crate::unroll::pieces::Point;
+
+/// How near to the moved line its curves are, in millimetres, and the finest thing that they follow.
+const TOLERANCE: f64 = 0.02;
+const FINE: f64 = 1.0;
+
+/// How near to curves the points are that are moved.
+const NEAR: f64 = 0.005;
+
+/// A line that turns by less at a point, in radians, is a bend there; by more, a corner.
+const BEND: f64 = 0.3;
+
+/// A corner reaches no further than so many times the distance.
+const SPIKE: f64 = 2.0;
+
+/// Loops that moved lines make are cut off up to this size, in distances: as long as slits may be.
+const LOOP: f64 = 8.0;
+
+/// The closed lines around a sheet, moved outwards by a distance. Where they run into themselves, as in a slit that
+/// is narrower, they are joined. Nothing where they would still cross.
+pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
+    let mut moved = Vec::new();
+    for curve in curves {
+        let mut ring: Vec<Point> = (curve.points(NEAR).into_iter())
+            .map(|[x, y]| Point::new(x, y))
+            .collect();
+        // Without its last point, which is the first, and what is as good as one point.
+        ring.dedup_by(|p, q| (*p - *q).norm() < 1e-6);
+        if ring.len() > 1 && (ring[0] - ring[ring.len() - 1]).norm() < 1e-6 {
+            ring.pop();
+        }
+        if ring.len() < 3 {
+            continue;
+        }
+        let raw = beside(&ring, distance);
+        let closed: Vec<Point> = raw.iter().chain(raw.first()).copied().collect();
+        let (runs, _) = without_loops(vec![(None, closed)], LOOP * distance.max(FINE));
+        let clean: Vec<Point> = (runs.into_iter())
+            .flat_map(|(_, mut points)| {
+                points.pop();
+                points
+            })
+            .collect();
+        // A hole that is narrower is none any more.
+        if polygon_area(&clean) * polygon_area(&ring) > 0.0 {
+            moved.push(clean);
+        }
+    }
+    if crosses(&moved) {
+        return None;
+    }
+    let curve = |ring: Vec<Point>| {
+        let closed = ring.iter().chain(ring.first());
+        smooth(
+            &closed.map(|p| [p.re, p.im]).collect::<Vec<_>>(),
+            TOLERANCE,
+            FINE,
+        )
+    };
+    Some(moved.into_iter().map(curve).collect())
+}
+
+/// A closed line moved to its right, corner by corner.
+fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
+    let n = ring.len();
+    let mut out = Vec::with_capacity(n);
+    for i in 0..n {
+        let (before, here, after) = (ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+        let [u, v] = [here - before, after - here].map(|p| p / p.norm());
+        let turn = (u.conj() * v).arg();
+        let [p, q] = [u, v].map(|along| here + along * Point::new(0.0, -distance));
+        // Where both sides meet, seen from the corner.
+        let half = (0.5 * turn).cos();
+        let tip = (u + v) / (u + v).norm() * Point::new(0.0, -distance / half);
+        if turn.abs() < BEND || (turn > 0.0 && 1.0 <= SPIKE * half) {
+            out.push(here + tip);
+        } else {
+            out.extend([p, q]);
+        }
+    }
+    out
+}
+
+fn crosses(rings: &[Vec<Point>]) -> bool {
+    let mut edges: Vec<[u32; 2]> = Vec::new();
+    for ring in rings {
+        let (first, n) = (edges.len() as u32, ring.len() as u32);
+        edges.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
+    }
+    !crossings(&rings.concat(), &edges).is_empty()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::planar::polyline_length;
+
+    fn bounds(curve: &Curve) -> [[f64; 2]; 2] {
+        super::super::draft::bounds(curve.points(0.01).iter())
+    }
+
+    #[test]
+    fn a_square_grows_and_its_hole_shrinks() {
+        let square = |s: f64, side: f64| {
+            let line = [
+                [s, s],
+                [s + side, s],
+                [s + side, s + side],
+                [s, s + side],
+                [s, s],
+            ];
+            Curve::through(&line)
+        };
+        let hole: Vec<[f64; 2]> = square(10.0, 20.0).points(1.0).into_iter().rev().collect();
+        let small: Vec<[f64; 2]> = square(33.0, 3.0).points(1.0).into_iter().rev().collect();
+        let all = [
+            square(0.0, 40.0),
+            Curve::through(&hole),
+            Curve::through(&small),
+        ];
+        let found = outwards(&all, 2.0).unwrap();
+        // The smallest hole has been filled.
+        assert_eq!(found.len(), 2);
+        for (curve, [low, high]) in found.iter().zip([[-2.0, 42.0], [12.0, 28.0]]) {
+            let [from, to] = bounds(curve);
+            for k in 0..2 {
+                assert!(
+                    (from[k] - low).abs() < 0.01 && (to[k] - high).abs() < 0.01,
+                    "{from:?} {to:?}"
+                );
+            }
+            assert!((polyline_length(&curve.points(0.01)) - 4.0 * (high - low)).abs() < 0.1);
+        }
+    }
+
+    #[test]
+    fn a_slit_that_is_narrower_closes() {
+        // A square with a slit from the right to its middle, one wide.
+        let line = [
+            [0.0, 0.0],
+            [40.0, 0.0],
+            [40.0, 20.0],
+            [20.0, 20.5],
+            [40.0, 21.0],
+            [40.0, 40.0],
+            [0.0, 40.0],
+            [0.0, 0.0],
+        ];
+        let found = outwards(&[Curve::through(&line)], 2.0).unwrap();
+        assert_eq!(found.len(), 1);
+        let around = polyline_length(&found[0].points(0.01));
+        assert!((around - 4.0 * 44.0).abs() < 2.0, "{around}");
+        // A beam's width leaves most of it.
+        let found = outwards(&[Curve::through(&line)], 0.1).unwrap();
+        let around = polyline_length(&found[0].points(0.01));
+        assert!(
+            (around - (4.0 * 40.2 + 2.0 * 16.0 - 1.0)).abs() < 4.0,
+            "{around}"
+        );
+    }
+}

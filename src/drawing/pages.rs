@@ -1,0 +1,371 @@
+//! A drawing on the sheets of paper or of a material that it is made from.
+
+use super::nest::{Shape, nested};
+use super::pack::{Place, packed};
+use super::{Drawing, DrawnSheet, MAX_SIZE};
+use crate::error::{Error, Result, positive};
+
+/// Most pages that a drawing takes.
+pub const MAX_PAGES: usize = 400;
+
+/// What a printer leaves blank on each side at most, and how far neighbouring pages overlap, in millimetres.
+const BLANK: f64 = 10.0;
+const OVERLAP: f64 = 10.0;
+
+/// Room along the edges of a plate or a roll.
+const EDGE: f64 = 5.0;
+
+/// Room between pages as they are drawn beside each other.
+const BETWEEN: f64 = 20.0;
+
+/// What a pattern is made from: sizes in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Stock {
+    /// Paper of 210 × 297 mm, of whose edges a printer leaves ten millimetres blank.
+    A4,
+    /// Paper of 8½ × 11 inches likewise.
+    Letter,
+    /// Plates or sheets of a width and a height.
+    Plate([f64; 2]),
+    /// A roll of a width.
+    Roll(f64),
+}
+
+impl Stock {
+    /// Its sides, the shorter one first for paper; a roll is as long as it takes.
+    fn size(self, sheets: &[DrawnSheet]) -> Result<[f64; 2]> {
+        let side = |name, value| match positive(name, value)? <= MAX_SIZE {
+            true => Ok(()),
+            false => Err(Error::option(name, value, "must be 50000 at most")),
+        };
+        match self {
+            Stock::A4 => Ok([210.0, 297.0]),
+            Stock::Letter => Ok([215.9, 279.4]),
+            Stock::Plate([width, height]) => {
+                side("stock", width)?;
+                side("stock", height)?;
+                Ok([width, height])
+            }
+            Stock::Roll(width) => {
+                side("stock", width)?;
+                let long = |sheet: &DrawnSheet| {
+                    let [low, high] = sheet.bounds;
+                    (high[0] - low[0]).hypot(high[1] - low[1]) + 2.0 * EDGE
+                };
+                Ok([width, sheets.iter().map(long).sum::<f64>() + 2.0 * EDGE])
+            }
+        }
+    }
+
+    /// Whether what is too large may be put together from several pages.
+    fn is_paper(self) -> bool {
+        matches!(self, Stock::A4 | Stock::Letter)
+    }
+
+    fn blank(self) -> f64 {
+        if self.is_paper() { BLANK } else { EDGE }
+    }
+}
+
+/// One page: a part of the drawing.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Page {
+    /// A number where it has whole sheets. Of pages that are to be put together the column's letter and the
+    /// row's number, from the upper left: `A1`.
+    pub name: String,
+    /// Lower left corner of the part, in the drawing's millimetres.
+    pub corner: [f64; 2],
+}
+
+/// The pages of a drawing, all of one size.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Pages {
+    /// Width and height of the paper.
+    pub paper: [f64; 2],
+    /// Where the drawing's part begins on the paper, from its left and lower edge.
+    pub blank: f64,
+    /// Width and height of the part on each page.
+    pub part: [f64; 2],
+    /// The pages.
+    pub pages: Vec<Page>,
+    /// Places of the drawing that lie in the middle of where pages overlap, and at their corners:
+    /// with a mark at each, on every page that shows it, the pages can be laid on each other.
+    pub marks: Vec<[f64; 2]>,
+}
+
+impl Drawing {
+    /// The same sheets laid out on pages, as few as were found to do: each whole on one page, turned if it fits
+    /// better so, and sheets of paper that are too large for one over several, to be put together.
+    ///
+    /// Sheets are nested by their outlines, not as boxes: the largest first, each on the first page that has room,
+    /// three millimetres apart at least.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for more than [`MAX_PAGES`] pages, and for a sheet that does not fit on a plate
+    /// or a roll; [`Error::Option`] for sizes that are not positive and finite.
+    pub fn onto(self, stock: Stock) -> Result<Drawing> {
+        let Arranged {
+            places,
+            pages,
+            size,
+        } = arranged(&self.sheets, stock)?;
+        if pages.pages.len() > MAX_PAGES {
+            return Err(Error::Unsupported {
+                format: "pattern",
+                reason: format!(
+                    "it takes {} pages of this size, more than the limit of {MAX_PAGES}; \
+                     choose a smaller scale, larger paper or one large page",
+                    pages.pages.len()
+                ),
+            });
+        }
+        Ok(Drawing {
+            width: size[0],
+            height: size[1],
+            sheets: (self.sheets.into_iter().zip(&places))
+                .map(|(sheet, place)| sheet.moved(place))
+                .collect(),
+            pages: Some(pages),
+            summary: self.summary,
+        })
+    }
+}
+
+/// How many pages of paper sheets take.
+pub(super) fn count(sheets: &[DrawnSheet], stock: Stock) -> usize {
+    arranged(sheets, stock).map_or(0, |found| found.pages.pages.len())
+}
+
+/// Where sheets go, the pages, and the size of it all.
+struct Arranged {
+    places: Vec<Place>,
+    pages: Pages,
+    size: [f64; 2],
+}
+
+fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
+    let paper = stock.size(sheets)?;
+    let blank = stock.blank();
+    let mut part = paper.map(|side| side - 2.0 * blank);
+    if let Some(side) = paper.iter().find(|side| **side <= 2.0 * blank) {
+        return Err(Error::option(
+            "stock",
+            *side,
+            "must be larger than the ten millimetres that stay free along its edges",
+        ));
+    }
+    let shapes: Vec<Shape> = sheets.iter().map(Shape::new).collect();
+    let mut found = nested(&shapes, part);
+    let large: Vec<usize> = (0..sheets.len()).filter(|i| found[*i].is_none()).collect();
+    if let (Some(first), false) = (large.first(), stock.is_paper()) {
+        return Err(no_room(&sheets[*first], &shapes[*first], part));
+    }
+    let mut places = vec![Place::NONE; sheets.len()];
+    let mut pages = Pages {
+        paper,
+        blank,
+        part,
+        pages: Vec::new(),
+        marks: Vec::new(),
+    };
+    let mut size = [0.0; 2];
+    if !large.is_empty() {
+        let (own, whole) = spread(&shapes, &large, &mut pages);
+        for (i, place) in large.iter().zip(own) {
+            places[*i] = place;
+        }
+        size = whole;
+        if pages.part != part {
+            // All pages lie the same way, and a shape that fits on one does so either way.
+            part = pages.part;
+            found = nested(&shapes, part);
+        }
+    }
+    // Whole sheets, on pages in rows beside the others.
+    let count = found
+        .iter()
+        .flatten()
+        .map(|n| n.page + 1)
+        .max()
+        .unwrap_or(0);
+    if let Stock::Roll(_) = stock {
+        let ends = found
+            .iter()
+            .flatten()
+            .zip(&shapes)
+            .map(|(nested, shape)| nested.top(shape));
+        part[1] = ends.fold(0.0, f64::max);
+        pages.part = part;
+        pages.paper[1] = part[1] + 2.0 * blank;
+    }
+    let columns = (count as f64).sqrt().ceil().max(1.0) as usize;
+    let step = pages.paper.map(|side| side + BETWEEN);
+    let left = if size[0] > 0.0 {
+        size[0] + BETWEEN
+    } else {
+        0.0
+    };
+    if count > 0 {
+        let rows = count.div_ceil(columns);
+        size = [
+            left + columns as f64 * step[0] - BETWEEN,
+            size[1].max(rows as f64 * step[1] - BETWEEN),
+        ];
+    }
+    let corner = |page: usize| {
+        let (column, row) = (page % columns, page / columns);
+        [
+            left + column as f64 * step[0] + blank,
+            size[1] - row as f64 * step[1] - pages.paper[1] + blank,
+        ]
+    };
+    for (place, nested) in places.iter_mut().zip(&found) {
+        if let Some(nested) = nested {
+            *place = nested.place.shifted(corner(nested.page));
+        }
+    }
+    let whole: Vec<Page> = (0..count)
+        .map(|page| Page {
+            name: (page + 1).to_string(),
+            corner: corner(page),
+        })
+        .collect();
+    pages.pages.extend(whole);
+    Ok(Arranged {
+        places,
+        pages,
+        size,
+    })
+}
+
+/// Lays large shapes beside each other and pages over them; how these are laid, and how large it is.
+fn spread(shapes: &[Shape], large: &[usize], pages: &mut Pages) -> (Vec<Place>, [f64; 2]) {
+    let least: Vec<Place> = large
+        .iter()
+        .map(|i| Place::around(&shapes[*i].lines))
+        .collect();
+    let (places, whole) = packed(&least);
+    let boxes: Vec<[[f64; 2]; 2]> = (large.iter().zip(&places))
+        .map(|(i, place)| shapes[*i].bounds(place))
+        .collect();
+    let [width, height] = pages.part;
+    let upright = Grid::new(whole, [width, height]);
+    let aside = Grid::new(whole, [height, width]);
+    let grid = match aside.pages(&boxes).count() < upright.pages(&boxes).count() {
+        true => aside,
+        false => upright,
+    };
+    pages.part = grid.part;
+    pages.paper = grid.part.map(|side| side + 2.0 * pages.blank);
+    // The edges of the outermost pages are those of the drawing.
+    let shift = grid.corner.map(|v| pages.blank - v);
+    let moved = |p: [f64; 2]| [p[0] + shift[0], p[1] + shift[1]];
+    pages
+        .pages
+        .extend(grid.pages(&boxes).map(|(column, row)| Page {
+            corner: moved(grid.page_corner(column, row)),
+            ..grid.page(column, row)
+        }));
+    pages.marks.extend(grid.marks().into_iter().map(moved));
+    let size = grid.size().map(|side| side + 2.0 * pages.blank);
+    (
+        places.iter().map(|place| place.shifted(shift)).collect(),
+        size,
+    )
+}
+
+fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
+    let [low, high] = shape.bounds(&Place::around(&shape.lines));
+    let [w, h] = [0, 1].map(|k| high[k] - low[k]);
+    Error::Unsupported {
+        format: "pattern",
+        reason: format!(
+            "{} takes {w:.0} × {h:.0} mm, and there is room for {:.0} × {:.0}; choose a smaller scale or a larger \
+             plate, or cut the surface into smaller sheets",
+            sheet.name, part[0], part[1]
+        ),
+    }
+}
+
+/// How far pages reach that overlap.
+fn covered(count: usize, side: f64) -> f64 {
+    count as f64 * (side - OVERLAP) + OVERLAP
+}
+
+/// All pages there could be over a place of a size, which is in their middle.
+struct Grid {
+    columns: usize,
+    rows: usize,
+    part: [f64; 2],
+    corner: [f64; 2],
+}
+
+impl Grid {
+    fn new(sides: [f64; 2], part: [f64; 2]) -> Self {
+        let [columns, rows] = [0, 1].map(|k| {
+            let steps = (sides[k] - OVERLAP) / (part[k] - OVERLAP);
+            (steps - 1e-9).ceil().max(1.0) as usize
+        });
+        let corner =
+            [(0, columns), (1, rows)].map(|(k, count)| 0.5 * (sides[k] - covered(count, part[k])));
+        Grid {
+            columns,
+            rows,
+            part,
+            corner,
+        }
+    }
+
+    fn size(&self) -> [f64; 2] {
+        [(0, self.columns), (1, self.rows)].map(|(k, count)| covered(count, self.part[k]))
+    }
+
+    /// Column and row, from the upper left, of each page that shows a part of a box.
+    fn pages(&self, boxes: &[[[f64; 2]; 2]]) -> impl Iterator<Item = (usize, usize)> {
+        let all = (0..self.rows).flat_map(|row| (0..self.columns).map(move |column| (column, row)));
+        all.filter(|(column, row)| {
+            let low = self.page_corner(*column, *row);
+            boxes.iter().any(|[min, max]| {
+                [0, 1]
+                    .iter()
+                    .all(|k| min[*k] < low[*k] + self.part[*k] && low[*k] < max[*k])
+            })
+        })
+    }
+
+    fn page_corner(&self, column: usize, row: usize) -> [f64; 2] {
+        let place = [column, self.rows - 1 - row];
+        [0, 1].map(|k| self.corner[k] + place[k] as f64 * (self.part[k] - OVERLAP))
+    }
+
+    fn page(&self, column: usize, row: usize) -> Page {
+        let mut letters = String::new();
+        let mut n = column;
+        loop {
+            letters.insert(0, char::from(b'A' + (n % 26) as u8));
+            match n / 26 {
+                0 => break,
+                more => n = more - 1,
+            }
+        }
+        Page {
+            name: format!("{letters}{}", row + 1),
+            corner: self.page_corner(column, row),
+        }
+    }
+
+    fn marks(&self) -> Vec<[f64; 2]> {
+        let along = |k: usize, count: usize| {
+            (0..=count)
+                .map(move |i| self.corner[k] + 0.5 * OVERLAP + i as f64 * (self.part[k] - OVERLAP))
+        };
+        along(1, self.rows)
+            .flat_map(|y| along(0, self.columns).map(move |x| [x, y]))
+            .collect()
+    }
+}

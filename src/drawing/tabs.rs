@@ -1,0 +1,150 @@
+//! Tabs to glue along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
+
+use super::FLATNESS;
+use super::curve::Curve;
+use crate::math::planar::{distance, polyline_length, segments_intersect};
+use crate::pattern::{Run, Seam};
+
+/// A tab and what it is folded along.
+pub(super) struct Tab {
+    pub seam: Seam,
+    /// Along the crease, as the outline runs.
+    pub base: Curve,
+    pub depth: f64,
+    pub middle: [f64; 2],
+}
+
+/// The base of a tab turns by no more, in radians.
+const BEND: f64 = 0.3;
+
+/// A line that turns by more at a point has a corner there.
+const CORNER: f64 = 0.3;
+
+/// Tabs are no shorter than this, in millimetres.
+const SHORTEST: f64 = 2.0;
+
+/// The ends of a tab are cut at 45°, but by no more than this share of its base.
+const INSET: f64 = 0.3;
+
+/// A tab is at most so many times as deep as its base is long.
+const SLENDER: f64 = 1.5;
+
+/// How often a tab that does not fit is made half as deep.
+const HALVINGS: usize = 2;
+
+/// An outline's runs, and the course of each in millimetres.
+type Outline<'a> = Vec<(&'a Run, Curve)>;
+
+/// The lines to cut, with tabs where there is room for them, and these.
+pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
+    let mut tabs = Vec::new();
+    // Of the two sides of a crease that of the patch with the lower number has the tabs. Those of a step are not
+    // glued to each other.
+    let tabbed = |run: &Run| {
+        let first = |seam: &Seam| run.patch == Some(seam.patches[0]) && !seam.torn;
+        let own = run.seam.filter(first);
+        depth.zip(own)
+    };
+    let parts = |(run, curve): &(&Run, Curve)| match tabbed(run) {
+        Some(_) => bases(curve),
+        None => vec![curve.clone()],
+    };
+    let pieces: Vec<Vec<Vec<Curve>>> = (outlines.iter())
+        .map(|outline| outline.iter().map(parts).collect())
+        .collect();
+    // What tabs must not touch: all outlines, and the tabs there are.
+    let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
+    if depth.is_some() {
+        for piece in pieces.iter().flatten().flatten() {
+            walls.extend(piece.points(FLATNESS).windows(2).map(|p| [p[0], p[1]]));
+        }
+    }
+    let mut cuts = Vec::new();
+    for (outline, pieces) in outlines.iter().zip(pieces) {
+        let mut cut = Curve::of(Vec::new());
+        for ((run, curve), bases) in outline.iter().zip(pieces) {
+            let Some((depth, seam)) = tabbed(run) else {
+                cut.append(curve);
+                continue;
+            };
+            for base in bases {
+                let points = base.points(FLATNESS);
+                let tab =
+                    (0..=HALVINGS).find_map(|k| flap(&points, depth / f64::from(1 << k), &walls));
+                let Some((depth, flap)) = tab else {
+                    cut.append(&base);
+                    continue;
+                };
+                let line = [points[0], flap[0], flap[1], points[points.len() - 1]];
+                walls.extend(line.windows(2).map(|p| [p[0], p[1]]));
+                tabs.push(Tab {
+                    seam,
+                    base,
+                    depth,
+                    middle: [0, 1].map(|k| line.iter().map(|c| c[k]).sum::<f64>() / 4.0),
+                });
+                cut.append(&Curve::through(&line));
+            }
+        }
+        cuts.push(cut);
+    }
+    (cuts, tabs)
+}
+
+/// A line in pieces that turn by little each, of no less than the shortest length where they are to be had.
+fn bases(curve: &Curve) -> Vec<Curve> {
+    let points = curve.points(FLATNESS);
+    let heading = |i: usize| {
+        let [x, y] = [0, 1].map(|k| points[i + 1][k] - points[i][k]);
+        y.atan2(x)
+    };
+    let whole = polyline_length(&points);
+    let mut ends = vec![0.0];
+    let (mut gone, mut turned) = (0.0, 0.0);
+    for i in 1..points.len() - 1 {
+        gone += distance(points[i - 1], points[i]);
+        let turn = heading(i) - heading(i - 1);
+        let turn = turn.sin().atan2(turn.cos());
+        turned += turn;
+        let room = gone - ends[ends.len() - 1] >= SHORTEST && whole - gone >= SHORTEST;
+        if turn.abs() > CORNER || (turned.abs() > BEND && room) {
+            ends.push(gone);
+            turned = 0.0;
+        }
+    }
+    let shares: Vec<f64> = ends[1..].iter().map(|end| end / whole).collect();
+    curve.split(&shares)
+}
+
+/// The outer corners of a tab to the right of its base, if the base is long enough and nothing is in the way.
+fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, [[f64; 2]; 2])> {
+    let (from, to) = (base[0], base[base.len() - 1]);
+    let long = distance(from, to);
+    if long * SLENDER < depth || long == 0.0 {
+        return None;
+    }
+    let inset = depth.min(INSET * long);
+    let along = [0, 1].map(|k| (to[k] - from[k]) / long);
+    let beside = |s: f64| {
+        [
+            from[0] + along[0] * s + along[1] * depth,
+            from[1] + along[1] * s - along[0] * depth,
+        ]
+    };
+    let corners = [beside(inset), beside(long - inset)];
+    let line = [from, corners[0], corners[1], to];
+    let free = line.windows(2).all(|p| {
+        let piece = [p[0], p[1]];
+        walls.iter().all(|wall| !crosses(piece, *wall))
+    });
+    free.then_some((depth, corners))
+}
+
+/// Whether two lines cross or touch elsewhere than at common ends.
+fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    let same = |p: [f64; 2], q: [f64; 2]| distance(p, q) < 1e-6;
+    if [a, b].iter().any(|p| same(*p, c) || same(*p, d)) {
+        return false;
+    }
+    segments_intersect([a, b], [c, d])
+}

@@ -1,0 +1,188 @@
+//! What a drawing comes to.
+
+use crate::math::planar::{distance, polyline_length};
+use std::collections::BTreeMap;
+
+use super::DrawnSheet;
+use super::angles::{WorstAngle, angles};
+use super::draft::Lines;
+use crate::pattern::{Direction, Missing, Sheet};
+
+/// Shorter joints are not compared, in sides of a square as large as all sheets.
+const LEAST: f64 = 0.1;
+
+/// What a drawing comes to, lengths in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub struct Totals {
+    /// Number of sheets.
+    pub sheets: usize,
+    /// Creases that are cut, at least in part.
+    pub seams: usize,
+    /// Cuts through what was one patch, because it cannot be laid flat in one piece.
+    pub slits: usize,
+    /// Length of the creases that are cut, as far as they are, each counted once.
+    pub seam_length: f64,
+    /// Length of the slits likewise.
+    pub slit_length: f64,
+    /// The most that both sides of one of these differ in length, as a share of it; lines shorter than
+    /// a tenth of the side of a square as large as all sheets do not count, nor do the sides of steps, which
+    /// are not joined.
+    pub mismatch: f64,
+    /// Which one that is, if any counts.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub worst_joint: Option<WorstJoint>,
+    /// Points inside of the surface where cuts or folds end and angles were compared: those of the pieces
+    /// around each, within four fifths of the shortest of these lines and twenty cells at most, with that of the surface
+    /// around it.
+    pub points: usize,
+    /// Where these differ most, if any was compared.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub worst_angle: Option<WorstAngle>,
+    /// Creases that are folds.
+    pub folds: usize,
+    /// Number of tabs.
+    pub tabs: usize,
+    /// Length of all cuts.
+    pub cut_length: f64,
+    /// Length of all mountain folds, without those of tabs.
+    pub mountain_length: f64,
+    /// Length of all valley folds likewise.
+    pub valley_length: f64,
+    /// Area of the sheets without tabs, in square millimetres.
+    pub area: f64,
+    /// Largest strain of a sheet (root of the mean square): 0 for what can be unrolled.
+    pub strain: f64,
+    /// Most that the two sides of a fold are apart (root of the mean square).
+    pub gap: f64,
+    /// Small loops in which outlines crossed themselves, and which were cut off.
+    pub loops: usize,
+    /// How far sheets that were folded back are from the surface at most (root of the mean square), if
+    /// that was asked for ([`PatternOptions::refold`](crate::pattern::PatternOptions::refold)).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub refolding: Option<f64>,
+    /// What of the surface is on no sheet, if that is known
+    /// ([`Drawing::missing`](super::Drawing::missing)); areas in square millimetres.
+    pub missing: Option<Missing>,
+    /// Pages it takes of A4.
+    pub a4: usize,
+    /// Pages it takes of Letter.
+    pub letter: usize,
+}
+
+/// The cut whose sides differ most in length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct WorstJoint {
+    /// Its crease, whose letter is on both sides of it ([`Label`](super::Label)).
+    pub crease: usize,
+    /// The patches on either side.
+    pub patches: [u32; 2],
+    /// How long either side is, in millimetres.
+    pub lengths: [f64; 2],
+}
+
+/// A line that is cut: how long it is on either patch.
+struct Joint {
+    crease: usize,
+    patches: [u32; 2],
+    slit: bool,
+    torn: bool,
+    sides: [f64; 2],
+}
+
+impl Joint {
+    /// How much its sides differ, as a share of the longer one.
+    fn mismatch(&self) -> f64 {
+        let [a, b] = self.sides;
+        (a - b).abs() / a.max(b)
+    }
+}
+
+fn joints(lines: &[Lines<'_>]) -> Vec<Joint> {
+    let mut joints: BTreeMap<usize, Joint> = BTreeMap::new();
+    for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
+        if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
+            let joint = joints.entry(seam.crease).or_insert(Joint {
+                crease: seam.crease,
+                patches: seam.patches,
+                slit: seam.slit,
+                torn: seam.torn,
+                sides: [0.0; 2],
+            });
+            joint.sides[usize::from(patch == seam.patches[1])] += curve.length();
+        }
+    }
+    joints.into_values().collect()
+}
+
+pub(super) fn summary(
+    drawn: &[DrawnSheet],
+    sheets: &[Sheet],
+    lines: &[Lines<'_>],
+    scale: f64,
+) -> Totals {
+    let joints = joints(lines);
+    let angles = angles(sheets, lines, scale);
+    let folds = |direction: Direction| -> f64 {
+        let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
+        let own = lines.filter(|line| line.direction == direction);
+        // Not `sum`, which is −0 of nothing.
+        own.map(|line| line.length).fold(0.0, |a, b| a + b)
+    };
+    let around = |cut: &Vec<[f64; 2]>| -> f64 {
+        let closing = match (cut.last(), cut.first()) {
+            (Some(last), Some(first)) => distance(*last, *first),
+            _ => 0.0,
+        };
+        polyline_length(cut) + closing
+    };
+    let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
+    let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
+    let least = LEAST * scale * area.sqrt();
+    let counts = |joint: &&Joint| !joint.torn && joint.sides[0].min(joint.sides[1]) >= least;
+    let worst = joints.iter().filter(counts);
+    let worst = worst.max_by(|a, b| a.mismatch().total_cmp(&b.mismatch()));
+    let long = |joints: &[&Joint]| -> f64 {
+        joints
+            .iter()
+            .map(|j| 0.5 * (j.sides[0] + j.sides[1]))
+            .fold(0.0, |a, b| a + b)
+    };
+    Totals {
+        sheets: drawn.len(),
+        seams: creases.len(),
+        slits: slits.len(),
+        seam_length: long(&creases),
+        slit_length: long(&slits),
+        mismatch: worst.map_or(0.0, Joint::mismatch),
+        worst_joint: worst.map(|joint| WorstJoint {
+            crease: joint.crease,
+            patches: joint.patches,
+            lengths: joint.sides,
+        }),
+        points: angles.len(),
+        worst_angle: (angles.into_iter()).max_by(|a, b| a.difference().total_cmp(&b.difference())),
+        folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
+        tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
+        cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),
+        mountain_length: folds(Direction::Mountain),
+        valley_length: folds(Direction::Valley),
+        area: scale * scale * area,
+        strain: sheets.iter().map(|sheet| sheet.strain).fold(0.0, f64::max),
+        gap: scale * sheets.iter().map(|sheet| sheet.gap).fold(0.0, f64::max),
+        loops: sheets.iter().map(|sheet| sheet.loops).sum(),
+        refolding: (sheets.iter().filter_map(|sheet| sheet.refolding))
+            .map(|refolding| scale * refolding.rms)
+            .reduce(f64::max),
+        missing: None,
+        a4: 0,
+        letter: 0,
+    }
+}

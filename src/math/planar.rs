@@ -1,0 +1,216 @@
+//! Points, segments and polygons in the plane.
+
+use nalgebra::Complex;
+
+/// A point or vector in the plane as a complex number: a product with a number of modulus 1 is a rotation.
+pub(crate) type Point2 = Complex<f64>;
+
+/// Types that hold a point of the plane: [`Point2`], and the pairs of the public interface.
+pub(crate) trait Planar: Copy {
+    /// Returns both coordinates.
+    fn xy(self) -> [f64; 2];
+    /// Makes a point of both coordinates.
+    fn from_xy(xy: [f64; 2]) -> Self;
+}
+
+impl Planar for [f64; 2] {
+    #[inline(always)]
+    fn xy(self) -> [f64; 2] {
+        self
+    }
+
+    #[inline(always)]
+    fn from_xy(xy: [f64; 2]) -> Self {
+        xy
+    }
+}
+
+impl Planar for Point2 {
+    #[inline(always)]
+    fn xy(self) -> [f64; 2] {
+        [self.re, self.im]
+    }
+
+    #[inline(always)]
+    fn from_xy([x, y]: [f64; 2]) -> Self {
+        Point2::new(x, y)
+    }
+}
+
+/// Vector from one point to another.
+fn difference(from: impl Planar, to: impl Planar) -> [f64; 2] {
+    let ([a, b], [c, d]) = (from.xy(), to.xy());
+    [c - a, d - b]
+}
+
+/// Cross product `u₁v₂ − u₂v₁` of two vectors: the area of their parallelogram, above 0 if `v` is to the left of `u`.
+pub(crate) fn cross(u: impl Planar, v: impl Planar) -> f64 {
+    let ([a, b], [c, d]) = (u.xy(), v.xy());
+    a * d - b * c
+}
+
+/// Euclidean distance of two points.
+pub(crate) fn distance<P: Planar>(a: P, b: P) -> f64 {
+    let [x, y] = difference(a, b);
+    x.hypot(y)
+}
+
+/// Twice the signed area of a triangle: above 0 if its corners are in anticlockwise order, 0 if they are on a line.
+pub(crate) fn orientation<P: Planar>(a: P, b: P, c: P) -> f64 {
+    cross(difference(a, b), difference(a, c))
+}
+
+/// Whether two segments intersect. A segment that only touches the other one with an end counts or does not, by the
+/// side that the end is on after rounding.
+pub(crate) fn segments_intersect<P: Planar>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
+    let separates = |p, q, r, s| (orientation(p, q, r) > 0.0) != (orientation(p, q, s) > 0.0);
+    separates(a, b, c, d) && separates(c, d, a, b)
+}
+
+/// Intersection point of the lines through two pairs of points; `None` if the sine of the angle between them is at most
+/// `max_parallel_sine` (0: only if they are exactly parallel).
+pub(crate) fn line_intersection<P: Planar>(
+    [a, b]: [P; 2],
+    [c, d]: [P; 2],
+    max_parallel_sine: f64,
+) -> Option<P> {
+    let (u, v) = (difference(a, b), difference(c, d));
+    let denominator = cross(u, v);
+    if denominator.abs() <= max_parallel_sine * u[0].hypot(u[1]) * v[0].hypot(v[1]) {
+        return None;
+    }
+    let t = cross(difference(a, c), v) / denominator;
+    let [x, y] = a.xy();
+    Some(P::from_xy([x + u[0] * t, y + u[1] * t]))
+}
+
+/// Distance of a point from a segment.
+pub(crate) fn distance_to_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> f64 {
+    let (u, v) = (difference(a, b), difference(a, point));
+    let t = nearest_parameter(u, v);
+    (v[0] - t * u[0]).hypot(v[1] - t * u[1])
+}
+
+/// Point of a segment that is nearest to a given one.
+pub(crate) fn nearest_on_segment<P: Planar>(point: P, [a, b]: [P; 2]) -> P {
+    let u = difference(a, b);
+    let t = nearest_parameter(u, difference(a, point));
+    let [x, y] = a.xy();
+    P::from_xy([x + t * u[0], y + t * u[1]])
+}
+
+/// Share of a segment's vector `u` that lies before its point nearest to the end of `v`, from 0 to 1.
+fn nearest_parameter(u: [f64; 2], v: [f64; 2]) -> f64 {
+    let squared_length = u[0] * u[0] + u[1] * u[1];
+    if squared_length > 0.0 {
+        ((v[0] * u[0] + v[1] * u[1]) / squared_length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// Length of a polyline.
+pub(crate) fn polyline_length<P: Planar>(points: &[P]) -> f64 {
+    points.windows(2).map(|p| distance(p[0], p[1])).sum()
+}
+
+/// Edges of a closed polygon, whose last point is not its first one again.
+fn polygon_edges<P: Planar>(polygon: &[P]) -> impl Iterator<Item = [P; 2]> {
+    let next = |i: usize| if i + 1 == polygon.len() { 0 } else { i + 1 };
+    (0..polygon.len()).map(move |i| [polygon[i], polygon[next(i)]])
+}
+
+/// Length of a closed polygon's edges.
+pub(crate) fn polygon_perimeter<P: Planar>(polygon: &[P]) -> f64 {
+    polygon_edges(polygon).map(|[a, b]| distance(a, b)).sum()
+}
+
+/// Signed area of a closed polygon: above 0 if its corners are in anticlockwise order.
+pub(crate) fn polygon_area<P: Planar>(polygon: &[P]) -> f64 {
+    0.5 * polygon_edges(polygon)
+        .map(|[a, b]| cross(a, b))
+        .sum::<f64>()
+}
+
+/// Whether a point is inside of a closed polygon, by the even-odd rule.
+pub(crate) fn polygon_contains<P: Planar>(polygon: &[P], point: P) -> bool {
+    let [x, y] = point.xy();
+    let crossings = polygon_edges(polygon).filter(|[a, b]| {
+        let ([qx, qy], [px, py]) = (a.xy(), b.xy());
+        (py > y) != (qy > y) && x < (qx - px) * (y - py) / (qy - py) + px
+    });
+    crossings.count() % 2 == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The letter L, anticlockwise, with an area of 14 and a perimeter of 18.
+    const L_SHAPE: [[f64; 2]; 6] = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 2.0],
+        [2.0, 2.0],
+        [2.0, 5.0],
+        [0.0, 5.0],
+    ];
+
+    #[test]
+    fn area_and_perimeter_of_a_polygon() {
+        let clockwise: Vec<Point2> = (L_SHAPE.iter().rev())
+            .map(|p| Point2::from_xy(*p))
+            .collect();
+        assert_eq!(polygon_area(&L_SHAPE), 14.0);
+        assert_eq!(polygon_area(&clockwise), -14.0);
+        assert_eq!(polygon_perimeter(&L_SHAPE), 18.0);
+        assert_eq!(polygon_perimeter(&clockwise), 18.0);
+        assert_eq!(polyline_length(&L_SHAPE), 13.0);
+    }
+
+    #[test]
+    fn a_concave_polygon_contains_points() {
+        for (point, inside) in [
+            ([1.0, 1.0], true),
+            ([3.0, 1.0], true),
+            ([1.0, 4.0], true),
+            ([3.0, 3.0], false),
+            ([-1.0, 1.0], false),
+            ([5.0, 1.0], false),
+        ] {
+            assert_eq!(polygon_contains(&L_SHAPE, point), inside, "{point:?}");
+        }
+        assert!(!polygon_contains(&[], [0.0, 0.0]));
+    }
+
+    #[test]
+    fn segments_and_lines_intersect() {
+        let rising = [[0.0, 0.0], [2.0, 4.0]];
+        let falling = [[0.0, 4.0], [2.0, 0.0]];
+        assert!(segments_intersect(rising, falling));
+        assert_eq!(line_intersection(rising, falling, 0.0), Some([1.0, 2.0]));
+        let beyond = [[3.0, 1.0], [5.0, 1.0]];
+        assert!(!segments_intersect(rising, beyond));
+        assert_eq!(line_intersection(rising, beyond, 0.0), Some([0.5, 1.0]));
+        let parallel = [[1.0, 0.0], [2.0, 2.0]];
+        assert_eq!(line_intersection(rising, parallel, 0.0), None);
+        // The sine between them is 0.6.
+        assert!(line_intersection(rising, falling, 0.79).is_some());
+        assert_eq!(line_intersection(rising, falling, 0.81), None);
+    }
+
+    #[test]
+    fn the_nearest_point_of_a_segment_is_a_foot_or_an_end() {
+        let segment = [[1.0, 1.0], [5.0, 1.0]];
+        for (point, nearest) in [
+            ([3.0, 4.0], [3.0, 1.0]),
+            ([-3.0, 0.0], [1.0, 1.0]),
+            ([6.0, 2.0], [5.0, 1.0]),
+        ] {
+            assert_eq!(nearest_on_segment(point, segment), nearest);
+            let length = distance(point, nearest);
+            assert_eq!(distance_to_segment(point, segment), length);
+        }
+        assert_eq!(nearest_on_segment([7.0, 8.0], [[2.0, 3.0]; 2]), [2.0, 3.0]);
+    }
+}

@@ -1,0 +1,223 @@
+//! What a page is good for: its flat image, and the surface itself.
+
+use super::cylinder::Curve;
+use super::find::CurledPage;
+use crate::dewarp::{DewarpOptions, WarpMap};
+use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::math::lanes;
+use crate::scene::mesh::Mesh;
+
+/// Vertices along a page's curve.
+const FINE: usize = 97;
+
+impl CurledPage {
+    /// Width and height of the flat page, or of both pages of a spread together: in millimetres if
+    /// the format or a ruler is known, else in widths of a page.
+    pub fn flat_size(&self) -> [f64; 2] {
+        self.size().map(|side| side * self.unit)
+    }
+
+    /// Whether lengths are in millimetres.
+    pub fn is_millimetres(&self) -> bool {
+        self.millimetres
+    }
+
+    /// How many pages lie side by side.
+    pub fn pages(&self) -> usize {
+        self.cylinder.pages.len()
+    }
+
+    /// The same in the cylinder's own unit.
+    pub(super) fn size(&self) -> [f64; 2] {
+        let width = self.cylinder.pages.iter().map(|page| page.width).sum();
+        if self.sideways {
+            [self.cylinder.length, width]
+        } else {
+            [width, self.cylinder.length]
+        }
+    }
+
+    /// Where a place on the flat page is seen, in the photo's pixels; `from_left` and `from_top` are
+    /// shares of its sides.
+    pub fn photo_place(&self, [from_left, from_top]: [f64; 2]) -> Option<[f64; 2]> {
+        let (along, down) = self.turned([from_left, from_top]);
+        let on = self.on_curve(&self.cylinder.curve(), along);
+        self.cylinder.seen(on, down * self.cylinder.length)
+    }
+
+    /// Shares along the curve, and along the rulings.
+    pub(super) fn turned(&self, [from_left, from_top]: [f64; 2]) -> (f64, f64) {
+        if self.sideways {
+            (from_top, 1.0 - from_left)
+        } else {
+            (from_left, from_top)
+        }
+    }
+
+    /// The place at a share of all pages' width.
+    fn on_curve(&self, curve: &Curve, share: f64) -> [f64; 2] {
+        let pages = &self.cylinder.pages;
+        let mut rest = share * pages.iter().map(|page| page.width).sum::<f64>();
+        for (number, page) in pages.iter().enumerate() {
+            if rest <= page.width || number + 1 == pages.len() {
+                return curve.at(number, rest / page.width);
+            }
+            rest -= page.width;
+        }
+        curve.at(0, 0.0)
+    }
+
+    /// Where a pixel lies on the flat page, from its upper left corner, in the cylinder's unit: the
+    /// nearest of a grid, and Newton's method from there. None if it is not on the page.
+    pub(super) fn flat_place(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
+        const GRID: usize = 24;
+        let off = |at: [f64; 2]| {
+            let seen = self.photo_place(at)?;
+            Some([seen[0] - pixel[0], seen[1] - pixel[1]])
+        };
+        let mut best = (f64::INFINITY, [0.5; 2]);
+        for i in 0..GRID * GRID {
+            let at = [i % GRID, i / GRID].map(|k| (k as f64 + 0.5) / GRID as f64);
+            let distance = off(at).map_or(f64::INFINITY, |o| o[0].hypot(o[1]));
+            if distance < best.0 {
+                best = (distance, at);
+            }
+        }
+        let mut at = best.1;
+        for _ in 0..30 {
+            const STEP: f64 = 1e-6;
+            let here = off(at)?;
+            let [right, below] = [off([at[0] + STEP, at[1]])?, off([at[0], at[1] + STEP])?];
+            let [a, c] = [0, 1].map(|k| (right[k] - here[k]) / STEP);
+            let [b, d] = [0, 1].map(|k| (below[k] - here[k]) / STEP);
+            let area = a * d - b * c;
+            at = [
+                (at[0] - (d * here[0] - b * here[1]) / area).clamp(0.0, 1.0),
+                (at[1] - (a * here[1] - c * here[0]) / area).clamp(0.0, 1.0),
+            ];
+        }
+        let left = off(at)?;
+        // To a pixel: beside the page the nearest place on it is farther away.
+        (left[0].hypot(left[1]) < 1.0).then(|| {
+            let size = self.size();
+            [at[0] * size[0], at[1] * size[1]]
+        })
+    }
+
+    /// For every pixel of the flat page its place in the photo, exactly. `dots` are pixels per unit
+    /// of [`CurledPage::flat_size`], by default as many as the photo has of the page in all;
+    /// `trim` changes nothing, for the page fills its image. Where the page goes on beyond the photo
+    /// the flat image is transparent.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
+    /// image of more than [`MAX_CELLS`](crate::MAX_CELLS) pixels, [`Error::OutOfMemory`].
+    pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
+        let size = self.flat_size();
+        let resolution = match options.dots {
+            Some(dots) => positive("dots", dots)?,
+            None => (self.seen_area() / (size[0] * size[1])).sqrt(),
+        };
+        let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
+        checked_cells("flat image", height, width)?;
+        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
+        let curve = self.cylinder.curve();
+        let along = if self.sideways { height } else { width };
+        let mut line = try_filled("flat image", along, [0.0; 2])?;
+        for (i, on) in line.iter_mut().enumerate() {
+            *on = self.on_curve(&curve, (i as f64 + 0.5) / along as f64);
+        }
+        for (i, place) in places.iter_mut().enumerate() {
+            let (col, row) = (i % width, i / width);
+            let share = [
+                (col as f64 + 0.5) / width as f64,
+                (row as f64 + 0.5) / height as f64,
+            ];
+            let on = line[if self.sideways { row } else { col }];
+            let (_, down) = self.turned(share);
+            if let Some(seen) = self.cylinder.seen(on, down * self.cylinder.length) {
+                *place = seen.map(lanes::single);
+            }
+        }
+        Ok(WarpMap::of_places(
+            [width, height],
+            resolution,
+            [0.0, size[1]],
+            places,
+        ))
+    }
+
+    /// Pixels of the photo that the page covers.
+    fn seen_area(&self) -> f64 {
+        const CELLS: usize = 16;
+        let mut area = 0.0;
+        for i in 0..CELLS * CELLS {
+            let corner = |dx: usize, dy: usize| {
+                let at = [(i % CELLS + dx) as f64, (i / CELLS + dy) as f64];
+                self.photo_place(at.map(|v| v / CELLS as f64))
+                    .unwrap_or([0.0; 2])
+            };
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            let cross = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
+            area += 0.5 * cross.abs();
+        }
+        area.max(1.0)
+    }
+
+    /// The page in space, with texture coordinates for the photo: 97 vertices along each page's
+    /// curve, squares of about the same size along its rulings, row by row from the upper left
+    /// corner. The axes are those of [`Intrinsics::back_project`](crate::Intrinsics::back_project):
+    /// x to the right, y up, z towards the viewer, the camera at the origin. So
+    /// [`sample`](crate::sample) with [`View::BestFit`](crate::View::BestFit) makes it a
+    /// [`Heightfield`](crate::Heightfield).
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn mesh(&self) -> Result<Mesh> {
+        let pages = self.pages();
+        let along = pages * (FINE - 1) + 1;
+        let step = self
+            .cylinder
+            .pages
+            .iter()
+            .map(|page| page.width)
+            .sum::<f64>()
+            / along as f64;
+        let down = ((self.cylinder.length / step) as usize).clamp(8, 1000) + 1;
+        let (cols, rows) = if self.sideways {
+            (down, along)
+        } else {
+            (along, down)
+        };
+        let mut positions = try_filled("mesh", cols * rows, [0.0; 3])?;
+        let mut uvs = try_filled("mesh", cols * rows, [0f32; 2])?;
+        let curve = self.cylinder.curve();
+        let [width, height] = self.photo.map(|n| n as f64);
+        for i in 0..cols * rows {
+            let share = [
+                (i % cols) as f64 / (cols - 1) as f64,
+                (i / cols) as f64 / (rows - 1) as f64,
+            ];
+            let (at, down) = self.turned(share);
+            let on = self.on_curve(&curve, at);
+            let down = down * self.cylinder.length;
+            let point = self.cylinder.point(on, down) * self.unit;
+            positions[i] = [point.x, -point.y, -point.z];
+            let [x, y] = self
+                .cylinder
+                .seen(on, down)
+                .ok_or(Error::Empty { what: "page" })?;
+            uvs[i] = [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single);
+        }
+        let mut triangles = Vec::new();
+        for row in 1..rows {
+            for col in 1..cols {
+                let last = (row * cols + col) as u32;
+                let [above, before] = [last - cols as u32, last - 1];
+                let first = above - 1;
+                triangles.extend([[first, before, last], [first, last, above]]);
+            }
+        }
+        Mesh::new(positions, triangles)?.with_uvs(uvs)
+    }
+}

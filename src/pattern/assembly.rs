@@ -1,0 +1,361 @@
+//! Parts joined to sheets, each of which is checked as it is drawn.
+
+use super::check::{Tied, are_close, crossing, strains};
+use super::faces::faces;
+use super::layout::{Arrangement, apart, arranged};
+use super::leaf::{Leaf, Strain};
+use super::meeting::Meetings;
+use super::net::Net;
+use super::outline::Layout;
+use super::parts::Parts;
+use super::refold::refolded;
+use super::sew::sewn;
+use super::shape::{folds, lines, outlines};
+use super::spots::spots;
+use super::trim::Trouble;
+use super::{Direction, Missing, Pattern, PatternOptions, Seam, Sheet};
+use crate::error::Result;
+use crate::heights::heightfield::Heightfield;
+use crate::math::planar::polyline_length;
+use crate::math::union_find::UnionFind;
+use crate::shape::patches::Patches;
+use crate::unroll::joint::Until;
+use crate::unroll::pieces::Point;
+
+pub(super) enum Assembly {
+    Whole(Box<Assembled>),
+    /// The parts, the numbers of those that cannot be sheets as they are, and why; none if specks were left out.
+    Cut(Box<Parts>, Vec<(u32, String)>),
+}
+
+/// All sheets, as they lie on the plane.
+pub(super) struct Assembled {
+    pub parts: Parts,
+    pub patches: Patches,
+    pub net: Net,
+    pub arrangement: Arrangement,
+}
+
+/// How long patches of a sheet are laid flat together, at most and until it hardly changes.
+pub(super) const EFFORT: Until = Until {
+    tolerance: 1e-8,
+    enough: 0.0,
+    hopeless: f64::INFINITY,
+    steps: 25,
+};
+
+/// The same for patches that begin near to where they belong.
+const SETTLING: Until = Until {
+    steps: 12,
+    ..EFFORT
+};
+
+/// What is wrong with a sheet.
+pub(super) enum Fault {
+    /// How much, and the parts that are strained more than they may be.
+    Strain(f64, Vec<u32>),
+    /// Parts with triangles upside down.
+    Flipped(Vec<u32>),
+    /// Where.
+    Crossing(Point),
+}
+
+impl Fault {
+    /// The parts that are in trouble, and which that is.
+    fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
+        match self {
+            Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
+            Fault::Flipped(parts) => Some((parts, Trouble::Flipped)),
+            Fault::Crossing(_) => None,
+        }
+    }
+
+    fn reason(&self, limit: f64) -> String {
+        match self {
+            Fault::Strain(strain, _) => format!(
+                "its strain would be {:.2} %, more than the limit of {:.2} %",
+                100.0 * strain,
+                100.0 * limit
+            ),
+            Fault::Flipped(_) => "triangles of it would lie upside down".into(),
+            Fault::Crossing(_) => "its outline would cross itself".into(),
+        }
+    }
+}
+
+/// Joins parts as far as their sides fit, they are not strained by it, and outlines stay simple.
+pub(super) fn assembled(
+    parts: Parts,
+    patches: &Patches,
+    options: &PatternOptions,
+) -> Result<Assembly> {
+    let (mut parts, patches) = parts.numbered(patches)?;
+    let leaves = std::mem::take(&mut parts.leaves);
+    let decided = parts.finest * parts.surface.lattice().spacing();
+    let mut net = Net::new(&parts.surface, &parts.labels, leaves, decided)?;
+    net.divide_by_fit(options.gap);
+    // What is wrong with a part by itself needs no joint unrolling to be seen.
+    let limit = options.max_strain;
+    let loose = Layout::loose(&net);
+    let by_itself = |leaf: &Option<Leaf>| leaf.as_ref().is_some_and(|leaf| !leaf.is_rough());
+    let alone = (0..net.leaves.len() as u32).filter(|part| by_itself(&net.leaves[*part as usize]));
+    let mut wrong: Vec<(u32, String)> = alone
+        .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
+        .collect();
+    if wrong.is_empty() {
+        let mut arrangement = arranged(&net, options.gap);
+        match settle(&parts, &mut net, &mut arrangement)? {
+            Settled::Opened(found) => wrong = found,
+            Settled::Specks(part, specks) => {
+                parts.leaves = net.leaves;
+                parts.leave_out_specks(part, specks)?;
+                return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
+            }
+        }
+        if wrong.is_empty() {
+            sewn(&mut net, &mut arrangement, limit)?;
+            return Ok(Assembly::Whole(Box::new(Assembled {
+                parts,
+                patches,
+                net,
+                arrangement,
+            })));
+        }
+    }
+    parts.leaves = net.leaves;
+    Ok(Assembly::Cut(Box::new(parts), wrong))
+}
+
+/// What became of sheets that were laid flat.
+pub(super) enum Settled {
+    /// Folds of those that were not as they should be are open; the patches that are not even so, and why.
+    Opened(Vec<(u32, String)>),
+    /// They would be as they should be without these vertices of a part.
+    Specks(u32, Vec<usize>),
+}
+
+/// Lays the patches of each sheet flat together, and opens folds of those that are not as they should
+/// be for another reason than specks.
+pub(super) fn settle(
+    parts: &Parts,
+    net: &mut Net,
+    arrangement: &mut Arrangement,
+) -> Result<Settled> {
+    let limit = parts.options.max_strain;
+    let mut pending = std::mem::take(&mut arrangement.sheets);
+    let layout = &mut arrangement.layout;
+    let mut wrong = Vec::new();
+    while let Some(members) = pending.pop() {
+        let folded = folded(net, layout, &members);
+        let leaves = members
+            .iter()
+            .filter_map(|p| net.leaves[*p as usize].as_ref());
+        let rough = leaves.clone().any(Leaf::is_rough);
+        if rough || !are_close(net, layout, &folded) {
+            let mut tied = Tied::new(net, layout, &members, &folded)?;
+            tied.relax(net, layout, SETTLING)?;
+            // Most lie well by now.
+            if strains(net, &members).0.rms() > limit {
+                tied.relax(net, layout, EFFORT)?;
+            }
+        } else if folded.is_empty() {
+            members.iter().for_each(|patch| net.lay_alone(*patch));
+        }
+        let fault = fault(net, layout, &members, limit);
+        let specks = fault.as_ref().and_then(|fault| specks(parts, net, fault));
+        if let Some((part, specks)) = specks {
+            return Ok(Settled::Specks(part, specks));
+        }
+        match fault {
+            Some(fault) if !folded.is_empty() => {
+                for seam in worst(net, layout, &folded, &fault) {
+                    layout.folded[seam] = false;
+                }
+                pending.extend(connected(net, layout, &members)?);
+            }
+            other => {
+                let reason = other.map(|fault| (members[0], fault.reason(limit)));
+                wrong.extend(reason);
+                arrangement.sheets.push(members);
+            }
+        }
+    }
+    Ok(Settled::Opened(wrong))
+}
+
+/// The few vertices of one of its parts that a sheet has its fault from.
+fn specks(parts: &Parts, net: &Net, fault: &Fault) -> Option<(u32, Vec<usize>)> {
+    let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
+    troubled.iter().find_map(|part| {
+        let leaf = net.leaves[*part as usize].as_ref()?;
+        Some((*part, parts.specks(*part, leaf, trouble)?))
+    })
+}
+
+/// What folds hold together.
+fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
+    let mut sets = UnionFind::new("pattern", members.len())?;
+    let place = |patch: u32| members.binary_search(&patch).ok();
+    for seam in folded(net, layout, members) {
+        let [one, other] = net.seams[seam].patches.map(place);
+        if let (Some(one), Some(other)) = (one, other) {
+            sets.union(one as u32, other as u32);
+        }
+    }
+    let mut groups: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
+    for (k, patch) in members.iter().enumerate() {
+        groups[sets.find(k as u32) as usize].push(*patch);
+    }
+    groups.retain(|group| !group.is_empty());
+    Ok(groups)
+}
+
+pub(super) fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> {
+    let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
+    (0..net.seams.len()).filter(own).collect()
+}
+
+/// What is wrong with a sheet, if anything is.
+pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
+    let (sum, all) = strains(net, members);
+    // Some of them at once, so that few joint unrollings are needed.
+    let those = |wrong: &dyn Fn(&Strain) -> bool| -> Vec<u32> {
+        let mut found: Vec<&(u32, Strain)> = all.iter().filter(|(_, s)| wrong(s)).collect();
+        found.sort_by(|a, b| b.1.rms().total_cmp(&a.1.rms()));
+        found.truncate(found.len().div_ceil(3));
+        found.into_iter().map(|(patch, _)| *patch).collect()
+    };
+    if sum.rms() > limit {
+        return Some(Fault::Strain(sum.rms(), those(&|s| s.rms() > limit)));
+    }
+    if sum.flipped > 0 {
+        return Some(Fault::Flipped(those(&|s| s.flipped > 0)));
+    }
+    let lines: Vec<Vec<Point>> = (lines(net, layout, members).0.into_iter())
+        .map(|runs| {
+            let points = runs.into_iter().flat_map(|(_, mut points)| {
+                points.pop();
+                points
+            });
+            points.collect()
+        })
+        .collect();
+    crossing(&lines).map(Fault::Crossing)
+}
+
+/// The folds that are to be cut: for an outline that crosses itself the nearest one, or else of those of
+/// strained patches those whose sides pull apart most.
+fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usize> {
+    match fault {
+        Fault::Crossing(place) => {
+            let away = |seam: &usize| {
+                let side = layout.side(net, *seam, 0).into_iter();
+                side.map(|p| (p - place).norm())
+                    .fold(f64::INFINITY, f64::min)
+            };
+            let nearest = folded.iter().copied();
+            let nearest = nearest.min_by(|a, b| away(a).total_cmp(&away(b)));
+            nearest.into_iter().collect()
+        }
+        Fault::Strain(_, patches) | Fault::Flipped(patches) => {
+            let largest = |patch: Option<&u32>| {
+                let beside =
+                    |seam: &usize| patch.is_none_or(|p| net.seams[*seam].patches.contains(p));
+                let own = folded.iter().copied().filter(beside);
+                let pull = |seam: &usize| apart(net, layout, *seam);
+                own.max_by(|a, b| pull(a).total_cmp(&pull(b)))
+            };
+            let mut seams: Vec<usize> = patches.iter().filter_map(|p| largest(Some(p))).collect();
+            if seams.is_empty() {
+                seams.extend(largest(None));
+            }
+            seams.sort_unstable();
+            seams.dedup();
+            seams
+        }
+    }
+}
+
+/// The sheets, drawn.
+pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
+    let Assembled {
+        parts,
+        patches,
+        net,
+        arrangement,
+    } = whole;
+    let layout = &arrangement.layout;
+    let places = spots(&parts.surface, patches.labels(), net, layout);
+    let seam = |number: usize| {
+        let seam = &net.seams[number];
+        Seam {
+            crease: seam.crease,
+            patches: seam.patches,
+            direction: match seam.rise > 0.0 {
+                true => Direction::Mountain,
+                false => Direction::Valley,
+            },
+            angle: patches.creases()[seam.crease].fold,
+            slit: seam.smooth,
+            torn: net.is_torn(number),
+        }
+    };
+    let meetings = Meetings::new(&parts.surface, &parts.labels, net, layout)?;
+    let sheets = arrangement.sheets.iter().map(|members| {
+        let (outlines, loops) = outlines(net, layout, members, &meetings, seam);
+        let own = |patch: &u32| patches.patches()[*patch as usize].area;
+        let (strain, _) = strains(net, members);
+        let folded = folded(net, layout, members);
+        let gaps = folded.iter().map(|seam| apart(net, layout, *seam));
+        Ok(Sheet {
+            folds: folds(net, layout, members, &outlines, &meetings, seam),
+            outlines,
+            spots: members.iter().map(|p| places[*p as usize]).collect(),
+            faces: faces(&parts.surface, net, layout, members),
+            spacing: net.spacing,
+            area: members.iter().map(own).sum(),
+            strain: strain.rms(),
+            gap: gaps.fold(0.0, f64::max),
+            patches: members.clone(),
+            loops,
+            refolding: match parts.options.refold {
+                true => Some(refolded(net, members, &folded)?),
+                false => None,
+            },
+        })
+    });
+    let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;
+    sheets.sort_by_key(|sheet| sheet.patches[0]);
+    Ok(Pattern {
+        sheets,
+        patches: patches.clone(),
+        missing: missing(surface, whole)?,
+    })
+}
+
+/// What is left out, and what is at steps.
+fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
+    let net = &whole.net;
+    let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));
+    let high = |seam: usize| net.seams[seam].apart * polyline_length(&net.seams[seam].sides[0]);
+    let left_out = whole.parts.left_out();
+    let area = match left_out {
+        0 => 0.0,
+        _ => {
+            let all = Patches::area(surface)?;
+            all - whole
+                .patches
+                .patches()
+                .iter()
+                .map(|patch| patch.area)
+                .sum::<f64>()
+        }
+    };
+    Ok(Missing {
+        vertices: left_out,
+        area,
+        steps: torn.clone().count(),
+        // Not a sum, which is -0 of nothing.
+        step_area: torn.map(high).fold(0.0, |sum, area| sum + area),
+    })
+}

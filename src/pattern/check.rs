@@ -1,0 +1,147 @@
+//! What a sheet has to be: joined without strain, and within a simple outline.
+
+use super::layout::apart;
+use super::leaf::Strain;
+use super::net::{Net, is_triangle};
+use super::outline::{Layout, Motion};
+use crate::error::Result;
+use crate::unroll::joint::{Joint, Mean, Until};
+use crate::unroll::overlap::crossings;
+use crate::unroll::pieces::Point;
+
+/// Sides that are no further apart, in spacings, need no joint unrolling.
+const CLOSE: f64 = 0.05;
+
+/// So many nodes beside the place where three patches meet are not tied: where more meet they are not
+/// where they should be.
+const LOOSE: usize = 1;
+
+/// Whether the sides of some folds lie on each other already.
+pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
+    let mut folded = folded.iter();
+    folded.all(|seam| apart(net, layout, *seam) <= CLOSE * net.spacing)
+}
+
+/// The patches of a sheet as one mesh, tied along its folds.
+pub(super) struct Tied {
+    patches: Vec<u32>,
+    /// The number of the first vertex of each patch.
+    starts: Vec<u32>,
+    joint: Joint,
+    places: Vec<Point>,
+}
+
+impl Tied {
+    pub(super) fn new(
+        net: &Net,
+        layout: &Layout,
+        patches: &[u32],
+        folded: &[usize],
+    ) -> Result<Tied> {
+        let mut pieces = Vec::new();
+        let mut places: Vec<Point> = Vec::new();
+        let mut starts = Vec::new();
+        for patch in patches {
+            let first = places.len() as u32;
+            starts.push(first);
+            let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+                continue;
+            };
+            let motion = layout.motions[*patch as usize];
+            places.extend(leaf.places().iter().map(|place| motion.of(*place)));
+            let own = leaf.all_pieces().filter(|(piece, _)| piece.exists());
+            pieces.extend(own.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
+        }
+        let ties = ties(net, patches, &starts, folded);
+        Ok(Tied {
+            patches: patches.to_vec(),
+            starts,
+            joint: Joint::new(places.len(), pieces, ties)?,
+            places,
+        })
+    }
+
+    /// Lays the patches to where they fit best; their motions are none then. Returns what it took:
+    /// steps times vertices.
+    pub(super) fn relax(
+        &mut self,
+        net: &mut Net,
+        layout: &mut Layout,
+        until: Until,
+    ) -> Result<usize> {
+        let steps = self.joint.relax(&mut self.places, until)?;
+        for (k, patch) in self.patches.iter().enumerate() {
+            let end = self
+                .starts
+                .get(k + 1)
+                .map_or(self.places.len(), |end| *end as usize);
+            net.set_places(*patch, self.places[self.starts[k] as usize..end].to_vec());
+            layout.motions[*patch as usize] = Motion::NONE;
+        }
+        Ok(steps * self.places.len())
+    }
+}
+
+/// The pairs of places along some folds that are one, `starts` being the number of each patch's first
+/// vertex.
+pub(super) fn ties(net: &Net, patches: &[u32], starts: &[u32], folded: &[usize]) -> Vec<[Mean; 2]> {
+    let mut ties = Vec::new();
+    for seam in folded {
+        let seam = &net.seams[*seam];
+        let last = seam.nodes.len() - 1;
+        let from = if is_triangle(seam.nodes[0]) { LOOSE } else { 0 };
+        let to = match is_triangle(seam.nodes[last]) {
+            true => last.saturating_sub(LOOSE),
+            false => last,
+        };
+        for node in seam.nodes.iter().take(to + 1).skip(from) {
+            let mean = |side: usize| {
+                let patch = seam.patches[side];
+                let first = starts[patches.binary_search(&patch).ok()?];
+                Some(net.mean(*node, patch)?.map(|(v, w)| (first + v, w)))
+            };
+            if let (Some(one), Some(other)) = (mean(0), mean(1)) {
+                ties.push([one, other]);
+            }
+        }
+    }
+    ties
+}
+
+/// The strain right beside a seam, on both of its sides.
+pub(super) fn strain_along(net: &Net, seam: usize) -> f64 {
+    let seam = &net.seams[seam];
+    let sides = seam.patches.iter().filter_map(|patch| {
+        let leaf = net.leaves[*patch as usize].as_ref()?;
+        let mut beside = vec![false; leaf.places().len()];
+        let means = seam.nodes.iter().filter_map(|node| net.mean(*node, *patch));
+        for (vertex, weight) in means.flatten() {
+            beside[vertex as usize] |= weight != 0.0;
+        }
+        Some(leaf.strain_of(|vertex| beside[vertex as usize]))
+    });
+    sides.fold(Strain::default(), Strain::with).rms()
+}
+
+/// The strain of a sheet, and that of each of its patches.
+pub(super) fn strains(net: &Net, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
+    let leaf = |patch: &u32| net.leaves[*patch as usize].as_ref();
+    let of = |patch: &u32| Some((*patch, leaf(patch)?.strain()));
+    let all: Vec<(u32, Strain)> = patches.iter().filter_map(of).collect();
+    let sum = all
+        .iter()
+        .fold(Strain::default(), |sum, (_, strain)| sum.with(*strain));
+    (sum, all)
+}
+
+/// The first place where lines cross each other or themselves; each is closed.
+pub(super) fn crossing(lines: &[Vec<Point>]) -> Option<Point> {
+    let (mut places, mut edges) = (Vec::new(), Vec::new());
+    for line in lines {
+        let (first, count) = (places.len() as u32, line.len() as u32);
+        places.extend(line);
+        edges.extend((0..count).map(|k| [first + k, first + (k + 1) % count]));
+    }
+    let found = crossings(&places, &edges).into_iter().next()?;
+    Some(places[edges[found[0]][0] as usize])
+}

@@ -1,0 +1,319 @@
+//! Decided on a coarse lattice, drawn on the fine one.
+//!
+//! Where a surface has to be cut depends on its shape and not on how finely it was sampled. So large
+//! surfaces are cut and joined on every second vertex, or every fourth: what is looked for there by trial
+//! costs a fraction. Then every vertex goes to the part that it lies in, the patches begin where they
+//! lie on the coarse lattice, and what is drawn comes from creases and triangles of the fine one.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use super::assembly::{Assembled, Settled, settle};
+use super::labels::Labels;
+use super::layout::Arrangement;
+use super::leaf::Leaf;
+use super::net::Net;
+use super::outline::Layout;
+use super::parts::Parts;
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
+use crate::lattice::hexagonal::Lattice;
+use crate::shape::patches::{NO_PATCH, Patches};
+
+/// Vertices that are few enough to be cut as they are.
+const FEW: usize = 12_000;
+
+/// A surface and its patches on every second vertex.
+pub(super) struct Coarse {
+    pub surface: Heightfield,
+    pub patches: Patches,
+    /// What number each patch has on the fine lattice.
+    order: Vec<usize>,
+}
+
+impl Coarse {
+    /// `None` where there are few vertices, or too few would be left.
+    pub(super) fn new(surface: &Heightfield, patches: &Patches) -> Result<Option<Coarse>> {
+        let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
+        let fine = *surface.lattice();
+        if valid <= FEW || fine.rows() < 8 || fine.cols() < 8 {
+            return Ok(None);
+        }
+        let lattice = coarse_lattice(&fine)?;
+        let mut heights = try_filled("pattern", lattice.len(), f64::NAN)?;
+        let mut labels = try_filled("pattern", lattice.len(), NO_PATCH)?;
+        for i in 0..lattice.len() {
+            if let Some(k) = on_fine(&lattice, &fine, i) {
+                heights[i] = surface.heights()[k];
+                labels[i] = patches.labels()[k];
+            }
+        }
+        let coarse = Heightfield::new(lattice, heights)?;
+        match patches.divided(&coarse, labels) {
+            Ok((patches, order)) => Ok(Some(Coarse {
+                surface: coarse,
+                patches,
+                order,
+            })),
+            // Nothing but what is narrow.
+            Err(Error::Unsupported { .. } | Error::NoInterior { .. }) => Ok(None),
+            Err(other) => Err(other),
+        }
+    }
+}
+
+/// The fine vertex that a coarse one lies on, both by their indices.
+fn on_fine(coarse: &Lattice, fine: &Lattice, i: usize) -> Option<usize> {
+    let (row, col) = fine_vertex(i / coarse.cols(), i % coarse.cols());
+    fine.contains(row, col)
+        .then(|| fine.index(row as usize, col as usize))
+}
+
+/// The one or two coarse vertices around a fine one, by their indices.
+fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = usize> {
+    let inside = |(row, col): &(isize, isize)| coarse.contains(*row, *col);
+    let found: Vec<usize> = (parents(row, col).iter().filter(|vertex| inside(vertex)))
+        .map(|(row, col)| coarse.index(*row as usize, *col as usize))
+        .collect();
+    found.into_iter()
+}
+
+/// The sheets of the coarse lattice on the fine one. What of them is no sheet there is told, with the
+/// reason.
+pub(super) fn refined(
+    surface: &Heightfield,
+    patches: &Patches,
+    coarse: &Coarse,
+    rough: &Assembled,
+    parts: Parts,
+) -> Result<std::result::Result<Assembled, String>> {
+    let (labels, origins) = carried(surface, patches, coarse, rough)?;
+    let mut parts = parts.with_labels(
+        surface,
+        Labels {
+            of: labels,
+            origins,
+        },
+    )?;
+    // Sheets of one part are laid flat by themselves, without specks that the coarse lattice does not show.
+    let known = rough.net.leaves.len();
+    let several = rough
+        .arrangement
+        .sheets
+        .iter()
+        .filter(|members| members.len() > 1);
+    let mut alone = vec![true; parts.labels.origins.len()];
+    several
+        .flatten()
+        .for_each(|part| alone[*part as usize] = false);
+    let single: Vec<u32> = (0..alone.len() as u32)
+        .filter(|part| alone[*part as usize])
+        .collect();
+    parts.lay_flat_trimmed(&single)?;
+    // Patches of sheets of several begin where they lie on the coarse lattice.
+    for part in (0..known).filter(|part| !alone[*part]) {
+        let leaf = match placed(&parts, part, rough)? {
+            None => parts.leaf(&(part as u32))?,
+            found => found,
+        };
+        parts.leaves[part] = leaf;
+    }
+    let mut sheets = rough.arrangement.sheets.clone();
+    sheets.extend((known..parts.leaves.len()).map(|part| vec![part as u32]));
+    let mut before: Vec<usize> = (0..parts.leaves.len()).collect();
+    loop {
+        // Sorted by their areas, as all patches are.
+        let (found, order) = patches.divided(&parts.surface, parts.labels.of.clone())?;
+        parts.renumber(&found, &order);
+        before = order.iter().map(|old| before[*old]).collect();
+        let numbers = inverse(&order);
+        for members in &mut sheets {
+            let renumbered = members.iter().map(|part| numbers[*part as usize]);
+            *members = renumbered
+                .filter(|part| parts.leaves[*part as usize].is_some())
+                .collect();
+            members.sort_unstable();
+        }
+        sheets.retain(|members| !members.is_empty());
+        let leaves = std::mem::take(&mut parts.leaves);
+        let decided = rough.net.decided;
+        let mut net = Net::new(&parts.surface, &parts.labels, leaves, decided)?;
+        let mut layout = Layout::loose(&net);
+        fold_alike(&mut net, &mut layout, &before, rough);
+        let mut arrangement = Arrangement {
+            layout,
+            sheets: sheets.clone(),
+        };
+        match settle(&parts, &mut net, &mut arrangement)? {
+            Settled::Opened(wrong) => {
+                return Ok(match wrong.into_iter().next() {
+                    Some((_, reason)) => Err(reason),
+                    None => Ok(Assembled {
+                        parts,
+                        patches: found,
+                        net,
+                        arrangement,
+                    }),
+                });
+            }
+            Settled::Specks(part, specks) => {
+                parts.leaves = net.leaves;
+                parts.leave_out_specks(part, specks)?;
+            }
+        }
+    }
+}
+
+/// The new number of each part, from the old ones in their new order.
+fn inverse(order: &[usize]) -> Vec<u32> {
+    let mut numbers = vec![0; order.len()];
+    for (number, old) in order.iter().enumerate() {
+        numbers[*old] = number as u32;
+    }
+    numbers
+}
+
+/// The part of each vertex of the fine lattice, and the patch of each part. What no part of the coarse
+/// lattice reaches becomes parts of its own; what was left out there stays out.
+fn carried(
+    surface: &Heightfield,
+    patches: &Patches,
+    coarse: &Coarse,
+    rough: &Assembled,
+) -> Result<(Vec<u32>, Vec<u32>)> {
+    let fine = *surface.lattice();
+    let lattice = *coarse.surface.lattice();
+    let of = &rough.parts.labels.of;
+    let origin =
+        |part: u32| coarse.order[rough.parts.labels.origins[part as usize] as usize] as u32;
+    let mut origins: Vec<u32> = (0..rough.parts.labels.origins.len() as u32)
+        .map(origin)
+        .collect();
+    let mut labels = try_filled("pattern", fine.len(), NO_PATCH)?;
+    let mut open = try_filled("pattern", fine.len(), false)?;
+    for i in 0..fine.len() {
+        let patch = patches.labels()[i];
+        if patch == NO_PATCH {
+            continue;
+        }
+        let around: Vec<usize> = on_coarse(&lattice, i / fine.cols(), i % fine.cols()).collect();
+        let own = |k: &&usize| origins.get(of[**k] as usize) == Some(&patch);
+        let left_out = |k: &usize| of[*k] == NO_PATCH && !coarse.surface.heights()[*k].is_nan();
+        match around.iter().find(own) {
+            Some(k) => labels[i] = of[*k],
+            None => open[i] = !around.iter().any(left_out),
+        }
+    }
+    let mut queue: VecDeque<usize> = (0..fine.len())
+        .filter(|i| labels[*i] != NO_PATCH && fine.around(*i).any(|k| open[k]))
+        .collect();
+    let mut first = 0;
+    loop {
+        while let Some(i) = queue.pop_front() {
+            for k in fine.around(i) {
+                if open[k] && patches.labels()[k] == patches.labels()[i] {
+                    open[k] = false;
+                    labels[k] = labels[i];
+                    queue.push_back(k);
+                }
+            }
+        }
+        let Some(i) = (first..fine.len()).find(|i| open[*i]) else {
+            return Ok((labels, origins));
+        };
+        first = i;
+        open[i] = false;
+        labels[i] = origins.len() as u32;
+        origins.push(patches.labels()[i]);
+        queue.push_back(i);
+    }
+}
+
+/// A part of the fine lattice, lying where it lies on the coarse one.
+fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<Leaf>> {
+    let Some(leaf) = rough.net.leaves[part].as_ref() else {
+        return Ok(None);
+    };
+    let motion = rough.arrangement.layout.motions[part];
+    let start = |[row, col]: [usize; 2]| {
+        let [one, other] = parents(row, col).map(|(row, col)| {
+            let vertex = [usize::try_from(row).ok()?, usize::try_from(col).ok()?];
+            let place = leaf.place(vertex);
+            (!place.re.is_nan()).then_some(place)
+        });
+        Some(motion.of(0.5 * (one? + other?)))
+    };
+    Leaf::at(
+        &parts.surface,
+        &parts.labels,
+        part as u32,
+        parts.window(part as u32),
+        start,
+    )
+}
+
+/// Folds creases where they are folded on the coarse lattice.
+fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assembled) {
+    // The nodes between each two parts, and whether they are folds.
+    let mut nodes: BTreeMap<[usize; 2], Vec<([f64; 2], bool)>> = BTreeMap::new();
+    for (number, seam) in rough.net.seams.iter().enumerate() {
+        let folded = rough.arrangement.layout.folded[number];
+        let list = nodes.entry(seam.patches.map(|p| p as usize)).or_default();
+        list.extend(
+            seam.nodes
+                .iter()
+                .map(|node| (rough.net.plan(*node), folded)),
+        );
+    }
+    for seam in 0..net.seams.len() {
+        let mut pair = net.seams[seam].patches.map(|p| order[p as usize]);
+        pair.sort_unstable();
+        let Some(list) = nodes.get(&pair).filter(|_| !net.is_torn(seam)) else {
+            continue;
+        };
+        let kind = |node| {
+            let [x, y] = net.plan(node);
+            let away = |[p, q]: [f64; 2]| (p - x).hypot(q - y);
+            let nearest = list.iter().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
+            nearest.is_some_and(|(_, folded)| *folded)
+        };
+        let kinds: Vec<bool> = net.seams[seam]
+            .nodes
+            .iter()
+            .map(|node| kind(*node))
+            .collect();
+        let divided = net.divide_where(seam, &kinds);
+        layout.folded.resize(net.seams.len(), false);
+        for (part, folded) in divided {
+            layout.folded[part] = folded;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::{FINEST, PatternOptions, whole};
+    use crate::shape::patches::PatchOptions;
+
+    #[test]
+    fn what_only_the_fine_lattice_shows_torn_is_left_out_there() {
+        // A folded card, drawn down at a vertex of its border that is on no coarse lattice.
+        let lattice = Lattice::new(120, 160, 1.0).unwrap();
+        let [left, bottom] = lattice.position(0, 81);
+        let surface = Heightfield::from_fn(lattice, |x, y| {
+            -0.5 * (x - 60.3).abs() - 12.0 * (1.0 - (x - left).hypot(y - bottom)).max(0.0)
+        });
+        let surface = surface.unwrap();
+        let patches = Patches::new(&surface, &PatchOptions::default()).unwrap();
+        let options = PatternOptions::default().max_strain(0.003);
+        let coarse = Coarse::new(&surface, &patches).unwrap().unwrap();
+        let rough = whole(&coarse.surface, &coarse.patches, &options, FINEST).unwrap();
+        let parts = Parts::none(&surface, &options);
+        let found = refined(&surface, &patches, &coarse, &rough, parts).unwrap();
+        let found = found.unwrap_or_else(|reason| panic!("{reason}"));
+        assert_eq!(found.arrangement.sheets, [[0, 1]]);
+        let out = found.parts.left_out();
+        assert!((1..=16).contains(&out), "{out}");
+    }
+}

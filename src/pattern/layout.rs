@@ -1,0 +1,98 @@
+//! Patches laid beside each other, as many as fit.
+
+use super::net::Net;
+use super::outline::{Layout, Motion};
+use crate::math::planar::polyline_length;
+
+pub(super) struct Arrangement {
+    pub layout: Layout,
+    /// The patches of each sheet, ascending.
+    pub sheets: Vec<Vec<u32>>,
+}
+
+/// A seam whose sides are further apart in space, in spacings, is a tear.
+pub(super) const TORN: f64 = 0.5;
+
+/// A distance that the lattice cannot tell from none, in spacings.
+pub(super) const FINE: f64 = 0.25;
+
+/// Makes folds of the seams whose sides fit within a share of their length, the longest first.
+pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
+    let mut layout = Layout::loose(net);
+    // The sheet of each patch, and the patches of each sheet.
+    let mut of: Vec<usize> = (0..net.leaves.len()).collect();
+    let mut sheets: Vec<Vec<u32>> = (net.leaves.iter().enumerate())
+        .map(|(patch, leaf)| leaf.iter().map(|_| patch as u32).collect())
+        .collect();
+    let order = longest_first(net);
+    for seam in &order {
+        let [a, b] = net.seams[*seam].patches.map(|patch| of[patch as usize]);
+        if a == b || sheets[a].is_empty() || sheets[b].is_empty() {
+            continue;
+        }
+        let motion = beside(net, &layout, *seam);
+        let mut trial = layout.clone();
+        trial.carry(&sheets[b], &motion);
+        if !fits(net, &trial, *seam, gap) {
+            continue;
+        }
+        // Others may fit as well then: around a vertex with a full turn, the last one does.
+        let mut joint = [&sheets[a][..], &sheets[b]].concat();
+        joint.sort_unstable();
+        for seam in order.iter().filter(|seam| !layout.folded[**seam]) {
+            let own = net.seams[*seam]
+                .patches
+                .iter()
+                .all(|p| [a, b].contains(&of[*p as usize]));
+            if own && fits(net, &trial, *seam, gap) {
+                trial.folded[*seam] = true;
+            }
+        }
+        if !trial.overlaps(net, &joint) {
+            layout = trial;
+            for patch in &joint {
+                of[*patch as usize] = a.min(b);
+            }
+            sheets[a.max(b)] = Vec::new();
+            sheets[a.min(b)] = joint;
+        }
+    }
+    sheets.retain(|members| !members.is_empty());
+    Arrangement { layout, sheets }
+}
+
+/// The seams that may be joined, by their length.
+pub(super) fn longest_first(net: &Net) -> Vec<usize> {
+    let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
+    let whole = |seam: &usize| {
+        let nodes = net.seams[*seam].nodes.len();
+        nodes > 2 && !net.is_torn(*seam) && long(seam) > 0.0
+    };
+    let mut order: Vec<usize> = (0..net.seams.len()).filter(whole).collect();
+    order.sort_by(|a, b| long(b).total_cmp(&long(a)));
+    order
+}
+
+/// What brings the second side of a seam to its first.
+pub(super) fn beside(net: &Net, layout: &Layout, seam: usize) -> Motion {
+    let [there, here] = [0, 1].map(|side| layout.side(net, seam, side));
+    Motion::between(&here, &there)
+}
+
+/// Whether the sides of a seam lie on each other but for a share of its length, or as nearly as the
+/// lattice can tell.
+pub(super) fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
+    let most = gap * polyline_length(&net.seams[seam].sides[0]);
+    apart(net, layout, seam) <= most.max(FINE * net.spacing)
+}
+
+/// Root mean square of the distances between the sides of a seam.
+pub(super) fn apart(net: &Net, layout: &Layout, seam: usize) -> f64 {
+    let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
+    let squares: f64 = one
+        .iter()
+        .zip(&other)
+        .map(|(p, q)| (p - q).norm_sqr())
+        .sum();
+    (squares / one.len() as f64).sqrt()
+}

@@ -1,0 +1,426 @@
+//! One patch, extended a cell beyond its creases and laid flat by itself.
+//!
+//! The lattice's triangles that a crease runs through cut its corner. So each patch gets them for
+//! itself, with heights of its own at the corners that belong to others, as its vertices nearby have
+//! it. Where two patches so extended meet is where the crease is. Parts of what was one patch go on
+//! into each other as the surface does.
+
+use super::labels::Labels;
+use super::layout::TORN;
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::Lattice;
+use crate::scene::triangulation::Triangulation;
+use crate::scene::view::Frame;
+use crate::shape::patches::extend::extended;
+use crate::unroll::pieces::{Piece, Point};
+use crate::unroll::{UnrollOptions, unroll_mesh};
+
+/// A part with fewer vertices is not cut any more.
+pub(super) const CRUMB: usize = 24;
+
+/// A part of the lattice, from an even row on, so that its rows are shifted alike.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Window {
+    top: usize,
+    left: usize,
+    bottom: usize,
+    right: usize,
+}
+
+impl Window {
+    /// The whole lattice.
+    pub(super) fn whole(lattice: &Lattice) -> Window {
+        Window {
+            top: 0,
+            left: 0,
+            bottom: lattice.rows() - 1,
+            right: lattice.cols() - 1,
+        }
+    }
+
+    const NOTHING: Window = Window {
+        top: usize::MAX,
+        left: usize::MAX,
+        bottom: 0,
+        right: 0,
+    };
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.top > self.bottom
+    }
+
+    pub(super) fn with(&self, other: &Window) -> Window {
+        Window {
+            top: self.top.min(other.top),
+            left: self.left.min(other.left),
+            bottom: self.bottom.max(other.bottom),
+            right: self.right.max(other.right),
+        }
+    }
+
+    /// The lattice's indices in it.
+    pub(super) fn vertices(self, lattice: &Lattice) -> impl Iterator<Item = usize> {
+        let cols = lattice.cols();
+        let rows = if self.is_empty() {
+            0..0
+        } else {
+            self.top..self.bottom + 1
+        };
+        rows.flat_map(move |row| (self.left..=self.right).map(move |col| row * cols + col))
+    }
+
+    /// Around the vertices of each of `count` patches in this one, a cell larger.
+    pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
+        let mut windows = vec![Window::NOTHING; count];
+        for i in self.vertices(lattice) {
+            if let Some(window) = windows.get_mut(labels[i] as usize) {
+                let (row, col) = (i / lattice.cols(), i % lattice.cols());
+                *window = window.with(&Window {
+                    top: row.saturating_sub(1) & !1,
+                    left: col.saturating_sub(1),
+                    bottom: (row + 1).min(lattice.rows() - 1),
+                    right: (col + 1).min(lattice.cols() - 1),
+                });
+            }
+        }
+        windows
+    }
+}
+
+pub(super) struct Leaf {
+    mesh: Triangulation,
+    /// Where its vertices lie by themselves, and where they lie now.
+    alone: Vec<Point>,
+    places: Vec<Point>,
+    /// Whether it has not been laid flat on this lattice yet.
+    rough: bool,
+    window: Window,
+    /// Which of its vertices are the patch's own.
+    own: Vec<bool>,
+}
+
+/// What is left of stretch in a leaf.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Strain {
+    pub area: f64,
+    /// Area times the mean of the squared strains.
+    pub squares: f64,
+    /// Triangles that lie upside down.
+    pub flipped: usize,
+}
+
+impl Strain {
+    /// Root of the mean square; infinite where it is not a number, which is no layout.
+    pub(super) fn rms(&self) -> f64 {
+        let rms = match self.area > 0.0 {
+            true => (self.squares / self.area).sqrt(),
+            false => 0.0,
+        };
+        if rms.is_nan() { f64::INFINITY } else { rms }
+    }
+
+    pub(super) fn with(self, other: Strain) -> Strain {
+        Strain {
+            area: self.area + other.area,
+            squares: self.squares + other.squares,
+            flipped: self.flipped + other.flipped,
+        }
+    }
+}
+
+impl Leaf {
+    /// The patch with all triangles that one of its vertices is in; `None` if there is none. What
+    /// will surely be strained by more than `limit` is laid flat carelessly.
+    pub(super) fn new(
+        surface: &Heightfield,
+        labels: &Labels,
+        patch: u32,
+        window: Window,
+        options: &UnrollOptions,
+        limit: f64,
+    ) -> Result<Option<Leaf>> {
+        let Some((mesh, own)) = Leaf::mesh(surface, labels, patch, window)? else {
+            return Ok(None);
+        };
+        let flat = unroll_mesh(mesh, options, Some(limit))?;
+        let places = flat.places().iter();
+        let places: Vec<Point> = places.map(|[x, y]| Point::new(*x, *y)).collect();
+        Ok(Some(Leaf {
+            mesh: flat.into_mesh(),
+            alone: places.clone(),
+            places,
+            rough: false,
+            window,
+            own,
+        }))
+    }
+
+    /// The same, lying where `start` says, as far as that knows; nothing if it knows of too few.
+    pub(super) fn at(
+        surface: &Heightfield,
+        labels: &Labels,
+        patch: u32,
+        window: Window,
+        start: impl Fn([usize; 2]) -> Option<Point>,
+    ) -> Result<Option<Leaf>> {
+        let Some((mesh, own)) = Leaf::mesh(surface, labels, patch, window)? else {
+            return Ok(None);
+        };
+        let cols = mesh.lattice().cols();
+        let vertices = mesh.vertices().iter().map(|v| *v as usize);
+        let known: Vec<Option<Point>> = vertices
+            .map(|v| start([window.top + v / cols, window.left + v % cols]))
+            .collect();
+        let Some(places) = spread(&mesh, known) else {
+            return Ok(None);
+        };
+        Ok(Some(Leaf {
+            mesh,
+            alone: places.clone(),
+            places,
+            rough: true,
+            window,
+            own,
+        }))
+    }
+
+    /// Its triangles, and which of their vertices are its own.
+    fn mesh(
+        surface: &Heightfield,
+        labels: &Labels,
+        patch: u32,
+        window: Window,
+    ) -> Result<Option<(Triangulation, Vec<bool>)>> {
+        let whole = surface.lattice();
+        if window.is_empty() {
+            return Ok(None);
+        }
+        let (rows, cols) = (
+            window.bottom - window.top + 1,
+            window.right - window.left + 1,
+        );
+        let lattice = Lattice::new(rows, cols, whole.spacing())?
+            .with_origin(whole.position(window.top, window.left))?;
+        let index = |i: usize| whole.index(window.top + i / cols, window.left + i % cols);
+        let of = &labels.of;
+        let mut heights = try_filled("patch", lattice.len(), f64::NAN)?;
+        for (i, height) in heights.iter_mut().enumerate() {
+            let k = index(i);
+            let beside = || {
+                let around = whole.neighbours(k / whole.cols(), k % whole.cols());
+                (around.into_iter().flatten()).any(|(r, c)| of[whole.index(r, c)] == patch)
+            };
+            let z = surface.heights()[k];
+            if of[k] == patch {
+                *height = z;
+            } else if !z.is_nan() && beside() {
+                let own = extended(surface, of, patch, k);
+                // A step between parts of one patch is a tear, too.
+                let near = (z - own).abs() <= TORN * whole.spacing();
+                let goes_on = labels.are_one(of[k], patch) && (near || own.is_nan());
+                *height = if goes_on { z } else { own };
+            }
+        }
+        let field = Heightfield::new(lattice, heights)?;
+        let own = |corners: [usize; 3]| corners.iter().any(|i| of[index(*i)] == patch);
+        let mesh = match Triangulation::of_some(&field, &Frame::default(), own) {
+            Err(Error::Unsupported { .. }) => return Ok(None),
+            other => other?,
+        };
+        let own = mesh.vertices().iter();
+        let own = own.map(|v| of[index(*v as usize)] == patch).collect();
+        Ok(Some((mesh, own)))
+    }
+
+    /// Whether it has not been laid flat on this lattice yet.
+    pub(super) fn is_rough(&self) -> bool {
+        self.rough
+    }
+
+    pub(super) fn places(&self) -> &[Point] {
+        &self.places
+    }
+
+    /// Where its vertices are on the surface.
+    pub(super) fn positions(&self) -> &[[f64; 3]] {
+        self.mesh.positions()
+    }
+
+    pub(super) fn is_own(&self, vertex: usize) -> bool {
+        self.own[vertex]
+    }
+
+    pub(super) fn set_places(&mut self, places: Vec<Point>) {
+        self.places = places;
+    }
+
+    /// Where its vertices lay before they were moved; `None` if they were not.
+    pub(super) fn moved_from(&self) -> Option<Vec<Point>> {
+        (self.alone != self.places).then(|| self.alone.clone())
+    }
+
+    /// Number of vertices of its own.
+    pub(super) fn size(&self) -> usize {
+        self.own.iter().filter(|own| **own).count()
+    }
+
+    /// Whether it is too small to be cut.
+    pub(super) fn is_crumb(&self) -> bool {
+        self.size() < CRUMB
+    }
+
+    /// Its triangles as they would lie by themselves, with the numbers of their corners. A triangle
+    /// most of which is another patch's is left out where there are others.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
+        let mesh = &self.mesh;
+        let inside = |corners: &[u32; 3]| {
+            let own = corners.iter().filter(|v| self.own[**v as usize]);
+            own.count() > 1
+        };
+        let some = mesh.triangles().iter().any(inside);
+        let corners = mesh.triangles().iter();
+        let corners = corners.filter(move |corners| !some || inside(corners));
+        corners.map(move |corners| {
+            let points = corners.map(|v| mesh.positions()[v as usize]);
+            (Piece::between(points), *corners)
+        })
+    }
+
+    /// All of its triangles likewise.
+    pub(super) fn all_pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
+        let mesh = &self.mesh;
+        mesh.triangles().iter().map(|corners| {
+            let points = corners.map(|v| mesh.positions()[v as usize]);
+            (Piece::between(points), *corners)
+        })
+    }
+
+    /// The strain where its vertices lie now.
+    pub(super) fn strain(&self) -> Strain {
+        self.strain_of(|_| true)
+    }
+
+    /// That of the triangles with a corner of some kind.
+    pub(super) fn strain_of(&self, wanted: impl Fn(u32) -> bool) -> Strain {
+        let mut sum = Strain::default();
+        for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
+            if !corners.iter().any(|corner| wanted(*corner)) {
+                continue;
+            }
+            let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            sum.area += piece.area();
+            sum.squares += 0.5 * piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+            sum.flipped += usize::from(short <= 0.0 || short.is_nan());
+        }
+        sum
+    }
+
+    /// For each of its vertices the lattice's index in the whole, and the squared strain around it
+    /// times the area.
+    pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
+        let mut shares = vec![0.0; self.places.len()];
+        for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
+            let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            let square = piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+            for v in corners {
+                shares[v as usize] += square;
+            }
+        }
+        let own = (0..shares.len()).filter(|v| self.own[*v]);
+        own.map(|v| (self.index(whole, v), shares[v])).collect()
+    }
+
+    /// Those of its vertices that are corners of triangles upside down, by the lattice's index in the whole.
+    pub(super) fn flipped(&self, whole: &Lattice) -> Vec<usize> {
+        let upside_down = |(piece, corners): &(Piece, [u32; 3])| {
+            let [_, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            piece.exists() && (short <= 0.0 || short.is_nan())
+        };
+        let pieces = self.pieces().filter(upside_down);
+        let corners = pieces.flat_map(|(_, corners)| corners);
+        let own = corners.map(|v| v as usize).filter(|v| self.own[*v]);
+        own.map(|v| self.index(whole, v)).collect()
+    }
+
+    /// Index in the whole lattice of one of its vertices.
+    fn index(&self, whole: &Lattice, number: usize) -> usize {
+        let [row, col] = self.vertex(number);
+        whole.index(row, col)
+    }
+
+    /// Row and column in the whole lattice of one of its vertices.
+    pub(super) fn vertex(&self, number: usize) -> [usize; 2] {
+        let (index, cols) = (
+            self.mesh.vertices()[number] as usize,
+            self.mesh.lattice().cols(),
+        );
+        [
+            self.window.top + index / cols,
+            self.window.left + index % cols,
+        ]
+    }
+
+    /// Which of the leaf's vertices a vertex of the whole lattice is.
+    pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
+        let [row, col] = vertex;
+        let lattice = self.mesh.lattice();
+        let (row, col) = (
+            row.checked_sub(self.window.top)?,
+            col.checked_sub(self.window.left)?,
+        );
+        if row >= lattice.rows() || col >= lattice.cols() {
+            return None;
+        }
+        let index = lattice.index(row, col) as u32;
+        self.mesh.vertices().binary_search(&index).ok()
+    }
+
+    /// Height of the extended patch at a row and column of the whole lattice; NaN where it does
+    /// not reach.
+    pub(super) fn height(&self, vertex: [usize; 2]) -> f64 {
+        let number = self.number(vertex);
+        number.map_or(f64::NAN, |n| self.mesh.positions()[n][2])
+    }
+
+    /// Its place on the plane likewise.
+    pub(super) fn place(&self, vertex: [usize; 2]) -> Point {
+        self.number(vertex)
+            .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])
+    }
+}
+
+/// Places for all vertices of a mesh from those that are known: beside these, triangles that are known
+/// go on as they lie. `None` if there is nothing to go on from.
+fn spread(mesh: &Triangulation, mut known: Vec<Option<Point>>) -> Option<Vec<Point>> {
+    let mut missing = known.iter().filter(|place| place.is_none()).count();
+    while missing > 0 {
+        let mut sums = vec![(Point::default(), 0.0); known.len()];
+        for corners in mesh.triangles() {
+            for k in 0..3 {
+                let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k] as usize);
+                let (None, Some(p), Some(q)) = (known[a], known[b], known[c]) else {
+                    continue;
+                };
+                let points = [b, c, a].map(|v| mesh.positions()[v]);
+                let piece = Piece::between(points);
+                if piece.exists() {
+                    let (sum, count) = &mut sums[a];
+                    *sum += p + (q - p) * piece.third_corner();
+                    *count += 1.0;
+                }
+            }
+        }
+        let before = missing;
+        for (place, (sum, count)) in known.iter_mut().zip(sums) {
+            if count > 0.0 && place.is_none() {
+                *place = Some(sum / count);
+                missing -= 1;
+            }
+        }
+        if missing == before {
+            return None;
+        }
+    }
+    known.into_iter().collect()
+}

@@ -1,0 +1,281 @@
+//! Points inside of the surface where cuts or folds end, and the angle of the surface around them.
+
+use super::labels::Labels;
+use super::net::{Net, Node, SPECK, is_triangle};
+use super::outline::Layout;
+use crate::error::Result;
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::Lattice;
+use crate::math::planar::polyline_length;
+use crate::math::union_find::UnionFind;
+use crate::unroll::pieces::Point;
+use rustc_hash::FxHashMap;
+
+/// Angles are measured within this distance, in spacings, or this share of the shortest line that ends there, ...
+const REACH: f64 = 20.0;
+const SHARE: f64 = 0.8;
+
+/// ... and not at all within less, where the lattice cannot tell.
+const LEAST: f64 = 6.0;
+
+/// Places on the ring around a point, so many times more of them beside creases, and on the way to each.
+const RING: usize = 180;
+const FINER: usize = 16;
+const WAY: usize = 12;
+
+/// A point inside of the surface where cuts or folds end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Meeting {
+    /// The same wherever this point is on a sheet.
+    pub number: usize,
+    /// Where it is on the surface.
+    pub place: [f64; 3],
+    /// Sum of the angles of the surface around it, in radians: 2π where that could be laid flat in one
+    /// piece, less at the point of a cone, more in a saddle.
+    pub angle: f64,
+    /// The distance along the surface at which that was measured: from half of it on.
+    pub reach: f64,
+    /// How many ends of cuts there are.
+    pub cuts: usize,
+}
+
+/// All of them, by the nodes that they are at.
+pub(super) struct Meetings {
+    all: Vec<Option<Meeting>>,
+    of: FxHashMap<Node, usize>,
+}
+
+impl Meetings {
+    /// That of a node. Nothing at the border, at steps, and where lines are too short.
+    pub(super) fn at(&self, node: Node) -> Option<Meeting> {
+        self.of.get(&node).and_then(|number| self.all[*number])
+    }
+
+    pub(super) fn new(
+        surface: &Heightfield,
+        labels: &Labels,
+        net: &Net,
+        layout: &Layout,
+    ) -> Result<Meetings> {
+        let ends = |seam: usize| {
+            let nodes = &net.seams[seam].nodes;
+            [nodes[0], nodes[nodes.len() - 1]]
+        };
+        let inner = |node: Node| is_triangle(node) || net.seams_of(node)[1].is_some();
+        let open = |seam: &usize| ends(*seam)[0] != ends(*seam)[1];
+        let seams: Vec<usize> = (0..net.seams.len()).filter(open).collect();
+        let (mut nodes, mut of) = (Vec::new(), FxHashMap::default());
+        for node in seams.iter().flat_map(|seam| ends(*seam)) {
+            if inner(node) && !of.contains_key(&node) {
+                of.insert(node, nodes.len());
+                nodes.push(node);
+            }
+        }
+        // Where four patches meet, there are two nodes of three each.
+        let long = |seam: usize| polyline_length(&net.seams[seam].sides[0]);
+        let mut sets = UnionFind::new("pattern", nodes.len())?;
+        for seam in seams.iter().filter(|s| long(**s) <= SPECK * net.spacing) {
+            if let [Some(a), Some(b)] = ends(*seam).map(|node| of.get(&node)) {
+                sets.union(*a as u32, *b as u32);
+            }
+        }
+        of.values_mut()
+            .for_each(|number| *number = sets.find(*number as u32) as usize);
+        let mut found = vec![Found::default(); nodes.len()];
+        for seam in seams {
+            let at = ends(seam).map(|node| of.get(&node).copied());
+            for number in at.into_iter().flatten() {
+                let found = &mut found[number];
+                found.torn |= net.is_torn(seam);
+                // Not those that only join its nodes.
+                if at[0] != at[1] {
+                    found.cuts += usize::from(!layout.folded[seam]);
+                    found.shortest = found.shortest.min(long(seam));
+                }
+            }
+        }
+        for node in &nodes {
+            let found = &mut found[of[node]];
+            let place = net.built(*node);
+            found.sum = [0, 1, 2].map(|k| found.sum[k] + place[k]);
+            found.count += 1.0;
+        }
+        let around = Around {
+            surface,
+            labels,
+            net,
+        };
+        let all = found.iter().enumerate().map(|(number, found)| {
+            let reach = (REACH * net.spacing).min(SHARE * found.shortest);
+            if found.torn || found.count == 0.0 || reach < LEAST * net.spacing {
+                return None;
+            }
+            let place = found.sum.map(|sum| sum / found.count);
+            Some(Meeting {
+                number,
+                place,
+                angle: around.angle(place, reach)?,
+                reach,
+                cuts: found.cuts,
+            })
+        });
+        Ok(Meetings {
+            all: all.collect(),
+            of,
+        })
+    }
+
+    /// Those at the places of a sheet's corners.
+    pub(super) fn corners(
+        &self,
+        net: &Net,
+        layout: &Layout,
+        patches: &[u32],
+    ) -> Vec<(Point, Meeting)> {
+        let corners = layout.outlines(net, patches).into_iter().flatten();
+        corners
+            .filter_map(|corner| Some((corner.place, self.at(corner.node)?)))
+            .collect()
+    }
+}
+
+/// What is known of a point before it is looked at.
+#[derive(Clone)]
+struct Found {
+    cuts: usize,
+    torn: bool,
+    shortest: f64,
+    /// Sum of the places of its nodes, and how many these are.
+    sum: [f64; 3],
+    count: f64,
+}
+
+impl Default for Found {
+    fn default() -> Self {
+        Found {
+            cuts: 0,
+            torn: false,
+            shortest: f64::INFINITY,
+            sum: [0.0; 3],
+            count: 0.0,
+        }
+    }
+}
+
+/// The surface with its creases where patches meet.
+struct Around<'a> {
+    surface: &'a Heightfield,
+    labels: &'a Labels,
+    net: &'a Net,
+}
+
+/// A way along the surface: how long it is, where it ends, and whether a crease is near there.
+struct Way {
+    long: f64,
+    place: [f64; 3],
+    /// The same of its first half.
+    half: (f64, [f64; 3]),
+    creased: bool,
+}
+
+fn squared(p: [f64; 3], q: [f64; 3]) -> f64 {
+    (0..3).map(|k| (p[k] - q[k]).powi(2)).sum()
+}
+
+impl Around<'_> {
+    /// The sum of the angles around a place, by the lengths of ways from one ring around it to another of twice
+    /// its radius, and along both. That is exact for cones, thus where flat faces meet, and hardly depends on
+    /// what is right at the place, which the lattice blurs. Nothing where a ring leaves the surface.
+    fn angle(&self, place: [f64; 3], reach: f64) -> Option<f64> {
+        let even: Vec<f64> = (0..RING).map(|k| k as f64 / RING as f64).collect();
+        let first = self.ring(place, 0.5 * reach, &even)?;
+        let mean = first.iter().map(|way| way.long).sum::<f64>() / RING as f64;
+        // As far in plan as it takes on the surface.
+        let radius = 0.5 * reach * reach / mean;
+        let coarse = self.ring(place, radius, &even)?;
+        let finer = |k: usize| {
+            let steps = match coarse[k].creased || coarse[(k + 1) % RING].creased {
+                true => FINER,
+                false => 1,
+            };
+            (0..steps).map(move |i| (k as f64 + i as f64 / steps as f64) / RING as f64)
+        };
+        let turns: Vec<f64> = (0..RING).flat_map(finer).collect();
+        let ring = self.ring(place, radius, &turns)?;
+        let next = ring.iter().cycle().skip(1);
+        let angles = ring.iter().zip(next).map(|(one, other)| {
+            let (a, b) = (one.long - one.half.0, other.long - other.half.0);
+            let along = squared(one.place, other.place).sqrt();
+            let square = (along - squared(one.half.1, other.half.1).sqrt()).powi(2);
+            // Of a triangle by its sides, near 0: the cosine would lose half of the digits.
+            let sine = ((square - (a - b).powi(2)) / (4.0 * a * b)).max(0.0).sqrt();
+            2.0 * sine.min(1.0).asin()
+        });
+        Some(angles.sum())
+    }
+
+    /// The straight ways in plan to the places of a ring with a radius in plan, in some directions in turns.
+    fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<Way>> {
+        let way = |turn: &f64| {
+            let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+            let mut way = Way {
+                long: 0.0,
+                place,
+                half: (0.0, place),
+                creased: false,
+            };
+            for step in 1..=WAY {
+                let away = radius * step as f64 / WAY as f64;
+                let [x, y] = [place[0] + away * cos, place[1] + away * sin];
+                let (z, creased) = self.height([x, y])?;
+                way.long += squared([x, y, z], way.place).sqrt();
+                (way.place, way.creased) = ([x, y, z], creased);
+                if 2 * step == WAY {
+                    way.half = (way.long, way.place);
+                }
+            }
+            Some(way)
+        };
+        turns.iter().map(way).collect()
+    }
+
+    /// The height in a triangle, and whether two patches meet in it: there both go on to their crease.
+    fn height(&self, place: [f64; 2]) -> Option<(f64, bool)> {
+        let lattice: &Lattice = self.surface.lattice();
+        let found = lattice.locate(place);
+        let mut corners = [([0; 2], 0); 3];
+        for (corner, (row, col)) in corners.iter_mut().zip(found.vertices) {
+            if !lattice.contains(row, col) {
+                return None;
+            }
+            let (row, col) = (row as usize, col as usize);
+            *corner = ([row, col], self.labels.of[lattice.index(row, col)]);
+        }
+        let leaf = |patch: u32| self.net.leaves.get(patch as usize)?.as_ref();
+        let of = |vertex: [usize; 2], patch: u32| Some(leaf(patch)?.height(vertex));
+        let sum = |heights: [Option<f64>; 3]| {
+            let terms = heights.into_iter().zip(found.weights);
+            terms.map(|(z, w)| Some(z? * w)).sum::<Option<f64>>()
+        };
+        let own = corners.map(|(vertex, patch)| of(vertex, patch));
+        let first = corners[0].1;
+        let other = corners
+            .iter()
+            .map(|(_, patch)| *patch)
+            .find(|p| *p != first);
+        let height = match other {
+            None => sum(own)?,
+            Some(other) if corners.iter().all(|(_, p)| [first, other].contains(p)) => {
+                let sides = [first, other].map(|patch| corners.map(|(v, _)| of(v, patch)));
+                let [one, two] = [sum(sides[0])?, sum(sides[1])?];
+                // Below a ridge patches go on upwards.
+                let beyond = |k: usize| Some(sides[0][k]? + sides[1][k]? - 2.0 * own[k]?);
+                let ridge = (0..3).map(beyond).sum::<Option<f64>>()? > 0.0;
+                if ridge { one.min(two) } else { one.max(two) }
+            }
+            Some(_) => sum(own)?,
+        };
+        height.is_finite().then_some((height, other.is_some()))
+    }
+}

@@ -1,0 +1,267 @@
+//! A mesh in parts that can be cut in two by planes.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::{Error, Result};
+use crate::math::index::NO_INDEX;
+use crate::math::symmetric_eigen::symmetric_eigen3;
+use crate::math::union_find::UnionFind;
+use crate::scene::half_edges::twin_half_edges;
+use rustc_hash::FxHashMap;
+
+pub(super) type Place = Vector3<f64>;
+
+/// A vertex nearer to a plane than this, in lengths of edges, lies on it.
+const ON: f64 = 0.1;
+
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    pub places: Vec<Place>,
+    pub triangles: Vec<[u32; 3]>,
+    /// The patch that each triangle was in, and its part of it.
+    pub patches: Vec<u32>,
+    pub parts: Vec<u32>,
+    pub count: u32,
+    /// Length of an edge, on average.
+    pub spacing: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plane {
+    pub through: Place,
+    pub normal: Place,
+}
+
+impl Body {
+    /// Each connected piece of a patch is a part.
+    pub(super) fn new(
+        places: Vec<Place>,
+        triangles: Vec<[u32; 3]>,
+        patches: Vec<u32>,
+    ) -> Result<Body> {
+        let lengths = triangles.iter().flat_map(|t| {
+            [(0, 1), (1, 2), (2, 0)]
+                .map(|(i, k)| (places[t[i] as usize] - places[t[k] as usize]).norm())
+        });
+        let spacing = lengths.sum::<f64>() / (3 * triangles.len()) as f64;
+        if !spacing.is_normal() {
+            return Err(Error::Topology {
+                reason: format!("its edges are {spacing:e} long on average"),
+                advice: "check its coordinates",
+            });
+        }
+        let mut body = Body {
+            parts: vec![0; triangles.len()],
+            places,
+            triangles,
+            patches,
+            count: 0,
+            spacing,
+        };
+        let all: Vec<u32> = (0..body.triangles.len() as u32).collect();
+        let labels = body.patches.clone();
+        body.part(&all, &labels)?;
+        Ok(body)
+    }
+
+    pub(super) fn members(&self, part: u32) -> Vec<u32> {
+        let all = self.parts.iter().zip(0..);
+        all.filter(|(own, _)| **own == part)
+            .map(|(_, t)| t)
+            .collect()
+    }
+
+    /// A part by itself, as part 0.
+    pub(super) fn alone(&self, members: &[u32]) -> Body {
+        let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut places = Vec::new();
+        let mut number = |v: u32| {
+            *numbers.entry(v).or_insert_with(|| {
+                places.push(self.places[v as usize]);
+                places.len() as u32 - 1
+            })
+        };
+        let triangles: Vec<[u32; 3]> = (members.iter())
+            .map(|t| self.triangles[*t as usize].map(&mut number))
+            .collect();
+        Body {
+            places,
+            triangles,
+            patches: members.iter().map(|t| self.patches[*t as usize]).collect(),
+            parts: vec![0; members.len()],
+            count: 1,
+            spacing: self.spacing,
+        }
+    }
+
+    /// Makes a part of each connected piece with one label of some triangles, which leave theirs; the first
+    /// takes the number of the first triangle's, where `count` has it.
+    fn part(&mut self, members: &[u32], labels: &[u32]) -> Result<Vec<u32>> {
+        let own: Vec<[u32; 3]> = (members.iter())
+            .map(|t| self.triangles[*t as usize])
+            .collect();
+        let label = |side: usize| labels[members[side / 3] as usize];
+        let mut sets = UnionFind::new("pattern", own.len())?;
+        for (side, twin) in twin_half_edges(&own).into_iter().enumerate() {
+            if twin != NO_INDEX && label(side) == label(twin as usize) {
+                sets.union(side as u32 / 3, twin / 3);
+            }
+        }
+        let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
+        let before = self.parts[members[0] as usize];
+        for (own, t) in (0..).zip(members) {
+            let root = sets.find(own);
+            let number = match numbers.get(&root) {
+                Some(number) => *number,
+                None if numbers.is_empty() && self.count > 0 => before,
+                None => {
+                    self.count += 1;
+                    self.count - 1
+                }
+            };
+            numbers.insert(root, number);
+            self.parts[*t as usize] = number;
+        }
+        Ok(numbers.into_values().collect())
+    }
+
+    /// Planes that may cut a part: across its main axes, through its middle and through a place.
+    pub(super) fn planes(&self, members: &[u32], place: Place) -> Vec<Plane> {
+        let corners = |t: &u32| self.triangles[*t as usize].map(|v| self.places[v as usize]);
+        let (mut sum, mut weight) = (Place::zeros(), 0.0);
+        for t in members {
+            let [a, b, c] = corners(t);
+            let area = (b - a).cross(&(c - a)).norm();
+            sum += (a + b + c) * (area / 3.0);
+            weight += area;
+        }
+        let middle = sum / weight;
+        let mut spread = Matrix3::zeros();
+        for t in members {
+            let [a, b, c] = corners(t);
+            let area = (b - a).cross(&(c - a)).norm();
+            let off = (a + b + c) / 3.0 - middle;
+            spread += off * off.transpose() * area;
+        }
+        let axes = symmetric_eigen3(spread);
+        let through = [middle, place].into_iter();
+        through
+            .flat_map(|through| axes.map(|(_, normal)| Plane { through, normal }))
+            .collect()
+    }
+
+    /// Cuts a part along a plane; its parts then, one if the plane does not meet it.
+    pub(super) fn cut(&mut self, part: u32, plane: &Plane) -> Result<Vec<u32>> {
+        let members = self.members(part);
+        let mut heights: FxHashMap<u32, f64> = FxHashMap::default();
+        for t in &members {
+            for v in self.triangles[*t as usize] {
+                let height = plane.normal.dot(&(self.places[v as usize] - plane.through));
+                let on = height.abs() < ON * self.spacing;
+                heights.insert(v, if on { 0.0 } else { height });
+            }
+        }
+        // New vertices on the edges that cross.
+        let mut middles: FxHashMap<(u32, u32), u32> = FxHashMap::default();
+        for t in &members {
+            let corners = self.triangles[*t as usize];
+            for k in 0..3 {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                let (a, b) = (a.min(b), a.max(b));
+                let (from, to) = (heights[&a], heights[&b]);
+                if from * to < 0.0 && !middles.contains_key(&(a, b)) {
+                    let share = from / (from - to);
+                    let place = self.places[a as usize].lerp(&self.places[b as usize], share);
+                    let number = self.places.len() as u32;
+                    middles.insert((a, b), number);
+                    heights.insert(number, 0.0);
+                    self.places.push(place);
+                }
+            }
+        }
+        for t in 0..self.triangles.len() {
+            self.divide(t, &middles);
+        }
+        let members = self.members(part);
+        let mut labels = vec![0; self.triangles.len()];
+        for t in &members {
+            let sum: f64 = self.triangles[*t as usize].iter().map(|v| heights[v]).sum();
+            labels[*t as usize] = u32::from(sum > 0.0);
+        }
+        self.part(&members, &labels)
+    }
+
+    /// Makes some triangles of a part one or more of their own; its parts then.
+    pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
+        let members = self.members(part);
+        let mut labels = vec![0; self.triangles.len()];
+        apart.iter().for_each(|t| labels[*t as usize] = 1);
+        self.part(&members, &labels)
+    }
+
+    /// Divides a triangle at the vertices on its sides, if there are any.
+    fn divide(&mut self, t: usize, middles: &FxHashMap<(u32, u32), u32>) {
+        let corners = self.triangles[t];
+        let mut ring: Vec<u32> = Vec::with_capacity(6);
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            ring.push(a);
+            ring.extend(middles.get(&(a.min(b), a.max(b))));
+        }
+        // Corners that are cut off by new vertices on both sides, or halves.
+        while ring.len() > 3 {
+            let n = ring.len();
+            let is_new = |k: usize| !corners.contains(&ring[k % n]);
+            let ear = (0..n)
+                .find(|k| !is_new(*k) && is_new(k + 1) && is_new(k + n - 1))
+                .or_else(|| (0..n).find(|k| !is_new(*k) && is_new(k + 1)))
+                .unwrap_or(0);
+            let triangle = [ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]];
+            self.triangles.push(triangle);
+            self.patches.push(self.patches[t]);
+            self.parts.push(self.parts[t]);
+            ring.remove(ear);
+        }
+        self.triangles[t] = [ring[0], ring[1], ring[2]];
+    }
+}
+
+/// The angles around a vertex make up a full turn but for this, in radians, where the surface may be laid flat.
+const FULL: f64 = 0.3;
+
+impl Body {
+    /// Which vertices are tips: one side of a seam through them fits at most.
+    pub(super) fn pointed(&self) -> Vec<bool> {
+        let mut turns = vec![0.0; self.places.len()];
+        for corners in &self.triangles {
+            for k in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|i| self.places[corners[(k + i) % 3] as usize]);
+                turns[corners[k] as usize] += (b - a).angle(&(c - a));
+            }
+        }
+        let missing = |turn: &f64| (TAU - turn).abs() > FULL;
+        turns.iter().map(missing).collect()
+    }
+
+    /// Numbers the parts by their areas; the new number of each.
+    pub(super) fn sort(&mut self) -> Vec<u32> {
+        let mut areas = vec![0.0; self.count as usize];
+        for (part, corners) in self.parts.iter().zip(&self.triangles) {
+            let [a, b, c] = corners.map(|v| self.places[v as usize]);
+            areas[*part as usize] += (b - a).cross(&(c - a)).norm();
+        }
+        let mut order: Vec<usize> = (0..areas.len()).collect();
+        order.sort_by(|a, b| areas[*b].total_cmp(&areas[*a]));
+        let mut numbers = vec![0; areas.len()];
+        for (number, part) in (0..).zip(order) {
+            numbers[part] = number;
+        }
+        self.parts
+            .iter_mut()
+            .for_each(|part| *part = numbers[*part as usize]);
+        numbers
+    }
+}

@@ -1,0 +1,241 @@
+//! Sheets as they are drawn: their outlines, folds and places to write on.
+
+use super::MeshPattern;
+use super::body::Body;
+use super::join::Joined;
+use super::lay::Laid;
+use super::meeting::Meetings;
+use super::seams::Seams;
+use crate::error::Result;
+use crate::math::index::NO_INDEX;
+use crate::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
+use crate::scene::half_edges::half_edge_ends;
+use crate::shape::patches::{Crease, Patch};
+use crate::unroll::pieces::Point;
+
+pub(super) fn drawn(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<MeshPattern> {
+    let creases = seams.all.iter().map(|seam| Crease {
+        patches: seam.parts,
+        points: (seam.vertices.iter())
+            .map(|v| body.places[*v as usize].into())
+            .collect(),
+        length: seam.length,
+        fold: seam.angle.abs(),
+    });
+    let meetings = Meetings::new(body, seams, sheets);
+    let mut sheets: Vec<Sheet> = sheets
+        .iter()
+        .map(|sheet| draw(body, seams, &meetings, sheet))
+        .collect();
+    sheets.sort_by_key(|sheet| sheet.patches[0]);
+    Ok(MeshPattern {
+        sheets,
+        patches: patches(body),
+        creases: creases.collect(),
+    })
+}
+
+fn patches(body: &Body) -> Vec<Patch> {
+    let mut found = vec![(Vec::<u32>::new(), 0.0); body.count as usize];
+    for (part, corners) in body.parts.iter().zip(&body.triangles) {
+        let [a, b, c] = corners.map(|v| body.places[v as usize]);
+        let (vertices, area) = &mut found[*part as usize];
+        vertices.extend(corners);
+        *area += 0.5 * (b - a).cross(&(c - a)).norm();
+    }
+    let counted = found.into_iter().map(|(mut vertices, area)| {
+        vertices.sort_unstable();
+        vertices.dedup();
+        Patch {
+            vertices: vertices.len(),
+            area,
+        }
+    });
+    counted.collect()
+}
+
+fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Sheet {
+    let laid = &sheet.laid;
+    let seam = |number: usize| {
+        let own = &seams.all[number];
+        Seam {
+            crease: number,
+            patches: own.parts,
+            direction: match own.angle >= 0.0 {
+                true => Direction::Mountain,
+                false => Direction::Valley,
+            },
+            angle: own.angle.abs(),
+            slit: own.smooth,
+            torn: false,
+        }
+    };
+    let place = |vertex: u32| {
+        let place = laid.places[vertex as usize];
+        [place.re, place.im]
+    };
+    let mut outlines: Vec<(f64, Vec<Run>)> = (laid.outlines().iter())
+        .map(|line| {
+            let runs = runs(body, seams, laid, line);
+            let long = (line.iter())
+                .map(|side| {
+                    let [a, b] =
+                        half_edge_ends(&laid.triangles, *side).map(|v| laid.places[v as usize]);
+                    (b - a).norm()
+                })
+                .sum();
+            let run = |(number, sides): (Option<usize>, Vec<u32>)| {
+                let mut points: Vec<[f64; 2]> = (sides.iter())
+                    .map(|side| place(half_edge_ends(&laid.triangles, *side)[0]))
+                    .collect();
+                points.push(place(
+                    half_edge_ends(&laid.triangles, sides[sides.len() - 1])[1],
+                ));
+                let part = body.parts[laid.members[sides[0] as usize / 3] as usize];
+                let [first, last] = [sides[0], sides[sides.len() - 1]];
+                let [from, to] = [(first, 0), (last, 1)].map(|(side, end)| {
+                    laid.source[half_edge_ends(&laid.triangles, side)[end] as usize]
+                });
+                Run {
+                    // What is all of an outline begins anywhere.
+                    ends: [from, to].map(|v| meetings.at(v).filter(|_| from != to)),
+                    seam: number.map(seam),
+                    patch: number.map(|_| part),
+                    points,
+                }
+            };
+            (long, runs.into_iter().map(run).collect())
+        })
+        .collect();
+    outlines.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let folded = sheet
+        .whole
+        .iter()
+        .filter(|number| !seams.all[**number].smooth);
+    let mut folds: Vec<Fold> = folded
+        .map(|number| Fold {
+            // All cuts of a mesh that is closed hang together: a fold ends on the outline.
+            ends: [None; 2],
+            seam: seam(*number),
+            points: along(seams, laid, *number).into_iter().map(place).collect(),
+        })
+        .collect();
+    folds.sort_by_key(|fold| fold.seam.crease);
+    Sheet {
+        patches: sheet.parts.clone(),
+        outlines: outlines.into_iter().map(|(_, runs)| runs).collect(),
+        folds,
+        spots: sheet
+            .parts
+            .iter()
+            .map(|part| spot(body, laid, *part))
+            .collect(),
+        faces: Faces {
+            built: (laid.source.iter())
+                .map(|v| body.places[*v as usize].into())
+                .collect(),
+            flat: (0..laid.places.len() as u32).map(place).collect(),
+            triangles: laid.triangles.clone(),
+        },
+        spacing: body.spacing,
+        area: laid.area,
+        strain: laid.strain,
+        gap: sheet.gap,
+        loops: 0,
+        refolding: None,
+    }
+}
+
+/// A closed line by what is on its other side.
+fn runs(body: &Body, seams: &Seams, laid: &Laid, line: &[u32]) -> Vec<(Option<usize>, Vec<u32>)> {
+    let own = |side: u32| 3 * laid.members[side as usize / 3] + side % 3;
+    let key = |side: u32| {
+        let seam = seams.of(own(side));
+        (seam, seam.map(|_| body.parts[own(side) as usize / 3]))
+    };
+    let n = line.len();
+    let start = (0..n).find(|i| key(line[*i]) != key(line[(*i + n - 1) % n]));
+    let start = start.unwrap_or(0);
+    let mut runs: Vec<(Option<usize>, Vec<u32>)> = Vec::new();
+    let mut last = None;
+    for side in line[start..].iter().chain(&line[..start]) {
+        match runs.last_mut() {
+            Some((_, sides)) if last == Some(key(*side)) => sides.push(*side),
+            _ => runs.push((key(*side).0, vec![*side])),
+        }
+        last = Some(key(*side));
+    }
+    runs
+}
+
+/// The vertices of the sheet along one of its folds.
+fn along(seams: &Seams, laid: &Laid, number: usize) -> Vec<u32> {
+    let seam = &seams.all[number];
+    let vertex = |body_side: u32, end: u32| {
+        let t = laid.members.binary_search(&(body_side / 3)).unwrap_or(0);
+        laid.triangles[t][((body_side + end) % 3) as usize]
+    };
+    // Sides may run against the line.
+    let forwards = |k: usize| {
+        let [one, _] = seam.sides[k];
+        laid_source(laid, one, 0) == seam.vertices[k]
+    };
+    let mut line = Vec::with_capacity(seam.vertices.len());
+    for (k, [one, _]) in seam.sides.iter().enumerate() {
+        let [from, to] = match forwards(k) {
+            true => [0, 1],
+            false => [1, 0],
+        };
+        if k == 0 {
+            line.push(vertex(*one, from));
+        }
+        line.push(vertex(*one, to));
+    }
+    line
+}
+
+/// The body's vertex at an end of one of its sides.
+fn laid_source(laid: &Laid, side: u32, end: u32) -> u32 {
+    let t = laid.members.binary_search(&(side / 3)).unwrap_or(0);
+    laid.source[laid.triangles[t][((side + end) % 3) as usize] as usize]
+}
+
+/// So many triangles are tried as a place to write on.
+const TRIED: usize = 200;
+
+/// The middle of a triangle far from the border of its part.
+fn spot(body: &Body, laid: &Laid, part: u32) -> Spot {
+    let is_own = |t: usize| body.parts[laid.members[t] as usize] == part;
+    let own: Vec<usize> = (0..laid.members.len()).filter(|t| is_own(*t)).collect();
+    let is_edge = |side: u32| {
+        let twin = laid.twins[side as usize];
+        twin == NO_INDEX || !is_own(twin as usize / 3)
+    };
+    let around = own.iter().flat_map(|t| 3 * *t as u32..3 * *t as u32 + 3);
+    let edges: Vec<[Point; 2]> = (around.filter(|side| is_edge(*side)))
+        .map(|side| half_edge_ends(&laid.triangles, side).map(|v| laid.places[v as usize]))
+        .collect();
+    let middle = |t: usize| {
+        let corners = laid.triangles[t].map(|v| laid.places[v as usize]);
+        corners.iter().sum::<Point>() / 3.0
+    };
+    let room = |place: Point| {
+        let away = edges.iter().map(|[a, b]| {
+            let (along, off) = (b - a, place - a);
+            let square = along.norm_sqr().max(f64::MIN_POSITIVE);
+            let share = ((off * along.conj()).re / square).clamp(0.0, 1.0);
+            (off - along * share).norm()
+        });
+        away.fold(f64::INFINITY, f64::min)
+    };
+    let tried = own.iter().step_by(own.len().div_ceil(TRIED));
+    let best = tried
+        .map(|t| (room(middle(*t)), middle(*t)))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    let (room, place) = best.unwrap_or((0.0, Point::default()));
+    Spot {
+        patch: part,
+        place: [place.re, place.im],
+        room,
+    }
+}

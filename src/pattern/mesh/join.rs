@@ -1,0 +1,311 @@
+//! Parts joined to sheets, as far as their sides fit and nothing comes to lie on anything else.
+
+use super::body::Body;
+use super::lay::{Laid, Lying};
+use super::seams::Seams;
+use crate::error::Result;
+use crate::pattern::outline::Motion;
+use crate::scene::half_edges::next_half_edge;
+use crate::unroll::joint::Until;
+use crate::unroll::pieces::Point;
+
+/// What joined parts have to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// How far sides may be apart, as a share of their length.
+    pub gap: f64,
+    pub strain: f64,
+    pub until: Until,
+}
+
+/// While parts are cut and joined they are relaxed to such a share of the strain that is allowed.
+const ENOUGH: f64 = 0.8;
+
+impl Limits {
+    /// For what may still be cut or joined.
+    pub(super) fn trial(&self) -> Until {
+        Until {
+            // Of the two principal strains the energy has the sum of the squares.
+            enough: 2.0 * (ENOUGH * self.strain).powi(2),
+            ..self.until
+        }
+    }
+
+    /// Whether that may be a sheet.
+    pub(super) fn allow(&self, laid: &Laid) -> bool {
+        laid.strain <= self.strain && !laid.overlaps()
+    }
+}
+
+/// A distance that triangles cannot tell from none, in lengths of edges.
+const FINE: f64 = 0.25;
+
+/// Parts laid flat together.
+#[derive(Debug, Clone)]
+pub(super) struct Joined {
+    pub parts: Vec<u32>,
+    /// The seams that are whole.
+    pub whole: Vec<usize>,
+    pub laid: Laid,
+    /// How far the sides of seams were apart at most.
+    pub gap: f64,
+}
+
+/// Joins parts along their seams, the longest first.
+pub(super) fn joined(
+    body: &Body,
+    seams: &Seams,
+    parts: Vec<Laid>,
+    limits: Limits,
+) -> Result<Vec<Joined>> {
+    let mut order: Vec<usize> = (0..seams.all.len()).collect();
+    order.sort_by(|a, b| seams.all[*b].length.total_cmp(&seams.all[*a].length));
+    let mut sheets = Sheets::new(body, seams, parts, limits);
+    for seam in &order {
+        if !sheets.whole[*seam] {
+            sheets.join(*seam, &order)?;
+        }
+    }
+    for number in 0..sheets.all.len() {
+        sheets.settle(number)?;
+    }
+    Ok(sheets.all.into_iter().flatten().collect())
+}
+
+/// The sheets so far.
+struct Sheets<'a> {
+    body: &'a Body,
+    seams: &'a Seams,
+    limits: Limits,
+    all: Vec<Option<Joined>>,
+    /// Which are strained as little as may be.
+    settled: Vec<bool>,
+    /// The sheet that each part is on.
+    of: Vec<usize>,
+    /// Where each corner of the body's triangles lies, on its sheet.
+    at: Vec<Point>,
+    /// Seams that are no cuts.
+    whole: Vec<bool>,
+}
+
+impl<'a> Sheets<'a> {
+    fn new(body: &'a Body, seams: &'a Seams, parts: Vec<Laid>, limits: Limits) -> Self {
+        let alone = |(part, laid): (u32, Laid)| Joined {
+            parts: vec![part],
+            whole: Vec::new(),
+            laid,
+            gap: 0.0,
+        };
+        let mut sheets = Sheets {
+            of: (0..parts.len()).collect(),
+            all: vec![None; parts.len()],
+            settled: vec![false; parts.len()],
+            at: vec![Point::default(); 3 * body.triangles.len()],
+            whole: vec![false; seams.all.len()],
+            body,
+            seams,
+            limits,
+        };
+        for (number, part) in (0..).zip(parts) {
+            sheets.put(number as usize, alone((number, part)));
+        }
+        sheets
+    }
+
+    fn put(&mut self, number: usize, sheet: Joined) {
+        for (t, corners) in sheet.laid.members.iter().zip(&sheet.laid.triangles) {
+            for (k, corner) in corners.iter().enumerate() {
+                self.at[3 * *t as usize + k] = sheet.laid.places[*corner as usize];
+            }
+        }
+        for part in &sheet.parts {
+            self.of[*part as usize] = number;
+        }
+        for seam in &sheet.whole {
+            self.whole[*seam] = true;
+        }
+        self.all[number] = Some(sheet);
+    }
+
+    /// Joins what is on both sides of a seam, which may be one sheet already, if it fits.
+    fn join(&mut self, seam: usize, order: &[usize]) -> Result<()> {
+        let [a, b] = self.seams.all[seam]
+            .parts
+            .map(|part| self.of[part as usize]);
+        let mut found = self.together(seam, [a, b], order)?;
+        if found.is_none() && (self.settle(a)? | self.settle(b)?) {
+            found = self.together(seam, [a, b], order)?;
+        }
+        if let Some(found) = found {
+            self.all[a.max(b)] = None;
+            self.put(a.min(b), found);
+            self.settled[a.min(b)] = false;
+        }
+        Ok(())
+    }
+
+    /// Sheets as one along a seam, and along all others that then fit, if nothing speaks against it.
+    fn together(
+        &self,
+        seam: usize,
+        numbers: [usize; 2],
+        order: &[usize],
+    ) -> Result<Option<Joined>> {
+        let both = Both::new(self, seam, numbers);
+        let Some(apart) = both.fits(seam) else {
+            return Ok(None);
+        };
+        // Around a vertex with a full turn the last one fits.
+        let others = order
+            .iter()
+            .filter(|other| **other != seam && both.has(**other));
+        let also = others.filter_map(|other| Some((*other, both.fits(*other)?)));
+        let all: Vec<(usize, f64)> = std::iter::once((seam, apart)).chain(also).collect();
+        match both.laid(&all)? {
+            None if all.len() > 1 => both.laid(&all[..1]),
+            found => Ok(found),
+        }
+    }
+
+    /// Strains a sheet as little as may be; whether it was not so before.
+    fn settle(&mut self, number: usize) -> Result<bool> {
+        if std::mem::replace(&mut self.settled[number], true) {
+            return Ok(false);
+        }
+        let Some(sheet) = &self.all[number] else {
+            return Ok(false);
+        };
+        let laid = sheet.laid.clone().relaxed(self.body, self.limits.until)?;
+        if self.limits.allow(&laid) {
+            let sheet = Joined {
+                laid,
+                ..sheet.clone()
+            };
+            self.put(number, sheet);
+        }
+        Ok(true)
+    }
+}
+
+/// One sheet, or two that are brought together along a seam.
+struct Both<'a> {
+    sheets: &'a Sheets<'a>,
+    numbers: [usize; 2],
+    /// Of the second one, if there are two.
+    motion: Option<Motion>,
+}
+
+impl<'a> Both<'a> {
+    fn new(sheets: &'a Sheets<'a>, seam: usize, numbers: [usize; 2]) -> Self {
+        let mut both = Both {
+            sheets,
+            numbers,
+            motion: None,
+        };
+        if numbers[0] != numbers[1] {
+            let [mine, yours] = both.nodes(seam);
+            both.motion = Some(Motion::between(&yours, &mine));
+        }
+        both
+    }
+
+    fn all(&self) -> impl Iterator<Item = &'a Joined> {
+        let two = self.motion.map_or(1, |_| 2);
+        let numbers = self.numbers.into_iter().take(two);
+        numbers.filter_map(|number| self.sheets.all[number].as_ref())
+    }
+
+    /// Whether a seam that is cut is between parts of these.
+    fn has(&self, seam: usize) -> bool {
+        let mut parts = self.sheets.seams.all[seam].parts.iter();
+        let is_here = |part: &u32| self.numbers.contains(&self.sheets.of[*part as usize]);
+        !self.sheets.whole[seam] && parts.all(is_here)
+    }
+
+    /// Where a corner of a triangle of the body lies.
+    fn place(&self, corner: u32) -> Point {
+        let part = self.sheets.body.parts[corner as usize / 3];
+        let place = self.sheets.at[corner as usize];
+        match &self.motion {
+            Some(motion) if self.sheets.of[part as usize] == self.numbers[1] => motion.of(place),
+            _ => place,
+        }
+    }
+
+    /// The ends of the pieces along a seam, as either of its parts has them.
+    fn nodes(&self, seam: usize) -> [Vec<Point>; 2] {
+        let sides = &self.sheets.seams.all[seam].sides;
+        let one = sides
+            .iter()
+            .flat_map(|[side, _]| [*side, next_half_edge(*side)]);
+        let other = sides
+            .iter()
+            .flat_map(|[_, twin]| [next_half_edge(*twin), *twin]);
+        [
+            one.map(|corner| self.place(corner)).collect(),
+            other.map(|corner| self.place(corner)).collect(),
+        ]
+    }
+
+    /// How far the sides of a seam are apart, if that is little.
+    fn fits(&self, seam: usize) -> Option<f64> {
+        let Sheets {
+            seams,
+            limits,
+            body,
+            ..
+        } = self.sheets;
+        let [one, other] = self.nodes(seam);
+        let squares: f64 = (one.iter().zip(&other))
+            .map(|(p, q)| (p - q).norm_sqr())
+            .sum();
+        let apart = (squares / one.len() as f64).sqrt();
+        let most = (limits.gap * seams.all[seam].length).max(FINE * body.spacing);
+        (apart <= most).then_some(apart)
+    }
+
+    /// Laid flat together along seams with how far their sides are apart, if nothing overlaps.
+    fn laid(&self, along: &[(usize, f64)]) -> Result<Option<Joined>> {
+        let Sheets {
+            seams,
+            limits,
+            body,
+            ..
+        } = self.sheets;
+        let more = along.iter().map(|(seam, _)| *seam);
+        let mut joined = self.sheets.whole.clone();
+        more.clone().for_each(|seam| joined[seam] = true);
+        let laid = self.all().flat_map(|sheet| &sheet.laid.members);
+        let mut members: Vec<u32> = laid.copied().collect();
+        members.sort_unstable();
+        let start = Lying::At(&|corner| self.place(corner));
+        let twins = seams.twins(&members, |seam| joined[seam]);
+        let rough = Laid::new(body, members, twins, start)?;
+        if rough.overlaps() {
+            return Ok(None);
+        }
+        let laid = match rough.strain <= ENOUGH * limits.strain {
+            true => rough,
+            false => {
+                let laid = rough.relaxed(body, limits.trial())?;
+                if !limits.allow(&laid) {
+                    return Ok(None);
+                }
+                laid
+            }
+        };
+        let mut parts: Vec<u32> = self.all().flat_map(|sheet| &sheet.parts).copied().collect();
+        parts.sort_unstable();
+        let gaps = self.all().map(|sheet| sheet.gap);
+        Ok(Some(Joined {
+            parts,
+            whole: (self.all().flat_map(|sheet| &sheet.whole).copied())
+                .chain(more)
+                .collect(),
+            laid,
+            gap: gaps
+                .chain(along.iter().map(|(_, apart)| *apart))
+                .fold(0.0, f64::max),
+        }))
+    }
+}

@@ -1,0 +1,392 @@
+//! Triangles laid flat together, cut open along some of their edges.
+
+use std::collections::VecDeque;
+
+use super::body::Body;
+use crate::error::Result;
+use crate::math::index::NO_INDEX;
+use crate::math::union_find::UnionFind;
+use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
+use crate::unroll::joint::{Joint, Until};
+use crate::unroll::overlap::crossings;
+use crate::unroll::pieces::{Piece, Point};
+
+/// Some of a body's triangles, flat.
+#[derive(Debug, Clone)]
+pub(super) struct Laid {
+    /// Triangles of the body.
+    pub members: Vec<u32>,
+    /// Their corners, and what is on the other side of their sides where that is not cut.
+    pub triangles: Vec<[u32; 3]>,
+    pub twins: Vec<u32>,
+    /// The body's vertex of each.
+    pub source: Vec<u32>,
+    pub places: Vec<Point>,
+    pub area: f64,
+    /// Root of the mean square over the area.
+    pub strain: f64,
+    /// The triangle that is strained most for its size.
+    pub worst: usize,
+}
+
+/// The share of triangles that may be set apart, where the border crosses itself.
+const SPECKS: f64 = 0.01;
+
+/// Where triangles lie at first.
+pub(super) enum Lying<'a> {
+    /// As they are, one after the other over an edge that they share.
+    TurnedOver,
+    /// Where each corner of the body's triangles is said to lie.
+    At(&'a dyn Fn(u32) -> Point),
+}
+
+/// Steps before triangles may be given up.
+const START: usize = 40;
+
+/// In how many steps it shows whether triangles lie flat.
+pub(super) const TRIAL: usize = 12;
+
+impl Laid {
+    /// Triangles in the plane, by what is on the other side of their sides, [`NO_INDEX`] where they are cut.
+    pub(super) fn new(
+        body: &Body,
+        members: Vec<u32>,
+        twins: Vec<u32>,
+        start: Lying,
+    ) -> Result<Laid> {
+        let own: Vec<[u32; 3]> = members
+            .iter()
+            .map(|t| body.triangles[*t as usize])
+            .collect();
+        // Corners are one vertex where no cut parts them.
+        let mut sets = UnionFind::new("pattern", 3 * own.len())?;
+        for (side, twin) in twins
+            .iter()
+            .enumerate()
+            .filter(|(_, twin)| **twin != NO_INDEX)
+        {
+            let side = side as u32;
+            sets.union(side, next_half_edge(*twin));
+            sets.union(next_half_edge(side), *twin);
+        }
+        let mut numbers = vec![NO_INDEX; 3 * own.len()];
+        let mut source = Vec::new();
+        let mut triangles = vec![[0; 3]; own.len()];
+        for corner in 0..3 * own.len() {
+            let root = sets.find(corner as u32) as usize;
+            if numbers[root] == NO_INDEX {
+                numbers[root] = source.len() as u32;
+                source.push(own[corner / 3][corner % 3]);
+            }
+            triangles[corner / 3][corner % 3] = numbers[root];
+        }
+        let pieces: Vec<Piece> = own.iter().map(|t| piece(body, *t)).collect();
+        let mut laid = Laid {
+            area: pieces.iter().map(Piece::area).sum(),
+            places: vec![Point::default(); source.len()],
+            members,
+            triangles,
+            twins,
+            source,
+            strain: 0.0,
+            worst: 0,
+        };
+        match start {
+            Lying::TurnedOver => laid.turn_over(body, &pieces),
+            Lying::At(place) => {
+                for (t, corners) in laid.members.iter().zip(&laid.triangles) {
+                    for (k, corner) in (0..).zip(corners) {
+                        laid.places[*corner as usize] = place(3 * t + k);
+                    }
+                }
+            }
+        }
+        laid.measure(&pieces);
+        Ok(laid)
+    }
+
+    /// Strained as little as may be, from where it lies.
+    pub(super) fn relaxed(mut self, body: &Body, until: Until) -> Result<Laid> {
+        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
+        let pieces: Vec<Piece> = own.map(|t| piece(body, t)).collect();
+        self.relax(&pieces, until)?;
+        Ok(self)
+    }
+
+    fn relax(&mut self, pieces: &[Piece], until: Until) -> Result<()> {
+        let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
+        let whole = whole.filter(|(piece, _)| piece.exists()).collect();
+        let joint = Joint::new(self.places.len(), whole, Vec::new())?;
+        // Steps that hardly change anything say little before what is wrong at one end has come to the other.
+        let start = Until {
+            steps: until.steps.min(START),
+            hopeless: f64::INFINITY,
+            ..until
+        };
+        let steps = joint.relax(&mut self.places, start)?;
+        if steps == START && until.steps > START {
+            joint.relax(&mut self.places, until)?;
+        }
+        self.measure(pieces);
+        Ok(())
+    }
+
+    /// One triangle after the other, as they are, beside those that lie already.
+    fn turn_over(&mut self, body: &Body, pieces: &[Piece]) {
+        let mut lies = vec![false; self.places.len()];
+        let mut seen = vec![false; pieces.len()];
+        let mut queue = VecDeque::new();
+        for start in 0..pieces.len() {
+            if seen[start] || !pieces[start].exists() {
+                continue;
+            }
+            seen[start] = true;
+            let [_, b, c] = self.triangles[start].map(|v| v as usize);
+            let apex = pieces[start].third_corner();
+            let long = (2.0 * pieces[start].area() / apex.im).sqrt();
+            (self.places[b], self.places[c]) = (Point::new(long, 0.0), apex * long);
+            for v in self.triangles[start] {
+                lies[v as usize] = true;
+            }
+            queue.push_back(start);
+            while let Some(t) = queue.pop_front() {
+                for side in 3 * t..3 * t + 3 {
+                    let twin = self.twins[side];
+                    if twin == NO_INDEX {
+                        continue;
+                    }
+                    let other = twin as usize / 3;
+                    if std::mem::replace(&mut seen[other], true) {
+                        continue;
+                    }
+                    queue.push_back(other);
+                    let [from, to] = half_edge_ends(&self.triangles, twin).map(|v| v as usize);
+                    let apex = self.triangles[other][(twin as usize + 2) % 3] as usize;
+                    if std::mem::replace(&mut lies[apex], true) {
+                        continue;
+                    }
+                    let along = self.places[to] - self.places[from];
+                    // As long as it is on the body, or what is wrong would grow from one triangle to the next.
+                    let [p, q] = [from, to].map(|v| body.places[self.source[v] as usize]);
+                    let scale = (q - p).norm() / along.norm().max(f64::MIN_POSITIVE);
+                    self.places[apex] = self.places[from]
+                        + along * (scale * third(&pieces[other], twin as usize % 3));
+                }
+            }
+        }
+    }
+
+    fn measure(&mut self, pieces: &[Piece]) {
+        let (mut squares, mut worst) = (0.0, 0.0);
+        for (t, piece) in pieces.iter().enumerate().filter(|(_, p)| p.exists()) {
+            let [long, short] = piece.stretches(self.triangles[t].map(|v| self.places[v as usize]));
+            let own = piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+            squares += own;
+            if own > worst {
+                (worst, self.worst) = (own, t);
+            }
+        }
+        self.strain = match self.area > 0.0 {
+            true => (0.5 * squares / self.area).sqrt(),
+            false => 0.0,
+        };
+    }
+
+    /// The sides along the border.
+    pub(super) fn border(&self) -> impl Iterator<Item = u32> + '_ {
+        let all = (0..self.twins.len() as u32).zip(&self.twins);
+        all.filter(|(_, twin)| **twin == NO_INDEX)
+            .map(|(side, _)| side)
+    }
+
+    /// Whether its border crosses itself, or parts of it lie on each other.
+    pub(super) fn overlaps(&self) -> bool {
+        let border: Vec<[u32; 2]> = self
+            .border()
+            .map(|s| half_edge_ends(&self.triangles, s))
+            .collect();
+        !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
+    }
+
+    /// The few triangles, at places where the border crosses itself, without which it does not; none if they
+    /// would be many, or that does not help.
+    pub(super) fn specks(&self) -> Vec<u32> {
+        let most = (SPECKS * self.members.len() as f64).ceil() as usize;
+        let mut left = self.clone();
+        let mut specks = Vec::new();
+        loop {
+            let sides: Vec<u32> = left.border().collect();
+            let border: Vec<[u32; 2]> = sides
+                .iter()
+                .map(|s| half_edge_ends(&left.triangles, *s))
+                .collect();
+            let crossings = crossings(&left.places, &border);
+            if crossings.is_empty() {
+                return match left.covers_itself(&border) {
+                    true => Vec::new(),
+                    false => specks,
+                };
+            }
+            let area = |t: usize| {
+                let [a, b, c] = left.triangles[t].map(|v| left.places[v as usize]);
+                ((b - a).conj() * (c - a)).im
+            };
+            let smaller = |pair: &[usize; 2]| {
+                let [one, other] = pair.map(|edge| sides[edge] as usize / 3);
+                if area(one) < area(other) { one } else { other }
+            };
+            let mut off: Vec<usize> = crossings.iter().map(smaller).collect();
+            off.sort_unstable();
+            off.dedup();
+            specks.extend(off.iter().map(|t| left.members[*t]));
+            if specks.len() > most {
+                return Vec::new();
+            }
+            left.take_off(&off);
+        }
+    }
+
+    /// Triangles turned over one after the other, and then strained as little as may be.
+    pub(super) fn whole(body: &Body, members: Vec<u32>, until: Until) -> Result<Laid> {
+        let own: Vec<[u32; 3]> = (members.iter())
+            .map(|t| body.triangles[*t as usize])
+            .collect();
+        Laid::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
+    }
+
+    /// Goes without some of its triangles.
+    fn take_off(&mut self, off: &[usize]) {
+        for t in off {
+            for side in 3 * t..3 * t + 3 {
+                let twin = std::mem::replace(&mut self.twins[side], NO_INDEX);
+                if twin != NO_INDEX {
+                    self.twins[twin as usize] = NO_INDEX;
+                }
+            }
+        }
+        let mut numbers = vec![NO_INDEX; self.members.len()];
+        let mut rest = 0;
+        for t in (0..self.members.len()).filter(|t| off.binary_search(t).is_err()) {
+            numbers[t] = rest as u32;
+            self.members[rest] = self.members[t];
+            self.triangles[rest] = self.triangles[t];
+            for k in 0..3 {
+                self.twins[3 * rest + k] = self.twins[3 * t + k];
+            }
+            rest += 1;
+        }
+        self.members.truncate(rest);
+        self.triangles.truncate(rest);
+        self.twins.truncate(3 * rest);
+        for twin in self.twins.iter_mut().filter(|twin| **twin != NO_INDEX) {
+            *twin = 3 * numbers[*twin as usize / 3] + *twin % 3;
+        }
+    }
+
+    /// Whether the middle of a triangle lies on another one: by how often the border runs around it.
+    fn covers_itself(&self, border: &[[u32; 2]]) -> bool {
+        let step = self.triangles.len().div_ceil(PROBES);
+        (self.triangles.iter().step_by(step)).any(|corners| {
+            let middle = corners
+                .iter()
+                .map(|v| self.places[*v as usize])
+                .sum::<Point>()
+                / 3.0;
+            let turns: f64 = (border.iter())
+                .map(|ends| {
+                    let [a, b] = ends.map(|v| self.places[v as usize] - middle);
+                    (b * a.conj()).arg()
+                })
+                .sum();
+            turns > 1.5 * std::f64::consts::TAU
+        })
+    }
+
+    /// The closed lines around it, by sides, what lies inside of them to the left.
+    pub(super) fn outlines(&self) -> Vec<Vec<u32>> {
+        let mut done = vec![false; self.twins.len()];
+        let mut lines = Vec::new();
+        for start in self.border() {
+            let mut line = Vec::new();
+            let mut side = start;
+            while !std::mem::replace(&mut done[side as usize], true) {
+                line.push(side);
+                side = next_half_edge(side);
+                while self.twins[side as usize] != NO_INDEX {
+                    side = next_half_edge(self.twins[side as usize]);
+                }
+            }
+            if !line.is_empty() {
+                lines.push(line);
+            }
+        }
+        lines
+    }
+}
+
+fn piece(body: &Body, corners: [u32; 3]) -> Piece {
+    Piece::between(corners.map(|v| body.places[v as usize].into()))
+}
+
+/// So many triangles are asked whether others lie on them.
+const PROBES: usize = 60;
+
+/// The corner opposite a side, where that goes from 0 to 1.
+fn third(piece: &Piece, side: usize) -> Point {
+    if !piece.exists() {
+        return Point::new(0.5, 0.0);
+    }
+    let apex = piece.third_corner();
+    let one = Point::new(1.0, 0.0);
+    match side {
+        0 => apex,
+        // From the second corner to the third one.
+        1 => -one / (apex - one),
+        _ => (one - apex) / -apex,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::*;
+    use crate::pattern::mesh::body::Place;
+
+    #[test]
+    fn what_cannot_lie_flat_is_turned_over_no_farther_than_it_reaches() {
+        // A sphere of radius 1, without its poles.
+        let (around, high) = (48u32, 24u32);
+        let places = (1..high).flat_map(|j| (0..around).map(move |i| (i, j)));
+        let places = places.map(|(i, j)| {
+            let (angle, down) = (
+                TAU * f64::from(i) / f64::from(around),
+                PI * f64::from(j) / f64::from(high),
+            );
+            Place::new(
+                down.sin() * angle.cos(),
+                down.sin() * angle.sin(),
+                down.cos(),
+            )
+        });
+        let cells = (0..high - 2).flat_map(|j| (0..around).map(move |i| (i, j)));
+        let triangles: Vec<[u32; 3]> = cells
+            .flat_map(|(i, j)| {
+                let vertex = |i: u32, j: u32| j * around + i % around;
+                let [a, b] = [vertex(i, j), vertex(i, j + 1)];
+                let [c, d] = [vertex(i + 1, j + 1), vertex(i + 1, j)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let count = triangles.len();
+        let body = Body::new(places.collect(), triangles.clone(), vec![0; count]).unwrap();
+        let all = (0..count as u32).collect();
+        let laid = Laid::new(&body, all, twin_half_edges(&triangles), Lying::TurnedOver).unwrap();
+        let reach = laid
+            .places
+            .iter()
+            .map(|place| place.norm())
+            .fold(0.0, f64::max);
+        assert!(reach > 1.0 && reach < TAU, "{reach}");
+    }
+}

@@ -1,0 +1,181 @@
+//! Points inside of a mesh where cuts or folds end, and the angle of the mesh around them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+use super::body::Body;
+use super::join::Joined;
+use super::seams::{Seam, Seams};
+use crate::pattern::Meeting;
+
+/// Angles are measured within this distance, in lengths of edges, or this share of the shortest line that
+/// ends there, ...
+const REACH: f64 = 20.0;
+const SHARE: f64 = 0.8;
+
+/// ... and not at all within less, where smooth lines may be drawn otherwise, but for lines of one edge.
+const LEAST: f64 = 6.0;
+
+/// All of them, by the body's vertices.
+pub(super) struct Meetings {
+    of: BTreeMap<u32, Meeting>,
+}
+
+/// What ends at a vertex.
+#[derive(Clone)]
+struct Found {
+    /// Ends of cuts, and edges that are cut.
+    cuts: usize,
+    edges: usize,
+    shortest: f64,
+    /// The most edges that a line has.
+    most: usize,
+}
+
+impl Meetings {
+    /// That at a vertex. Nothing where the border is near or lines are too short.
+    pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
+        self.of.get(&vertex).copied()
+    }
+
+    pub(super) fn new(body: &Body, seams: &Seams, sheets: &[Joined]) -> Meetings {
+        let mut whole = vec![false; seams.all.len()];
+        for seam in sheets.iter().flat_map(|sheet| &sheet.whole) {
+            whole[*seam] = true;
+        }
+        let mut all: BTreeMap<u32, Found> = BTreeMap::new();
+        for (seam, _) in lines(seams, &whole) {
+            for end in ends(&seam.vertices) {
+                let blank = Found {
+                    cuts: 0,
+                    edges: 0,
+                    shortest: f64::INFINITY,
+                    most: 0,
+                };
+                all.entry(end).or_insert(blank);
+            }
+        }
+        for (seam, cut) in lines(seams, &whole) {
+            for end in ends(&seam.vertices) {
+                if let Some(found) = all.get_mut(&end) {
+                    found.cuts += usize::from(cut);
+                    found.shortest = found.shortest.min(seam.length);
+                    found.most = found.most.max(seam.sides.len());
+                }
+            }
+            for vertex in seam.vertices.windows(2).flatten().filter(|_| cut) {
+                if let Some(found) = all.get_mut(vertex) {
+                    found.edges += 1;
+                }
+            }
+        }
+        let around = Around::new(body);
+        let meeting = |(vertex, found): (u32, Found)| {
+            let reach = (REACH * body.spacing).min(SHARE * found.shortest);
+            let short = found.most > 1 && reach < LEAST * body.spacing;
+            // A line that only passes by parts pieces that have no end there.
+            if short || found.edges != found.cuts {
+                return None;
+            }
+            let meeting = Meeting {
+                number: vertex as usize,
+                place: body.places[vertex as usize].into(),
+                angle: around.angle(vertex, reach)?,
+                reach,
+                cuts: found.cuts,
+            };
+            Some((vertex, meeting))
+        };
+        Meetings {
+            of: all.into_iter().filter_map(meeting).collect(),
+        }
+    }
+}
+
+/// The seams that are cut or folded, and whether they are cut.
+fn lines<'a>(seams: &'a Seams, whole: &'a [bool]) -> impl Iterator<Item = (&'a Seam, bool)> {
+    let all = seams.all.iter().zip(whole);
+    all.filter(|(seam, whole)| !(**whole && seam.smooth))
+        .map(|(seam, whole)| (seam, !whole))
+}
+
+/// A closed line has none.
+fn ends(vertices: &[u32]) -> Vec<u32> {
+    let (first, last) = (vertices[0], vertices[vertices.len() - 1]);
+    match first == last {
+        true => Vec::new(),
+        false => vec![first, last],
+    }
+}
+
+/// A mesh around its vertices.
+struct Around<'a> {
+    body: &'a Body,
+    /// By how much the angles around each vertex are less than a full turn; NaN at the border.
+    missing: Vec<f64>,
+    /// The neighbours of each vertex, from `starts` of its own to that of the next one.
+    neighbours: Vec<u32>,
+    starts: Vec<usize>,
+}
+
+impl Around<'_> {
+    fn new(body: &Body) -> Around<'_> {
+        let count = body.places.len();
+        let mut missing = vec![TAU; count];
+        // Inside, each edge leads away once and back once.
+        let mut edges = Vec::with_capacity(3 * body.triangles.len());
+        for corners in &body.triangles {
+            for k in 0..3 {
+                let [i, j, l] = [0, 1, 2].map(|step| corners[(k + step) % 3]);
+                let [a, b, c] = [i, j, l].map(|v| body.places[v as usize]);
+                missing[i as usize] -= (b - a).angle(&(c - a));
+                edges.push((i, j));
+            }
+        }
+        edges.sort_unstable();
+        let mut starts = vec![0; count + 1];
+        for (a, b) in &edges {
+            starts[*a as usize + 1] += 1;
+            if edges.binary_search(&(*b, *a)).is_err() {
+                missing[*a as usize] = f64::NAN;
+                missing[*b as usize] = f64::NAN;
+            }
+        }
+        for k in 0..count {
+            starts[k + 1] += starts[k];
+        }
+        Around {
+            body,
+            missing,
+            neighbours: edges.into_iter().map(|(_, b)| b).collect(),
+            starts,
+        }
+    }
+
+    /// The angle around a vertex from half of a distance to all of it: a full turn less the curvature within
+    /// each circle, on average over them. That is exact where flat faces meet. Nothing where the border is nearer.
+    fn angle(&self, vertex: u32, reach: f64) -> Option<f64> {
+        let middle = self.body.places[vertex as usize];
+        let mut seen = BTreeSet::from([vertex]);
+        let mut open = vec![vertex];
+        let mut angle = TAU;
+        while let Some(one) = open.pop() {
+            let far = (self.body.places[one as usize] - middle).norm() / reach;
+            if far > 1.0 {
+                continue;
+            }
+            let missing = self.missing[one as usize];
+            if missing.is_nan() {
+                return None;
+            }
+            angle -= missing * (2.0 * (1.0 - far)).min(1.0);
+            let own = self.starts[one as usize]..self.starts[one as usize + 1];
+            for next in &self.neighbours[own] {
+                if seen.insert(*next) {
+                    open.push(*next);
+                }
+            }
+        }
+        Some(angle)
+    }
+}

@@ -1,0 +1,230 @@
+//! Patterns of meshes as they are, without a view.
+//!
+//! The way is that of heightfields, on triangles alone: what is strained is cut in two, here by planes, and
+//! the parts are joined again as far as their sides fit. Creases are edges already, so that no patch has to be
+//! continued beyond them.
+
+mod body;
+mod draw;
+mod join;
+mod lay;
+mod meeting;
+mod seams;
+
+use std::collections::BTreeMap;
+
+use super::{PatternOptions, Sheet};
+use crate::error::{Error, Result, check_count, positive};
+use crate::fit::mesh::topology::Topology;
+use crate::scene::mesh::Mesh;
+use crate::shape::patches::{Crease, MeshPatches, Patch};
+use crate::unroll::joint::Until;
+use body::{Body, Place, Plane};
+use draw::drawn;
+use join::{Limits, joined};
+use lay::{Laid, TRIAL};
+use seams::Seams;
+
+/// A mesh cut into sheets.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MeshPattern {
+    /// The sheets, that with the largest patch first. They are seen from outside, which is the side that the
+    /// mesh's triangles face.
+    pub sheets: Vec<Sheet>,
+    /// The patches of the sheets, that with the largest area first: those that were given, each connected
+    /// piece by itself, or what they were cut into.
+    pub patches: Vec<Patch>,
+    /// The creases between them, cuts through what was one patch among them.
+    pub creases: Vec<Crease>,
+}
+
+/// More parts than these are no pattern that somebody puts together.
+const MOST_PARTS: u32 = 500;
+
+/// Strain above this multiple of the limit is given up where steps hardly change it.
+const FAR: f64 = 2.5;
+
+/// Cuts a mesh into sheets, that with the largest patch first: closed, overhanging or in parts.
+///
+/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]. A patch
+/// that cannot be laid flat so is cut in two by a plane, across one of its main axes, where it leaves least
+/// strain, as often as it takes; then parts are joined as far as their sides fit, the longest first, so that a
+/// tube gets one slit. Both sides of a cut are as long as each other on the mesh, and on the sheets but for
+/// their strain. Seams are whole folds or whole cuts. [`PatternOptions::refold`] is for heightfields only.
+///
+/// Costs an unrolling of each patch, a dozen short ones for each cut and one for each seam that is joined.
+///
+/// # Errors
+/// [`Error::Shape`](crate::Error::Shape) if the patches are those of another mesh,
+/// [`Error::Option`](crate::Error::Option) for a gap or a strain that is not positive and finite,
+/// [`Error::Topology`](crate::Error::Topology) for what is no surface,
+/// [`Error::Unsupported`](crate::Error::Unsupported) for what would be more than 500 parts.
+pub fn pattern_mesh(
+    mesh: &Mesh,
+    patches: &MeshPatches,
+    options: &PatternOptions,
+) -> Result<MeshPattern> {
+    check_count(
+        "patches of the mesh",
+        mesh.triangles().len(),
+        1,
+        patches.labels().len(),
+    )?;
+    let gap = positive("gap", options.gap)?;
+    let strain = positive("maxStrain", options.max_strain)?;
+    let until = Until {
+        tolerance: positive("tolerance", options.unrolling.tolerance)?,
+        enough: 0.0,
+        // Of the two principal strains the energy has the sum of the squares.
+        hopeless: FAR * 2.0 * strain * strain,
+        steps: options.unrolling.max_iterations,
+    };
+    let limits = Limits { gap, strain, until };
+    let topology = Topology::new(mesh)?;
+    let place = |vertex: &u32| Place::from(mesh.positions()[*vertex as usize]);
+    let labels = topology.from.iter().map(|t| patches.labels()[*t as usize]);
+    let body = Body::new(
+        topology.source.iter().map(place).collect(),
+        topology.triangles.clone(),
+        labels.collect(),
+    )?;
+    let (body, parts) = flat_parts(body, limits)?;
+    let seams = Seams::new(&body, patches.bend());
+    let sheets = joined(&body, &seams, parts, limits)?;
+    drawn(&body, &seams, &sheets)
+}
+
+/// Cuts until every part lies flat; these by their area.
+fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
+    // What was found to lie flat, with its triangles then: cuts beside it divide some of them.
+    let mut flat: BTreeMap<u32, Laid> = BTreeMap::new();
+    let mut open: Vec<u32> = (0..body.count).rev().collect();
+    loop {
+        let Some(part) = open.pop() else {
+            let moved = |(part, laid): (&u32, &Laid)| {
+                (body.members(*part).len() != laid.members.len()).then_some(*part)
+            };
+            open = flat.iter().filter_map(moved).collect();
+            if open.is_empty() {
+                break;
+            }
+            continue;
+        };
+        let laid = Laid::whole(&body, body.members(part), limits.trial())?;
+        if limits.allow(&laid) {
+            flat.insert(part, laid);
+            continue;
+        }
+        flat.remove(&part);
+        let specks = match laid.strain <= limits.strain {
+            true => laid.specks(),
+            false => Vec::new(),
+        };
+        if !specks.is_empty() {
+            open.extend(body.set_apart(part, &specks)?);
+            continue;
+        }
+        let worst = body.triangles[laid.members[laid.worst] as usize];
+        let worst = worst.map(|v| body.places[v as usize]).iter().sum::<Place>() / 3.0;
+        let mut best: Option<(f64, Plane)> = None;
+        let alone = body.alone(&laid.members);
+        for plane in body.planes(&laid.members, worst) {
+            let mut trial = alone.clone();
+            let parts = trial.cut(0, &plane)?;
+            if parts.len() < 2 || body.count - 1 + trial.count > MOST_PARTS {
+                continue;
+            }
+            let mut energy = 0.0;
+            for part in &parts {
+                let short = Until {
+                    steps: TRIAL,
+                    ..limits.until
+                };
+                let laid = Laid::whole(&trial, trial.members(*part), short)?;
+                energy += laid.area * laid.strain * laid.strain;
+            }
+            if best.as_ref().is_none_or(|(least, ..)| energy < *least) {
+                best = Some((energy, plane));
+            }
+        }
+        let Some((_, plane)) = best else {
+            let [x, y, z]: [f64; 3] = worst.into();
+            return Err(Error::Unsupported {
+                format: "pattern",
+                reason: format!(
+                    "the mesh around ({x}, {y}, {z}) cannot be laid flat within {MOST_PARTS} parts; smooth it more \
+                     (a smaller lambda), take larger patches or allow more strain"
+                ),
+            });
+        };
+        open.extend(body.cut(part, &plane)?);
+    }
+    let numbers = body.sort();
+    let mut parts: Vec<(u32, Laid)> = (flat.into_iter())
+        .map(|(part, laid)| (numbers[part as usize], laid))
+        .collect();
+    parts.sort_by_key(|(part, _)| *part);
+    let parts = parts.into_iter().map(|(_, laid)| laid).collect();
+    Ok((body, parts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tooth_that_would_lie_on_its_sheet_is_set_apart_alone() {
+        // A disk of ten rings without 30 degrees, and a triangle that stands upright on one side of the gap.
+        let (rings, sectors) = (10u32, 5u32);
+        let place = |ring: u32, sector: u32| {
+            let (far, angle) = (
+                f64::from(ring) / 10.0,
+                (66.0 * f64::from(sector)).to_radians(),
+            );
+            Place::new(far * angle.cos(), far * angle.sin(), 0.0)
+        };
+        let vertex = |ring: u32, sector: u32| match ring {
+            0 => 0,
+            _ => 1 + (ring - 1) * (sectors + 1) + sector,
+        };
+        let mut places = vec![Place::zeros()];
+        places.extend((1..=rings).flat_map(|r| (0..=sectors).map(move |s| place(r, s))));
+        let mut triangles = Vec::new();
+        for (ring, sector) in (0..rings).flat_map(|r| (0..sectors).map(move |s| (r, s))) {
+            let [a, b] = [vertex(ring, sector), vertex(ring + 1, sector)];
+            let [c, d] = [vertex(ring + 1, sector + 1), vertex(ring, sector + 1)];
+            triangles.push([a, b, c]);
+            if ring > 0 {
+                triangles.push([a, c, d]);
+            }
+        }
+        // Laid flat it would reach across the other side.
+        let foot = [vertex(8, 0), vertex(7, 0)];
+        let up = Place::new(0.75, 0.0, 0.45);
+        places.push(up);
+        triangles.push([foot[1], places.len() as u32 - 1, foot[0]]);
+        let tooth = triangles.len() as u32 - 1;
+        let labels = vec![0; triangles.len()];
+        let body = Body::new(places, triangles, labels).unwrap();
+        let until = Until {
+            tolerance: 1e-12,
+            enough: 0.0,
+            hopeless: f64::INFINITY,
+            steps: 200,
+        };
+        let limits = Limits {
+            gap: 0.02,
+            strain: 0.01,
+            until,
+        };
+        let whole = Laid::whole(&body, body.members(0), until).unwrap();
+        assert!(whole.strain < 1e-9 && whole.overlaps());
+        let (_, parts) = flat_parts(body, limits).unwrap();
+        let [disk, alone] = &parts[..] else {
+            panic!("{} parts", parts.len());
+        };
+        assert!(!disk.overlaps() && disk.strain < 1e-9);
+        assert_eq!(alone.members, [tooth]);
+    }
+}

@@ -1,0 +1,158 @@
+//! The lines between the parts of a body, along which these are joined to sheets or cut.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::body::Body;
+use crate::math::index::NO_INDEX;
+use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
+use crate::shape::patches::chains::chains;
+
+/// A line between two parts.
+pub(super) struct Seam {
+    /// The lower number first.
+    pub parts: [u32; 2],
+    pub vertices: Vec<u32>,
+    /// The sides of either part along it, in order.
+    pub sides: Vec<[u32; 2]>,
+    pub length: f64,
+    /// Whether it is a cut through what was one patch.
+    pub smooth: bool,
+    /// By how much the surface folds along it, above 0 for a ridge.
+    pub angle: f64,
+}
+
+/// The seams of a body, and that of each side.
+pub(super) struct Seams {
+    pub all: Vec<Seam>,
+    of: Vec<u32>,
+    twins: Vec<u32>,
+}
+
+impl Seams {
+    /// A cut that runs along a crease from some place on, which bends by more than `bend`, is two seams.
+    pub(super) fn new(body: &Body, bend: f64) -> Seams {
+        let twins = twin_half_edges(&body.triangles);
+        let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
+        for (side, twin) in (0u32..).zip(&twins).filter(|(_, twin)| **twin != NO_INDEX) {
+            let [a, b] = [side, *twin].map(|side| body.parts[side as usize / 3]);
+            if a < b {
+                between.entry([a, b]).or_default().push([side, *twin]);
+            }
+        }
+        let mut seams = Seams {
+            all: Vec::new(),
+            of: vec![NO_INDEX; twins.len()],
+            twins,
+        };
+        let pointed = body.pointed();
+        for (parts, pairs) in between {
+            let edges: Vec<[u32; 2]> = pairs
+                .iter()
+                .map(|p| half_edge_ends(&body.triangles, p[0]))
+                .collect();
+            for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
+                let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
+                let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
+                // Between patches a line is a crease unless it is quite smooth.
+                let bend = match is_one(body, sides[0]) {
+                    true => bend,
+                    false => SMOOTH * bend,
+                };
+                for (run, sharp) in stretches(&folds, bend) {
+                    seams.add(Seam {
+                        parts,
+                        vertices: chain.vertices[run.start..=run.end].to_vec(),
+                        smooth: !sharp && is_one(body, sides[run.start]),
+                        sides: sides[run.clone()].to_vec(),
+                        length: folds[run.clone()].iter().map(|(long, _)| long).sum(),
+                        angle: mean(&folds[run]),
+                    });
+                }
+            }
+        }
+        seams
+    }
+
+    fn add(&mut self, seam: Seam) {
+        for side in seam.sides.as_flattened() {
+            self.of[*side as usize] = self.all.len() as u32;
+        }
+        self.all.push(seam);
+    }
+
+    /// What is on the other side of the sides of some triangles, among these, where no seam is cut.
+    pub(super) fn twins(&self, members: &[u32], is_whole: impl Fn(usize) -> bool) -> Vec<u32> {
+        let mut numbers = vec![NO_INDEX; self.twins.len() / 3];
+        for (number, t) in (0..).zip(members) {
+            numbers[*t as usize] = number;
+        }
+        let sides = members.iter().flat_map(|t| 3 * t..3 * t + 3);
+        let twin = |side: u32| {
+            let twin = self.twins[side as usize];
+            if twin == NO_INDEX || self.of(side).is_some_and(|seam| !is_whole(seam)) {
+                return NO_INDEX;
+            }
+            match numbers[twin as usize / 3] {
+                NO_INDEX => NO_INDEX,
+                number => 3 * number + twin % 3,
+            }
+        };
+        sides.map(twin).collect()
+    }
+
+    /// The seam that a side of the body is on.
+    pub(super) fn of(&self, side: u32) -> Option<usize> {
+        let seam = self.of[side as usize];
+        (seam != NO_INDEX).then_some(seam as usize)
+    }
+}
+
+/// Whether both sides of an edge were one patch.
+fn is_one(body: &Body, pair: [u32; 2]) -> bool {
+    let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
+    a == b
+}
+
+/// The angle of a stretch between patches that is no crease, as a share of what is one.
+const SMOOTH: f64 = 0.25;
+
+/// So many edges on either side say whether a line is a crease, and a stretch of it has as many.
+const BESIDE: usize = 2;
+
+/// Where a line of edges, given by their lengths and angles, is a crease, and where it is none.
+fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
+    let is_sharp = |k: usize| {
+        let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(folds.len());
+        mean(&folds[near]).abs() > bend
+    };
+    let mut found: Vec<(Range<usize>, bool)> = Vec::new();
+    for k in 0..folds.len() {
+        let sharp = is_sharp(k);
+        match found.last_mut() {
+            Some((run, before)) if *before == sharp || run.len() <= BESIDE => run.end = k + 1,
+            _ => found.push((k..k + 1, sharp)),
+        }
+    }
+    found
+}
+
+/// The mean angle by length.
+fn mean(folds: &[(f64, f64)]) -> f64 {
+    let long: f64 = folds.iter().map(|(long, _)| long).sum();
+    let bent: f64 = folds.iter().map(|(long, angle)| long * angle).sum();
+    if long > 0.0 { bent / long } else { 0.0 }
+}
+
+/// The length of an edge, and the angle between its triangles: above 0 for a ridge.
+fn fold(body: &Body, [one, other]: [u32; 2]) -> (f64, f64) {
+    let normal = |side: u32| {
+        let [a, b, c] = body.triangles[side as usize / 3].map(|v| body.places[v as usize]);
+        (b - a).cross(&(c - a))
+    };
+    let [a, b] = half_edge_ends(&body.triangles, one).map(|v| body.places[v as usize]);
+    let (m, n, along) = (normal(one), normal(other), b - a);
+    let cross = m.cross(&n);
+    let angle = cross.norm().atan2(m.dot(&n));
+    (along.norm(), angle.copysign(cross.dot(&along)))
+}

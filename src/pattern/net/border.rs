@@ -1,0 +1,161 @@
+//! The lines around patches.
+
+use super::{Net, Node, Segment, is_triangle};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::NEIGHBOURS;
+use crate::pattern::line::meeting;
+use crate::scene::triangulation::Triangulation;
+use crate::shape::patches::NO_PATCH;
+use crate::unroll::pieces::Point;
+use rustc_hash::FxHashMap;
+
+/// So many nodes from its end tell where a seam is heading.
+pub(in crate::pattern) const BACK: usize = 6;
+
+fn is_vertex((p, q): &Node) -> bool {
+    p == q
+}
+
+impl Net {
+    /// The seam that a piece of a patch's line is of, by its ends; `None` on the border.
+    pub(super) fn seam_along(&self, from: Node, to: Node) -> Option<usize> {
+        if is_vertex(&from) || is_vertex(&to) {
+            return None;
+        }
+        match (is_triangle(from), is_triangle(to)) {
+            (true, true) => None,
+            (true, false) => self.seam_of.get(&to).copied(),
+            (false, true) => self.seam_of.get(&from).copied(),
+            (false, false) => self.seam_between(from, to),
+        }
+    }
+
+    /// The line around a patch, piece by piece, with the seams that these are of.
+    pub(in crate::pattern) fn border(
+        &self,
+        patch: u32,
+    ) -> impl Iterator<Item = (Segment, Option<usize>)> {
+        let pieces = self.borders[patch as usize].iter();
+        pieces.map(|[from, to]| ([*from, *to], self.seam_along(*from, *to)))
+    }
+
+    /// The seam that a piece between two nodes in a triangle is of.
+    pub(super) fn seam_between(&self, one: Node, other: Node) -> Option<usize> {
+        let (one, other) = (self.seams_of(one), self.seams_of(other));
+        let both = one
+            .into_iter()
+            .flatten()
+            .find(|seam| other.contains(&Some(*seam)));
+        both.or(one[0])
+    }
+
+    pub(super) fn add_borders(&mut self, surface: &Heightfield) {
+        for (number, corners) in self.mesh.triangles().iter().copied().enumerate() {
+            let labels = corners.map(|v| self.labels[v as usize]);
+            let junction = (number as u32, u32::MAX);
+            let [a, b, c] = labels;
+            let apart = a != b && b != c && c != a;
+            for (k, patch) in labels.into_iter().enumerate() {
+                if patch == NO_PATCH || labels[..k].contains(&patch) {
+                    continue;
+                }
+                let mut border = Vec::new();
+                let (mut exit, mut entry) = (None, None);
+                for (i, from) in corners.into_iter().enumerate() {
+                    let to = corners[(i + 1) % 3];
+                    let [ours, theirs] = [i, (i + 1) % 3].map(|k| labels[k] == patch);
+                    let edge = (from.min(to), from.max(to));
+                    let ends: Segment = match (ours, theirs) {
+                        (true, true) => [(from, from), (to, to)],
+                        (true, false) => [(from, from), *exit.insert(edge)],
+                        (false, true) => [*entry.insert(edge), (to, to)],
+                        (false, false) => continue,
+                    };
+                    if is_open(surface, &self.mesh, from, to) {
+                        border.push(ends);
+                    }
+                }
+                if let (Some(exit), Some(entry)) = (exit, entry) {
+                    match apart {
+                        true => border.extend([[exit, junction], [junction, entry]]),
+                        false => border.push([exit, entry]),
+                    }
+                }
+                self.borders[patch as usize].extend(border);
+            }
+        }
+    }
+
+    /// How far seams that end on the border go on to its line, which runs through the middles of its
+    /// edges. It is found in plan, so that it is the same on both sides of a seam.
+    pub(super) fn add_ends(&mut self) {
+        let (mut after, mut before) = (FxHashMap::default(), FxHashMap::default());
+        for (patch, border) in self.borders.iter().enumerate() {
+            let pieces = border.iter().filter(|piece| piece.iter().any(is_vertex));
+            for [from, to] in pieces {
+                after.insert((*from, patch as u32), *to);
+                before.insert((*to, patch as u32), *from);
+            }
+        }
+        // The middle of the first edge of a patch's border beside a node.
+        let middle = |node: Node, patch: u32| {
+            [&after, &before].into_iter().find_map(|way| {
+                let first = way.get(&(node, patch))?;
+                let next = way.get(&(*first, patch)).filter(|node| is_vertex(node))?;
+                let [p, q] = [first, next].map(|node| self.plan(*node));
+                Some(Point::new(0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])))
+            })
+        };
+        let mut ends = FxHashMap::default();
+        for seam in self.seams.iter().filter(|seam| seam.nodes.len() > 1) {
+            let last = seam.nodes.len() - 1;
+            for (end, back) in [(0, BACK.min(last)), (last, last.saturating_sub(BACK))] {
+                let node = seam.nodes[end];
+                let [one, other] = seam.patches.map(|patch| middle(node, patch));
+                let (Some(one), Some(other)) = (one, other) else {
+                    continue;
+                };
+                let [end, back] = [end, back].map(|k| {
+                    let [x, y] = self.plan(seam.nodes[k]);
+                    Point::new(x, y)
+                });
+                let along = (end - back) / (end - back).norm();
+                let reach =
+                    meeting([back, end], [one, other]).map(|p| (along.conj() * (p - end)).re);
+                if let Some(reach) = reach.filter(|reach| reach.abs() < self.spacing) {
+                    ends.insert(node, reach);
+                }
+            }
+        }
+        self.ends = ends;
+    }
+
+    /// Where a seam that ends on the border meets its line: from a node of a patch on its way to the last
+    /// one, as far beyond that as on the other side.
+    pub(in crate::pattern) fn end(&self, nodes: [Node; 2], places: [Point; 2]) -> Point {
+        let [[a, b], [c, d]] = nodes.map(|node| self.plan(node));
+        let long = (c - a).hypot(d - b);
+        let reach = self.ends.get(&nodes[1]).copied().unwrap_or(0.0);
+        match long > 0.0 {
+            true => places[1] + (places[1] - places[0]) * (reach / long),
+            false => places[1],
+        }
+    }
+}
+
+/// Whether there is no triangle to the right of an edge of one to the left.
+fn is_open(surface: &Heightfield, mesh: &Triangulation, from: u32, to: u32) -> bool {
+    let lattice = surface.lattice();
+    let [from, to] = [from, to].map(|v| {
+        let index = mesh.vertices()[v as usize] as usize;
+        (index / lattice.cols(), index % lattice.cols())
+    });
+    let place = (from.0 as isize, from.1 as isize);
+    let target = (to.0 as isize, to.1 as isize);
+    // The next direction clockwise of W, E, NW, NE, SW, SE.
+    const CLOCKWISE: [usize; 6] = [2, 5, 3, 1, 0, 4];
+    let towards = (0..6).find(|k| NEIGHBOURS[*k].step(place.0, place.1) == target);
+    let Some(towards) = towards else { return true };
+    let (row, col) = NEIGHBOURS[CLOCKWISE[towards]].step(place.0, place.1);
+    !lattice.contains(row, col) || surface.height(row as usize, col as usize).is_nan()
+}

@@ -1,0 +1,216 @@
+//! Seams divided where only a part of them can be joined, and put together again.
+
+use super::{Net, SHORT, Seam};
+use crate::pattern::layout::FINE;
+use crate::unroll::pieces::Point;
+
+/// Least share of a seam's length that is joined where the whole of it cannot be: of a crease, and of
+/// a cut through what was one patch.
+const PART_OF_CREASE: f64 = 0.5;
+const PART_OF_CUT: f64 = 0.2;
+
+impl Net {
+    /// Divides seams that cannot be joined as a whole, if by `gap` (see
+    /// [`PatternOptions`](super::PatternOptions)) a good part of them can.
+    pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {
+        for number in 0..self.seams.len() {
+            if self.is_torn(number) {
+                continue;
+            }
+            let seam = &self.seams[number];
+            let least = if seam.smooth {
+                PART_OF_CUT
+            } else {
+                PART_OF_CREASE
+            };
+            let ends = divided(&seam.sides, gap, FINE * self.spacing, least);
+            for at in ends[1..ends.len() - 1].iter().rev() {
+                self.cut_off(number, *at);
+            }
+        }
+        self.index();
+    }
+
+    /// Divides a seam before one of its inner nodes; the number of the second part.
+    pub(in crate::pattern) fn divide(&mut self, seam: usize, at: usize) -> usize {
+        let number = self.cut_off(seam, at);
+        self.index();
+        number
+    }
+
+    /// Divides a seam where its nodes are of two kinds; its parts, and which kind each is. No part
+    /// is short, unless all of the seam is.
+    pub(in crate::pattern) fn divide_where(
+        &mut self,
+        seam: usize,
+        kinds: &[bool],
+    ) -> Vec<(usize, bool)> {
+        let mut runs: Vec<(usize, bool)> = Vec::new();
+        for kind in kinds {
+            match runs.last_mut() {
+                Some((count, last)) if last == kind => *count += 1,
+                _ => runs.push((1, *kind)),
+            }
+        }
+        // What is short is of the kind before it, or after it.
+        while let Some(k) = runs.iter().position(|(count, _)| *count < SHORT) {
+            if runs.len() == 1 {
+                break;
+            }
+            let (count, _) = runs.remove(k);
+            runs[k.saturating_sub(1)].0 += count;
+            let mut merged: Vec<(usize, bool)> = Vec::new();
+            for (count, kind) in runs {
+                match merged.last_mut() {
+                    Some((all, last)) if *last == kind => *all += count,
+                    _ => merged.push((count, kind)),
+                }
+            }
+            runs = merged;
+        }
+        let mut parts = Vec::new();
+        let mut from = kinds.len();
+        for (count, kind) in runs.iter().rev() {
+            from -= count;
+            let part = if from == 0 {
+                seam
+            } else {
+                self.cut_off(seam, from)
+            };
+            parts.push((part, *kind));
+        }
+        self.index();
+        parts
+    }
+
+    pub(super) fn cut_off(&mut self, seam: usize, at: usize) -> usize {
+        let number = self.seams.len();
+        let first = &mut self.seams[seam];
+        let rest = Seam {
+            from: first.from + at,
+            nodes: first.nodes[at..].to_vec(),
+            sides: [0, 1].map(|side| first.sides[side][at..].to_vec()),
+            ..*first
+        };
+        first.nodes.truncate(at + 1);
+        first
+            .sides
+            .iter_mut()
+            .for_each(|side| side.truncate(at + 1));
+        self.parts[rest.crease].push(number);
+        self.seams.push(rest);
+        number
+    }
+
+    /// The seams of each crease from its beginning to its end.
+    pub(in crate::pattern) fn parts(&self, crease: usize) -> Vec<usize> {
+        let mut parts = self.parts[crease].clone();
+        parts.sort_by_key(|seam| self.seams[*seam].from);
+        parts
+    }
+
+    /// Makes one of neighbouring seams of a crease that are both folds or both none.
+    pub(in crate::pattern) fn join_parts(&mut self, folded: &mut Vec<bool>) {
+        let (mut seams, mut flags): (Vec<Seam>, Vec<bool>) = (Vec::new(), Vec::new());
+        let mut old: Vec<Option<Seam>> = std::mem::take(&mut self.seams)
+            .into_iter()
+            .map(Some)
+            .collect();
+        for crease in 0..self.parts.len() {
+            let mut parts = std::mem::take(&mut self.parts[crease]);
+            parts.sort_by_key(|seam| old[*seam].as_ref().map_or(0, |seam| seam.from));
+            for number in parts {
+                let Some(seam) = old[number].take() else {
+                    continue;
+                };
+                match seams.last_mut() {
+                    Some(last)
+                        if last.crease == crease && flags.last() == Some(&folded[number]) =>
+                    {
+                        last.nodes.extend(&seam.nodes[1..]);
+                        for (side, more) in last.sides.iter_mut().zip(&seam.sides) {
+                            side.extend(&more[1..]);
+                        }
+                    }
+                    _ => {
+                        self.parts[crease].push(seams.len());
+                        seams.push(seam);
+                        flags.push(folded[number]);
+                    }
+                }
+            }
+        }
+        self.seams = seams;
+        *folded = flags;
+        self.index();
+    }
+}
+
+/// The places along a seam, from its first to its last, at which it is divided into parts that are
+/// joined and parts that are not: if its sides do not fit on each other, the longest part of them that
+/// does is one, where it has the `least` share of the length.
+fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usize> {
+    let last = sides[0].len() - 1;
+    let whole = vec![0, last];
+    // Lengths and moments of all beginnings, so that any part is compared at once.
+    let mut lengths = vec![0.0; last + 1];
+    for i in 0..last {
+        lengths[i + 1] = lengths[i] + (sides[0][i + 1] - sides[0][i]).norm();
+    }
+    let zero = (Point::default(), Point::default(), Point::default(), 0.0);
+    let mut moments = vec![zero];
+    for (p, q) in sides[0].iter().zip(&sides[1]) {
+        let (a, b, c, d) = moments[moments.len() - 1];
+        moments.push((
+            a + p,
+            b + q,
+            c + p.conj() * q,
+            d + p.norm_sqr() + q.norm_sqr(),
+        ));
+    }
+    let fits = |from: usize, to: usize| {
+        let ((a, b, c, d), (e, f, g, h)) = (moments[to + 1], moments[from]);
+        let count = (to + 1 - from) as f64;
+        let (p, q) = (a - e, b - f);
+        let correlation = c - g - p.conj() * q / count;
+        let squares = d - h - (p.norm_sqr() + q.norm_sqr()) / count;
+        let apart = ((squares - 2.0 * correlation.norm()) / count)
+            .max(0.0)
+            .sqrt();
+        apart <= (gap * (lengths[to] - lengths[from])).max(fine)
+    };
+    if last < 8 || fits(0, last) {
+        return whole;
+    }
+    let mut best = (0.0, 0, 0);
+    for from in (0..last).step_by(1 + last / 128) {
+        // As far as it goes: in growing steps, then in shrinking ones.
+        let (mut to, mut step) = (from + 2, 1);
+        while to + step <= last && fits(from, to + step) {
+            to += step;
+            step *= 2;
+        }
+        while step > 0 {
+            if to + step <= last && fits(from, to + step) {
+                to += step;
+            }
+            step /= 2;
+        }
+        if to <= last && lengths[to] - lengths[from] > best.0 {
+            best = (lengths[to] - lengths[from], from, to);
+        }
+    }
+    let (length, mut from, mut to) = best;
+    if length < least * lengths[last] {
+        return whole;
+    }
+    if from < SHORT {
+        from = 0;
+    }
+    if last - to < SHORT {
+        to = last;
+    }
+    let mut ends = vec![0, from, to, last];
+    ends.dedup();
+    ends
+}

@@ -1,0 +1,190 @@
+//! What a surface falls into along its creases: patches laid flat, the seams between them, and the
+//! lines around each patch.
+//!
+//! A *node* is a place where such a line may turn: a vertex of the lattice, the point of an edge
+//! between two patches where they meet, or that of a triangle where three do.
+
+mod border;
+mod division;
+mod places;
+
+pub(super) use border::BACK;
+
+use super::labels::Labels;
+use super::leaf::Leaf;
+use crate::error::Result;
+use crate::heights::heightfield::Heightfield;
+use crate::scene::triangulation::Triangulation;
+use crate::scene::view::Frame;
+use crate::shape::patches::crease::lines;
+use crate::unroll::pieces::Point;
+use rustc_hash::FxHashMap;
+
+/// An edge by its vertices, the lower one first; a vertex by itself, twice; a triangle by its
+/// number and that of no vertex. All in the numbers of the whole surface's mesh.
+pub(super) type Node = crate::shape::patches::crease::Node;
+
+/// Where four patches meet, there are two nodes of three each, this far apart at most, in spacings.
+pub(super) const SPECK: f64 = 3.0;
+
+/// No part of a seam has fewer nodes.
+const SHORT: usize = 4;
+
+/// A crease or a part of it, as either patch has it.
+pub(super) struct Seam {
+    pub patches: [u32; 2],
+    /// The crease by its number.
+    pub crease: usize,
+    /// Whether it is a cut through what was one patch.
+    pub smooth: bool,
+    /// Which of the crease's nodes is its first.
+    from: usize,
+    pub nodes: Vec<Node>,
+    /// Where the nodes are on either patch's plane, smoothed along the crease.
+    pub sides: [Vec<Point>; 2],
+    /// Above 0 for a ridge, below for a groove, seen from above.
+    pub rise: f64,
+    /// How far the patches are from each other along it, in height: root of the mean square.
+    pub apart: f64,
+}
+
+/// A piece of the line around a patch, which lies to the left of it: from one node to another.
+type Segment = [Node; 2];
+
+pub(super) struct Net {
+    pub spacing: f64,
+    /// Spacing of the lattice on which cuts were decided: loops that were small there are.
+    pub decided: f64,
+    pub leaves: Vec<Option<Leaf>>,
+    pub seams: Vec<Seam>,
+    /// The seams that each crease is divided into.
+    parts: Vec<Vec<usize>>,
+    /// The seam of each edge between two patches, and a second one where a crease is divided.
+    seam_of: FxHashMap<Node, usize>,
+    also: FxHashMap<Node, usize>,
+    /// The line around each patch, in no order.
+    borders: Vec<Vec<Segment>>,
+    mesh: Triangulation,
+    labels: Vec<u32>,
+    /// Shares of the first corner on edges, or of all three, on triangles.
+    shares: FxHashMap<Node, [f64; 3]>,
+    /// How far seams go on beyond their last nodes, where these are on the border: in plan.
+    ends: FxHashMap<Node, f64>,
+    /// By node and patch.
+    on_seams: FxHashMap<(Node, u32), Point>,
+}
+
+impl Net {
+    /// Each crease is one seam. Cuts were `decided` on a lattice of that spacing, or are to be drawn as if so.
+    pub(super) fn new(
+        surface: &Heightfield,
+        labels: &Labels,
+        leaves: Vec<Option<Leaf>>,
+        decided: f64,
+    ) -> Result<Net> {
+        let mesh = Triangulation::new(surface, &Frame::default())?;
+        let mut net = Net {
+            spacing: surface.lattice().spacing(),
+            decided,
+            borders: vec![Vec::new(); leaves.len()],
+            leaves,
+            seams: Vec::new(),
+            parts: Vec::new(),
+            seam_of: FxHashMap::default(),
+            also: FxHashMap::default(),
+            labels: (mesh.vertices().iter())
+                .map(|v| labels.of[*v as usize])
+                .collect(),
+            mesh,
+            shares: FxHashMap::default(),
+            ends: FxHashMap::default(),
+            on_seams: FxHashMap::default(),
+        };
+        for (crease, (patches, nodes)) in lines(&net.mesh, &labels.of).into_iter().enumerate() {
+            let smooth = labels.are_one(patches[0], patches[1]);
+            net.add_seam(crease, patches, smooth, nodes);
+        }
+        net.index();
+        net.add_borders(surface);
+        net.add_ends();
+        Ok(net)
+    }
+
+    fn add_seam(&mut self, crease: usize, patches: [u32; 2], smooth: bool, nodes: Vec<Node>) {
+        let (mut rise, mut squares, mut count) = (0.0, 0.0, 0.0);
+        for node in &nodes {
+            if is_triangle(*node) {
+                let share = self.meeting(node.0);
+                self.shares.entry(*node).or_insert(share);
+                continue;
+            }
+            let (share, steepness) = match smooth {
+                true => (0.5, 0.0),
+                false => self.crossing(*node),
+            };
+            self.shares.insert(*node, [1.0 - share, share, 0.0]);
+            rise += steepness;
+            let [a, b] = patches.map(|patch| self.height(*node, patch));
+            squares += (a - b) * (a - b);
+            count += 1.0;
+        }
+        let sides = patches.map(|patch| self.line(patch, &nodes, smooth));
+        for (patch, side) in patches.iter().zip(&sides) {
+            for (node, place) in nodes.iter().zip(side) {
+                self.on_seams.insert((*node, *patch), *place);
+            }
+        }
+        self.parts.push(vec![self.seams.len()]);
+        self.seams.push(Seam {
+            patches,
+            crease,
+            smooth,
+            from: 0,
+            nodes,
+            sides,
+            rise,
+            apart: f64::sqrt(squares / f64::max(count, 1.0)),
+        });
+    }
+
+    /// Finds the seams of all nodes again.
+    fn index(&mut self) {
+        self.seam_of.clear();
+        self.also.clear();
+        for (number, seam) in self.seams.iter().enumerate() {
+            for node in seam.nodes.iter().filter(|node| !is_triangle(**node)) {
+                match self.seam_of.get(node) {
+                    Some(first) if *first != number => {
+                        self.also.insert(*node, number);
+                    }
+                    _ => {
+                        self.seam_of.insert(*node, number);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether its sides are apart in space: at a step of the surface.
+    pub(super) fn is_torn(&self, seam: usize) -> bool {
+        self.seams[seam].apart > super::layout::TORN * self.spacing
+    }
+
+    /// The seams that an edge's node is on.
+    pub(super) fn seams_of(&self, node: Node) -> [Option<usize>; 2] {
+        [
+            self.seam_of.get(&node).copied(),
+            self.also.get(&node).copied(),
+        ]
+    }
+
+    /// The seams that meet in a triangle.
+    pub(super) fn seams_at(&self, triangle: u32) -> [Option<usize>; 3] {
+        let [a, b, c] = self.mesh.triangles()[triangle as usize];
+        [(a, b), (b, c), (c, a)].map(|(p, q)| self.seam_of.get(&(p.min(q), p.max(q))).copied())
+    }
+}
+
+pub(super) fn is_triangle((_, q): Node) -> bool {
+    q == u32::MAX
+}

@@ -1,0 +1,186 @@
+//! Where patches lie on a sheet, and the lines around them all.
+
+use super::net::{Net, Node, is_triangle};
+use crate::unroll::overlap::crossings;
+use crate::unroll::pieces::Point;
+use rustc_hash::FxHashMap;
+
+/// A turn and a shift of a patch's plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion {
+    pub turn: Point,
+    pub shift: Point,
+}
+
+impl Motion {
+    pub(super) const NONE: Motion = Motion {
+        turn: Point::new(1.0, 0.0),
+        shift: Point::new(0.0, 0.0),
+    };
+
+    pub(super) fn of(&self, place: Point) -> Point {
+        self.turn * place + self.shift
+    }
+
+    /// This one first, then another.
+    pub(super) fn then(&self, next: &Motion) -> Motion {
+        Motion {
+            turn: next.turn * self.turn,
+            shift: next.of(self.shift),
+        }
+    }
+
+    /// What brings some places nearest to others, by the sum of the squared distances.
+    pub(super) fn between(from: &[Point], to: &[Point]) -> Motion {
+        let count = from.len() as f64;
+        let middle = |places: &[Point]| places.iter().sum::<Point>() / count;
+        let (here, there) = (middle(from), middle(to));
+        let pairs = from.iter().zip(to);
+        let turn: Point = pairs.map(|(p, q)| (p - here).conj() * (q - there)).sum();
+        let turn = match turn.norm() > 0.0 {
+            true => turn / turn.norm(),
+            false => Motion::NONE.turn,
+        };
+        Motion {
+            turn,
+            shift: there - turn * here,
+        }
+    }
+}
+
+/// How all patches lie, and which seams are folds.
+#[derive(Debug, Clone)]
+pub(super) struct Layout {
+    pub motions: Vec<Motion>,
+    pub folded: Vec<bool>,
+}
+
+/// A corner of a closed line around patches, which lie to the left of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    pub node: Node,
+    pub place: Point,
+    /// The seam that the piece from here on belongs to.
+    pub seam: Option<usize>,
+    /// The patch beside it.
+    pub patch: u32,
+}
+
+/// Corners of one line closer together than this may cross, for they are at the end of a slit.
+const SLIT: usize = 8;
+
+impl Layout {
+    /// Every patch by itself.
+    pub(super) fn loose(net: &Net) -> Layout {
+        Layout {
+            motions: vec![Motion::NONE; net.leaves.len()],
+            folded: vec![false; net.seams.len()],
+        }
+    }
+
+    /// Moves some patches.
+    pub(super) fn carry(&mut self, patches: &[u32], motion: &Motion) {
+        for patch in patches {
+            let own = &mut self.motions[*patch as usize];
+            *own = own.then(motion);
+        }
+    }
+
+    /// Where a seam's nodes lie, by the side of one of its patches, 0 or 1.
+    pub(super) fn side(&self, net: &Net, seam: usize, side: usize) -> Vec<Point> {
+        let motion = &self.motions[net.seams[seam].patches[side] as usize];
+        let places = net.seams[seam].sides[side].iter();
+        places.map(|place| motion.of(*place)).collect()
+    }
+
+    /// The patches that share their copy of a node, the given one among them: those that folds at
+    /// the node lead to.
+    fn family(&self, net: &Net, node: Node, patch: u32) -> Vec<u32> {
+        let mut family = vec![patch];
+        let seams = match node {
+            (p, q) if p == q => return family,
+            _ if is_triangle(node) => net.seams_at(node.0),
+            _ => {
+                let [one, other] = net.seams_of(node);
+                [one, other, None]
+            }
+        };
+        // Each pass reaches one further; there are three patches at most.
+        for _ in 0..2 {
+            for seam in seams.into_iter().flatten().filter(|s| self.folded[*s]) {
+                let [a, b] = net.seams[seam].patches;
+                for (one, other) in [(a, b), (b, a)] {
+                    if family.contains(&one) && !family.contains(&other) {
+                        family.push(other);
+                    }
+                }
+            }
+        }
+        family.sort_unstable();
+        family
+    }
+
+    /// The closed lines around some patches, with the seams that are no folds among them.
+    pub(super) fn outlines(&self, net: &Net, patches: &[u32]) -> Vec<Vec<Corner>> {
+        let mut segments = Vec::new();
+        let mut starts: FxHashMap<(Node, u32), Vec<usize>> = FxHashMap::default();
+        for patch in patches {
+            for ([start, end], seam) in net.border(*patch) {
+                if seam.is_some_and(|seam| self.folded[seam]) {
+                    continue;
+                }
+                let [from, to] = [start, end].map(|node| self.family(net, node, *patch));
+                let place = from
+                    .iter()
+                    .map(|p| self.motions[*p as usize].of(net.place(start, *p)));
+                let corner = Corner {
+                    node: start,
+                    place: place.sum::<Point>() / from.len() as f64,
+                    seam,
+                    patch: *patch,
+                };
+                starts
+                    .entry((start, from[0]))
+                    .or_default()
+                    .push(segments.len());
+                segments.push((corner, (end, to[0])));
+            }
+        }
+        let mut used = vec![false; segments.len()];
+        let mut outlines = Vec::new();
+        for first in 0..segments.len() {
+            let (mut line, mut next) = (Vec::new(), Some(first));
+            while let Some(i) = next.filter(|i| !used[*i]) {
+                used[i] = true;
+                let (corner, end) = &segments[i];
+                line.push(*corner);
+                let onwards = starts.get(end).into_iter().flatten();
+                next = onwards.copied().find(|i| !used[*i]);
+            }
+            if line.len() > 2 {
+                outlines.push(line);
+            }
+        }
+        outlines
+    }
+
+    /// Whether some patches come to lie on each other.
+    pub(super) fn overlaps(&self, net: &Net, patches: &[u32]) -> bool {
+        let outlines = self.outlines(net, patches);
+        let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, line) in outlines.iter().enumerate() {
+            let first = places.len() as u32;
+            let count = line.len() as u32;
+            for (k, corner) in line.iter().enumerate() {
+                places.push(corner.place);
+                edges.push([first + k as u32, first + (k as u32 + 1) % count]);
+                positions.push((number, k));
+            }
+        }
+        crossings(&places, &edges).into_iter().any(|[a, b]| {
+            let ((one, i), (other, k)) = (positions[a], positions[b]);
+            let apart = i.abs_diff(k);
+            one != other || apart.min(outlines[one].len() - apart) > SLIT
+        })
+    }
+}

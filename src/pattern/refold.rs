@@ -1,0 +1,118 @@
+//! Sheets folded back.
+//!
+//! A sheet of paper does not stretch, but it bends as one likes. So a sheet is folded back by taking
+//! its triangles as they lie flat, tied along its folds, to where they fit together best in space,
+//! beginning on the surface. Where it does not come to lie on that again is what its strain is worth.
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::Refolding;
+use super::check::ties;
+use super::net::Net;
+use crate::error::Result;
+use crate::unroll::joint::{Joint, Until};
+use crate::unroll::pieces::Piece;
+
+/// Until nothing moves.
+const EFFORT: Until = Until {
+    tolerance: 1e-12,
+    enough: 0.0,
+    hopeless: f64::INFINITY,
+    steps: 80,
+};
+
+/// How near the patches of a sheet come to where they are on the surface.
+pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<Refolding> {
+    let (mut pieces, mut starts) = (Vec::new(), Vec::new());
+    let mut places: Vec<Vector3<f64>> = Vec::new();
+    let mut own = Vec::new();
+    for patch in patches {
+        let first = places.len() as u32;
+        starts.push(first);
+        let Some(leaf) = net.leaves[*patch as usize].as_ref() else {
+            continue;
+        };
+        places.extend(leaf.positions().iter().map(|p| Vector3::from(*p)));
+        own.extend((0..leaf.places().len()).map(|vertex| leaf.is_own(vertex)));
+        let flat = leaf.all_pieces().map(|(_, corners)| {
+            let points = corners.map(|v| leaf.places()[v as usize]);
+            let piece = Piece::between(points.map(|p| [p.re, p.im, 0.0]));
+            (piece, corners.map(|v| first + v))
+        });
+        pieces.extend(flat.filter(|(piece, _)| piece.exists()));
+    }
+    let ties = ties(net, patches, &starts, folded);
+    let built = places.clone();
+    let joint = Joint::new(places.len(), pieces, ties)?;
+    joint.bend(&mut places, EFFORT)?;
+    let strain = joint.strain_in_space(&places);
+    register(&mut places, &built);
+    let away = places.iter().zip(&built).zip(&own);
+    let away = away
+        .filter(|(_, own)| **own)
+        .map(|((p, q), _)| (p - q).norm());
+    let (mut squares, mut count, mut maximum) = (0.0, 0.0f64, 0.0f64);
+    for distance in away {
+        squares += distance * distance;
+        count += 1.0;
+        maximum = maximum.max(distance);
+    }
+    Ok(Refolding {
+        rms: (squares / count.max(1.0)).sqrt(),
+        maximum,
+        strain,
+    })
+}
+
+/// Turns and shifts places that are not far off so that they are nearest to others, by the rotation
+/// that has the largest inner product with their correlation (Müller et al. 2016, *A Robust Method to
+/// Extract the Rotational Part of Deformations*).
+fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
+    let count = places.len().max(1) as f64;
+    let here = places.iter().sum::<Vector3<f64>>() / count;
+    let there = others.iter().sum::<Vector3<f64>>() / count;
+    let pairs = places.iter().zip(others);
+    let spread: Matrix3<f64> = pairs
+        .map(|(p, q)| (q - there) * (p - here).transpose())
+        .sum();
+    let mut turn = Rotation3::identity();
+    for _ in 0..TURNS {
+        let columns = (0..3).map(|k| (turn.matrix().column(k).into_owned(), spread.column(k)));
+        let (mut axis, mut along) = (Vector3::zeros(), 0.0);
+        for (own, wanted) in columns {
+            axis += own.cross(&wanted);
+            along += own.dot(&wanted);
+        }
+        let step = axis / (along.abs() + f64::MIN_POSITIVE);
+        turn = Rotation3::new(step) * turn;
+        if step.norm() < 1e-12 {
+            break;
+        }
+    }
+    for place in places {
+        *place = turn * (*place - here) + there;
+    }
+}
+
+/// How often the turn is looked at.
+const TURNS: usize = 50;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_turned_and_shifted_is_brought_back() {
+        let built: Vec<Vector3<f64>> = (0..40)
+            .map(|i| Vector3::new(f64::from(i % 8), f64::from(i / 8), f64::from(i * i % 7)))
+            .collect();
+        let turn = Rotation3::from_euler_angles(0.3, -0.5, 0.7);
+        let mut places: Vec<Vector3<f64>> = (built.iter())
+            .map(|p| turn * p + Vector3::new(3.0, -2.0, 5.0))
+            .collect();
+        register(&mut places, &built);
+        for (p, q) in places.iter().zip(&built) {
+            assert!((p - q).norm() < 1e-9, "{p} {q}");
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Cuts closed again, as far as every sheet stays what it has to be: what is cut to make parts flat is
+//! more than has to stay open.
+
+use std::collections::VecDeque;
+
+use super::assembly::{EFFORT, fault, folded};
+use super::check::{Tied, are_close, strain_along, strains};
+use super::layout::{Arrangement, FINE, apart, beside, fits, longest_first};
+use super::net::Net;
+use crate::error::Result;
+use crate::math::planar::polyline_length;
+use crate::unroll::joint::Until;
+use crate::unroll::pieces::Point;
+
+/// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it
+/// are strained more already.
+const CREASE: f64 = 0.1;
+
+/// What the mean of a sheet's squared strains may grow by, in squares of the limit, for a length that is closed as long
+/// as the side of a square of its size: what is cheap to close is not left open for what is dear.
+const PRICE: f64 = 0.5;
+
+/// How many times the limit what lies right beside a cut that is closed may be strained by.
+const BESIDE: f64 = 2.0;
+
+/// A seam that cannot be closed is halved and tried again down to so many nodes.
+const SHORTEST: usize = 12;
+
+/// Steps for each vertex that all trials may take together.
+const WORK: usize = 800;
+
+/// How far above the limit, in terms of the energy, a trial is given up where it hardly gets better.
+const FAR: f64 = 1.6;
+
+/// Closes seams, the longest first, and parts of those that cannot be closed as a whole.
+pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> Result<()> {
+    let open = |seam: &usize| !arrangement.layout.folded[*seam];
+    let mut pending: VecDeque<usize> = longest_first(net).into_iter().filter(open).collect();
+    // Creases are cut rather than what is smooth.
+    pending
+        .make_contiguous()
+        .sort_by_key(|seam| !net.seams[*seam].smooth);
+    let vertices: usize = net
+        .leaves
+        .iter()
+        .flatten()
+        .map(|leaf| leaf.places().len())
+        .sum();
+    let mut budget = WORK * vertices;
+    while let Some(seam) = pending.pop_front() {
+        if budget == 0 {
+            break;
+        }
+        if arrangement.layout.folded[seam] || closed(net, arrangement, seam, limit, &mut budget)? {
+            continue;
+        }
+        let nodes = net.seams[seam].nodes.len();
+        if nodes < 2 * SHORTEST || !net.seams[seam].smooth {
+            continue;
+        }
+        let other = net.divide(seam, nodes / 2);
+        arrangement.layout.folded.push(false);
+        // Among the others by their length.
+        for part in [seam, other] {
+            let long = |seam: usize| polyline_length(&net.seams[seam].sides[0]);
+            let key = |seam: usize| (net.seams[seam].smooth, long(seam));
+            let before = |next: &usize| key(*next) >= key(part);
+            let place = pending.iter().position(|next| !before(next));
+            pending.insert(place.unwrap_or(pending.len()), part);
+        }
+    }
+    zip(net, arrangement, limit);
+    net.join_parts(&mut arrangement.layout.folded);
+    Ok(())
+}
+
+/// Closes what is open by less than the lattice can tell.
+fn zip(net: &mut Net, arrangement: &mut Arrangement, limit: f64) {
+    for members in &arrangement.sheets {
+        let inside = |seam: &usize| {
+            let patches = net.seams[*seam].patches;
+            let own = patches.iter().all(|p| members.binary_search(p).is_ok());
+            own && !arrangement.layout.folded[*seam] && !net.is_torn(*seam)
+        };
+        let open: Vec<usize> = (0..net.seams.len()).filter(inside).collect();
+        let layout = &mut arrangement.layout;
+        let mut closed = Vec::new();
+        for seam in open {
+            let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
+            let pairs = one.iter().zip(&other);
+            let near: Vec<bool> = pairs
+                .map(|(p, q)| (p - q).norm() <= FINE * net.spacing)
+                .collect();
+            let parts = net.divide_where(seam, &near);
+            layout.folded.resize(net.seams.len(), false);
+            for (part, near) in parts {
+                layout.folded[part] = near;
+                closed.extend(near.then_some(part));
+            }
+        }
+        if !closed.is_empty() && fault(net, layout, members, limit).is_some() {
+            closed
+                .into_iter()
+                .for_each(|seam| layout.folded[seam] = false);
+        }
+    }
+}
+
+/// Closes one seam; whether its sheet then still is as it should be. If not, all is as it was.
+fn closed(
+    net: &mut Net,
+    arrangement: &mut Arrangement,
+    seam: usize,
+    limit: f64,
+    budget: &mut usize,
+) -> Result<bool> {
+    let sheet_of = |patch: u32| {
+        let own = |members: &Vec<u32>| members.binary_search(&patch).is_ok();
+        arrangement.sheets.iter().position(own)
+    };
+    let [Some(a), Some(b)] = net.seams[seam].patches.map(sheet_of) else {
+        return Ok(false);
+    };
+    let mut members = arrangement.sheets[a].clone();
+    let mut layout = arrangement.layout.clone();
+    if a != b {
+        let motion = beside(net, &layout, seam);
+        layout.carry(&arrangement.sheets[b], &motion);
+        members.extend(&arrangement.sheets[b]);
+        members.sort_unstable();
+    }
+    layout.folded[seam] = true;
+    // Others that lie on each other by now.
+    for other in 0..net.seams.len() {
+        let own = || {
+            net.seams[other]
+                .patches
+                .iter()
+                .all(|p| members.binary_search(p).is_ok())
+        };
+        if !layout.folded[other] && !net.is_torn(other) && own() && fits(net, &layout, other, 0.0) {
+            layout.folded[other] = true;
+        }
+    }
+    let ties = folded(net, &layout, &members);
+    let before: Vec<(u32, Vec<Point>)> = (members.iter())
+        .filter_map(|p| Some((*p, net.leaves[*p as usize].as_ref()?.places().to_vec())))
+        .collect();
+    // A cut through what is smooth is closed wherever that is worth its strain; a crease that bends on the flat
+    // sheet stays cut, for it could not be folded.
+    let most = match net.seams[seam].smooth {
+        true => {
+            let now = strains(net, &members).0;
+            let share = polyline_length(&net.seams[seam].sides[0]) / now.area.sqrt();
+            (now.rms().powi(2) + PRICE * share * limit * limit)
+                .sqrt()
+                .min(limit)
+        }
+        false => {
+            let sheets = [a, b].map(|sheet| strains(net, &arrangement.sheets[sheet]).0.rms());
+            (CREASE * limit).max(sheets[0]).max(sheets[1]).min(limit)
+        }
+    };
+    let until = Until {
+        hopeless: FAR * 2.0 * most * most,
+        ..EFFORT
+    };
+    let joined = !are_close(net, &layout, &ties);
+    if joined {
+        let mut sheet = Tied::new(net, &layout, &members, &ties)?;
+        let work = sheet.relax(net, &mut layout, until)?;
+        *budget = budget.saturating_sub(work);
+    }
+    let tight = |seam: &usize| apart(net, &layout, *seam) <= FINE * net.spacing;
+    // A small place that is strained much would hardly show in the whole.
+    let even = strain_along(net, seam) <= BESIDE * limit;
+    if even && ties.iter().all(tight) && fault(net, &layout, &members, most).is_none() {
+        arrangement.layout = layout;
+        arrangement.sheets[a] = members;
+        if a != b {
+            arrangement.sheets.swap_remove(b);
+        }
+        return Ok(true);
+    }
+    if joined {
+        for (patch, places) in before {
+            net.set_places(patch, places);
+        }
+    }
+    Ok(false)
+}

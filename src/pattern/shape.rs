@@ -1,0 +1,256 @@
+//! From nodes to the lines that are cut and folded: grouped, straightened and plain.
+
+use super::line::{meeting, sharpened, simplified, simplified_ring};
+use super::meeting::Meetings;
+use super::net::{BACK, Net, SPECK, is_triangle};
+use super::outline::{Corner, Layout};
+use super::simple::{Runs, without_loops};
+use super::{Fold, Run, Seam};
+use crate::math::planar::polyline_length;
+use crate::unroll::pieces::Point;
+
+/// How far a plain line may be from the line, in spacings.
+const TOLERANCE: f64 = 0.02;
+
+/// What the middles of a border's edges cut off its corners is no longer than this, in lengths of
+/// the longest edge.
+const SHORT: f64 = 1.1;
+
+/// A seam, and the one of its patches that is beside it.
+pub(crate) type Side = (usize, u32);
+
+/// The closed lines around a sheet, and how many small loops were cut off them.
+pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
+    let mut loops = 0;
+    let lines = layout.outlines(net, patches).into_iter().map(|line| {
+        let (runs, count) = without_loops(runs(net, &line), net.decided);
+        loops += count;
+        runs
+    });
+    (lines.collect(), loops)
+}
+
+/// The outlines of a sheet, the longest first, and how many small loops were cut off them.
+pub(super) fn outlines(
+    net: &Net,
+    layout: &Layout,
+    patches: &[u32],
+    meetings: &Meetings,
+    seam: impl Fn(usize) -> Seam,
+) -> (Vec<Vec<Run>>, usize) {
+    let (lines, loops) = lines(net, layout, patches);
+    let corners = meetings.corners(net, layout, patches);
+    let end = |place: Point| {
+        // A loop may have been cut off there.
+        let away = |corner: &Point| (corner - place).norm();
+        let here = corners
+            .iter()
+            .filter(|(corner, _)| away(corner) <= SPECK * net.spacing);
+        let here = here.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
+        here.map(|(_, meeting)| *meeting)
+    };
+    let mut out: Vec<(f64, Vec<Run>)> = (lines.into_iter())
+        .map(|runs| {
+            let long = runs.iter().map(|(_, p)| polyline_length(p)).sum();
+            let run = |(side, points): (Option<Side>, Vec<Point>)| Run {
+                seam: side.map(|(number, _)| seam(number)),
+                patch: side.map(|(_, patch)| patch),
+                ends: [points[0], points[points.len() - 1]].map(end),
+                points: pairs(&points),
+            };
+            (long, runs.into_iter().map(run).collect())
+        })
+        .collect();
+    out.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    (out.into_iter().map(|(_, runs)| runs).collect(), loops)
+}
+
+/// The folds of a sheet, but for those that only join two nodes of what is one place.
+pub(super) fn folds(
+    net: &Net,
+    layout: &Layout,
+    patches: &[u32],
+    outlines: &[Vec<Run>],
+    meetings: &Meetings,
+    seam: impl Fn(usize) -> Seam,
+) -> Vec<Fold> {
+    let own = |number: &usize| {
+        let seam = &net.seams[*number];
+        layout.folded[*number] && !seam.smooth && patches.contains(&seam.patches[0])
+    };
+    let fold = |number: usize| {
+        let [one, other] = [0, 1].map(|side| layout.side(net, number, side));
+        let mut points: Vec<Point> = one.iter().zip(other).map(|(p, q)| 0.5 * (p + q)).collect();
+        let nodes = &net.seams[number].nodes;
+        let last = points.len() - 1;
+        if nodes[0] != nodes[last] {
+            for (end, back) in [(0, BACK.min(last)), (last, last.saturating_sub(BACK))] {
+                if !is_triangle(nodes[end]) {
+                    points[end] = reached(points[end], points[back], outlines, net.spacing);
+                }
+            }
+        }
+        Fold {
+            seam: seam(number),
+            ends: [nodes[0], nodes[last]].map(|node| meetings.at(node)),
+            points: pairs(&simplified(&points, TOLERANCE * net.spacing)),
+        }
+    };
+    let long = |number: &usize| polyline_length(&net.seams[*number].sides[0]) > SPECK * net.spacing;
+    (0..net.seams.len())
+        .filter(|number| own(number) && long(number))
+        .map(fold)
+        .collect()
+}
+
+/// Where a line that comes from `back` and ends at `end` meets the nearest outline, if that is no
+/// further than a spacing.
+fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Point {
+    let pieces = outlines.iter().flatten().flat_map(|run| {
+        let points = run.points.windows(2);
+        points.map(|p| [p[0], p[1]].map(|[x, y]| Point::new(x, y)))
+    });
+    let crossings = pieces.filter_map(|[p, q]| {
+        let place = meeting([back, end], [p, q])?;
+        let share = ((q - p).conj() * (place - p)).re / (q - p).norm_sqr();
+        ((-0.01..=1.01).contains(&share) && (place - end).norm() < spacing).then_some(place)
+    });
+    crossings
+        .min_by(|p, q| (p - end).norm().total_cmp(&(q - end).norm()))
+        .unwrap_or(end)
+}
+
+/// A closed line as runs along one side of one seam each, or along the border.
+fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
+    let tolerance = TOLERANCE * net.spacing;
+    let n = line.len();
+    let kind = |i: usize| {
+        let Corner { seam, patch, .. } = line[i % n];
+        seam.map(|seam| (seam, patch))
+    };
+    let Some(first) = (0..n).find(|i| kind(*i) != kind(*i + n - 1)) else {
+        let ring = match line[0].seam {
+            Some(_) => simplified_ring(&places(line), tolerance),
+            None => {
+                let mut border = middles(line);
+                border.extend(closing(line));
+                sharpened(&simplified_ring(&border, tolerance), short(line), true)
+            }
+        };
+        let again = ring.first().copied();
+        return vec![(kind(0), ring.into_iter().chain(again).collect())];
+    };
+    let mut groups: Vec<(Option<Side>, Vec<Corner>)> = Vec::new();
+    for i in first..first + n {
+        let corner = line[i % n];
+        match groups.last_mut() {
+            Some((_, group)) if kind(i) == kind(i - 1) && i > first => group.push(corner),
+            _ => groups.push((kind(i), vec![corner])),
+        }
+    }
+    // Each group with the first corner of the next one.
+    let starts: Vec<Corner> = groups.iter().map(|(_, group)| group[0]).collect();
+    let count = groups.len();
+    for (k, (_, group)) in groups.iter_mut().enumerate() {
+        group.push(starts[(k + 1) % count]);
+    }
+    let mut out: Runs = (groups.iter())
+        .map(|(seam, group)| match seam {
+            Some(_) => (*seam, places(group)),
+            None => {
+                let mut points = vec![group[0].place];
+                points.extend(middles(group));
+                points.push(group[group.len() - 1].place);
+                (None, points)
+            }
+        })
+        .collect();
+    for k in (0..count).filter(|k| groups[*k].0.is_none()) {
+        meet(net, &groups, &mut out, k);
+    }
+    for ((seam, points), (_, group)) in out.iter_mut().zip(&groups) {
+        *points = simplified(points, tolerance);
+        if seam.is_none() {
+            *points = sharpened(points, short(group), false);
+        }
+    }
+    out
+}
+
+/// Moves the ends of a border along the seams that it lies between to where these meet its line.
+fn meet(net: &Net, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
+    let count = groups.len();
+    for (other, starts) in [((k + count - 1) % count, true), ((k + 1) % count, false)] {
+        if groups[other].0.is_none() {
+            continue;
+        }
+        // Both so that they begin at the place where they meet.
+        let turned = |list: &[Corner], turn: bool| -> Vec<Corner> {
+            match turn {
+                true => list.iter().rev().copied().collect(),
+                false => list.to_vec(),
+            }
+        };
+        let corners = turned(&groups[other].1, starts);
+        let back = BACK.min(corners.len() - 1);
+        let [from, end] = [&corners[back], &corners[0]];
+        let place = net.end([from.node, end.node], [from.place, end.place]);
+        let (mut seam, mut border) = (runs[other].1.clone(), runs[k].1.clone());
+        if starts {
+            seam.reverse();
+        } else {
+            border.reverse();
+        }
+        for line in [&mut seam, &mut border] {
+            line[0] = place;
+            // What it has passed.
+            while line.len() > 2 && ((line[2] - line[1]).conj() * (line[1] - place)).re < 0.0 {
+                line.remove(1);
+            }
+        }
+        if starts {
+            seam.reverse();
+        } else {
+            border.reverse();
+        }
+        (runs[other].1, runs[k].1) = (seam, border);
+    }
+}
+
+fn places(corners: &[Corner]) -> Vec<Point> {
+    corners.iter().map(|corner| corner.place).collect()
+}
+
+/// How long a piece of the border may be that stands for a corner.
+fn short(corners: &[Corner]) -> f64 {
+    let next = vertices(corners).skip(1);
+    let edges = vertices(corners).zip(next).map(|(p, q)| (q - p).norm());
+    SHORT * edges.fold(0.0, f64::max)
+}
+
+/// The vertices among the corners, for a border goes from one to the next.
+fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
+    let own = corners
+        .iter()
+        .filter(|corner| corner.node.0 == corner.node.1);
+    own.map(|corner| corner.place)
+}
+
+/// The middles of a border's edges, on which there is no zigzag.
+fn middles(corners: &[Corner]) -> Vec<Point> {
+    let next = vertices(corners).skip(1);
+    vertices(corners)
+        .zip(next)
+        .map(|(p, q)| 0.5 * (p + q))
+        .collect()
+}
+
+/// That of the edge from the last vertex to the first.
+fn closing(corners: &[Corner]) -> Option<Point> {
+    let (first, last) = (vertices(corners).next()?, vertices(corners).last()?);
+    Some(0.5 * (first + last))
+}
+
+fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
+    points.iter().map(|place| [place.re, place.im]).collect()
+}

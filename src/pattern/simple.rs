@@ -1,0 +1,122 @@
+//! Closed lines without the small loops in which they cross themselves.
+
+use super::shape::Side;
+use crate::math::planar::{line_intersection, polygon_area, polygon_perimeter};
+use crate::unroll::overlap::crossings;
+use crate::unroll::pieces::Point;
+
+/// A loop goes if it encloses at most this, in squared spacings, and is at most so long, in spacings.
+const AREA: f64 = 6.0;
+const LENGTH: f64 = 60.0;
+
+/// How often lines are looked at.
+const PASSES: usize = 8;
+
+pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
+
+/// A closed line of runs, each of which begins where the one before ends, with its small loops cut off
+/// where they cross; and how many these were.
+pub(crate) fn without_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
+    // Each point with the run that the piece from it on belongs to.
+    let mut line: Vec<(Point, usize)> = Vec::new();
+    for (number, (_, points)) in runs.iter().enumerate() {
+        let own = &points[..points.len() - 1];
+        line.extend(own.iter().map(|place| (*place, number)));
+    }
+    let mut loops = 0;
+    for _ in 0..PASSES {
+        let Some((next, count)) = pass(&line, spacing) else {
+            break;
+        };
+        line = next;
+        loops += count;
+    }
+    if loops == 0 || line.len() < 3 {
+        return (runs, 0);
+    }
+    // It begins with a run.
+    let n = line.len();
+    let start = (0..n).find(|i| line[*i].1 != line[(*i + n - 1) % n].1);
+    line.rotate_left(start.unwrap_or(0));
+    let mut out: Runs = Vec::new();
+    let mut last = None;
+    for (place, run) in &line {
+        match out.last_mut() {
+            Some((_, points)) if last == Some(*run) => points.push(*place),
+            _ => out.push((runs[*run].0, vec![*place])),
+        }
+        last = Some(*run);
+    }
+    let starts: Vec<Point> = out.iter().map(|(_, points)| points[0]).collect();
+    let count = out.len();
+    for (k, (_, points)) in out.iter_mut().enumerate() {
+        points.push(starts[(k + 1) % count]);
+    }
+    (out, loops)
+}
+
+/// The line without the loops there are; `None` where there is none to go.
+fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, usize)> {
+    let n = line.len();
+    let places: Vec<Point> = line.iter().map(|(place, _)| *place).collect();
+    let edges: Vec<[u32; 2]> = (0..n).map(|k| [k as u32, ((k + 1) % n) as u32]).collect();
+    let mut gone = vec![false; n];
+    // The point that takes the place of a loop, by the piece that it ends with.
+    let mut instead: Vec<Option<Point>> = vec![None; n];
+    let mut count = 0;
+    for [i, j] in crossings(&places, &edges) {
+        let [a, b, c, d] = [i, i + 1, j, j + 1].map(|k| places[k % n]);
+        let at = line_intersection([a, b], [c, d], 0.0).unwrap_or(0.5 * (b + c));
+        // From piece `a` on to piece `b`, whichever way encloses less.
+        let loops = [(i, j), (j, i)].map(|(a, b)| {
+            let inner: Vec<usize> = (1..=(b + n - a) % n).map(|k| (a + k) % n).collect();
+            let mut ring = vec![at];
+            ring.extend(inner.iter().map(|k| places[*k]));
+            (
+                polygon_area(&ring).abs(),
+                polygon_perimeter(&ring),
+                b,
+                inner,
+            )
+        });
+        let [one, other] = loops;
+        let (area, length, end, inner) = if one.1 < other.1 { one } else { other };
+        let small = area <= AREA * spacing * spacing && length <= LENGTH * spacing;
+        if small && inner.iter().all(|k| !gone[*k]) && instead[end].is_none() {
+            inner.iter().for_each(|k| gone[*k] = true);
+            instead[end] = Some(at);
+            count += 1;
+        }
+    }
+    let kept = (0..n).filter(|k| !gone[*k] || instead[*k].is_some());
+    let out = kept
+        .map(|k| (instead[k].unwrap_or(places[k]), line[k].1))
+        .collect();
+    (count > 0).then_some((out, count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_loop_goes_and_a_large_one_stays() {
+        let at = Point::new;
+        let square = |size: f64| {
+            // The upper side curls.
+            let (left, top) = (5.0 - size, 10.0 + size);
+            let curl = [at(left, 10.0), at(left, top), at(5.0, top), at(5.0, 9.0)];
+            let mut points = vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 10.0)];
+            points.extend(curl);
+            points.extend([at(0.0, 9.0), at(0.0, 0.0)]);
+            vec![(None, points)]
+        };
+        let (cleaned, loops) = without_loops(square(1.0), 1.0);
+        assert_eq!(loops, 1);
+        let corners = &cleaned[0].1;
+        assert!(corners.iter().all(|p| p.im <= 10.0), "{corners:?}");
+        assert!(corners.contains(&at(5.0, 10.0)), "{corners:?}");
+        let kept = without_loops(square(3.0), 1.0);
+        assert_eq!(kept, (square(3.0), 0));
+    }
+}

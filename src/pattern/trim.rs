@@ -1,0 +1,75 @@
+//! Specks at a border that nearly all strain of a part is in, or that lie upside down: where a surface ends
+//! in a steep point, a few vertices may be torn apart however the part is cut.
+
+use super::labels::{Labels, hanging_together};
+use super::leaf::Leaf;
+use crate::lattice::hexagonal::Lattice;
+use rustc_hash::FxHashMap;
+
+/// The share of a part's vertices that a speck has at most.
+const SHARE: f64 = 0.002;
+
+/// Those of a vertex inside a lattice.
+const NEIGHBOURS: usize = 6;
+
+/// What a part without its specks is to be strained by at most, as a share of the limit.
+const REST: f64 = 0.5;
+
+/// What the vertices that are left out are to rid a part of.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Trouble {
+    /// More strain than this limit.
+    Strain(f64),
+    /// Triangles upside down.
+    Flipped,
+}
+
+/// The few vertices without which a part would surely be rid of its trouble; nothing if these are more than
+/// `most`, away from its border, or all that holds it together.
+pub(super) fn specks(
+    lattice: &Lattice,
+    labels: &Labels,
+    part: u32,
+    leaf: &Leaf,
+    trouble: Trouble,
+    most: usize,
+) -> Option<Vec<usize>> {
+    let burden = leaf.burden(lattice);
+    let most = most.min((SHARE * burden.len() as f64) as usize);
+    let speck: FxHashMap<usize, ()> = match trouble {
+        Trouble::Strain(limit) => heaviest(&burden, REST * limit / leaf.strain().rms()),
+        Trouble::Flipped => leaf.flipped(lattice),
+    }
+    .into_iter()
+    .map(|i| (i, ()))
+    .collect();
+    if speck.is_empty() || speck.len() > most {
+        return None;
+    }
+    let together = |inside: &dyn Fn(usize) -> bool| {
+        let members = burden.iter().map(|(i, _)| *i).filter(|i| inside(*i));
+        hanging_together(lattice, members, |_, _| true)
+    };
+    let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
+    let is_outermost = |i: usize| {
+        let own = lattice.around(i).filter(|k| labels.of[*k] == part);
+        own.count() < NEIGHBOURS
+    };
+    let specks = together(&|i| speck.contains_key(&i));
+    let at_border = |group: &Vec<usize>| group.iter().any(|i| is_outermost(*i));
+    (whole && specks.iter().all(at_border)).then(|| specks.concat())
+}
+
+/// The fewest vertices without which the strain would be such a share of what it is.
+fn heaviest(burden: &[(usize, f64)], share: f64) -> Vec<usize> {
+    let mut sorted = burden.to_vec();
+    sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let all: f64 = sorted.iter().map(|(_, square)| square).sum();
+    let mut left = all;
+    let heavy = sorted.iter().take_while(|(_, square)| {
+        let wanted = left > all * share.powi(2);
+        left -= square;
+        wanted
+    });
+    heavy.map(|(i, _)| *i).collect()
+}

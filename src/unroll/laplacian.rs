@@ -1,0 +1,263 @@
+//! The matrix of the global step: the cotangent Laplacian of the surface, a weight for each edge
+//! of the lattice (Pinkall and Polthier 1993).
+//!
+//! The lattice's triangles nest in those of the lattice of twice the spacing. So the Galerkin
+//! matrix of linear interpolation is one of edge weights again, and each fine edge, which is
+//! parallel to one coarse edge and sees half its difference, adds a quarter of its weight to that.
+
+use super::grid::Grid;
+use super::pieces::Pieces;
+use crate::error::{Result, try_filled};
+use crate::math::lanes;
+
+/// Weights of the edges from each cell to the east, south-west and south-east.
+#[derive(Debug, Clone)]
+pub(super) struct Laplacian {
+    pub grid: Grid,
+    east: Vec<f32>,
+    south_west: Vec<f32>,
+    south_east: Vec<f32>,
+    diagonal: Vec<f32>,
+    /// One over the diagonal, 0 where no edge ends.
+    pub inverse: Vec<f32>,
+    /// No eigenvalue of the matrix over its diagonal is larger.
+    pub largest: f32,
+}
+
+impl Laplacian {
+    /// Of a surface's triangles.
+    pub(super) fn new(pieces: &Pieces) -> Result<Self> {
+        let grid = pieces.grid;
+        let mut out = Laplacian::blank(grid)?;
+        for row in 0..grid.rows() {
+            let offsets = grid.offsets(row);
+            for cell in grid.row(row) {
+                let [down, side] = &pieces.of[cell];
+                let sw = cell.wrapping_add_signed(offsets.south_west);
+                let [down, side] = [down.weights, side.weights].map(|w| w.map(lanes::single));
+                out.south_west[cell] += down[0];
+                out.east[sw] += down[1];
+                out.south_east[cell] += down[2] + side[0];
+                out.south_west[cell + 1] += side[1];
+                out.east[cell] += side[2];
+            }
+        }
+        out.finish();
+        Ok(out)
+    }
+
+    /// The same energy for what is linear on the triangles of twice the spacing.
+    pub(super) fn coarse(&self) -> Result<Self> {
+        let fine = self.grid;
+        let grid = fine.coarse();
+        let mut out = Laplacian::blank(grid)?;
+        for row in 0..grid.rows() {
+            // Coarse rows are even fine rows.
+            let offsets = fine.offsets(2 * row);
+            for (col, cell) in grid.row(row).enumerate() {
+                let a = fine.below(row, col);
+                let at = |offset: isize| a.wrapping_add_signed(offset);
+                let (sw, se) = (at(offsets.south_west), at(offsets.south_east));
+                let (ne, w, e) = (at(offsets.north_east), at(-1), at(1));
+                // The two halves of the edge, and what is parallel on either side.
+                let quarter = |weights: &[f32], edges: [usize; 4]| -> f32 {
+                    0.25 * edges.iter().map(|edge| weights[*edge]).sum::<f32>()
+                };
+                out.east[cell] = quarter(&self.east, [a, e, se, ne]);
+                out.south_west[cell] = quarter(&self.south_west, [a, sw, se, w]);
+                out.south_east[cell] = quarter(&self.south_east, [a, se, e, sw]);
+            }
+        }
+        out.finish();
+        Ok(out)
+    }
+
+    fn blank(grid: Grid) -> Result<Self> {
+        let zeros = || try_filled("unrolling", grid.cells(), 0.0);
+        Ok(Laplacian {
+            grid,
+            east: zeros()?,
+            south_west: zeros()?,
+            south_east: zeros()?,
+            diagonal: zeros()?,
+            inverse: zeros()?,
+            largest: 2.0,
+        })
+    }
+
+    /// The diagonal from the edges.
+    fn finish(&mut self) {
+        let grid = self.grid;
+        let mut largest = 0.0f32;
+        for row in 0..grid.rows() {
+            let offsets = grid.offsets(row);
+            for cell in grid.row(row) {
+                let ne = cell.wrapping_add_signed(offsets.north_east);
+                let nw = cell.wrapping_add_signed(offsets.north_west);
+                let weights = [
+                    self.east[cell],
+                    self.east[cell - 1],
+                    self.south_west[cell],
+                    self.south_west[ne],
+                    self.south_east[cell],
+                    self.south_east[nw],
+                ];
+                let sum: f32 = weights.iter().sum();
+                if sum > 0.0 {
+                    self.diagonal[cell] = sum;
+                    self.inverse[cell] = 1.0 / sum;
+                    let magnitudes: f32 = weights.iter().map(|w| w.abs()).sum();
+                    largest = largest.max(1.0 + magnitudes / sum);
+                }
+            }
+        }
+        // Gershgorin's bound; and 3, for each triangle's own matrix has that trace over its own
+        // diagonal.
+        self.largest = largest.min(3.0);
+    }
+
+    /// `next ← x + ω D⁻¹ (b − A x)`.
+    pub(super) fn smooth(&self, omega: f32, b: &[f32], x: &[f32], next: &mut [f32]) {
+        for row in 0..self.grid.rows() {
+            let cells = self.grid.row(row);
+            let near = Near::new(self, row, x);
+            let (b, inverse) = (&b[cells.clone()], &self.inverse[cells.clone()]);
+            let next = &mut next[cells];
+            for i in 0..next.len() {
+                next[i] = near.centre[i] + omega * inverse[i] * (b[i] - near.product(i));
+            }
+        }
+    }
+
+    /// `out ← b − A x`.
+    pub(super) fn residual(&self, b: &[f32], x: &[f32], out: &mut [f32]) {
+        for row in 0..self.grid.rows() {
+            let cells = self.grid.row(row);
+            let near = Near::new(self, row, x);
+            let b = &b[cells.clone()];
+            let out = &mut out[cells];
+            for i in 0..out.len() {
+                out[i] = b[i] - near.product(i);
+            }
+        }
+    }
+
+    /// `out ← A x`, and `x·Ax`.
+    pub(super) fn apply(&self, x: &[f32], out: &mut [f32]) -> f64 {
+        let mut product = 0.0;
+        for row in 0..self.grid.rows() {
+            let cells = self.grid.row(row);
+            let near = Near::new(self, row, x);
+            let out = &mut out[cells.clone()];
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = near.product(i);
+            }
+            product += lanes::dot(&x[cells], out);
+        }
+        product
+    }
+}
+
+/// A row of the matrix and of what it is applied to, as slices of the row's length.
+struct Near<'a> {
+    diagonal: &'a [f32],
+    /// Weights of the edges to W, E, NW, NE, SW, SE.
+    weights: [&'a [f32]; 6],
+    centre: &'a [f32],
+    /// The values there.
+    values: [&'a [f32]; 6],
+}
+
+impl<'a> Near<'a> {
+    #[inline(always)]
+    fn new(matrix: &'a Laplacian, row: usize, x: &'a [f32]) -> Self {
+        let cells = matrix.grid.row(row);
+        let offsets = matrix.grid.offsets(row);
+        let n = cells.len();
+        let at = |field: &'a [f32], offset: isize| -> &'a [f32] {
+            &field[cells.start.wrapping_add_signed(offset)..][..n]
+        };
+        Near {
+            diagonal: at(&matrix.diagonal, 0),
+            weights: [
+                at(&matrix.east, -1),
+                at(&matrix.east, 0),
+                at(&matrix.south_east, offsets.north_west),
+                at(&matrix.south_west, offsets.north_east),
+                at(&matrix.south_west, 0),
+                at(&matrix.south_east, 0),
+            ],
+            centre: at(x, 0),
+            values: offsets.all().map(|offset| at(x, offset)),
+        }
+    }
+
+    #[inline(always)]
+    fn product(&self, i: usize) -> f32 {
+        let ([a, b, c, d, e, f], [p, q, r, s, t, u]) = (self.weights, self.values);
+        let around = (a[i] * p[i] + b[i] * q[i]) + (c[i] * r[i] + d[i] * s[i]);
+        self.diagonal[i] * self.centre[i] - (around + (e[i] * t[i] + f[i] * u[i]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::unroll::multigrid::interpolate;
+
+    /// A bumpy surface with a hole and a ragged edge.
+    fn pieces(rows: usize, cols: usize) -> Pieces {
+        let grid = Grid::new(rows, cols);
+        let mut heights = vec![f64::NAN; grid.cells()];
+        for row in 0..rows {
+            for (col, cell) in grid.row(row).enumerate() {
+                let hole = row.abs_diff(5) < 2 && col.abs_diff(4) < 2;
+                if !hole && (row * 7 + col * 3) % 11 > 0 {
+                    heights[cell] = (0.8 * row as f64).sin() + (0.5 * col as f64).cos();
+                }
+            }
+        }
+        Pieces::new(grid, &heights, |_| true).unwrap()
+    }
+
+    #[test]
+    fn the_coarse_matrix_is_that_of_linear_interpolation() {
+        for (rows, cols) in [(12, 9), (13, 10), (9, 14), (10, 13)] {
+            let fine = Laplacian::new(&pieces(rows, cols)).unwrap();
+            let coarse = fine.coarse().unwrap();
+            let mut x = vec![0.0f32; coarse.grid.cells()];
+            for row in 0..coarse.grid.rows() {
+                for (col, cell) in coarse.grid.row(row).enumerate() {
+                    x[cell] = ((3 * row + 5 * col) % 7) as f32 - 3.0;
+                }
+            }
+            let mut above = vec![0.0f32; fine.grid.cells()];
+            interpolate(coarse.grid, &x, fine.grid, &mut above);
+            let mut out = above.clone();
+            let energy = fine.apply(&above, &mut out);
+            let mut out = x.clone();
+            let expected = coarse.apply(&x, &mut out);
+            assert!(
+                (energy - expected).abs() < 1e-4 * energy,
+                "{energy} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_matrix_is_the_derivative_of_the_pull() {
+        // With every piece's rotation held, the energy is quadratic and its matrix the Laplacian:
+        // translations do nothing, and scaling the plan costs what scaling the pieces does.
+        let pieces = pieces(12, 9);
+        let matrix = Laplacian::new(&pieces).unwrap();
+        let ones = vec![1.0f32; pieces.grid.cells()];
+        let mut out = ones.clone();
+        matrix.apply(&ones, &mut out);
+        for row in 0..pieces.grid.rows() {
+            for cell in pieces.grid.row(row) {
+                assert!(out[cell].abs() < 1e-5, "{}", out[cell]);
+            }
+        }
+        assert!(matrix.largest >= 1.5 && matrix.largest <= 3.0);
+    }
+}

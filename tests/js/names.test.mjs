@@ -1,0 +1,131 @@
+/** One name for one thing: flags are named as the package's options, old names go on working, and values are of any case. */
+import assert from 'node:assert/strict';
+import { writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { parse } from '../../pkg/cli/arguments.js';
+import { commands } from '../../pkg/cli/commands.js';
+import { sections } from '../../pkg/cli/flags.js';
+import { helpOn } from '../../pkg/cli/help.js';
+import * as direct from '../../pkg/direct.js';
+import { OPTIONS, optionsOf } from '../../pkg/options.js';
+import { run, temporaryFolder } from './support/command.mjs';
+import { image, plane } from './support/shapes.mjs';
+
+await Promise.all([direct.init(), direct.load('files')]);
+const flags = Object.values(sections).flatMap((section) => Object.keys(section.flags));
+/** @param {string} option */
+const kebab = (option) => option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+
+test('a flag has the name of its option, in lower case with hyphens', () => {
+  /** Options of calls that the command makes, and that nobody gives it: results of other calls, and what it chooses itself. */
+  const own = {
+    solver: ['normalize'], // --no-normalize
+    fitMesh: ['held', 'signal', 'onAbort', 'onProgress'],
+    occlusions: ['normalize'],
+    sampleMesh: [],
+    depths: ['photo', 'camera'], // --texture and --photo-camera
+    analyze: ['reference'],
+    patches: [],
+    rulings: [],
+    unroll: ['tolerance'],
+    pattern: ['tolerance', 'refold'],
+    dewarp: ['tolerance', 'transfer', 'grid', 'extent', 'camera'],
+    dewarpPage: ['film35', 'ruler', 'centre', 'accuracy', 'findLines', 'grid', 'transfer'],
+  };
+  for (const [call, without] of Object.entries(own)) {
+    const options = Object.keys(OPTIONS[/** @type {keyof typeof OPTIONS} */ (call)]);
+    const missing = options.filter((option) => !flags.includes(kebab(option)));
+    assert.deepEqual(missing.sort(), without.sort(), call);
+  }
+  // What an input may have besides its heights.
+  for (const property of ['mask', 'noData', 'confidence', 'constraints', 'occlusions', 'pixelSize', 'heightScale', 'spacing', 'unit']) {
+    assert.ok(flags.includes(kebab(property)), property);
+  }
+});
+
+/** What each old name stood for. */
+const formerly = [
+  ['fit a.npy -o x.npy --reweight 2', 'fit a.npy -o x.npy --reweighting 2'],
+  ['fit a.npy -o x.npy --reweight=2', 'fit a.npy -o x.npy --reweighting=2'],
+  ['fit a.npy -o x.npy --occlusions 150', 'fit a.npy -o x.npy --occlusion-threshold 150'],
+  ['fit a.npy -o x.npy --occlusions=1e3', 'fit a.npy -o x.npy --occlusion-threshold=1e3'],
+  ['fit a.npy -o x.npy --occlusions auto', 'fit a.npy -o x.npy --occlusion-threshold auto'],
+  ['fit a.npy -o x.npy --occlusion-mask t.png', 'fit a.npy -o x.npy --occlusions t.png'],
+  ['fit a.npy -o x.npy --occlusions auto --occlusion-mask t.png', 'fit a.npy -o x.npy --occlusion-threshold auto --occlusions t.png'],
+  ['dewarp p.png --edges e.json -o x.png --focal 900', 'dewarp p.png --edges e.json -o x.png --focal-length 900'],
+  ['dewarp p.png --edges e.json -o x.png --fov 60', 'dewarp p.png --edges e.json -o x.png --field-of-view 60'],
+  ['fit d.npy -o x.npy --intrinsics 1,1,1,1 --rotate-depth 90', 'fit d.npy -o x.npy --intrinsics 1,1,1,1 --turn 90'],
+];
+
+test('old names of flags go on working, and are in no help', () => {
+  for (const [before, now] of formerly) assert.deepEqual(parse(before.split(' ')), parse(now.split(' ')), before);
+  const told = /** @type {import('../../pkg/cli/commands.js').Command[]} */ (Object.keys(commands)).map(helpOn).join('');
+  for (const name of ['reweight', 'occlusion-mask', 'focal', 'fov', 'rotate-depth']) {
+    assert.doesNotMatch(told, new RegExp(`--${name}(?![\\w-])`), name);
+  }
+  // A name after two hyphens alone is that of a file.
+  assert.throws(() => parse(['fit', '-o', 'x.npy', '--', 'a.npy', '--reweight']), { message: /what is "--reweight"/ });
+});
+
+test('a message names a flag as it was written', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'ramp.npy'), direct.writeNpy(image(24, 20, plane)));
+  /** @type {[string, RegExp][]} */
+  const cases = [
+    ['fit ramp.npy -o x.npy --reweight 99', /: --reweight is 99/],
+    ['fit ramp.npy -o x.npy --reweighting 99', /: --reweighting is 99/],
+    ['fit ramp.npy -o x.npy --reweight many', /: --reweight must be a number/],
+    ['fit ramp.npy -o x.npy --occlusions -1', /: --occlusions is -1/],
+    ['fit ramp.npy -o x.npy --occlusion-threshold -1', /: --occlusion-threshold is -1/],
+    ['design ramp.npy -o x.npy --occlusions 3', /: --occlusions is not for "design"/],
+    ['dewarp p.png --edges e.json -o x.png --focal 1 --field-of-view 60', /: --focal and --field-of-view say the same/],
+  ];
+  for (const [args, message] of cases) {
+    const { status, stderr } = await run(folder, args.split(' '));
+    assert.equal(status, 2, stderr);
+    assert.match(stderr, message);
+  }
+});
+
+test('values are of any case, in the command and in the package', () => {
+  for (const [args, lower] of [
+    ['fit a.npy -o x.npy --lambda AUTO', 'fit a.npy -o x.npy --lambda auto'],
+    ['fit a.npy -o x.npy --energy HUBER --schedule Paper', 'fit a.npy -o x.npy --energy huber --schedule paper'],
+    ['fit a.npy -o x.npy --energy SquaredNuclear', 'fit a.npy -o x.npy --energy squaredNuclear'],
+    ['fit a.npy -o x.npy --occlusion-threshold Auto --bridge NONE', 'fit a.npy -o x.npy --occlusion-threshold auto --bridge none'],
+    ['dewarp a.npy --texture p.png -o x.png --lattice HEX --unit MM', 'dewarp a.npy --texture p.png -o x.png --lattice hex --unit mm'],
+    ['pattern a.npy -o x.svg --stock A4', 'pattern a.npy -o x.svg --paper A4'],
+    ['pattern a.npy -o x.svg --stock None', 'pattern a.npy -o x.svg --stock none'],
+    ['dewarp a.npy --texture p.png -o x.png --lattice hex --shape CYLINDER', 'dewarp a.npy --texture p.png -o x.png --lattice hex --shape cylinder'],
+    ['dewarp p.png --edges e.json -o x.png --page Letter', 'dewarp p.png --edges e.json -o x.png --page letter'],
+  ]) {
+    assert.deepEqual(parse(args.split(' ')), parse(lower.split(' ')), args);
+  }
+  assert.deepEqual(optionsOf('solver', { lambda: 'AUTO', energy: 'squarednuclear', schedule: 'Default' }), { lambda: 'auto', energy: 'squaredNuclear', schedule: 'default' });
+  assert.deepEqual(optionsOf('pattern', { stock: 'A4' }), { stock: 'a4' });
+  assert.deepEqual(optionsOf('sampleMesh', { view: 'Best-Fit' }), { view: 'best-fit' });
+  assert.equal(direct.fit(image(9, 9, plane), { lambda: /** @type {any} */ ('Big') }).report.lambda, 1e7);
+  assert.throws(() => optionsOf('solver', { lambda: 'huge' }), { message: /small, medium, big, auto/ });
+});
+
+test('no bridges, and the threshold of the authors, have one spelling each in the command and the package, and more', () => {
+  for (const none of [false, 0, 'none', 'off', 'OFF']) assert.deepEqual(optionsOf('solver', { bridge: none }), { bridge: false });
+  for (const none of ['none', 'off', '0', 'None', '0.0']) {
+    assert.deepEqual(optionsOf('solver', { bridge: bridgeOf(none) }), { bridge: false }, none);
+  }
+  assert.deepEqual([optionsOf('solver', { bridge: true }), optionsOf('solver', { bridge: 3 })], [{ bridge: true }, { bridge: 3 }]);
+  assert.throws(() => optionsOf('solver', { bridge: 'wide' }), { message: /`bridge`.*none or off/ });
+  // 4e4 is what the search for occlusions takes unless it is told otherwise.
+  const torn = image(40, 40, (x, y) => plane(x, y) + (x > 20 ? 3000 : 0));
+  const { occluded } = direct.fit(torn, { occlusionThreshold: 'auto' }).report;
+  assert.ok(occluded > 0);
+  assert.equal(occluded, direct.fit(torn, { occlusionThreshold: 4e4 }).report.occluded);
+  assert.equal(direct.occlusions(torn).count, direct.occlusions(torn, { threshold: 4e4 }).count);
+});
+
+/** @param {string} text */
+function bridgeOf(text) {
+  const task = parse(['fit', 'a.npy', '-o', 'x.npy', '--bridge', text]);
+  return 'options' in task && 'bridge' in task.options ? task.options.bridge : undefined;
+}

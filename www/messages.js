@@ -1,0 +1,187 @@
+/** What happened, in plain words. */
+import { count, number, percent, percentAtMost, seconds, shortest } from './format.js';
+import { plainly } from './error-messages.js';
+
+/** @import {MeshSurface} from './mesh-fit.js' */
+/** @import {Energy, PageReport, Report, StopReason, Verdict} from './api.js' */
+
+/** @type {Record<StopReason, string>} */
+export const STOP_REASONS = {
+  gap: 'the wanted gap was certified',
+  residuals: 'the residuals were small enough (the paper’s rule)',
+  rounding: 'nothing left to gain: the optimum, up to rounding',
+  maxIterations: 'the most iterations allowed',
+  cancelled: 'cancelled; this is the best surface so far',
+  diverged: 'the iterations diverged; this is the best surface before',
+};
+
+/** What each view shows, in one sentence. @type {Record<string, string>} */
+export const VIEWS = {
+  shaded: 'Both surfaces in the same light: smooth pieces shine evenly, creases are sharp lines.',
+  gaussian: 'How much each place bends both ways at once: grey is none, so that it can be laid flat.',
+  kappa2: 'The smaller of both curvatures: 0 where the surface bends one way only.',
+  rulings: 'Straight lines that lie on the surface: paper bends across them, and never along.',
+  patches: 'The smooth pieces, each in a colour, and the creases where they meet.',
+  sheet: 'The surface laid flat to scale: what one would cut from paper.',
+  dewarped: 'A photo of the surface, and what is printed on it as if it lay flat.',
+};
+
+/** What is marked on the input, by how many there are. */
+export const MARKS = {
+  /** @param {number} n */
+  torn: (n) => (n > 0 ? `torn at ${count(n)} ${n === 1 ? 'vertex' : 'vertices'}` : 'no jumps found'),
+  /** @param {number} n */
+  doubted: (n) => `little or no confidence at ${count(n)} pixels`,
+  /** @param {number} n */
+  held: (n) => `held at ${count(n)} ${n === 1 ? 'pixel' : 'pixels'}`,
+};
+
+/** @type {Record<Energy, string>} */
+export const ENERGIES = {
+  nuclear: 'Nuclear norms of the Hessians: piecewise developable.',
+  frobenius: 'Frobenius norms of the Hessians: smooth where it should crease, for comparison.',
+  squaredNuclear: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.',
+  secondFormOfInput: 'Nuclear norms of the second fundamental form, with the slopes of the input.',
+  secondForm: 'Nuclear norms of the second fundamental form, with the surface’s own slopes: the bound is for its last slopes.',
+  huber: 'Squares of small norms, sizes of large ones: smooth bends and sharp creases. The bound is for the last pass at creases.',
+};
+
+/** What came of laying a surface flat. @type {Record<Verdict, string>} */
+export const VERDICTS = {
+  flat: 'It was flat to begin with.',
+  unrolled: 'Unrolled: lengths on the flat sheet are those on the surface.',
+  stretched: 'It cannot be laid flat without stretching or overlapping: mind the figures.',
+};
+
+/** What came of making a photo flat. @type {Record<Verdict, string>} */
+export const FLATTENED = {
+  flat: 'The page was flat to begin with: the photo can be used as it is.',
+  unrolled: 'Made flat: lengths are those on the page.',
+  stretched: 'Made flat with strain, for as a whole it cannot be laid flat: mind the figures.',
+};
+
+/** Of a page that is bent about parallel rulings. */
+export const PARALLEL = 'It is bent in one direction only, so that one profile, from all of it, was taken for the whole.';
+
+/**
+ * What came of making a page flat by its edges.
+ * @param {PageReport} report
+ */
+export function pageVerdict({ verdict, lines }) {
+  switch (verdict) {
+    case 'flat': return 'Both edges are straight: only the perspective was taken out. Folds that run along them do not show in them.';
+    case 'unrolled': return `Made flat: both edges agree on how the page is bent${lines > 0 ? ', and so do lines of text' : ''}.`;
+    case 'unchecked': return 'Made flat, but nothing checks the bend.';
+    case 'doubtful': return 'Doubtful: look at it closely.';
+    default: return 'This is no page that is curled one way.';
+  }
+}
+
+/**
+ * How far the flat page is to be trusted.
+ * @param {PageReport} report
+ */
+export function pageErrors({ verdict, error, errorBound, lines, linesFound }) {
+  const text = lines + linesFound > 0 ? ' and lines of text' : '';
+  const likely = `wrong by about ${percent(error / 100)} of its width, and in 95 of 100 cases by less than ${percent(errorBound / 100)}`;
+  switch (verdict) {
+    case 'flat': return `If it has no such folds and the edges are traced well, places on it are ${likely}.`;
+    case 'unrolled': return `If the edges are traced well, places on it are ${likely}.`;
+    case 'unchecked': return `There are few points along the edges, or one of them looks straight however the page is bent. If it is curled one way, places on it are ${likely}.`;
+    case 'doubtful': return `Its edges${text} disagree, or it hides a part of itself. Places on it are ${likely}. Correct the edges, or give the page’s format and the focal length.`;
+    default: return `Its edges${text} do not fit together. It is folded or crumpled, for which depth is needed, or an edge is traced wrongly: correct it, or choose the other two edges.`;
+  }
+}
+
+/** A gap above this says little: the objective could be twice the optimum. */
+const USEFUL = 0.5;
+
+/**
+ * The one sentence that matters.
+ * @param {Report} report
+ */
+export function verdict({ gap, seconds: { total }, stopReason }) {
+  const time = seconds(total);
+  const within = gap !== undefined && gap < USEFUL ? `within ${percentAtMost(gap)} of the optimum` : '';
+  if (stopReason === 'cancelled') {
+    return `Cancelled after ${time}: ${within ? `the surface so far is ${within}` : 'too early to tell how far the surface is from the optimum'}.`;
+  }
+  if (stopReason === 'rounding') return `This is the optimum up to rounding, found in ${time}.`;
+  return within ? `Certified to ${within} in ${time}.` : `Stopped after ${time} without a useful certificate.`;
+}
+
+/**
+ * How much closer to the truth the result is than the input was.
+ * @param {number | undefined} factor undefined where the truth is not known
+ */
+export function closer(factor) {
+  if (factor === undefined) return '';
+  if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)} times closer to the truth than the input.`;
+  return 'No closer to the truth than the input.';
+}
+
+/**
+ * What has come of it, in one sentence.
+ * @param {number} pieces smooth ones; infinite where they are too small to be told apart
+ * @param {number} creases
+ * @param {number} [factor] of closeness to the truth, where it is known
+ */
+export function outcome(pieces, creases, factor) {
+  const smooth = pieces === 1 ? 'One smooth piece' : `${count(pieces)} smooth pieces`;
+  const meet = creases === 0
+    ? `${smooth}${pieces === 1 ? ' without a crease' : ', apart from each other'}`
+    : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
+  const better = closer(factor);
+  if (!Number.isFinite(pieces)) return `Creased all over, too finely for its pieces to be counted${better ? `; ${better[0].toLowerCase()}${better.slice(1)}` : '.'}`;
+  return better ? `${meet}; ${better[0].toLowerCase()}${better.slice(1)}` : `${meet}.`;
+}
+
+/**
+ * When to use which λ: the paper's heuristic (Sec. 5), continued to both sides.
+ * @param {number} lambda
+ */
+export function lambdaHint(lambda) {
+  const exponent = Math.log10(lambda);
+  if (exponent < 4.5) return 'Very small: a few large, smooth patches; most detail goes.';
+  if (exponent < 5.5) return 'Small: for heavy noise, or to make do with few patches.';
+  if (exponent < 6.5) return 'Medium: for some noise, and shapes to be approximated by patches.';
+  if (exponent < 7.5) return 'Big: for input that is nearly developable but for small artefacts.';
+  return 'Very big: stays close to the input, and keeps its noise.';
+}
+
+/** In its place, before it is known. */
+export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp creases: for scans. It takes some solves more.';
+
+/**
+ * How λ came about.
+ * @param {Report} report
+ */
+export function lambdaFound({ lambda, lambdaChoice }) {
+  if (!lambdaChoice) return '';
+  const { reason, sigma, step, solves } = lambdaChoice;
+  const noise = step === undefined ? `noise of ${number(sigma ?? 0)}` : `steps of ${number(step)}`;
+  switch (reason) {
+    case 'prediction': return `The heights have ${noise}, in their own unit. Of ${count(solves)} tries, λ = ${shortest(lambda)} predicts best what heights are that were held out.`;
+    case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.`;
+    case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
+    default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;
+  }
+}
+
+/** The same of a mesh solved whole. @param {MeshSurface['report']} report */
+export function wholeLambdaFound({ lambda, sigma }) {
+  if (sigma === undefined) return `There are too few vertices to tell their noise: λ = ${shortest(lambda)}.`;
+  return `The mesh has noise of ${number(sigma)} along its normals, in its own unit: λ = ${shortest(lambda)} follows from that.`;
+}
+
+/** In the place of a hint, where there are only constraints. */
+export const NO_FIDELITY = 'A design has no input to stay close to: λ has no effect on it.';
+
+/**
+ * A failure as one message.
+ * @param {string} doing what could not be done
+ * @param {unknown} error
+ */
+export function complaint(doing, error) {
+  return `${doing}: ${plainly(error instanceof Error ? error.message : String(error))}.`;
+}

@@ -1,0 +1,156 @@
+/** What is shown stands in the address: shared by a link, undone by going back, there again after a reload. */
+import { addressOf, stateOf } from '../address.js';
+import { element, elements, make } from '../dom.js';
+import { keepFiles, keptFiles, namesOf, recentFiles } from '../recent-files.js';
+import { showNotice } from './notice.js';
+
+/** @import {State} from '../address.js' */
+/** @import {Card} from '../gallery/cards.js' */
+/** @import {Session, Settings} from '../session.js' */
+/** @import {Stored} from '../import-interpretation.js' */
+/** @import {Whole} from '../mesh-fit.js' */
+
+/** How long a result stands, in milliseconds, before it is worth going back to. */
+const REST = 400;
+const LOST = 'The file of this address is not kept in this browser: open it again. The settings are those of the address.';
+
+/**
+ * @param {Session} session
+ * @param {object} page
+ * @param {(settings: Settings) => void} page.adopt
+ * @param {(view: string) => void} page.choose
+ * @param {(name: string, options: { size: number, noise: number }) => Promise<void>} page.openExample
+ * @param {(files: File[]) => Promise<unknown>} page.openFiles
+ * @param {(change: Partial<Stored>) => void} page.understand
+ * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
+ * @param {Whole} page.whole a mesh solved whole, and how that is shown
+ * @param {{ readonly view?: string, enter: (view: string) => void, leave: () => void }} page.solvedWhole
+ */
+export function keepPanel(session, page) {
+  const views = elements('input[name="view"]', HTMLInputElement);
+  const view = () => views.find((radio) => radio.checked)?.value ?? 'shaded';
+  /** The number of the open file, where it is kept. @type {number | undefined} */
+  let file;
+  let rest = 0;
+  /** What is shown is being taken from an address. */
+  let taking = false;
+
+  /** @returns {State} */
+  const present = () => {
+    const { input, settings } = session;
+    const card = page.gallery.present;
+    if (card) {
+      const own = { ...session.defaults, ...card.settings };
+      const changed = Object.entries(settings).filter(([name, value]) => value !== own[/** @type {keyof Settings} */ (name)]);
+      return { card: card.id, settings: Object.fromEntries(changed), view: view() === card.view ? undefined : view() };
+    }
+    if (input?.kind !== undefined) {
+      const { pixelSize, heightScale, zeros, hexagonal } = input.stored ?? {};
+      const { view: wholly } = page.solvedWhole;
+      const whole = wholly === undefined ? undefined : true;
+      return { file, stored: input.stored && { pixelSize, heightScale, zeros, hexagonal }, settings, whole, view: wholly ?? view() };
+    }
+    const [size, noise] = ['size', 'noise'].map((name) => Number(element(name, HTMLSelectElement).value));
+    return { example: { name: input?.name ?? 'roof', size, noise }, settings, view: view() };
+  };
+
+  const write = (push = true) => {
+    if (taking || !session.input) return;
+    const address = addressOf(present(), session.defaults);
+    if (address === location.hash) return;
+    if (push && location.hash !== '') history.pushState(null, '', address);
+    else history.replaceState(null, '', address);
+  };
+  const writeSoon = () => {
+    clearTimeout(rest);
+    rest = window.setTimeout(write, REST);
+  };
+  session.on('result', writeSoon);
+  page.whole.on('result', writeSoon);
+  page.whole.on('left', writeSoon);
+  session.on('input', ({ kind }) => {
+    if (kind === undefined) file = undefined;
+  });
+  // Another look is nothing to undo.
+  for (const radio of [...views, ...elements('input[name="whole-view"]', HTMLInputElement)]) {
+    radio.addEventListener('change', () => write(false));
+  }
+
+  /** Shows what an address says. @param {State} state */
+  const take = async (state) => {
+    taking = true;
+    clearTimeout(rest);
+    try {
+      const before = present();
+      const settings = { ...session.defaults, ...state.settings };
+      const card = state.card ? page.gallery.find(state.card) : undefined;
+      if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
+      const same = card !== undefined || (state.file !== undefined ? state.file === file : JSON.stringify(state.example) === JSON.stringify(before.example));
+      page.adopt(card ? { ...session.defaults, ...card.settings, ...state.settings } : settings);
+      if (!same && state.file !== undefined) {
+        const files = await keptFiles(state.file);
+        if (files) await page.openFiles(files);
+        else showNotice(LOST);
+      } else if (!same && state.example) {
+        await page.openExample(state.example.name, state.example);
+      }
+      if (state.stored && session.input?.stored) {
+        const { stored } = session.input;
+        const other = Object.entries(state.stored).some(([name, value]) => stored[/** @type {'zeros'} */ (name)] !== value);
+        if (other) page.understand(state.stored);
+      }
+      if (state.whole) return page.solvedWhole.enter(state.view ?? 'shaded');
+      page.solvedWhole.leave();
+      page.choose(state.view ?? 'shaded');
+    } finally {
+      taking = false;
+    }
+  };
+  addEventListener('popstate', () => void take(stateOf(location.hash)));
+
+  const list = element('recent', HTMLElement);
+  const tell = async () => {
+    const kept = await recentFiles();
+    list.hidden = kept.length === 0;
+    list.replaceChildren('Opened before: ', ...kept.map(({ files }) => {
+      const button = make('button', 'plain small', namesOf(files));
+      button.type = 'button';
+      button.addEventListener('click', () => void page.openFiles(files));
+      return button;
+    }));
+  };
+  void tell();
+
+  const share = async () => {
+    write(false);
+    const state = present();
+    // A file stays on this machine: its number means nothing elsewhere.
+    const address = new URL(addressOf({ ...state, file: undefined, stored: undefined }, session.defaults), location.href).href;
+    const told = state.example || state.card ? '' : ' It holds the settings; the file stays on this machine.';
+    try {
+      await navigator.clipboard.writeText(address);
+      showNotice(`The link is copied.${told}`, 'note');
+    } catch {
+      showNotice(`${address} – copy this link.${told}`, 'note');
+    }
+  };
+  for (const id of ['share', 'whole-share']) element(id, HTMLButtonElement).addEventListener('click', share);
+
+  return {
+    /** Shows what the address asks for, or an example. */
+    async begin() {
+      const state = stateOf(location.hash);
+      await take(state);
+      if (session.input !== null) return;
+      // Something to see at once.
+      await page.openExample('roof', { size: 400, noise: 0.02 });
+      if (state.file !== undefined) showNotice(LOST);
+    },
+    /** Keeps what was opened. @param {readonly File[]} files */
+    async remember(files) {
+      file = await keepFiles(files);
+      void tell();
+      write();
+    },
+  };
+}

@@ -1,0 +1,189 @@
+/** What is shown of a whole mesh and its result: their colours, and what stands below. */
+import { count, number, percent, seconds, signed } from '../format.js';
+import { css, diverging, linear, logarithmic, magnitude, patchColour } from '../surface/colours.js';
+import { canvasOf } from '../surface/layer.js';
+import { imagePicture } from '../surface/picture.js';
+import { work } from '../surface/work.js';
+import { colourBar, figures, key, say } from './legend.js';
+import { ruledBy } from './rulings.js';
+import { make } from '../dom.js';
+
+/** @import {Mesh} from '../api.js' */
+/** @import {Colour} from '../surface/colours.js' */
+/** @import {Line} from '../surface/layer.js' */
+/** @import {Picture} from '../surface/picture.js' */
+/** @import {MeshSurface, Whole} from '../mesh-fit.js' */
+
+/** @typedef {NonNullable<ReturnType<import('../surface/mesh-view.js').MeshView['under']>>} Place */
+
+/**
+ * @typedef {object} WholeShown
+ * @property {Mesh} before
+ * @property {Mesh} [after]
+ * @property {readonly Line[]} [lines] on what is after
+ * @property {Picture} [flat] in the place of both
+ * @property {(place: Place) => string} [read] the value at a place, with its name and unit
+ * @property {readonly Node[]} about
+ */
+
+/** The share of the values that the scale spans. */
+const SPAN = 0.99;
+/** Patches that are named. */
+const MOST = 12;
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function shaded(whole, mesh, surface) {
+  return { before: mesh, after: surface, about: [figures(factsOf(mesh, surface))] };
+}
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function gaussian(whole, mesh, surface) {
+  const [before, after] = await Promise.all([whole.curvatures(mesh), whole.curvatures(surface)]);
+  const { size, threshold } = after.summary;
+  const area = size ** 2;
+  const inverse = `1/${mesh.unit ?? 'unit'}²`;
+  const scale = logarithmic(1 / area, magnitude([before.gaussian, after.gaussian], SPAN));
+  /** @param {Float64Array} values @param {Mesh} of */
+  const coloured = (values, of) => ({ ...of, colors: colorsOf(values.length, (i) => diverging(Number.isNaN(values[i]) ? 0 : scale.place(values[i]))) });
+  return {
+    before: coloured(before.gaussian, mesh),
+    after: coloured(after.gaussian, surface),
+    read: (place) => {
+      // Beside a border it is known at some corners only.
+      const value = between(mesh, place, (vertex) => (place.after ? after : before).gaussian[vertex]);
+      return Number.isNaN(value) ? '' : `K ${number(value)} ${inverse}`;
+    },
+    about: [
+      colourBar(`Gaussian curvature K in ${inverse}`, scale),
+      figures([
+        [`Median |K| in ${inverse}`, `${number(before.summary.medianGaussian / area, 2)} → ${number(after.summary.medianGaussian / area, 2)}`],
+        [`|K| above ${number(threshold / area, 2)}`, `${percent(before.summary.gaussianAbove)} → ${percent(after.summary.gaussianAbove)}`],
+      ]),
+    ],
+  };
+}
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function rulings(whole, mesh, surface) {
+  const { lines } = await whole.rulings(surface);
+  return { before: mesh, after: surface, ...ruledBy(lines, mesh.unit) };
+}
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function patches(whole, mesh, surface) {
+  const { labels, patches: found, creases } = await whole.unrolled(surface);
+  const { triangles, positions } = surface;
+  const total = found.reduce((sum, { area }) => sum + area, 0);
+  // Each triangle has corners of its own, for patches end between triangles.
+  const corners = {
+    triangles: Uint32Array.from(triangles, (_, i) => i),
+    positions: Float64Array.from({ length: 3 * triangles.length }, (_, i) => positions[3 * triangles[Math.floor(i / 3)] + (i % 3)]),
+    colors: colorsOf(triangles.length, (i) => {
+      const label = labels[Math.floor(i / 3)];
+      return label < 0 ? [160, 160, 160] : patchColour(label);
+    }),
+  };
+  return {
+    before: mesh,
+    after: corners,
+    read: ({ after, triangle }) => (after && labels[triangle] >= 0 ? `patch ${count(labels[triangle] + 1)}` : ''),
+    about: [
+      figures([['Patches', count(found.length)], ['Creases', count(creases.length)], ['Area', `${number(total)} ${mesh.unit ? `${mesh.unit}²` : 'square units'}`]]),
+      make('p', 'keys', ...found.slice(0, MOST).map(({ area }, i) => key(css(patchColour(i)), `${i + 1}: ${percent(area / total)}`))),
+    ],
+  };
+}
+
+/** @param {Whole} whole @param {Mesh} mesh @param {MeshSurface} surface @returns {Promise<WholeShown>} */
+export async function sheet(whole, mesh, surface) {
+  const { triangles, places, positions, report: { sheets, strain, gap } } = await whole.unrolled(surface);
+  const picture = await work('flatPixels', { triangles, places, positions });
+  const { width, height, pixels, extent, most, read } = picture;
+  const unit = mesh.unit ?? 'units';
+  const words = `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}, ${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
+  return {
+    before: mesh,
+    flat: imagePicture(canvasOf({ width, height }, pixels), 'Laid flat', words, (x, y) => {
+      const strains = read.strains[Math.floor((y / height) * read.height) * read.width + Math.floor((x / width) * read.width)];
+      return Number.isNaN(strains) ? '' : `strain ${signed(strains)}`;
+    }),
+    about: [
+      say(`${words}.`),
+      colourBar('Strain: blue is compressed, red is stretched', linear(most, signed)),
+      figures([['Strain of the worst sheet', percent(strain)], ['Sides of folds are apart by', `${number(gap, 2)} ${unit}`]]),
+    ],
+  };
+}
+
+/**
+ * What is under the pointer: the place, how far its vertices were moved on average, and what the view knows there.
+ * @param {Mesh} mesh
+ * @param {MeshSurface} surface
+ * @param {Place} place
+ * @param {string} [value]
+ */
+export function readingAt(mesh, surface, place, value = '') {
+  const unit = mesh.unit ?? 'units';
+  /** @param {Mesh} of */
+  const at = (of) => [0, 1, 2].map((k) => between(mesh, place, (vertex) => of.positions[3 * vertex + k]));
+  const [before, after] = [at(mesh), at(surface)];
+  const xyz = (place.after ? after : before).map((coordinate, k) => `${'xyz'[k]} ${number(coordinate)}`).join(', ');
+  const moved = Math.hypot(...after.map((coordinate, k) => coordinate - before[k]));
+  return [`${xyz} ${unit}`, `moved by ${number(moved, 2)}`, value].filter(Boolean).join(' · ');
+}
+
+/**
+ * A value of vertices at a place between them.
+ * @param {Mesh} mesh
+ * @param {Place} place
+ * @param {(vertex: number) => number} value
+ */
+function between({ triangles }, { triangle, shares }, value) {
+  return shares.reduce((sum, share, corner) => sum + share * value(triangles[3 * triangle + corner]), 0);
+}
+
+/** What is said first. @param {Mesh} mesh @param {MeshSurface} surface */
+export function wholeInWords(mesh, { report }) {
+  const { passes, seconds: { total }, stopReason, flipped, repairs: { turned, degenerate, repeated } } = report;
+  const gap = passes.at(-1)?.gap;
+  const mended = turned + degenerate + repeated;
+  return [
+    `${count(report.vertices)} vertices in ${seconds(total)}.`,
+    gap === undefined ? '' : `The last of ${passes.length} linearised problems was solved to within ${percent(gap)} of its optimum; nothing is certified of the shape itself.`,
+    stopReason === 'maxIterations' ? 'It stopped before the wanted gap.' : stopReason === 'diverged' ? 'The iterations diverged: this is the best surface before.' : '',
+    mended > 0 ? `Mended first: ${count(mended)} triangles that faced the wrong side, had no area or were there twice.` : '',
+    flipped[1] > 0 ? `${count(flipped[1])} triangles of the result are folded over.` : '',
+  ].filter(Boolean).join(' ');
+}
+
+/** @param {Mesh} mesh @param {MeshSurface} surface @returns {[string, string][]} */
+function factsOf({ unit, triangles }, { report: { vertices, border, components, sigma, lambda, passes, volume, area, flipped } }) {
+  const lengths = unit ?? 'units';
+  const last = passes.at(-1);
+  return [
+    ['Vertices', count(vertices)],
+    ['Triangles', count(triangles.length / 3)],
+    ['On the border', border === 0 ? 'none: it is closed' : count(border)],
+    ...(components > 1 ? [/** @type {[string, string]} */ (['Parts', count(components)])] : []),
+    ['Noise, σ', sigma === undefined ? '–' : `${number(sigma, 2)} ${lengths}`],
+    ['λ', number(lambda, 2)],
+    ['Area', `${number(area[0])} → ${number(area[1])}`],
+    ...(volume ? [/** @type {[string, string]} */ (['Volume', `${number(volume[0])} → ${number(volume[1])}`])] : []),
+    ...(last ? [/** @type {[string, string]} */ (['Moved in the last pass', `${number(last.moved, 2)} ${lengths}`])] : []),
+    ['Folded triangles', `${count(flipped[0])} → ${count(flipped[1])}`],
+  ];
+}
+
+/**
+ * Colours as a renderer counts with them: of light, not of the screen.
+ * @param {number} length
+ * @param {(i: number) => Colour} colour
+ */
+function colorsOf(length, colour) {
+  const colors = new Float32Array(3 * length);
+  for (let i = 0; i < length; i++) {
+    const rgb = colour(i);
+    for (let k = 0; k < 3; k++) colors[3 * i + k] = (rgb[k] / 255) ** 2.2;
+  }
+  return colors;
+}

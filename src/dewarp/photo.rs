@@ -145,6 +145,25 @@ fn bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
     [byte(r / a), byte(g / a), byte(b / a), byte(a / samples)]
 }
 
+/// Colours for vertices with texture coordinates, from the photo that these are about. Where it is
+/// transparent they stay as they are, and so do vertices that are not `wanted`.
+///
+/// # Panics
+/// If there are not as many colours as texture coordinates.
+pub fn paint(
+    colors: &mut [[f32; 3]],
+    uvs: &[[f32; 2]],
+    photo: &Photo<'_>,
+    wanted: impl Fn(usize) -> bool,
+) {
+    assert_eq!(colors.len(), uvs.len());
+    for (i, (color, uv)) in colors.iter_mut().zip(uvs).enumerate() {
+        if let Some(found) = photo.color(*uv).filter(|_| wanted(i)) {
+            *color = found;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! Edges in one order, by the corners at their ends.
 
-use super::trace::{Line, Traced, distance};
+use super::line::{Line, Traced, distance};
 use crate::error::{Error, Result};
 
 /// Makes both edges run the same way, so that the corners lie clockwise as they are seen, and checks

@@ -7,11 +7,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::cylinder::Cylinder;
+use super::cylinder::{Cylinder, DIFFERENCE_STEP};
+use super::huber::{huber_cost, huber_weight};
+use super::line::{Line, Traced};
 use super::misfit::Misfit;
 use super::prior::Prior;
-use super::solve::{OUTLIER, STEP};
-use super::trace::{Line, Traced};
 use crate::error::{Error, Result};
 
 /// A line of text, or a straight edge.
@@ -145,12 +145,11 @@ impl Crosses {
             for ([along, down], _) in &raw {
                 let width = cylinder.pages[cross.page].width;
                 let seen = |x: f64, y: f64| cylinder.seen(curve.straight(cross.page, x / width), y);
-                let half = STEP;
                 let by = |dx: f64, dy: f64| -> Option<[f64; 2]> {
                     let [p, q] = [seen(along + dx, down + dy)?, seen(along - dx, down - dy)?];
-                    Some([0, 1].map(|k| (p[k] - q[k]) / (2.0 * half)))
+                    Some([0, 1].map(|k| (p[k] - q[k]) / (2.0 * DIFFERENCE_STEP)))
                 };
-                let (mut way, mut across) = (by(half, 0.0)?, by(0.0, half)?);
+                let (mut way, mut across) = (by(DIFFERENCE_STEP, 0.0)?, by(0.0, DIFFERENCE_STEP)?);
                 if cross.ruling {
                     (way, across) = (across, way);
                 }
@@ -173,19 +172,11 @@ impl Crosses {
                 for (point, (_, value)) in points.iter_mut().zip(&raw) {
                     point.pixels = (value - level) * point.scale;
                     let size = point.pixels.abs() / prior.accuracy;
-                    point.trust = if size > OUTLIER { OUTLIER / size } else { 1.0 };
+                    point.trust = huber_weight(size);
                 }
             }
             cost += (points.iter())
-                .map(|point| {
-                    let size = point.pixels.abs() / prior.accuracy;
-                    cross.weight
-                        * if size > OUTLIER {
-                            OUTLIER * (2.0 * size - OUTLIER)
-                        } else {
-                            size * size
-                        }
-                })
+                .map(|point| cross.weight * huber_cost(point.pixels.abs() / prior.accuracy))
                 .sum::<f64>();
             found.push(Off { points, level });
         }
@@ -235,7 +226,7 @@ impl Crosses {
             };
             let fixed = level(plus) - level(minus);
             let changes: Vec<f64> = (p.iter().zip(&m))
-                .map(|((_, p), (_, m))| (p - m - fixed) / (2.0 * STEP))
+                .map(|((_, p), (_, m))| (p - m - fixed) / (2.0 * DIFFERENCE_STEP))
                 .collect();
             let shift = match cross.level {
                 Some(_) => 0.0,
@@ -275,7 +266,7 @@ impl Crosses {
             let focal = cylinder.focal;
             let moved = [1.0, -1.0].map(|sign| {
                 let mut moved = cylinder.clone();
-                moved.centre[k] += sign * STEP * focal;
+                moved.centre[k] += sign * DIFFERENCE_STEP * focal;
                 moved
             });
             let [plus, minus] = &moved;

@@ -5,6 +5,10 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 /// Pieces that each page's curve is integrated over.
 pub(super) const PIECES: usize = 96;
 
+/// Half the step of central differences by a cylinder's parameters and by places on the page, which are of order 1.
+/// About the cube root of the rounding error, where truncation and rounding are equally small.
+pub(super) const DIFFERENCE_STEP: f64 = 1e-5;
+
 /// One page, or several that share rulings, side by side. Lengths are in widths of the first one.
 #[derive(Debug, Clone)]
 pub(super) struct Cylinder {

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2};
 
-use super::cylinder::Cylinder;
+use super::cylinder::{Cylinder, DIFFERENCE_STEP};
 use super::prior::Prior;
 use super::solve::{Residuals, Traces};
 
@@ -92,7 +92,6 @@ fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
 /// Root mean square of the displacements between the flat pages of two cylinders for the same photo,
 /// likewise.
 pub(super) fn between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
-    const STEP: f64 = 1e-5;
     let (curve, found) = (one.curve(), other.curve());
     let mut way = Vec::new();
     let mut starts = [0.0; 2];
@@ -115,8 +114,8 @@ pub(super) fn between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
             };
             let here = off(0.0, 0.0)?;
             let columns = [
-                (off(STEP, 0.0)? - here) / STEP,
-                (off(0.0, STEP)? - here) / STEP,
+                (off(DIFFERENCE_STEP, 0.0)? - here) / DIFFERENCE_STEP,
+                (off(0.0, DIFFERENCE_STEP)? - here) / DIFFERENCE_STEP,
             ];
             at -= Matrix2::from_columns(&columns).try_inverse()? * here;
         }
@@ -144,7 +143,6 @@ fn grid(pages: usize) -> impl Iterator<Item = (usize, f64, f64)> {
 /// How far what is seen at a pixel moves on the flat page for each parameter, and for the principal
 /// point: rows are x and y of each place.
 fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
-    const STEP: f64 = 1e-5;
     let places: Vec<_> = grid(cylinder.pages.len()).collect();
     let parameters = cylinder.parameters();
     // In the photo, and on the page.
@@ -164,7 +162,8 @@ fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
     };
     type Places = Vec<([f64; 2], [f64; 2])>;
     let differences = |plus: Places, minus: Places| -> Places {
-        let half = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (p[k] - q[k]) / (2.0 * STEP));
+        let half =
+            |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (p[k] - q[k]) / (2.0 * DIFFERENCE_STEP));
         plus.into_iter()
             .zip(minus)
             .map(|(p, m)| (half(p.0, m.0), half(p.1, m.1)))
@@ -174,7 +173,7 @@ fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
         let back = way.map(|v| -v);
         Some(differences(look(cylinder, way)?, look(cylinder, back)?))
     };
-    let (across, along) = (by([STEP, 0.0])?, by([0.0, STEP])?);
+    let (across, along) = (by([DIFFERENCE_STEP, 0.0])?, by([0.0, DIFFERENCE_STEP])?);
     let mut back = Vec::with_capacity(places.len());
     for ((x_s, u_s), (x_t, u_t)) in across.iter().zip(&along) {
         let seen = Matrix2::new(x_s[0], x_t[0], x_s[1], x_t[1]);
@@ -184,9 +183,9 @@ fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
     let mut out = DMatrix::zeros(2 * places.len(), parameters + 2);
     let mut step = vec![0.0; parameters];
     for k in 0..parameters {
-        step[k] = STEP;
+        step[k] = DIFFERENCE_STEP;
         let plus = look(&cylinder.moved(&step), [0.0; 2])?;
-        step[k] = -STEP;
+        step[k] = -DIFFERENCE_STEP;
         let minus = look(&cylinder.moved(&step), [0.0; 2])?;
         step[k] = 0.0;
         for (i, (seen, flat)) in differences(plus, minus).into_iter().enumerate() {

@@ -1,14 +1,17 @@
 //! From traces to a page.
 
 use super::cylinder::Cylinder;
+use super::edges::{Edges, Trace};
 use super::estimate::{Estimate, between, estimate};
 use super::known::{focal_length, sides};
+use super::line::Line;
 use super::misfit::Misfit;
+use super::options::{Format, PageOptions};
 use super::prior::Prior;
 use super::report::{Findings, PageReport};
 use super::solve::{Residuals, Traces};
-use super::trace::{Line, traced};
-use super::{Edges, Format, PageOptions, Trace, start};
+use super::start;
+use super::trace::traced;
 use crate::error::{Error, Result, positive};
 
 /// A page that is curled one way, or the two pages of a spread, in space.

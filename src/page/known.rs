@@ -1,6 +1,6 @@
 //! What is known of camera and page, in the terms of the search.
 
-use super::{FocalLength, Format};
+use super::options::{FocalLength, Format};
 use crate::error::{Error, Result, positive};
 use crate::scene::camera::focal_length_of;
 

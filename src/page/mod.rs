@@ -49,10 +49,14 @@
 mod corners;
 mod cross;
 mod cylinder;
+mod edges;
 mod estimate;
 mod find;
+mod huber;
 mod known;
+mod line;
 mod misfit;
+mod options;
 mod output;
 mod photo;
 mod prior;
@@ -62,152 +66,7 @@ mod start;
 mod text;
 mod trace;
 
+pub use edges::{Edges, Trace};
 pub use find::CurledPage;
+pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use report::{PageReport, PageVerdict};
-
-/// An edge as it was traced in a photo, from one corner of the page to the next, in the photo's
-/// pixels: `[0, 0]` is the centre of the upper left one.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Trace {
-    /// Points on the edge, as many as there are, at any distances; the first and the last one are
-    /// corners. Between them the edge is smooth, not straight.
-    Points(Vec<[f64; 2]>),
-    /// Cubic Bézier curves that follow each other: 4, 7, 10 … control points.
-    Beziers(Vec<[f64; 2]>),
-}
-
-/// The edges of a page: the two that are bent, or all. Each is listed from left to right, or from top to bottom; if all
-/// are the other way round that is seen and mended.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Edges {
-    /// Of a page whose rulings run from top to bottom, as a book's.
-    TopBottom {
-        /// The upper edge as one reads.
-        top: Trace,
-        /// The lower one.
-        bottom: Trace,
-    },
-    /// Of a page whose rulings run from left to right.
-    LeftRight {
-        /// The left edge as one reads.
-        left: Trace,
-        /// The right one.
-        right: Trace,
-    },
-    /// All four, of which two are bent and the other two straight: which ones is seen. The straight
-    /// ones check the page: a letter that is folded along two of its edges shows it by the others.
-    All {
-        /// The upper edge as one reads.
-        top: Trace,
-        /// The lower one.
-        bottom: Trace,
-        /// The left one.
-        left: Trace,
-        /// The right one.
-        right: Trace,
-    },
-}
-
-/// What is known of the camera's focal length.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub enum FocalLength {
-    /// Nothing: it is found from the perspective, if that is strong enough.
-    #[default]
-    Unknown,
-    /// In pixels of the photo.
-    Pixels(f64),
-    /// As the angle, in degrees, that the photo's longer side covers.
-    FieldOfView(f64),
-    /// In millimetres, as for a film of 36 by 24 mm with the same diagonal angle: Exif's
-    /// `FocalLengthIn35mmFilm`. Such numbers are taken to be right to 2 %.
-    Film35(f64),
-}
-
-/// What is known of a page's size.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub enum Format {
-    /// Nothing: the page's width is the unit of length.
-    #[default]
-    Unknown,
-    /// 210 by 297 mm, upright or across, whichever is nearer to what is seen.
-    A4,
-    /// 8.5 by 11 inches, likewise.
-    Letter,
-    /// Width and height of a page, in millimetres.
-    Millimetres([f64; 2]),
-    /// Height over width; the page's width is the unit of length.
-    Ratio(f64),
-}
-
-/// A known distance on the flat page.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ruler {
-    /// Where it begins in the photo, in pixels.
-    pub from: [f64; 2],
-    /// Where it ends.
-    pub to: [f64; 2],
-    /// Its length, in millimetres.
-    pub length: f64,
-}
-
-/// What is known besides the edges.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct PageOptions {
-    /// The camera's focal length. Default: unknown.
-    pub focal_length: FocalLength,
-    /// The page's format; of a spread that of each of its pages. Default: unknown.
-    pub format: Format,
-    /// A known length on the page, where its format is not known in millimetres.
-    pub ruler: Option<Ruler>,
-    /// The principal point, in pixels; of a photo that was cropped, the middle of the whole one.
-    /// Default: the photo's middle, right to 0.4 % of the diagonal.
-    pub centre: Option<[f64; 2]>,
-    /// How near to the edge traced points are meant to lie, as a standard deviation in pixels; the
-    /// points' own scatter corrects it. Default: 1/2500 of the photo's diagonal, 2 pixels of a
-    /// 12-megapixel photo.
-    pub accuracy: Option<f64>,
-}
-
-impl PageOptions {
-    /// These options with another focal length.
-    pub fn focal_length(self, focal_length: FocalLength) -> Self {
-        PageOptions {
-            focal_length,
-            ..self
-        }
-    }
-
-    /// These options with another format.
-    pub fn format(self, format: Format) -> Self {
-        PageOptions { format, ..self }
-    }
-
-    /// These options with a ruler.
-    pub fn ruler(self, ruler: Ruler) -> Self {
-        PageOptions {
-            ruler: Some(ruler),
-            ..self
-        }
-    }
-
-    /// These options with another principal point.
-    pub fn centre(self, centre: [f64; 2]) -> Self {
-        PageOptions {
-            centre: Some(centre),
-            ..self
-        }
-    }
-
-    /// These options with another accuracy.
-    pub fn accuracy(self, accuracy: f64) -> Self {
-        PageOptions {
-            accuracy: Some(accuracy),
-            ..self
-        }
-    }
-}

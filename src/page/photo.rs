@@ -1,8 +1,10 @@
 //! A page whose photo is there, so that its lines of text can be found in it.
 
+use super::edges::{Edges, Trace};
 use super::find::CurledPage;
+use super::options::PageOptions;
 use super::report::PageVerdict;
-use super::{Edges, PageOptions, Trace, text};
+use super::text;
 use crate::dewarp::Photo;
 use crate::error::Result;
 

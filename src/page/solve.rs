@@ -4,10 +4,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cross::{Crosses, Off};
-use super::cylinder::{Curve, Cylinder, PIECES};
+use super::cylinder::{Curve, Cylinder, DIFFERENCE_STEP, PIECES};
+use super::huber::{huber_cost, huber_weight};
+use super::line::Traced;
 use super::misfit::Misfit;
 use super::prior::{Prior, prior_rows};
-use super::trace::Traced;
 use crate::error::Result;
 
 /// A traced point.
@@ -54,9 +55,6 @@ const MOST: usize = 300;
 
 /// Most independent points that the errors of one hand, or of one algorithm, are taken for.
 const INDEPENDENT: f64 = 60.0;
-
-/// Distances above so many standard deviations count by their size, not by their square (Huber).
-pub(super) const OUTLIER: f64 = 3.0;
 
 impl Traces {
     /// # Errors
@@ -130,13 +128,8 @@ impl Traces {
                 None => 0.0,
             };
             let size = across.hypot(along) / prior.accuracy;
-            let trust = if size > OUTLIER { OUTLIER / size } else { 1.0 };
-            cost += point.weight
-                * if size > OUTLIER {
-                    OUTLIER * (2.0 * size - OUTLIER)
-                } else {
-                    size * size
-                };
+            let trust = huber_weight(size);
+            cost += point.weight * huber_cost(size);
             found.push(Found {
                 share,
                 normal,
@@ -179,14 +172,14 @@ impl Traces {
         for k in 0..parameters {
             let mut column = matrix.column_mut(k);
             let both = [1.0, -1.0].map(|sign| {
-                step[k] = sign * STEP;
+                step[k] = sign * DIFFERENCE_STEP;
                 cylinder.moved(&step)
             });
             for (sign, moved) in [1.0, -1.0].into_iter().zip(&both) {
                 let curve = moved.curve();
                 for (i, (point, found)) in self.points.iter().zip(&residuals.found).enumerate() {
                     let on = self.seen(moved, &curve, point, found.share)?;
-                    let scale = sign / (2.0 * STEP) * factors[i];
+                    let scale = sign / (2.0 * DIFFERENCE_STEP) * factors[i];
                     let [nx, ny] = found.normal;
                     column[2 * i] += scale * (on[0] * nx + on[1] * ny);
                     if point.corner.is_some() {
@@ -374,9 +367,6 @@ impl Traces {
         of.seen(curve.at(point.page, share), point.edge as f64 * of.length)
     }
 }
-
-/// Half the step of central differences.
-pub(super) const STEP: f64 = 1e-5;
 
 const ITERATIONS: usize = 40;
 

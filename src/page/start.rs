@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
 use super::cylinder::{Cylinder, Strip, legendre};
-use super::trace::Line;
+use super::line::Line;
 
 /// Degree of the curve that the search begins with.
 const DEGREE: usize = 5;

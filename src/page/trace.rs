@@ -1,19 +1,9 @@
 //! Edges as they were traced: checked, and brought into one order.
 
 use super::corners::{arrange, at_corners, neighbours};
-use super::{Edges, Trace};
+use super::edges::{Edges, Trace};
+use super::line::{Line, Traced, distance};
 use crate::error::{Error, Result};
-
-/// An edge from its first corner to its last, in the order of the cylinder.
-#[derive(Debug, Clone)]
-pub(super) struct Line {
-    /// What the user calls it.
-    pub name: &'static str,
-    /// Its points, corners included.
-    pub points: Vec<[f64; 2]>,
-    /// How many independent points that are.
-    pub independent: f64,
-}
 
 /// Points of a cubic Bézier curve that are looked at.
 const STEPS: usize = 12;
@@ -23,20 +13,6 @@ const MOST: usize = 100_000;
 
 /// How far beyond the photo a point may lie, as a share of the photo's diagonal.
 const BEYOND: f64 = 0.05;
-
-/// What was traced of a page.
-#[derive(Debug, Clone)]
-pub(super) struct Traced {
-    /// The cylinder's first and second edge, both from the curve's start to its end, so that the
-    /// corners lie clockwise in the photo.
-    pub pair: [Line; 2],
-    /// The two other edges, at the curve's start and at its end.
-    pub sides: Option<[Line; 2]>,
-    /// Lines of text.
-    pub text: Vec<Line>,
-    /// Lines of text that were found in the photo.
-    pub found: Vec<Line>,
-}
 
 /// Everything that was traced, page by page from the curve's start, and whether the curve runs down
 /// the page. Lines of text, by page, are those that are given, and those that were found on the pages in their
@@ -304,19 +280,4 @@ fn sampled(control: &[[f64; 2]]) -> Vec<[f64; 2]> {
         }
     }
     points
-}
-
-impl Line {
-    pub fn ends(&self) -> [[f64; 2]; 2] {
-        [self.points[0], self.points[self.points.len() - 1]]
-    }
-
-    pub fn chord(&self) -> f64 {
-        let [from, to] = self.ends();
-        distance(from, to)
-    }
-}
-
-pub(super) fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (p[0] - q[0]).hypot(p[1] - q[1])
 }

@@ -72,7 +72,7 @@ mod tests {
         let mut heights = vec![f64::NAN; grid.cells()];
         (0..9).for_each(|row| heights[grid.row(row)].fill(0.0));
         let pieces = Pieces::new(grid, &heights, |_| true).unwrap();
-        let mut places = crate::unroll::plan(grid).unwrap();
+        let mut places = crate::unroll::layout::plan(grid).unwrap();
         assert!(!unflip(&pieces, &mut places).unwrap());
         let right = places.clone();
         places[grid.cell(4, 4)] += Point::new(1.4, 0.3);

@@ -1,7 +1,7 @@
 //! Bands of ink that go on from strip to strip of a page.
 
 use super::ink::Ink;
-use super::ranked;
+use super::ranking::ranked;
 
 /// How much ink each row has, by upright strips of the page.
 pub(super) struct Strips {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::bands::{Band, LEAST, Smoothed};
-use super::ranked;
+use super::ranking::ranked;
 use crate::page::cylinder::legendre;
 
 /// A line that letters stand on, in pixels of the ink.

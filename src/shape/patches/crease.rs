@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::NO_PATCH;
 use super::bend::Bend;
+use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
 

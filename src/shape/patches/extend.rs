@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::NO_PATCH;
 use super::bend::Bend;
+use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{ROW, shift};
 

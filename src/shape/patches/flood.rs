@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::NO_PATCH;
 use super::bend::Bend;
+use super::patch::NO_PATCH;
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 

@@ -7,8 +7,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use super::NO_PATCH;
 use super::bend::{ASIDE, Bend};
+use super::patch::NO_PATCH;
 use crate::lattice::hexagonal::{Lattice, Towards};
 
 /// A border between patches that bend by themselves is none unless it folds by as many times more

@@ -5,15 +5,14 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use super::chains::chains;
-use super::{Crease, Patch, PatchOptions};
+use super::crease::Crease;
+use super::options::PatchOptions;
+use super::patch::{NO_PATCH, Patch};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::fit::mesh::topology::Topology;
 use crate::scene::facets::Facets;
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
-
-/// Label of triangles that belong to no patch.
-const NO_PATCH: u32 = super::NO_PATCH;
 
 /// A mesh parted along its creases.
 ///

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{PASSES, trusted};
+use super::direction::{PASSES, least as least_in_plane, trusted};
 use crate::error::{Result, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
 use crate::fit::mesh::linear::fit_at;
@@ -156,7 +156,7 @@ pub(super) fn within(square: &Matrix3<f64>, [t1, t2]: &[Vector3<f64>; 2]) -> Sym
 
 /// The eigenvector of the smaller eigenvalue, in space.
 pub(super) fn least(square: Sym2, [t1, t2]: &[Vector3<f64>; 2]) -> Vector3<f64> {
-    let [x, y] = super::least(square);
+    let [x, y] = least_in_plane(square);
     t1 * x + t2 * y
 }
 

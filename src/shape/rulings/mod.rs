@@ -26,142 +26,16 @@
 //! # }
 //! ```
 
+mod direction;
+mod heightfield;
 mod mesh;
+mod options;
+mod ruling;
 mod taken;
 mod trace;
 mod walk;
 
-use crate::error::{Result, try_filled};
-use crate::heights::heightfield::Heightfield;
-use crate::lattice::domain::Domain;
-use crate::lattice::hessian::HessianOperator;
-use crate::math::sym2::Sym2;
+pub use heightfield::Rulings;
 pub use mesh::MeshRulings;
-pub use trace::{Ruling, TraceOptions};
-
-/// Passes of averaging `H²` with the neighbours'.
-const PASSES: usize = 3;
-
-/// Angle, in radians from one vertex to the next, by which a surface bends that is as near to a
-/// plane as to be trusted by half.
-const FAINT: f64 = 5e-4;
-
-/// The direction of the ruling at every vertex of a surface.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rulings {
-    surface: Heightfield,
-    /// `Σ H²` about each vertex.
-    squares: Vec<Sym2>,
-    directions: Vec<[f64; 2]>,
-    confidence: Vec<f64>,
-    /// Angle by which the surface bends from vertex to vertex; NaN where there is no Hessian.
-    bends: Vec<f64>,
-}
-
-impl Rulings {
-    /// The rulings of a surface; costs `O(vertices)`.
-    ///
-    /// # Errors
-    /// [`Error::NoInterior`](crate::Error::NoInterior) if no vertex has all six neighbours,
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn new(surface: &Heightfield) -> Result<Self> {
-        let lattice = *surface.lattice();
-        let domain = Domain::new(surface)?;
-        let operator = HessianOperator::new(&domain);
-        let mut squares = try_filled("rulings", lattice.len(), Sym2::default())?;
-        let mut bends = try_filled("rulings", lattice.len(), f64::NAN)?;
-        for ((row, col), h) in (operator.vertices()).zip(operator.apply(surface.heights())) {
-            let i = lattice.index(row, col);
-            // In these coordinates a square has no cross terms.
-            squares[i] = Sym2 {
-                mean: h.mean * h.mean + h.diff * h.diff + h.off * h.off,
-                diff: 2.0 * h.mean * h.diff,
-                off: 2.0 * h.mean * h.off,
-            };
-            let [gx, gy] = slope(surface, row, col);
-            bends[i] = h.nuclear_norm() * lattice.spacing() / (1.0 + gx * gx + gy * gy);
-        }
-        for _ in 0..PASSES {
-            let last = squares.clone();
-            for (row, col) in operator.vertices() {
-                let i = lattice.index(row, col);
-                let (mut sum, mut weight) = (last[i].scale(2.0), 2.0);
-                for (r, c) in lattice.neighbours(row, col).into_iter().flatten() {
-                    let k = lattice.index(r, c);
-                    if !bends[k].is_nan() {
-                        sum = sum + last[k];
-                        weight += 1.0;
-                    }
-                }
-                squares[i] = sum.scale(1.0 / weight);
-            }
-        }
-        let mut directions = try_filled("rulings", lattice.len(), [f64::NAN; 2])?;
-        let mut confidence = try_filled("rulings", lattice.len(), f64::NAN)?;
-        for (row, col) in operator.vertices() {
-            let i = lattice.index(row, col);
-            directions[i] = least(squares[i]);
-            confidence[i] = trusted(squares[i].eigenvalues(), lattice.spacing());
-        }
-        Ok(Rulings {
-            surface: surface.clone(),
-            squares,
-            directions,
-            confidence,
-            bends,
-        })
-    }
-
-    /// Unit vectors along the rulings as seen from above, row by row, with `x ≥ 0`; NaN where a
-    /// vertex or a neighbour of it has no height.
-    pub fn directions(&self) -> &[[f64; 2]] {
-        &self.directions
-    }
-
-    /// How far each direction is to be trusted, from 0 to 1: low where the surface is nearly a
-    /// plane, and where it bends in both directions.
-    pub fn confidence(&self) -> &[f64] {
-        &self.confidence
-    }
-
-    /// The unit vector along the ruling in space; `None` where there is none.
-    pub fn lifted(&self, row: usize, col: usize) -> Option<[f64; 3]> {
-        let [x, y] = self.directions[self.surface.lattice().index(row, col)];
-        if x.is_nan() {
-            return None;
-        }
-        let [gx, gy] = slope(&self.surface, row, col);
-        let z = gx * x + gy * y;
-        let length = (1.0 + z * z).sqrt();
-        Some([x / length, y / length, z / length])
-    }
-}
-
-/// How far a direction is to be trusted, by the eigenvalues of `Σ H²`, the larger one first.
-fn trusted(squares: [f64; 2], spacing: f64) -> f64 {
-    let [large, small] = squares.map(|v| v.max(0.0).sqrt());
-    let bend = large * spacing;
-    let share = if large > 0.0 {
-        1.0 - small / large
-    } else {
-        0.0
-    };
-    share * bend / (bend + FAINT)
-}
-
-/// Gradient of the best-fit quadratic at a vertex that has all six neighbours.
-fn slope(surface: &Heightfield, row: usize, col: usize) -> [f64; 2] {
-    let lattice = surface.lattice();
-    let ring = lattice
-        .neighbours(row, col)
-        .map(|n| n.map_or(f64::NAN, |(r, c)| surface.height(r, c)));
-    crate::lattice::stencil::Quadratic::fit(surface.height(row, col), ring, lattice.spacing())
-        .gradient
-}
-
-/// The eigenvector of the smaller eigenvalue.
-fn least(matrix: Sym2) -> [f64; 2] {
-    let angle = 0.5 * matrix.off.atan2(matrix.diff) + std::f64::consts::FRAC_PI_2;
-    let (sin, cos) = angle.sin_cos();
-    if cos < 0.0 { [-cos, -sin] } else { [cos, sin] }
-}
+pub use options::TraceOptions;
+pub use ruling::Ruling;

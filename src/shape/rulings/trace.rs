@@ -1,83 +1,12 @@
 //! Rulings as lines, evenly spaced.
 
+use super::direction::least;
+use super::heightfield::Rulings;
+use super::options::TraceOptions;
+use super::ruling::{Ruling, SHORTEST};
 use super::taken::Taken;
-use super::{Rulings, least};
-use crate::error::{Error, Result, positive};
+use crate::error::Result;
 use crate::math::sym2::Sym2;
-
-/// Which lines are wanted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct TraceOptions {
-    /// Distance between lines, in the surface's units: as seen from above, or in space on a mesh. `None`: ten
-    /// spacings, or lengths of an edge.
-    pub separation: Option<f64>,
-    /// A line ends where the direction is trusted by less, from 0 to 1. Default 0.3.
-    pub confidence: f64,
-    /// A line ends where the surface bends by more from one vertex to the next, in radians: at a
-    /// crease. Default 0.2.
-    pub crease: f64,
-}
-
-impl Default for TraceOptions {
-    fn default() -> Self {
-        TraceOptions {
-            separation: None,
-            confidence: 0.3,
-            crease: 0.2,
-        }
-    }
-}
-
-impl TraceOptions {
-    /// These options with another distance.
-    pub fn separation(self, separation: f64) -> Self {
-        TraceOptions {
-            separation: Some(separation),
-            ..self
-        }
-    }
-
-    /// These options with another least confidence.
-    pub fn confidence(self, confidence: f64) -> Self {
-        TraceOptions { confidence, ..self }
-    }
-
-    /// These options with another angle.
-    pub fn crease(self, crease: f64) -> Self {
-        TraceOptions { crease, ..self }
-    }
-
-    /// The distance between lines where neighbours have one of `spacing`.
-    pub(super) fn checked(&self, spacing: f64) -> Result<f64> {
-        positive("crease", self.crease)?;
-        if !(0.0..=1.0).contains(&self.confidence) {
-            let requirement = "must be from 0 to 1";
-            return Err(Error::option("confidence", self.confidence, requirement));
-        }
-        match self.separation {
-            Some(separation) => positive("separation", separation),
-            None => Ok(10.0 * spacing),
-        }
-    }
-}
-
-/// A ruling, traced.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct Ruling {
-    /// Its course on the surface, a point about every spacing, or one on each edge that it crosses.
-    pub points: Vec<[f64; 3]>,
-    /// The distance between its ends.
-    pub length: f64,
-    /// How far it is from straight: the largest distance of a point from the line through its
-    /// ends, over the distance of these.
-    pub deviation: f64,
-}
-
-/// Lines of fewer separations are left out.
-pub(super) const SHORTEST: f64 = 1.0;
 
 /// Where a line is on the surface, and which way it goes.
 type Step = ([f64; 2], [f64; 2]);
@@ -88,7 +17,7 @@ impl Rulings {
     /// close to another one. (After Jobard and Lefer 1997.)
     ///
     /// # Errors
-    /// [`Error::Option`] unless separation and crease are positive and finite, and the confidence is
+    /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the confidence is
     /// from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
         let lattice = self.surface.lattice();
@@ -189,29 +118,5 @@ impl Rulings {
             }
         }
         sum.is_finite().then_some(sum)
-    }
-}
-
-impl Ruling {
-    pub(super) fn new(points: Vec<[f64; 3]>) -> Option<Self> {
-        let (first, last) = (*points.first()?, *points.last()?);
-        let difference = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-        let norm = |v: [f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
-        let axis = difference(last, first);
-        let length = norm(axis);
-        if length == 0.0 {
-            return None;
-        }
-        let off = |p: &[f64; 3]| {
-            let v = difference(*p, first);
-            let share = (0..3).map(|k| v[k] * axis[k]).sum::<f64>() / (length * length);
-            norm([0, 1, 2].map(|k| v[k] - share * axis[k]))
-        };
-        let deviation = points.iter().map(off).fold(0.0, f64::max) / length;
-        Some(Ruling {
-            points,
-            length,
-            deviation,
-        })
     }
 }

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::mesh::{MeshRulings, least, within};
+use super::options::TraceOptions;
+use super::ruling::{Ruling, SHORTEST};
 use super::taken::Taken;
-use super::trace::{Ruling, SHORTEST, TraceOptions};
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 

@@ -1,0 +1,67 @@
+//! The part of the plane that a photo from straight above shows.
+
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::{HeightImage, Heightfield};
+use crate::lattice::hexagonal::Lattice;
+use crate::math::lanes;
+
+/// The part of the plane that a photo shows, in the surface's units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Lower left corner.
+    pub min: [f64; 2],
+    /// Upper right corner.
+    pub max: [f64; 2],
+}
+
+impl Extent {
+    /// That of the pixels of a height image: the photo shows the same, with as many pixels as it
+    /// likes.
+    pub fn of(image: &HeightImage) -> Self {
+        let [width, height] = [image.width(), image.height()].map(|n| n as f64);
+        Extent {
+            min: [0.0, 0.0],
+            max: [width * image.pixel_size(), height * image.pixel_size()],
+        }
+    }
+
+    /// That of a lattice, from its vertices' least to its largest coordinates.
+    pub fn of_lattice(field: &Heightfield) -> Self {
+        let lattice = field.lattice();
+        let [left, top] = lattice.origin();
+        let shift = if lattice.rows() > 1 { 0.5 } else { 0.0 };
+        Extent {
+            min: [
+                left - shift * lattice.spacing(),
+                top - (lattice.rows() - 1) as f64 * lattice.row_spacing(),
+            ],
+            max: [left + (lattice.cols() - 1) as f64 * lattice.spacing(), top],
+        }
+    }
+
+    /// Texture coordinates of each vertex of a lattice: its place in the photo, as shares from the
+    /// left and from the bottom. What lies beside the photo has the place nearest to it.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] for an extent without area, [`Error::OutOfMemory`].
+    pub fn uvs(&self, lattice: &Lattice) -> Result<Vec<[f32; 2]>> {
+        let [width, height] = self.sides()?;
+        let mut uvs = try_filled("texture coordinates", lattice.len(), [0.0; 2])?;
+        for (i, uv) in uvs.iter_mut().enumerate() {
+            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+            let place = [(x - self.min[0]) / width, (y - self.min[1]) / height];
+            *uv = place.map(|share| lanes::single(share.clamp(0.0, 1.0)));
+        }
+        Ok(uvs)
+    }
+
+    /// Width and height, of which there has to be some.
+    pub(crate) fn sides(&self) -> Result<[f64; 2]> {
+        let sides = [0, 1].map(|k| self.max[k] - self.min[k]);
+        if sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+            Ok(sides)
+        } else {
+            Err(Error::Empty { what: "photo" })
+        }
+    }
+}

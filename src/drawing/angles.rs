@@ -8,7 +8,7 @@ use super::curve::Curve;
 use super::draft::Lines;
 use super::{FLATNESS, place_at};
 use crate::pattern::{Meeting, Run, Sheet};
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 /// The point where the angles of the pieces differ most from that of the surface, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,7 +11,7 @@ use super::DrawingOptions;
 use crate::error::{Error, Result, positive};
 use crate::math::planar::{nearest_on_segment, polyline_length};
 use crate::pattern::{Direction, Fold, Run, Sheet};
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 /// How far a fold may be from the straight line between its ends, in spacings, and its ends from the outline.
 const STRAIGHT: f64 = 0.5;

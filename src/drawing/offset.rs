@@ -4,8 +4,8 @@ use super::curve::Curve;
 use super::smooth::smooth;
 use crate::math::planar::polygon_area;
 use crate::pattern::without_loops;
+use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
-use crate::unroll::pieces::Point;
 
 /// How near to the moved line its curves are, in millimetres, and the finest thing that they follow.
 const TOLERANCE: f64 = 0.02;

@@ -4,8 +4,8 @@ use super::curve::Curve;
 use super::spline::fitted;
 use crate::math::planar::{distance, nearest_on_segment, polyline_length};
 use crate::pattern::Sheet;
+use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
-use crate::unroll::pieces::Point;
 
 /// Distance of the points that curves are fitted to, in spacings.
 const STEP: f64 = 0.25;

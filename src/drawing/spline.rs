@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::curve::Curve;
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 /// A curve and how far the points are from it: at most, and root of the mean square.
 pub(super) struct Fit {

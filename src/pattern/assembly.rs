@@ -19,8 +19,8 @@ use crate::heights::heightfield::Heightfield;
 use crate::math::planar::polyline_length;
 use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
-use crate::unroll::joint::Until;
-use crate::unroll::pieces::Point;
+use crate::unroll::arap_mesh::StoppingCriteria;
+use crate::unroll::flat_triangle::Point;
 
 pub(super) enum Assembly {
     Whole(Box<Assembled>),
@@ -37,16 +37,16 @@ pub(super) struct Assembled {
 }
 
 /// How long patches of a sheet are laid flat together, at most and until it hardly changes.
-pub(super) const EFFORT: Until = Until {
+pub(super) const EFFORT: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-8,
-    enough: 0.0,
-    hopeless: f64::INFINITY,
-    steps: 25,
+    target_energy: 0.0,
+    hopeless_energy: f64::INFINITY,
+    max_steps: 25,
 };
 
 /// The same for patches that begin near to where they belong.
-const SETTLING: Until = Until {
-    steps: 12,
+const SETTLING: StoppingCriteria = StoppingCriteria {
+    max_steps: 12,
     ..EFFORT
 };
 

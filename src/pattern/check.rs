@@ -5,9 +5,9 @@ use super::leaf::Strain;
 use super::net::{Net, is_triangle};
 use super::outline::{Layout, Motion};
 use crate::error::Result;
-use crate::unroll::joint::{Joint, Mean, Until};
+use crate::unroll::arap_mesh::{ArapMesh, BarycentricPoint, StoppingCriteria};
+use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
-use crate::unroll::pieces::Point;
 
 /// Sides that are no further apart, in spacings, need no joint unrolling.
 const CLOSE: f64 = 0.05;
@@ -27,7 +27,7 @@ pub(super) struct Tied {
     patches: Vec<u32>,
     /// The number of the first vertex of each patch.
     starts: Vec<u32>,
-    joint: Joint,
+    joint: ArapMesh,
     places: Vec<Point>,
 }
 
@@ -56,7 +56,7 @@ impl Tied {
         Ok(Tied {
             patches: patches.to_vec(),
             starts,
-            joint: Joint::new(places.len(), pieces, ties)?,
+            joint: ArapMesh::new(places.len(), pieces, ties)?,
             places,
         })
     }
@@ -67,9 +67,9 @@ impl Tied {
         &mut self,
         net: &mut Net,
         layout: &mut Layout,
-        until: Until,
+        until: StoppingCriteria,
     ) -> Result<usize> {
-        let steps = self.joint.relax(&mut self.places, until)?;
+        let steps = self.joint.minimise_in_plane(&mut self.places, until)?;
         for (k, patch) in self.patches.iter().enumerate() {
             let end = self
                 .starts
@@ -84,7 +84,12 @@ impl Tied {
 
 /// The pairs of places along some folds that are one, `starts` being the number of each patch's first
 /// vertex.
-pub(super) fn ties(net: &Net, patches: &[u32], starts: &[u32], folded: &[usize]) -> Vec<[Mean; 2]> {
+pub(super) fn ties(
+    net: &Net,
+    patches: &[u32],
+    starts: &[u32],
+    folded: &[usize],
+) -> Vec<[BarycentricPoint; 2]> {
     let mut ties = Vec::new();
     for seam in folded {
         let seam = &net.seams[*seam];

@@ -13,7 +13,7 @@ use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use crate::shape::patches::extend::extended;
-use crate::unroll::pieces::{Piece, Point};
+use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::{UnrollOptions, unroll_mesh};
 
 /// A part with fewer vertices is not cut any more.
@@ -272,7 +272,7 @@ impl Leaf {
 
     /// Its triangles as they would lie by themselves, with the numbers of their corners. A triangle
     /// most of which is another patch's is left out where there are others.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
             let own = corners.iter().filter(|v| self.own[**v as usize]);
@@ -283,16 +283,16 @@ impl Leaf {
         let corners = corners.filter(move |corners| !some || inside(corners));
         corners.map(move |corners| {
             let points = corners.map(|v| mesh.positions()[v as usize]);
-            (Piece::between(points), *corners)
+            (FlatTriangle::from_points(points), *corners)
         })
     }
 
     /// All of its triangles likewise.
-    pub(super) fn all_pieces(&self) -> impl Iterator<Item = (Piece, [u32; 3])> + '_ {
+    pub(super) fn all_pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         mesh.triangles().iter().map(|corners| {
             let points = corners.map(|v| mesh.positions()[v as usize]);
-            (Piece::between(points), *corners)
+            (FlatTriangle::from_points(points), *corners)
         })
     }
 
@@ -308,7 +308,7 @@ impl Leaf {
             if !corners.iter().any(|corner| wanted(*corner)) {
                 continue;
             }
-            let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            let [long, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
             sum.area += piece.area();
             sum.squares += 0.5 * piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
             sum.flipped += usize::from(short <= 0.0 || short.is_nan());
@@ -321,7 +321,7 @@ impl Leaf {
     pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
         let mut shares = vec![0.0; self.places.len()];
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
-            let [long, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+            let [long, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
             let square = piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
             for v in corners {
                 shares[v as usize] += square;
@@ -333,8 +333,8 @@ impl Leaf {
 
     /// Those of its vertices that are corners of triangles upside down, by the lattice's index in the whole.
     pub(super) fn flipped(&self, whole: &Lattice) -> Vec<usize> {
-        let upside_down = |(piece, corners): &(Piece, [u32; 3])| {
-            let [_, short] = piece.stretches(corners.map(|v| self.places[v as usize]));
+        let upside_down = |(piece, corners): &(FlatTriangle, [u32; 3])| {
+            let [_, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
             piece.exists() && (short <= 0.0 || short.is_nan())
         };
         let pieces = self.pieces().filter(upside_down);
@@ -403,7 +403,7 @@ fn spread(mesh: &Triangulation, mut known: Vec<Option<Point>>) -> Option<Vec<Poi
                     continue;
                 };
                 let points = [b, c, a].map(|v| mesh.positions()[v]);
-                let piece = Piece::between(points);
+                let piece = FlatTriangle::from_points(points);
                 if piece.exists() {
                     let (sum, count) = &mut sums[a];
                     *sum += p + (q - p) * piece.third_corner();

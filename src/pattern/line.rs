@@ -1,7 +1,7 @@
 //! Lines of many points made plain.
 
 use crate::math::planar::{distance_to_segment, line_intersection};
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 /// A line without the points that it does not need to stay within a tolerance (Douglas and Peucker
 /// 1973).

@@ -8,7 +8,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
 use crate::math::planar::polyline_length;
 use crate::math::union_find::UnionFind;
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
 /// Angles are measured within this distance, in spacings, or this share of the shortest line that ends there, ...

@@ -1,8 +1,8 @@
 //! Where patches lie on a sheet, and the lines around them all.
 
 use super::net::{Net, Node, is_triangle};
+use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
-use crate::unroll::pieces::Point;
 use rustc_hash::FxHashMap;
 
 /// A turn and a shift of a patch's plane.

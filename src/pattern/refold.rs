@@ -10,15 +10,15 @@ use super::Refolding;
 use super::check::ties;
 use super::net::Net;
 use crate::error::Result;
-use crate::unroll::joint::{Joint, Until};
-use crate::unroll::pieces::Piece;
+use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
+use crate::unroll::flat_triangle::FlatTriangle;
 
-/// Until nothing moves.
-const EFFORT: Until = Until {
+/// StoppingCriteria nothing moves.
+const EFFORT: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-12,
-    enough: 0.0,
-    hopeless: f64::INFINITY,
-    steps: 80,
+    target_energy: 0.0,
+    hopeless_energy: f64::INFINITY,
+    max_steps: 80,
 };
 
 /// How near the patches of a sheet come to where they are on the surface.
@@ -36,15 +36,15 @@ pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<R
         own.extend((0..leaf.places().len()).map(|vertex| leaf.is_own(vertex)));
         let flat = leaf.all_pieces().map(|(_, corners)| {
             let points = corners.map(|v| leaf.places()[v as usize]);
-            let piece = Piece::between(points.map(|p| [p.re, p.im, 0.0]));
+            let piece = FlatTriangle::from_points(points.map(|p| [p.re, p.im, 0.0]));
             (piece, corners.map(|v| first + v))
         });
         pieces.extend(flat.filter(|(piece, _)| piece.exists()));
     }
     let ties = ties(net, patches, &starts, folded);
     let built = places.clone();
-    let joint = Joint::new(places.len(), pieces, ties)?;
-    joint.bend(&mut places, EFFORT)?;
+    let joint = ArapMesh::new(places.len(), pieces, ties)?;
+    joint.minimise_in_space(&mut places, EFFORT)?;
     let strain = joint.strain_in_space(&places);
     register(&mut places, &built);
     let away = places.iter().zip(&built).zip(&own);

@@ -9,8 +9,8 @@ use super::layout::{Arrangement, FINE, apart, beside, fits, longest_first};
 use super::net::Net;
 use crate::error::Result;
 use crate::math::planar::polyline_length;
-use crate::unroll::joint::Until;
-use crate::unroll::pieces::Point;
+use crate::unroll::arap_mesh::StoppingCriteria;
+use crate::unroll::flat_triangle::Point;
 
 /// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it
 /// are strained more already.
@@ -161,8 +161,8 @@ fn closed(
             (CREASE * limit).max(sheets[0]).max(sheets[1]).min(limit)
         }
     };
-    let until = Until {
-        hopeless: FAR * 2.0 * most * most,
+    let until = StoppingCriteria {
+        hopeless_energy: FAR * 2.0 * most * most,
         ..EFFORT
     };
     let joined = !are_close(net, &layout, &ties);

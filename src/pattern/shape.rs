@@ -7,7 +7,7 @@ use super::outline::{Corner, Layout};
 use super::simple::{Runs, without_loops};
 use super::{Fold, Run, Seam};
 use crate::math::planar::polyline_length;
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 /// How far a plain line may be from the line, in spacings.
 const TOLERANCE: f64 = 0.02;

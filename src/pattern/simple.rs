@@ -2,8 +2,8 @@
 
 use super::shape::Side;
 use crate::math::planar::{line_intersection, polygon_area, polygon_perimeter};
+use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
-use crate::unroll::pieces::Point;
 
 /// A loop goes if it encloses at most this, in squared spacings, and is at most so long, in spacings.
 const AREA: f64 = 6.0;

@@ -1,21 +1,22 @@
-//! How far a flat layout is from being an unrolling.
+//! Strain of a flat layout.
 
-use super::pieces::{Name, Pieces, Point};
+use super::flat_triangle::Point;
+use super::lattice_triangles::{LatticeTriangles, TriangleId};
 
-/// From which strain on a triangle counts as distorted.
-pub(super) const NOTICEABLE: f64 = 0.01;
+/// Strain above which [`Distortion::above`] counts a triangle: 1 %, 3 mm on the longer side of an A4 page.
+const NOTICEABLE_STRAIN: f64 = 0.01;
 
-/// Lengths on a flat layout against those on the surface: strains, as shares. `σ₁ ≥ σ₂` are the
-/// singular values of the map of each triangle to the plane.
+/// Strain of a flat layout: relative changes of length from the surface to the plane. `σ₁ ≥ σ₂` are the
+/// singular values of each triangle's map to the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Distortion {
-    /// Root of the mean of `((σ₁ − 1)² + (σ₂ − 1)²) / 2` by area.
+    /// Root mean square strain: the root of the mean of `((σ₁ − 1)² + (σ₂ − 1)²) / 2` by area.
     pub rms: f64,
     /// Largest strain of any triangle, `max(σ₁ − 1, 1 − σ₂)`.
     pub maximum: f64,
-    /// Share of the area where that exceeds 0.01.
+    /// Share of the area whose strain is above 0.01, from 0 to 1.
     pub above: f64,
     /// Area of the layout over that of the surface.
     pub area: f64,
@@ -23,28 +24,32 @@ pub struct Distortion {
     pub flipped: usize,
 }
 
-/// Singular values of a piece's map to where its corners are.
-pub(super) fn stretches(pieces: &Pieces, name: Name, places: &[Point]) -> [f64; 2] {
-    let corners = pieces.corners(name).map(|cell| places[cell]);
-    pieces.get(name).stretches(corners)
+/// Singular values of a triangle's map to the plane.
+pub(super) fn singular_values(
+    triangles: &LatticeTriangles,
+    id: TriangleId,
+    places: &[Point],
+) -> [f64; 2] {
+    let corners = triangles.corners(id).map(|cell| places[cell]);
+    triangles.get(id).singular_values(corners)
 }
 
-/// Of all pieces, or of those of one part.
+/// The distortion of some triangles at given positions of the vertices.
 pub(super) fn distortion(
-    pieces: &Pieces,
-    names: impl Iterator<Item = Name>,
+    triangles: &LatticeTriangles,
+    ids: impl Iterator<Item = TriangleId>,
     places: &[Point],
 ) -> Distortion {
     let (mut area, mut flat, mut squares, mut above) = (0.0, 0.0, 0.0, 0.0);
     let (mut maximum, mut flipped) = (0.0f64, 0);
-    for name in names {
-        let [long, short] = stretches(pieces, name, places);
-        let share = pieces.get(name).area();
+    for id in ids {
+        let [long, short] = singular_values(triangles, id, places);
+        let share = triangles.get(id).area();
         let strain = (long - 1.0).max(1.0 - short);
         area += share;
         flat += share * long * short;
         squares += share * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
-        if strain > NOTICEABLE {
+        if strain > NOTICEABLE_STRAIN {
             above += share;
         }
         maximum = maximum.max(strain);

@@ -1,38 +1,39 @@
-//! The matrix of the global step: the cotangent Laplacian of the surface, a weight for each edge
+//! The matrix of the global step: the cotangent Laplacian of the surface, with a weight for each edge
 //! of the lattice (Pinkall and Polthier 1993).
 //!
 //! The lattice's triangles nest in those of the lattice of twice the spacing. So the Galerkin
-//! matrix of linear interpolation is one of edge weights again, and each fine edge, which is
-//! parallel to one coarse edge and sees half its difference, adds a quarter of its weight to that.
+//! matrix of linear interpolation also has a weight for each edge: each fine edge is
+//! parallel to one coarse edge, sees half its difference, and adds a quarter of its weight to it.
 
-use super::grid::Grid;
-use super::pieces::Pieces;
+use super::lattice_triangles::LatticeTriangles;
+use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// Weights of the edges from each cell to the east, south-west and south-east.
+/// The cotangent Laplacian of a heightfield on the padded lattice, by the weights of the edges from each cell to the east,
+/// south-west and south-east.
 #[derive(Debug, Clone)]
 pub(super) struct Laplacian {
-    pub grid: Grid,
+    pub grid: PaddedLattice,
     east: Vec<f32>,
     south_west: Vec<f32>,
     south_east: Vec<f32>,
     diagonal: Vec<f32>,
     /// One over the diagonal, 0 where no edge ends.
     pub inverse: Vec<f32>,
-    /// No eigenvalue of the matrix over its diagonal is larger.
+    /// Upper bound of the eigenvalues of the matrix over its diagonal.
     pub largest: f32,
 }
 
 impl Laplacian {
-    /// Of a surface's triangles.
-    pub(super) fn new(pieces: &Pieces) -> Result<Self> {
-        let grid = pieces.grid;
-        let mut out = Laplacian::blank(grid)?;
+    /// The cotangent Laplacian of a heightfield's triangles.
+    pub(super) fn new(triangles: &LatticeTriangles) -> Result<Self> {
+        let grid = triangles.grid;
+        let mut out = Laplacian::zero(grid)?;
         for row in 0..grid.rows() {
             let offsets = grid.offsets(row);
             for cell in grid.row(row) {
-                let [down, side] = &pieces.of[cell];
+                let [down, side] = &triangles.of[cell];
                 let sw = cell.wrapping_add_signed(offsets.south_west);
                 let [down, side] = [down.weights, side.weights].map(|w| w.map(lanes::single));
                 out.south_west[cell] += down[0];
@@ -42,20 +43,20 @@ impl Laplacian {
                 out.east[cell] += side[2];
             }
         }
-        out.finish();
+        out.set_diagonal();
         Ok(out)
     }
 
-    /// The same energy for what is linear on the triangles of twice the spacing.
+    /// The Galerkin matrix of this one for functions that are linear on the triangles of twice the spacing.
     pub(super) fn coarse(&self) -> Result<Self> {
         let fine = self.grid;
         let grid = fine.coarse();
-        let mut out = Laplacian::blank(grid)?;
+        let mut out = Laplacian::zero(grid)?;
         for row in 0..grid.rows() {
             // Coarse rows are even fine rows.
             let offsets = fine.offsets(2 * row);
             for (col, cell) in grid.row(row).enumerate() {
-                let a = fine.below(row, col);
+                let a = fine.cell_of_coarse(row, col);
                 let at = |offset: isize| a.wrapping_add_signed(offset);
                 let (sw, se) = (at(offsets.south_west), at(offsets.south_east));
                 let (ne, w, e) = (at(offsets.north_east), at(-1), at(1));
@@ -68,11 +69,12 @@ impl Laplacian {
                 out.south_east[cell] = quarter(&self.south_east, [a, se, e, sw]);
             }
         }
-        out.finish();
+        out.set_diagonal();
         Ok(out)
     }
 
-    fn blank(grid: Grid) -> Result<Self> {
+    /// A matrix without edges.
+    fn zero(grid: PaddedLattice) -> Result<Self> {
         let zeros = || try_filled("unrolling", grid.cells(), 0.0);
         Ok(Laplacian {
             grid,
@@ -85,8 +87,8 @@ impl Laplacian {
         })
     }
 
-    /// The diagonal from the edges.
-    fn finish(&mut self) {
+    /// Sums the edges' weights up to the diagonal and bounds the eigenvalues.
+    fn set_diagonal(&mut self) {
         let grid = self.grid;
         let mut largest = 0.0f32;
         for row in 0..grid.rows() {
@@ -116,11 +118,11 @@ impl Laplacian {
         self.largest = largest.min(3.0);
     }
 
-    /// `next ← x + ω D⁻¹ (b − A x)`.
+    /// One damped Jacobi step: `next ← x + ω D⁻¹ (b − A x)`.
     pub(super) fn smooth(&self, omega: f32, b: &[f32], x: &[f32], next: &mut [f32]) {
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
-            let near = Near::new(self, row, x);
+            let near = RowStencil::new(self, row, x);
             let (b, inverse) = (&b[cells.clone()], &self.inverse[cells.clone()]);
             let next = &mut next[cells];
             for i in 0..next.len() {
@@ -129,11 +131,11 @@ impl Laplacian {
         }
     }
 
-    /// `out ← b − A x`.
+    /// The residual: `out ← b − A x`.
     pub(super) fn residual(&self, b: &[f32], x: &[f32], out: &mut [f32]) {
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
-            let near = Near::new(self, row, x);
+            let near = RowStencil::new(self, row, x);
             let b = &b[cells.clone()];
             let out = &mut out[cells];
             for i in 0..out.len() {
@@ -142,12 +144,12 @@ impl Laplacian {
         }
     }
 
-    /// `out ← A x`, and `x·Ax`.
+    /// The product `out ← A x`. Returns `x·Ax`.
     pub(super) fn apply(&self, x: &[f32], out: &mut [f32]) -> f64 {
         let mut product = 0.0;
         for row in 0..self.grid.rows() {
             let cells = self.grid.row(row);
-            let near = Near::new(self, row, x);
+            let near = RowStencil::new(self, row, x);
             let out = &mut out[cells.clone()];
             for (i, out) in out.iter_mut().enumerate() {
                 *out = near.product(i);
@@ -158,17 +160,17 @@ impl Laplacian {
     }
 }
 
-/// A row of the matrix and of what it is applied to, as slices of the row's length.
-struct Near<'a> {
+/// One row of the matrix and of the vector that it is applied to, as slices of the row's length.
+struct RowStencil<'a> {
     diagonal: &'a [f32],
     /// Weights of the edges to W, E, NW, NE, SW, SE.
     weights: [&'a [f32]; 6],
     centre: &'a [f32],
-    /// The values there.
+    /// Values of the vector at these neighbours.
     values: [&'a [f32]; 6],
 }
 
-impl<'a> Near<'a> {
+impl<'a> RowStencil<'a> {
     #[inline(always)]
     fn new(matrix: &'a Laplacian, row: usize, x: &'a [f32]) -> Self {
         let cells = matrix.grid.row(row);
@@ -177,7 +179,7 @@ impl<'a> Near<'a> {
         let at = |field: &'a [f32], offset: isize| -> &'a [f32] {
             &field[cells.start.wrapping_add_signed(offset)..][..n]
         };
-        Near {
+        RowStencil {
             diagonal: at(&matrix.diagonal, 0),
             weights: [
                 at(&matrix.east, -1),
@@ -206,8 +208,8 @@ mod tests {
     use crate::unroll::multigrid::interpolate;
 
     /// A bumpy surface with a hole and a ragged edge.
-    fn pieces(rows: usize, cols: usize) -> Pieces {
-        let grid = Grid::new(rows, cols);
+    fn triangles(rows: usize, cols: usize) -> LatticeTriangles {
+        let grid = PaddedLattice::new(rows, cols);
         let mut heights = vec![f64::NAN; grid.cells()];
         for row in 0..rows {
             for (col, cell) in grid.row(row).enumerate() {
@@ -217,13 +219,13 @@ mod tests {
                 }
             }
         }
-        Pieces::new(grid, &heights, |_| true).unwrap()
+        LatticeTriangles::new(grid, &heights, |_| true).unwrap()
     }
 
     #[test]
     fn the_coarse_matrix_is_that_of_linear_interpolation() {
         for (rows, cols) in [(12, 9), (13, 10), (9, 14), (10, 13)] {
-            let fine = Laplacian::new(&pieces(rows, cols)).unwrap();
+            let fine = Laplacian::new(&triangles(rows, cols)).unwrap();
             let coarse = fine.coarse().unwrap();
             let mut x = vec![0.0f32; coarse.grid.cells()];
             for row in 0..coarse.grid.rows() {
@@ -245,16 +247,16 @@ mod tests {
     }
 
     #[test]
-    fn the_matrix_is_the_derivative_of_the_pull() {
-        // With every piece's rotation held, the energy is quadratic and its matrix the Laplacian:
-        // translations do nothing, and scaling the plan costs what scaling the pieces does.
-        let pieces = pieces(12, 9);
-        let matrix = Laplacian::new(&pieces).unwrap();
-        let ones = vec![1.0f32; pieces.grid.cells()];
+    fn the_matrix_is_the_derivative_of_the_energy() {
+        // With every triangle's rotation held, the energy is quadratic and its matrix the Laplacian:
+        // translations do nothing, and scaling the plan costs what scaling the triangles does.
+        let triangles = triangles(12, 9);
+        let matrix = Laplacian::new(&triangles).unwrap();
+        let ones = vec![1.0f32; triangles.grid.cells()];
         let mut out = ones.clone();
         matrix.apply(&ones, &mut out);
-        for row in 0..pieces.grid.rows() {
-            for cell in pieces.grid.row(row) {
+        for row in 0..triangles.grid.rows() {
+            for cell in triangles.grid.row(row) {
                 assert!(out[cell].abs() < 1e-5, "{}", out[cell]);
             }
         }

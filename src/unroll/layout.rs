@@ -1,34 +1,39 @@
 //! Heightfields laid flat.
 
-use super::arap::{self, Limits};
-use super::distortion::{distortion, stretches};
-use super::grid::Grid;
+use super::arap_lattice::{Limits, minimise_energy};
+use super::components::{align_to_plan, components};
+use super::distortion::{distortion, singular_values};
+use super::flat_triangle::Point;
+use super::lattice_triangles::LatticeTriangles;
 use super::options::UnrollOptions;
-use super::pieces::{Pieces, Point};
+use super::overlap::crossings;
+use super::padded_lattice::PaddedLattice;
+use super::unflip::unflip_triangles;
 use super::unrolling::{UnrollReport, Unrolling};
-use super::{overlap, repair, sheets};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{ROW, shift};
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
-/// Lays a surface flat.
+/// Lays a surface flat with as little strain as possible.
 ///
-/// Costs `O(vertices)`, some tens of iterations, each linear; 300 bytes for each vertex. The same
-/// on every run.
+/// Costs some tens of iterations of `O(vertices)`, and 300 bytes for each vertex. Deterministic.
 ///
 /// # Errors
-/// [`Error::Option`] unless the tolerance is positive and finite, [`Error::Unsupported`] without
-/// any whole triangle, [`Error::Overflow`] for heights out of all proportion to the spacing,
+/// [`Error::Option`] unless the tolerance is positive and finite, [`Error::Unsupported`] if no triangle has
+/// heights at all corners, [`Error::Overflow`] if heights are too large for the spacing,
 /// [`Error::OutOfMemory`].
 pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrolling> {
     let mesh = Triangulation::new(surface, &Frame::default())?;
     unroll_mesh(mesh, options, None)
 }
 
-/// The same for some of a surface's triangles; one whose strain (root of the mean square) will stay
-/// well above a limit is given up early.
+/// Lays some triangles of a surface flat. If there is a limit, a layout whose root mean square strain will stay well
+/// above it is given up early.
+///
+/// # Errors
+/// Those of [`unroll`].
 pub(crate) fn unroll_mesh(
     mesh: Triangulation,
     options: &UnrollOptions,
@@ -36,13 +41,13 @@ pub(crate) fn unroll_mesh(
 ) -> Result<Unrolling> {
     let limits = Limits {
         tolerance: positive("tolerance", options.tolerance)?,
-        iterations: options.max_iterations,
+        max_iterations: options.max_iterations,
         // Of the two principal strains the energy has the sum of the squares.
-        hopeless: limit.map_or(f64::INFINITY, |limit| 2.0 * limit * limit),
+        wanted_energy: limit.map_or(f64::INFINITY, |limit| 2.0 * limit * limit),
     };
     let lattice = *mesh.lattice();
     let spacing = lattice.spacing();
-    let grid = Grid::new(lattice.rows(), lattice.cols());
+    let grid = PaddedLattice::new(lattice.rows(), lattice.cols());
     let cell = |index: u32| {
         let index = index as usize;
         grid.cell(index / lattice.cols(), index % lattice.cols())
@@ -59,48 +64,47 @@ pub(crate) fn unroll_mesh(
         let below = first.wrapping_add_signed(offsets.south_west) == second;
         wanted[first][usize::from(!below)] = true;
     }
-    let pieces = Pieces::new(grid, &heights, |(cell, side)| wanted[cell][side]).map_err(
-        |error| match error {
+    let triangles = LatticeTriangles::new(grid, &heights, |(cell, side)| wanted[cell][side])
+        .map_err(|error| match error {
             Error::Overflow { .. } => Error::Overflow { spacing },
             other => other,
-        },
-    )?;
-    let mut places = plan(grid)?;
-    let from_above = distortion(&pieces, pieces.names(), &places);
-    let mut course = arap::relax(&pieces, &mut places, limits)?;
-    if repair::unflip(&pieces, &mut places)? {
-        let mut pull = try_filled("unrolling", places.len(), Point::default())?;
-        course.energy = pieces.pull(&places, &mut pull) / pieces.area;
+        })?;
+    let mut places = plan_positions(grid)?;
+    let from_above = distortion(&triangles, triangles.ids(), &places);
+    let mut iteration = minimise_energy(&triangles, &mut places, limits)?;
+    if unflip_triangles(&triangles, &mut places)? {
+        let mut descent = try_filled("unrolling", places.len(), Point::default())?;
+        iteration.energy = triangles.energy(&places, &mut descent) / triangles.area;
     }
     let mut values = try_filled("unrolling", mesh.triangles().len(), [0.0; 2])?;
-    for (value, name) in values.iter_mut().zip(pieces.names()) {
-        *value = stretches(&pieces, name, &places);
+    for (value, id) in values.iter_mut().zip(triangles.ids()) {
+        *value = singular_values(&triangles, id, &places);
     }
-    let layout = distortion(&pieces, pieces.names(), &places);
+    let layout = distortion(&triangles, triangles.ids(), &places);
 
-    let (parts, count) = sheets::parts(&mesh)?;
+    let (parts, count) = components(&mesh)?;
     let mut flat: Vec<Point> = try_filled("unrolling", parts.len(), Point::default())?;
     for (place, v) in flat.iter_mut().zip(mesh.vertices()) {
         *place = places[cell(*v)] * spacing;
     }
-    sheets::lay_upright(&mesh, &parts, count, &mut flat);
+    align_to_plan(&mesh, &parts, count, &mut flat);
 
     let mut numbers = try_filled("unrolling", grid.cells(), 0u32)?;
     for (number, v) in mesh.vertices().iter().enumerate() {
         numbers[cell(*v)] = number as u32;
     }
-    let border: Vec<[u32; 2]> = (pieces.border())
+    let border: Vec<[u32; 2]> = (triangles.border())
         .map(|edge| edge.map(|cell| numbers[cell]))
         .collect();
-    let overlaps: Vec<[[u32; 2]; 2]> = (overlap::crossings(&flat, &border).into_iter())
+    let overlaps: Vec<[[u32; 2]; 2]> = (crossings(&flat, &border).into_iter())
         .map(|pair| pair.map(|edge| border[edge]))
         .collect();
     let report = UnrollReport {
         parts: count,
-        iterations: course.iterations,
-        energy: course.energy,
-        change: course.change,
-        area: pieces.area * spacing * spacing,
+        iterations: iteration.steps,
+        energy: iteration.energy,
+        change: iteration.decrease,
+        area: triangles.area * spacing * spacing,
         distortion: layout,
         plan: from_above,
         crossings: overlaps.len(),
@@ -115,8 +119,8 @@ pub(crate) fn unroll_mesh(
     })
 }
 
-/// Where the vertices are seen from above, in units of the spacing.
-pub(super) fn plan(grid: Grid) -> Result<Vec<Point>> {
+/// Positions of the vertices in the view from above, in units of the spacing, by the cells of the padded lattice.
+pub(super) fn plan_positions(grid: PaddedLattice) -> Result<Vec<Point>> {
     let mut places = try_filled("unrolling", grid.cells(), Point::default())?;
     for row in 0..grid.rows() {
         let shift = shift(row);

@@ -1,12 +1,12 @@
-//! Surfaces laid flat, with as little distortion as it goes ([paper](crate#references), Fig. 10).
+//! Unrolling: surfaces laid flat without cuts and with as little strain as possible ([paper](crate#references), Fig. 10).
 //!
-//! A surface that bends like paper can be unrolled without any: each of its triangles is turned
-//! into the plane as it is. Of what is not quite developable, the triangles cannot all keep their
+//! A developable surface can be unrolled without strain: each of its triangles is moved
+//! into the plane rigidly. The triangles of any other surface cannot all keep their
 //! shape and fit together. The layout is the one that is *as rigid as possible* (Ligang Liu, Lei
 //! Zhang, Yin Xu, Craig Gotsman, Steven J. Gortler, *A Local/Global Approach to Mesh
 //! Parameterization*, Computer Graphics Forum 27(5), 2008): it minimises the sum of
 //! `area · ‖J − R‖²` over the triangles, where `J` is the map of a triangle to the plane and `R`
-//! the rotation next to it. [`Unrolling::report`] says what is left.
+//! the rotation nearest to it. [`Unrolling::report`] tells the strain.
 //!
 //! ```
 //! use developable::unroll::{UnrollOptions, unroll};
@@ -27,18 +27,20 @@
 //! # }
 //! ```
 
-mod arap;
+mod arap_lattice;
+pub(crate) mod arap_mesh;
+mod components;
 mod distortion;
-mod grid;
-pub(crate) mod joint;
+pub(crate) mod flat_triangle;
 mod laplacian;
+mod lattice_triangles;
 mod layout;
+mod local_global;
 mod multigrid;
 mod options;
 pub(crate) mod overlap;
-pub(crate) mod pieces;
-mod repair;
-mod sheets;
+mod padded_lattice;
+mod unflip;
 mod unrolling;
 
 pub use distortion::Distortion;

@@ -1,72 +1,73 @@
-//! The global step: conjugate gradients on a correction, preconditioned by a V-cycle over the
-//! lattices of twice, four times … the spacing.
+//! The global step on lattices: conjugate gradients, preconditioned by a multigrid V-cycle.
 //!
 //! Both coordinates of the plane are solved for at once, as two right-hand sides of one system, in
-//! single precision: what one step leaves is in the next one's right-hand side.
+//! single precision: the error of one step is in the next one's right-hand side.
 
-use super::grid::Grid;
 use super::laplacian::Laplacian;
+use super::padded_lattice::PaddedLattice;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
 
-/// The two coordinates, each a field over the padded cells.
-pub(super) type Plane = [Vec<f32>; 2];
+/// Both coordinates of a vector field on the padded lattice.
+pub(super) type PlaneField = [Vec<f32>; 2];
 
+/// One lattice of the multigrid hierarchy with the fields that a V-cycle needs.
 #[derive(Debug, Clone)]
-struct Level {
+struct MultigridLevel {
     matrix: Laplacian,
-    right: Plane,
-    solution: Plane,
+    right: PlaneField,
+    solution: PlaneField,
     spare: Vec<f32>,
 }
 
+/// The solver of the global step: conjugate gradients with a V-cycle.
 #[derive(Debug, Clone)]
 pub(super) struct GlobalStep {
-    /// The finest first. Its right-hand side is the residual of the conjugate gradients.
-    levels: Vec<Level>,
-    direction: Plane,
-    image: Plane,
-    correction: Plane,
+    /// Levels of the hierarchy, the finest first. Its right-hand side is the residual of the conjugate gradients.
+    levels: Vec<MultigridLevel>,
+    direction: PlaneField,
+    image: PlaneField,
+    correction: PlaneField,
 }
 
-/// Damping of a pair of smoothing steps: the roots of the Chebyshev polynomial on the upper three
-/// quarters of the spectrum, in units of its end.
-const DAMPING: [f32; 2] = [1.0 / (0.625 + 0.265_165), 1.0 / (0.625 - 0.265_165)];
+/// Weights of a pair of Jacobi steps, over the largest eigenvalue: the inverse roots of the Chebyshev polynomial on the
+/// upper three quarters of the spectrum.
+const SMOOTHER_WEIGHTS: [f32; 2] = [1.0 / (0.625 + 0.265_165), 1.0 / (0.625 - 0.265_165)];
 
-/// Pairs of smoothing steps on the coarsest lattice, which has a few cells.
-const COARSEST: usize = 8;
+/// Number of pairs of smoothing steps on the coarsest lattice, which has a few cells.
+const COARSEST_SMOOTHING_PAIRS: usize = 8;
 
 impl GlobalStep {
     pub(super) fn new(matrix: Laplacian) -> Result<Self> {
-        let mut levels = vec![Level::new(matrix)?];
-        while let Some(Level { matrix, .. }) = levels.last()
+        let mut levels = vec![MultigridLevel::new(matrix)?];
+        while let Some(MultigridLevel { matrix, .. }) = levels.last()
             && matrix.grid.rows().min(matrix.grid.cols()) > 5
         {
-            levels.push(Level::new(matrix.coarse()?)?);
+            levels.push(MultigridLevel::new(matrix.coarse()?)?);
         }
         let cells = levels[0].matrix.grid.cells();
         Ok(GlobalStep {
             levels,
-            direction: plane(cells)?,
-            image: plane(cells)?,
-            correction: plane(cells)?,
+            direction: zero_field(cells)?,
+            image: zero_field(cells)?,
+            correction: zero_field(cells)?,
         })
     }
 
-    /// The right-hand side, to be written before [`GlobalStep::solve`], which uses it up.
-    pub(super) fn right(&mut self) -> &mut Plane {
+    /// The right-hand side, to be written before [`GlobalStep::solve`], which overwrites it.
+    pub(super) fn right_hand_side_mut(&mut self) -> &mut PlaneField {
         &mut self.levels[0].right
     }
 
-    /// The correction after some iterations.
-    pub(super) fn solve(&mut self, iterations: usize) -> &Plane {
+    /// The solution after some iterations of conjugate gradients from 0.
+    pub(super) fn solve(&mut self, iterations: usize) -> &PlaneField {
         let mut previous = 0.0;
         for field in &mut self.correction {
             field.fill(0.0);
         }
         for _ in 0..iterations {
-            self.cycle();
-            let Level {
+            self.v_cycle();
+            let MultigridLevel {
                 matrix,
                 right,
                 solution,
@@ -92,10 +93,10 @@ impl GlobalStep {
             }
             let alpha = (product / curvature) as f32;
             for (correction, direction) in self.correction.iter_mut().zip(&self.direction) {
-                add(correction, alpha, direction);
+                add_scaled(correction, alpha, direction);
             }
             for (residual, image) in right.iter_mut().zip(&self.image) {
-                add(residual, -alpha, image);
+                add_scaled(residual, -alpha, image);
             }
             previous = product;
         }
@@ -103,13 +104,13 @@ impl GlobalStep {
     }
 
     /// One V-cycle: an approximate, symmetric inverse applied to the right-hand side.
-    fn cycle(&mut self) {
+    fn v_cycle(&mut self) {
         let last = self.levels.len() - 1;
         for i in 0..last {
             let (finer, coarser) = self.levels.split_at_mut(i + 1);
             let (fine, coarse) = (&mut finer[i], &mut coarser[0]);
             for k in 0..2 {
-                fine.start(k);
+                fine.smooth_from_zero(k);
                 fine.matrix
                     .residual(&fine.right[k], &fine.solution[k], &mut fine.spare);
                 restrict(
@@ -122,8 +123,8 @@ impl GlobalStep {
         }
         for k in 0..2 {
             let coarsest = &mut self.levels[last];
-            coarsest.start(k);
-            (1..COARSEST).for_each(|_| coarsest.smooth(k));
+            coarsest.smooth_from_zero(k);
+            (1..COARSEST_SMOOTHING_PAIRS).for_each(|_| coarsest.smooth(k));
         }
         for i in (0..last).rev() {
             let (finer, coarser) = self.levels.split_at_mut(i + 1);
@@ -137,20 +138,20 @@ impl GlobalStep {
     }
 }
 
-impl Level {
+impl MultigridLevel {
     fn new(matrix: Laplacian) -> Result<Self> {
         let cells = matrix.grid.cells();
-        Ok(Level {
+        Ok(MultigridLevel {
             matrix,
-            right: plane(cells)?,
-            solution: plane(cells)?,
+            right: zero_field(cells)?,
+            solution: zero_field(cells)?,
             spare: try_filled("unrolling", cells, 0.0)?,
         })
     }
 
-    /// A pair of smoothing steps from zero.
-    fn start(&mut self, k: usize) {
-        let [first, second] = DAMPING.map(|damping| damping / self.matrix.largest);
+    /// A pair of smoothing steps of one coordinate, from 0.
+    fn smooth_from_zero(&mut self, k: usize) {
+        let [first, second] = SMOOTHER_WEIGHTS.map(|weight| weight / self.matrix.largest);
         let inverse = self.matrix.inverse.iter().zip(&self.right[k]);
         for (x, (d, b)) in self.spare.iter_mut().zip(inverse) {
             *x = first * d * b;
@@ -161,9 +162,9 @@ impl Level {
             .smooth(second, &self.right[k], &self.spare, &mut self.solution[k]);
     }
 
-    /// A pair of smoothing steps.
+    /// A pair of smoothing steps of one coordinate.
     fn smooth(&mut self, k: usize) {
-        let [first, second] = DAMPING.map(|damping| damping / self.matrix.largest);
+        let [first, second] = SMOOTHER_WEIGHTS.map(|weight| weight / self.matrix.largest);
         self.matrix
             .smooth(second, &self.right[k], &self.solution[k], &mut self.spare);
         self.matrix
@@ -171,20 +172,23 @@ impl Level {
     }
 }
 
-fn plane(cells: usize) -> Result<Plane> {
+/// A field of zeros.
+fn zero_field(cells: usize) -> Result<PlaneField> {
     Ok([
         try_filled("unrolling", cells, 0.0)?,
         try_filled("unrolling", cells, 0.0)?,
     ])
 }
 
-fn add(to: &mut [f32], factor: f32, values: &[f32]) {
+/// `to ← to + factor · values`.
+fn add_scaled(to: &mut [f32], factor: f32, values: &[f32]) {
     for (x, v) in to.iter_mut().zip(values) {
         *x += factor * v;
     }
 }
 
-fn dot(grid: Grid, a: &Plane, b: &Plane) -> f64 {
+/// The scalar product of two fields, without the padding.
+fn dot(grid: PaddedLattice, a: &PlaneField, b: &PlaneField) -> f64 {
     let rows = (0..grid.rows()).map(|row| grid.row(row));
     rows.map(|cells| {
         let product = |k: usize| lanes::dot(&a[k][cells.clone()], &b[k][cells.clone()]);
@@ -193,12 +197,17 @@ fn dot(grid: Grid, a: &Plane, b: &Plane) -> f64 {
     .sum()
 }
 
-/// Adds to the fine field what is linear between the values of the coarse one.
-pub(super) fn interpolate(coarse: Grid, values: &[f32], fine: Grid, out: &mut [f32]) {
+/// Prolongation: adds the linear interpolation of a coarse field to a fine one.
+pub(super) fn interpolate(
+    coarse: PaddedLattice,
+    values: &[f32],
+    fine: PaddedLattice,
+    out: &mut [f32],
+) {
     for row in 0..coarse.rows() {
         let (near, below) = (coarse.offsets(row), fine.offsets(2 * row));
         for (col, cell) in coarse.row(row).enumerate() {
-            let a = fine.below(row, col);
+            let a = fine.cell_of_coarse(row, col);
             let value = values[cell];
             out[a] += value;
             let halves = [
@@ -214,12 +223,12 @@ pub(super) fn interpolate(coarse: Grid, values: &[f32], fine: Grid, out: &mut [f
     }
 }
 
-/// The transpose of [`interpolate`], in the place of what was there.
-fn restrict(fine: Grid, values: &[f32], coarse: Grid, out: &mut [f32]) {
+/// Restriction, the transpose of [`interpolate`]: overwrites a coarse field.
+fn restrict(fine: PaddedLattice, values: &[f32], coarse: PaddedLattice, out: &mut [f32]) {
     for row in 0..coarse.rows() {
         let offsets = fine.offsets(2 * row).all();
         for (col, cell) in coarse.row(row).enumerate() {
-            let a = fine.below(row, col);
+            let a = fine.cell_of_coarse(row, col);
             let around: f32 = (offsets.iter())
                 .map(|offset| values[a.wrapping_add_signed(*offset)])
                 .sum();

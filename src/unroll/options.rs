@@ -1,13 +1,13 @@
 //! Options of unrolling.
 
-/// When to stop.
+/// Options of [`unroll`](super::unroll): when its iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct UnrollOptions {
-    /// Stop when iterations change the energy over the area, which is the mean of the squared
-    /// strains, by less than this. Default 10⁻¹⁰.
+    /// Change of the energy over the area (the mean of the squared strains, without unit) in one iteration, below which
+    /// the layout has converged. Default 10⁻¹⁰.
     pub tolerance: f64,
-    /// Most iterations. Default 500.
+    /// Maximum number of iterations. Default 500.
     pub max_iterations: usize,
 }
 
@@ -26,7 +26,7 @@ impl UnrollOptions {
         UnrollOptions { tolerance, ..self }
     }
 
-    /// These options with another limit.
+    /// These options with another maximum number of iterations.
     pub fn max_iterations(self, max_iterations: usize) -> Self {
         UnrollOptions {
             max_iterations,

@@ -1,15 +1,14 @@
-//! Where an unrolled sheet lies on itself or on another one.
+//! Self-intersections of flat sheets.
 //!
-//! Where no triangle is flipped, parts of the plane are covered twice only if borders cross: the
-//! number of layers changes at a border alone. So the edges of the border are compared, by way of
-//! a grid of buckets.
+//! Where no triangle is flipped, a sheet covers parts of the plane twice only if its border crosses itself: the
+//! number of layers changes at a border alone. So border edges are compared, with a spatial hash.
 
-use super::pieces::Point;
+use super::flat_triangle::Point;
 use crate::math::planar::segments_intersect;
 use rustc_hash::FxHashMap;
 
-/// Pairs of border edges that cross. Linear cost where edges are about equally long and few lie
-/// at one place.
+/// Pairs of border edges that cross, by their numbers in `border`, whose edges are pairs of vertices. Costs
+/// `O(edges)` where edges are about equally long and few lie at one place.
 pub(crate) fn crossings(places: &[Point], border: &[[u32; 2]]) -> Vec<[usize; 2]> {
     let ends = |edge: usize| border[edge].map(|v| places[v as usize]);
     let longest = (0..border.len()).map(|i| {

@@ -3,7 +3,7 @@
 use super::distortion::Distortion;
 use crate::scene::triangulation::Triangulation;
 
-/// What came of it.
+/// Figures of an [`Unrolling`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -12,28 +12,28 @@ use crate::scene::triangulation::Triangulation;
 )]
 #[non_exhaustive]
 pub struct UnrollReport {
-    /// Connected parts of the surface, each laid flat for itself.
+    /// Number of connected components of the surface. Each is laid flat by itself.
     pub parts: usize,
-    /// Local and global steps.
+    /// Number of iterations, each a local and a global step.
     pub iterations: usize,
-    /// Energy over area: the mean of the squared strains.
+    /// Energy over area: the mean of the sum of both squared principal strains.
     pub energy: f64,
-    /// How much the last iteration changed that.
+    /// Decrease of the energy over the area in the last iteration.
     pub change: f64,
     /// Area of the surface, in its own units.
     pub area: f64,
-    /// Of the layout: 0 for what can be unrolled.
+    /// Strain of the layout: 0 for a developable surface.
     pub distortion: Distortion,
-    /// The same for the view from above: how far from flat the surface was to begin with.
+    /// Strain of the view from above, as a measure of how far from flat the surface was.
     pub plan: Distortion,
-    /// Pairs of edges on the border of the layout that cross: 0 where it does not overlap.
+    /// Number of pairs of border edges of the layout that cross: 0 if it does not cover itself.
     pub crossings: usize,
 }
 
 /// A surface laid flat.
 ///
-/// Each connected part lies upright where it is seen from above, as nearly as it goes. Parts may
-/// come to lie on each other.
+/// Each connected component lies as near to its place in the view from above as a rotation and a translation can bring
+/// it. Components may overlap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unrolling {
     pub(super) mesh: Triangulation,
@@ -45,7 +45,7 @@ pub struct Unrolling {
 }
 
 impl Unrolling {
-    /// The surface, as triangles.
+    /// The triangles of the surface.
     pub fn mesh(&self) -> &Triangulation {
         &self.mesh
     }
@@ -54,29 +54,29 @@ impl Unrolling {
         self.mesh
     }
 
-    /// Where each vertex of the mesh lies on the plane, in the surface's units.
+    /// Position of each vertex of the mesh in the plane, in the surface's units.
     pub fn places(&self) -> &[[f64; 2]] {
         &self.places
     }
 
-    /// The connected part of each vertex of the mesh; 0 is that with the most vertices.
+    /// Number of the connected component of each vertex of the mesh; component 0 has the most vertices.
     pub fn parts(&self) -> &[u32] {
         &self.parts
     }
 
-    /// For each triangle the singular values `σ₁ ≥ σ₂` of its map to the plane, both 1 where it is
-    /// rigid: `σ₁σ₂` is the change of area, `σ₁/σ₂` that of angles. `σ₂` is negative where the
+    /// Singular values `σ₁ ≥ σ₂` of each triangle's map to the plane, both 1 where the map is
+    /// rigid: `σ₁σ₂` is the ratio of areas, `σ₁/σ₂` the distortion of angles. `σ₂` is negative where the
     /// triangle lies upside down.
     pub fn stretches(&self) -> &[[f64; 2]] {
         &self.stretches
     }
 
-    /// Pairs of edges on the border, by the mesh's vertices, that cross.
+    /// Pairs of border edges that cross, each edge by the numbers of its two vertices in the mesh.
     pub fn overlaps(&self) -> &[[[u32; 2]; 2]] {
         &self.overlaps
     }
 
-    /// How well it went.
+    /// Figures of the layout.
     pub fn report(&self) -> &UnrollReport {
         &self.report
     }

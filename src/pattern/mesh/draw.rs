@@ -11,7 +11,7 @@ use crate::math::index::NO_INDEX;
 use crate::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 pub(super) fn drawn(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<MeshPattern> {
     let creases = seams.all.iter().map(|seam| Crease {

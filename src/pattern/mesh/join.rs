@@ -6,8 +6,8 @@ use super::seams::Seams;
 use crate::error::Result;
 use crate::pattern::outline::Motion;
 use crate::scene::half_edges::next_half_edge;
-use crate::unroll::joint::Until;
-use crate::unroll::pieces::Point;
+use crate::unroll::arap_mesh::StoppingCriteria;
+use crate::unroll::flat_triangle::Point;
 
 /// What joined parts have to be.
 #[derive(Debug, Clone, Copy)]
@@ -15,7 +15,7 @@ pub(super) struct Limits {
     /// How far sides may be apart, as a share of their length.
     pub gap: f64,
     pub strain: f64,
-    pub until: Until,
+    pub until: StoppingCriteria,
 }
 
 /// While parts are cut and joined they are relaxed to such a share of the strain that is allowed.
@@ -23,10 +23,10 @@ const ENOUGH: f64 = 0.8;
 
 impl Limits {
     /// For what may still be cut or joined.
-    pub(super) fn trial(&self) -> Until {
-        Until {
+    pub(super) fn trial(&self) -> StoppingCriteria {
+        StoppingCriteria {
             // Of the two principal strains the energy has the sum of the squares.
-            enough: 2.0 * (ENOUGH * self.strain).powi(2),
+            target_energy: 2.0 * (ENOUGH * self.strain).powi(2),
             ..self.until
         }
     }

@@ -7,9 +7,9 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
-use crate::unroll::joint::{Joint, Until};
+use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
+use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::overlap::crossings;
-use crate::unroll::pieces::{Piece, Point};
 
 /// Some of a body's triangles, flat.
 #[derive(Debug, Clone)]
@@ -80,9 +80,9 @@ impl Laid {
             }
             triangles[corner / 3][corner % 3] = numbers[root];
         }
-        let pieces: Vec<Piece> = own.iter().map(|t| piece(body, *t)).collect();
+        let pieces: Vec<FlatTriangle> = own.iter().map(|t| piece(body, *t)).collect();
         let mut laid = Laid {
-            area: pieces.iter().map(Piece::area).sum(),
+            area: pieces.iter().map(FlatTriangle::area).sum(),
             places: vec![Point::default(); source.len()],
             members,
             triangles,
@@ -106,33 +106,33 @@ impl Laid {
     }
 
     /// Strained as little as may be, from where it lies.
-    pub(super) fn relaxed(mut self, body: &Body, until: Until) -> Result<Laid> {
+    pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<Laid> {
         let own = self.members.iter().map(|t| body.triangles[*t as usize]);
-        let pieces: Vec<Piece> = own.map(|t| piece(body, t)).collect();
+        let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
         self.relax(&pieces, until)?;
         Ok(self)
     }
 
-    fn relax(&mut self, pieces: &[Piece], until: Until) -> Result<()> {
+    fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        let joint = Joint::new(self.places.len(), whole, Vec::new())?;
+        let joint = ArapMesh::new(self.places.len(), whole, Vec::new())?;
         // Steps that hardly change anything say little before what is wrong at one end has come to the other.
-        let start = Until {
-            steps: until.steps.min(START),
-            hopeless: f64::INFINITY,
+        let start = StoppingCriteria {
+            max_steps: until.max_steps.min(START),
+            hopeless_energy: f64::INFINITY,
             ..until
         };
-        let steps = joint.relax(&mut self.places, start)?;
-        if steps == START && until.steps > START {
-            joint.relax(&mut self.places, until)?;
+        let steps = joint.minimise_in_plane(&mut self.places, start)?;
+        if steps == START && until.max_steps > START {
+            joint.minimise_in_plane(&mut self.places, until)?;
         }
         self.measure(pieces);
         Ok(())
     }
 
     /// One triangle after the other, as they are, beside those that lie already.
-    fn turn_over(&mut self, body: &Body, pieces: &[Piece]) {
+    fn turn_over(&mut self, body: &Body, pieces: &[FlatTriangle]) {
         let mut lies = vec![false; self.places.len()];
         let mut seen = vec![false; pieces.len()];
         let mut queue = VecDeque::new();
@@ -176,10 +176,11 @@ impl Laid {
         }
     }
 
-    fn measure(&mut self, pieces: &[Piece]) {
+    fn measure(&mut self, pieces: &[FlatTriangle]) {
         let (mut squares, mut worst) = (0.0, 0.0);
         for (t, piece) in pieces.iter().enumerate().filter(|(_, p)| p.exists()) {
-            let [long, short] = piece.stretches(self.triangles[t].map(|v| self.places[v as usize]));
+            let [long, short] =
+                piece.singular_values(self.triangles[t].map(|v| self.places[v as usize]));
             let own = piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
             squares += own;
             if own > worst {
@@ -247,7 +248,7 @@ impl Laid {
     }
 
     /// Triangles turned over one after the other, and then strained as little as may be.
-    pub(super) fn whole(body: &Body, members: Vec<u32>, until: Until) -> Result<Laid> {
+    pub(super) fn whole(body: &Body, members: Vec<u32>, until: StoppingCriteria) -> Result<Laid> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| body.triangles[*t as usize])
             .collect();
@@ -324,15 +325,15 @@ impl Laid {
     }
 }
 
-fn piece(body: &Body, corners: [u32; 3]) -> Piece {
-    Piece::between(corners.map(|v| body.places[v as usize].into()))
+fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {
+    FlatTriangle::from_points(corners.map(|v| body.places[v as usize].into()))
 }
 
 /// So many triangles are asked whether others lie on them.
 const PROBES: usize = 60;
 
 /// The corner opposite a side, where that goes from 0 to 1.
-fn third(piece: &Piece, side: usize) -> Point {
+fn third(piece: &FlatTriangle, side: usize) -> Point {
     if !piece.exists() {
         return Point::new(0.5, 0.0);
     }

@@ -18,7 +18,7 @@ use crate::error::{Error, Result, check_count, positive};
 use crate::fit::mesh::topology::Topology;
 use crate::scene::mesh::Mesh;
 use crate::shape::patches::{Crease, MeshPatches, Patch};
-use crate::unroll::joint::Until;
+use crate::unroll::arap_mesh::StoppingCriteria;
 use body::{Body, Place, Plane};
 use draw::drawn;
 use join::{Limits, joined};
@@ -73,12 +73,12 @@ pub fn pattern_mesh(
     )?;
     let gap = positive("gap", options.gap)?;
     let strain = positive("maxStrain", options.max_strain)?;
-    let until = Until {
+    let until = StoppingCriteria {
         tolerance: positive("tolerance", options.unrolling.tolerance)?,
-        enough: 0.0,
+        target_energy: 0.0,
         // Of the two principal strains the energy has the sum of the squares.
-        hopeless: FAR * 2.0 * strain * strain,
-        steps: options.unrolling.max_iterations,
+        hopeless_energy: FAR * 2.0 * strain * strain,
+        max_steps: options.unrolling.max_iterations,
     };
     let limits = Limits { gap, strain, until };
     let topology = Topology::new(mesh)?;
@@ -137,8 +137,8 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
             }
             let mut energy = 0.0;
             for part in &parts {
-                let short = Until {
-                    steps: TRIAL,
+                let short = StoppingCriteria {
+                    max_steps: TRIAL,
                     ..limits.until
                 };
                 let laid = Laid::whole(&trial, trial.members(*part), short)?;
@@ -207,11 +207,11 @@ mod tests {
         let tooth = triangles.len() as u32 - 1;
         let labels = vec![0; triangles.len()];
         let body = Body::new(places, triangles, labels).unwrap();
-        let until = Until {
+        let until = StoppingCriteria {
             tolerance: 1e-12,
-            enough: 0.0,
-            hopeless: f64::INFINITY,
-            steps: 200,
+            target_energy: 0.0,
+            hopeless_energy: f64::INFINITY,
+            max_steps: 200,
         };
         let limits = Limits {
             gap: 0.02,

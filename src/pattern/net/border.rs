@@ -6,7 +6,7 @@ use crate::lattice::hexagonal::NEIGHBOURS;
 use crate::pattern::line::meeting;
 use crate::scene::triangulation::Triangulation;
 use crate::shape::patches::NO_PATCH;
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
 /// So many nodes from its end tell where a seam is heading.

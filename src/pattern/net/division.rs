@@ -2,7 +2,7 @@
 
 use super::{Net, SHORT, Seam};
 use crate::pattern::layout::FINE;
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 
 /// Least share of a seam's length that is joined where the whole of it cannot be: of a crease, and of
 /// a cut through what was one patch.

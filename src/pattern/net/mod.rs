@@ -17,7 +17,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 use crate::shape::patches::crease::lines;
-use crate::unroll::pieces::Point;
+use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
 /// An edge by its vertices, the lower one first; a vertex by itself, twice; a triangle by its

@@ -3,8 +3,8 @@
 use super::{Net, Node, is_triangle};
 use crate::pattern::leaf::Leaf;
 use crate::shape::patches::crease::smoothed;
-use crate::unroll::joint::Mean;
-use crate::unroll::pieces::Point;
+use crate::unroll::arap_mesh::BarycentricPoint;
+use crate::unroll::flat_triangle::Point;
 
 /// Share of an edge or a triangle that is left to each side at least, so that no two nodes are at
 /// one place.
@@ -117,7 +117,7 @@ impl Net {
     }
 
     /// A node of a seam as a mean of vertices of one of its leaves.
-    pub(in crate::pattern) fn mean(&self, node: Node, patch: u32) -> Option<Mean> {
+    pub(in crate::pattern) fn mean(&self, node: Node, patch: u32) -> Option<BarycentricPoint> {
         let leaf = self.leaves[patch as usize].as_ref()?;
         let shares = self.shares.get(&node)?;
         let vertices = match is_triangle(node) {

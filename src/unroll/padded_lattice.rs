@@ -1,23 +1,29 @@
-//! The cells that fields of an unrolling live on: a lattice with padding all around, and the way
-//! from one to that of twice the spacing.
+//! A hexagonal lattice with padding on all sides, and the one of twice its spacing.
 
-/// Padding, enough for a coarse vertex beyond the border and its neighbours to have cells.
-const TOP: usize = 1;
-const BOTTOM: usize = 2;
-const LEFT: usize = 2;
-const RIGHT: usize = 4;
+/// Rows of padding above the lattice. All padding is as wide as a coarse vertex beyond the border, and its neighbours,
+/// need.
+const PADDING_ROWS_ABOVE: usize = 1;
+
+/// Rows of padding below the lattice.
+const PADDING_ROWS_BELOW: usize = 2;
+
+/// Columns of padding to the left of the lattice.
+const PADDING_COLUMNS_LEFT: usize = 2;
+
+/// Columns of padding to the right of the lattice.
+const PADDING_COLUMNS_RIGHT: usize = 4;
 
 /// A padded lattice of `rows × cols` vertices.
 ///
 /// Coarse vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`, and every other fine vertex is the
 /// midpoint of a coarse edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Grid {
+pub(super) struct PaddedLattice {
     rows: usize,
     cols: usize,
 }
 
-/// Offsets to the neighbours in the rows above and below; those in the row itself are ±1.
+/// Offsets of a cell's neighbours in the rows above and below. Those in its own row are ±1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Offsets {
     pub north_west: isize,
@@ -27,7 +33,7 @@ pub(super) struct Offsets {
 }
 
 impl Offsets {
-    /// W, E, NW, NE, SW, SE.
+    /// Offsets of the six neighbours, in the order W, E, NW, NE, SW, SE.
     pub(super) fn all(self) -> [isize; 6] {
         [
             -1,
@@ -40,14 +46,14 @@ impl Offsets {
     }
 }
 
-impl Grid {
+impl PaddedLattice {
     pub(super) fn new(rows: usize, cols: usize) -> Self {
-        Grid { rows, cols }
+        PaddedLattice { rows, cols }
     }
 
-    /// The grid of twice the spacing, large enough for every fine triangle to lie in one of its.
+    /// The lattice of twice the spacing, large enough for every fine triangle to lie in a coarse one.
     pub(super) fn coarse(self) -> Self {
-        Grid::new(self.rows / 2 + 1, self.cols / 2 + 2)
+        PaddedLattice::new(self.rows / 2 + 1, self.cols / 2 + 2)
     }
 
     pub(super) fn rows(self) -> usize {
@@ -58,23 +64,27 @@ impl Grid {
         self.cols
     }
 
-    /// Cells from one row to the next.
+    /// Number of cells from one row to the next.
     pub(super) fn stride(self) -> usize {
-        LEFT + self.cols + RIGHT
+        PADDING_COLUMNS_LEFT + self.cols + PADDING_COLUMNS_RIGHT
     }
 
-    /// Cells with padding.
+    /// Number of cells, padding included.
     pub(super) fn cells(self) -> usize {
-        (TOP + self.rows + BOTTOM) * self.stride()
+        (PADDING_ROWS_ABOVE + self.rows + PADDING_ROWS_BELOW) * self.stride()
     }
 
+    /// The cell of a vertex.
     pub(super) fn cell(self, row: usize, col: usize) -> usize {
-        (row + TOP) * self.stride() + col + LEFT
+        (row + PADDING_ROWS_ABOVE) * self.stride() + col + PADDING_COLUMNS_LEFT
     }
 
-    /// Row and column of a cell that is not padding.
+    /// Row and column of the vertex of a cell that is not padding.
     pub(super) fn vertex(self, cell: usize) -> (usize, usize) {
-        (cell / self.stride() - TOP, cell % self.stride() - LEFT)
+        (
+            cell / self.stride() - PADDING_ROWS_ABOVE,
+            cell % self.stride() - PADDING_COLUMNS_LEFT,
+        )
     }
 
     /// The cells of a row without padding.
@@ -83,7 +93,7 @@ impl Grid {
         start..start + self.cols
     }
 
-    /// Offsets from the cells of a row.
+    /// Offsets of the neighbours of the cells of a row.
     pub(super) fn offsets(self, row: usize) -> Offsets {
         let stride = self.stride() as isize;
         // On odd rows, which are shifted to the left, the eastern neighbours have the same column.
@@ -96,9 +106,9 @@ impl Grid {
         }
     }
 
-    /// The cell of this grid at the coarse vertex `(row, col)`, which may be a padding cell.
-    pub(super) fn below(self, row: usize, col: usize) -> usize {
-        (2 * row + TOP) * self.stride() + 2 * col + LEFT - row % 2
+    /// The cell of this lattice at a vertex of the [coarse](PaddedLattice::coarse) one, which may be padding.
+    pub(super) fn cell_of_coarse(self, row: usize, col: usize) -> usize {
+        (2 * row + PADDING_ROWS_ABOVE) * self.stride() + 2 * col + PADDING_COLUMNS_LEFT - row % 2
     }
 }
 
@@ -110,11 +120,11 @@ mod tests {
     #[test]
     fn coarse_vertices_and_all_their_neighbours_have_cells() {
         for (rows, cols) in [(1, 1), (2, 3), (7, 4), (12, 9), (13, 16)] {
-            let fine = Grid::new(rows, cols);
+            let fine = PaddedLattice::new(rows, cols);
             let coarse = fine.coarse();
             for row in 0..coarse.rows() {
                 for col in 0..coarse.cols() {
-                    let cell = fine.below(row, col) as isize;
+                    let cell = fine.cell_of_coarse(row, col) as isize;
                     // Coarse rows are even fine rows.
                     for offset in fine.offsets(2 * row).all() {
                         assert!((0..fine.cells() as isize).contains(&(cell + offset)));
@@ -127,7 +137,7 @@ mod tests {
     #[test]
     fn offsets_are_those_of_the_lattice() {
         let lattice = Lattice::new(6, 7, 1.0).unwrap();
-        let grid = Grid::new(6, 7);
+        let grid = PaddedLattice::new(6, 7);
         for row in 0..6 {
             for col in 0..7 {
                 let neighbours = lattice.neighbours(row, col);

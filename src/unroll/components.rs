@@ -1,14 +1,16 @@
-//! The connected parts of a surface, each turned and moved to lie as it is seen from above.
+//! The connected components of a surface, each laid upright.
 
-use super::pieces::Point;
+use super::flat_triangle::Point;
 use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 use crate::scene::triangulation::Triangulation;
 
-/// The part of each vertex of a triangulation, and how many there are: vertices are in one part if
-/// triangles lead from one to the other. The part with the most vertices comes first, the others
-/// in the order of their first vertices.
-pub(super) fn parts(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
+/// The number of each vertex's connected component, and the number of components. The component with the most
+/// vertices is 0; the others are in the order of their first vertices.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub(super) fn components(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
     let vertices = mesh.vertices().len();
     let mut sets = UnionFind::new("parts of the surface", vertices)?;
     for [a, b, c] in mesh.triangles() {
@@ -39,9 +41,14 @@ pub(super) fn parts(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
     Ok((numbers, sizes.len()))
 }
 
-/// Turns and moves each part to where it is seen from above, as nearly as it goes: the least sum of
-/// squared distances from the plan view.
-pub(super) fn lay_upright(mesh: &Triangulation, parts: &[u32], count: usize, places: &mut [Point]) {
+/// Rotates and translates each component to its place in the view from above, by least squares (the Procrustes problem
+/// without scaling).
+pub(super) fn align_to_plan(
+    mesh: &Triangulation,
+    parts: &[u32],
+    count: usize,
+    places: &mut [Point],
+) {
     #[derive(Clone, Copy, Default)]
     struct Sums {
         vertices: f64,
@@ -95,7 +102,7 @@ mod tests {
             )
             .unwrap();
         let mesh = Triangulation::new(&field, &Frame::default()).unwrap();
-        let (parts, count) = parts(&mesh).unwrap();
+        let (parts, count) = components(&mesh).unwrap();
         assert_eq!(count, 2);
         assert_eq!(parts[0], 1, "the one to the left is smaller");
         let turns = [Point::from_polar(1.0, 2.0), Point::from_polar(1.0, -0.7)];
@@ -103,7 +110,7 @@ mod tests {
         let mut places: Vec<Point> = (0..parts.len())
             .map(|i| turns[parts[i] as usize] * plan(i) + Point::new(3.0, 1.0))
             .collect();
-        lay_upright(&mesh, &parts, count, &mut places);
+        align_to_plan(&mesh, &parts, count, &mut places);
         for (i, place) in places.iter().enumerate() {
             assert!((place - plan(i)).norm() < 1e-12);
         }

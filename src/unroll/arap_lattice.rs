@@ -1,0 +1,64 @@
+//! Heightfields laid flat as rigidly as possible, with a multigrid global step.
+
+use super::flat_triangle::Point;
+use super::laplacian::Laplacian;
+use super::lattice_triangles::LatticeTriangles;
+use super::local_global::Iteration;
+use super::multigrid::GlobalStep;
+use crate::error::{Result, try_filled};
+use crate::math::lanes;
+
+/// Conjugate-gradient iterations in each global step. With a V-cycle each two are nearly exact; the rest of the residual is
+/// in the next step's right-hand side.
+const CG_ITERATIONS: usize = 2;
+
+/// A layout is given up while its energy is above this multiple of the one that is wanted.
+const HOPELESS_ENERGY_FACTOR: f64 = 2.5;
+
+/// A layout is given up if a step changes its energy by less than this share.
+const STALLED_RELATIVE_CHANGE: f64 = 0.01;
+
+/// Number of steps that are made before a layout may be given up.
+const MIN_STEPS_BEFORE_GIVING_UP: usize = 6;
+
+/// When to stop laying a heightfield flat.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// Change of the energy over the area in one iteration, below which the layout has converged.
+    pub tolerance: f64,
+    pub max_iterations: usize,
+    /// Energy over area that is wanted: a layout that stalls well above it is given up. Infinite for no such limit.
+    pub wanted_energy: f64,
+}
+
+/// Moves the vertices from given positions, in units of the spacing, to those with the least energy.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub(super) fn minimise_energy(
+    triangles: &LatticeTriangles,
+    positions: &mut [Point],
+    limits: Limits,
+) -> Result<Iteration<Point>> {
+    let mut global_step = GlobalStep::new(Laplacian::new(triangles)?)?;
+    let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
+    let mut iteration = Iteration::new(positions)?;
+    while iteration.steps < limits.max_iterations {
+        let energy = triangles.energy(positions, &mut descent) / triangles.area;
+        let converges = iteration.converges(energy, limits.tolerance);
+        let stalls = iteration.steps > MIN_STEPS_BEFORE_GIVING_UP
+            && iteration.decrease.abs() < STALLED_RELATIVE_CHANGE * energy;
+        if converges || stalls && energy > HOPELESS_ENERGY_FACTOR * limits.wanted_energy {
+            break;
+        }
+        let [right_x, right_y] = global_step.right_hand_side_mut();
+        for ((x, y), descent) in right_x.iter_mut().zip(right_y).zip(&descent) {
+            (*x, *y) = (lanes::single(descent.re), lanes::single(descent.im));
+        }
+        let [x, y] = global_step.solve(CG_ITERATIONS);
+        let point = |(x, y): (&f32, &f32)| Point::new(lanes::double(*x), lanes::double(*y));
+        iteration.advance(positions, x.iter().zip(y).map(point));
+    }
+    iteration.finish(positions);
+    Ok(iteration)
+}

@@ -1,0 +1,189 @@
+//! A triangle of a surface laid flat by itself, and how it is rotated best (the local step).
+//!
+//! Points of the plane are complex numbers, and rotations complex numbers of modulus 1.
+
+use std::iter::Sum;
+use std::ops::{Add, Mul, Sub, SubAssign};
+
+use nalgebra::{Complex, Vector3};
+
+/// A point of the plane.
+pub(crate) type Point = Complex<f64>;
+
+/// A position of a vertex in the plane or in space.
+pub(super) trait Position:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + SubAssign + Mul<f64, Output = Self> + Sum
+{
+    fn squared_norm(self) -> f64;
+
+    /// The local step of one triangle: its energy `area · ‖J − R‖²` for the best rotation `R`. Adds minus half the
+    /// energy's gradient to `descent`.
+    fn local_step(
+        triangle: &FlatTriangle,
+        positions: &[Self],
+        descent: &mut [Self],
+        corners: [usize; 3],
+    ) -> f64;
+}
+
+/// A triangle in the plane with counter-clockwise corners: the first at 0, the second on the positive real axis. All
+/// fields are 0 where there is no triangle, so that it weighs nothing.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct FlatTriangle {
+    /// Position of the second corner on the real axis.
+    pub(super) second: f64,
+    /// Position of the third corner.
+    pub(super) third: Point,
+    /// Half the cotangents of the angles opposite the edges 1–2, 2–3 and 3–1.
+    pub(super) weights: [f64; 3],
+}
+
+impl FlatTriangle {
+    /// The triangle above one of a lattice of spacing 1, from the differences of height along its edges 1–2 and 1–3.
+    pub(super) fn from_rises(rise2: f64, rise3: f64) -> Self {
+        // In plan the edges are unit vectors at 60°.
+        let (square2, square3) = (1.0 + rise2 * rise2, 1.0 + rise3 * rise3);
+        let dot = 0.5 + rise2 * rise3;
+        let second = square2.sqrt();
+        // Twice the area: no cancellation, unlike `square2 · square3 − dot²`.
+        let doubled = (0.75 + rise2 * rise2 + rise3 * rise3 - rise2 * rise3).sqrt();
+        let half = 0.5 / doubled;
+        FlatTriangle {
+            second,
+            third: Point::new(dot / second, doubled / second),
+            weights: [square3 - dot, dot, square2 - dot].map(|cosine| half * cosine),
+        }
+    }
+
+    /// The triangle between three points in space, in their unit; all 0 if it has no area.
+    pub(crate) fn from_points([a, b, c]: [[f64; 3]; 3]) -> Self {
+        let edge = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|k| q[k] - p[k]);
+        let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        let (ab, ac) = (edge(a, b), edge(a, c));
+        let (square2, square3, cosine) = (dot(ab, ab), dot(ac, ac), dot(ab, ac));
+        let cross = [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            ab[i] * ac[j] - ab[j] * ac[i]
+        });
+        let doubled = dot(cross, cross).sqrt();
+        if !(doubled > 0.0 && doubled.is_finite()) {
+            return FlatTriangle::default();
+        }
+        let (second, half) = (square2.sqrt(), 0.5 / doubled);
+        FlatTriangle {
+            second,
+            third: Point::new(cosine / second, doubled / second),
+            weights: [square3 - cosine, cosine, square2 - cosine].map(|c| half * c),
+        }
+    }
+
+    pub(crate) fn exists(&self) -> bool {
+        self.second > 0.0
+    }
+
+    /// The third corner where the first one is at 0 and the second one at 1.
+    pub(crate) fn third_corner(&self) -> Point {
+        self.third / self.second
+    }
+
+    pub(crate) fn area(&self) -> f64 {
+        0.5 * self.second * self.third.im
+    }
+
+    /// Singular values `[σ₁, σ₂]` of the linear map from this triangle to three points of the plane; `σ₂` is negative
+    /// where the map turns the triangle over.
+    pub(crate) fn singular_values(&self, [a, b, c]: [Point; 3]) -> [f64; 2] {
+        // The map is e ↦ αe + βē.
+        let sum = (b - a) / self.second;
+        let difference = ((c - a) - sum * self.third.re) / Point::new(0.0, self.third.im);
+        let (alpha, beta) = (
+            0.5 * (sum + difference).norm(),
+            0.5 * (sum - difference).norm(),
+        );
+        [alpha + beta, alpha - beta]
+    }
+}
+
+impl Position for Point {
+    fn squared_norm(self) -> f64 {
+        self.norm_sqr()
+    }
+
+    #[inline(always)]
+    fn local_step(
+        triangle: &FlatTriangle,
+        places: &[Self],
+        descent: &mut [Self],
+        [a, b, c]: [usize; 3],
+    ) -> f64 {
+        let [wab, wbc, wca] = triangle.weights;
+        let (ab, ac) = (places[b] - places[a], places[c] - places[a]);
+        let bc = ac - ab;
+        let own_bc = triangle.third - triangle.second;
+        // The best rotation: the direction of the weighted correlation of the edges.
+        let correlation = ab * (wab * triangle.second)
+            + bc * own_bc.conj() * wbc
+            + ac * triangle.third.conj() * wca;
+        let square = correlation.norm_sqr();
+        let turn = if square > 0.0 {
+            correlation * (1.0 / square.sqrt())
+        } else {
+            Point::new(1.0, 0.0)
+        };
+        let (dab, dbc, dac) = (
+            turn * triangle.second - ab,
+            turn * own_bc - bc,
+            turn * triangle.third - ac,
+        );
+        let (pab, pbc, pac) = (dab * wab, dbc * wbc, dac * wca);
+        descent[a] -= pab + pac;
+        descent[b] += pab - pbc;
+        descent[c] += pac + pbc;
+        wab * dab.norm_sqr() + wbc * dbc.norm_sqr() + wca * dac.norm_sqr()
+    }
+}
+
+impl Position for Vector3<f64> {
+    fn squared_norm(self) -> f64 {
+        self.norm_squared()
+    }
+
+    fn local_step(
+        triangle: &FlatTriangle,
+        places: &[Self],
+        descent: &mut [Self],
+        [a, b, c]: [usize; 3],
+    ) -> f64 {
+        // ‖J − R‖² is smallest for the polar factor of the edges' correlation.
+        let [wab, wbc, wca] = triangle.weights;
+        let (ab, ac) = (places[b] - places[a], places[c] - places[a]);
+        let bc = ac - ab;
+        let own_bc = triangle.third - triangle.second;
+        let first =
+            ab * (wab * triangle.second) + bc * (wbc * own_bc.re) + ac * (wca * triangle.third.re);
+        let second = bc * (wbc * own_bc.im) + ac * (wca * triangle.third.im);
+        let (p, q, r) = (
+            first.norm_squared(),
+            first.dot(&second),
+            second.norm_squared(),
+        );
+        // The root of the symmetric 2×2 matrix, and its inverse.
+        let root = (p * r - q * q).max(0.0).sqrt();
+        let trace = (p + r + 2.0 * root).sqrt();
+        let (s, t, u) = ((p + root) / trace, q / trace, (r + root) / trace);
+        let determinant = s * u - t * t;
+        if !(determinant > 0.0 && determinant.is_finite()) {
+            return 0.0;
+        }
+        let right = (first * u - second * t) / determinant;
+        let up = (second * s - first * t) / determinant;
+        let dab = right * triangle.second - ab;
+        let dbc = right * own_bc.re + up * own_bc.im - bc;
+        let dac = right * triangle.third.re + up * triangle.third.im - ac;
+        let (pab, pbc, pac) = (dab * wab, dbc * wbc, dac * wca);
+        descent[a] -= pab + pac;
+        descent[b] += pab - pbc;
+        descent[c] += pac + pbc;
+        wab * dab.norm_squared() + wbc * dbc.norm_squared() + wca * dac.norm_squared()
+    }
+}

@@ -1,21 +1,22 @@
-//! The part of a photo that is wanted, cut out straight.
+//! Cropping of a flat image to a polygon in the photo.
 
 use std::ops::Range;
 
 use super::WarpMap;
-use super::turn::skew_of;
+use super::deskew::polygon_skew;
 use crate::error::{Error, Result};
 use crate::math::planar::polygon_contains;
 use crate::scene::region::check_crop;
 
-/// How far beyond its border the sheet goes on, as a share of the longer side of what is wanted.
-const BEYOND: f64 = 0.06;
+/// Maximum distance by which the sheet is continued beyond its border, as a share of the longer side of the cropped image.
+/// Limits how much of a flat image is extrapolated.
+const MAX_CONTINUATION_SHARE: f64 = 0.06;
 
 impl WarpMap {
-    /// The map of what lies within a polygon in the photo, given by its corners in pixels, `[0, 0]`
+    /// Crops the map to a polygon in the photo, given by its corners in pixels, `[0, 0]`
     /// the centre of the upper left one. The sheet is continued to the polygon's sides, by up to 6 % of
-    /// what is wanted, and the flat image ends there, with straight edges; it is no
-    /// larger than it has to be. Costs `O(pixels · corners)`.
+    /// the cropped image's longer side, and the flat image ends there, with straight edges; it is the smallest one that
+    /// holds the polygon. Costs `O(pixels · corners)`.
     ///
     /// # Errors
     /// [`Error::Option`] for fewer than three corners or one that is not finite,
@@ -24,14 +25,13 @@ impl WarpMap {
         self.cut(Some(polygon), false, false)
     }
 
-    /// The map as it is wanted: [cropped](WarpMap::crop), turned upright (`deskew`), and a clean rectangle
-    /// (`trim`).
+    /// [Crops](WarpMap::crop) the map, turns it upright (`deskew`), and cuts it to a rectangle without margins (`trim`).
     ///
-    /// Upright are the sides of the polygon as far as that goes, or else the smallest rectangle around the
-    /// sheet; lengths of [`corner`](WarpMap::corner) are then in axes turned about the sheet's origin. The
-    /// rectangle of a polygon with four corners, such as those of a page, is the one whose sides pass
-    /// through the middles between two of them: the sheet fills it whether its edges are seen straight
-    /// or bent. Of others it is the largest upright one that is all sheet.
+    /// Deskewing turns the sides of the polygon upright, on average, or without a polygon the smallest rectangle around the
+    /// sheet; [`corner`](WarpMap::corner) is then in axes turned about the sheet's origin. Trimming to a polygon with four
+    /// corners, such as those of a page, gives the rectangle whose sides pass
+    /// through the midpoints between two corners: the sheet fills it whether its edges are seen straight
+    /// or bent. Otherwise it gives the largest upright rectangle within the sheet.
     ///
     /// # Errors
     /// Those of [`WarpMap::crop`].
@@ -41,31 +41,31 @@ impl WarpMap {
             let map = if angle == 0.0 {
                 self
             } else {
-                self.turned(angle)?
+                self.rotated(angle)?
             };
             return if trim { map.trimmed() } else { Ok(map) };
         };
         check_crop(polygon)?;
         let mut map = self;
         let [rows, cols] = map.bounds(polygon)?;
-        let margin = (BEYOND * rows.len().max(cols.len()) as f64).ceil() as usize;
+        let margin = (MAX_CONTINUATION_SHARE * rows.len().max(cols.len()) as f64).ceil() as usize;
         let near = |range: Range<usize>, end: usize| {
             range.start.saturating_sub(margin)..(range.end + margin).min(end)
         };
         let (rows, cols) = (near(rows, map.height()), near(cols, map.width()));
-        map.keep(rows, cols)?;
-        map = map.continued(margin)?;
+        map.crop_to(rows, cols)?;
+        map = map.with_continued_sheet(margin)?;
         if deskew {
             let corners: Vec<_> = (polygon.iter())
                 .map(|corner| map.nearest_pixel(*corner))
                 .map(|[x, y]| [x, -y])
                 .collect();
-            map = map.turned(skew_of(&corners))?;
+            map = map.rotated(polygon_skew(&corners))?;
         }
         if trim && let [a, b, c, d] = *polygon {
-            let [rows, cols] = map.rectangle([a, b, c, d]);
+            let [rows, cols] = map.upright_rectangle([a, b, c, d]);
             if !rows.is_empty() && !cols.is_empty() {
-                map.keep(rows, cols)?;
+                map.crop_to(rows, cols)?;
                 let whole = map.places().iter().all(|place| !place[0].is_nan());
                 return if whole { Ok(map) } else { map.trimmed() };
             }
@@ -76,11 +76,11 @@ impl WarpMap {
             }
         }
         let [rows, cols] = map.bounds(polygon)?;
-        map.keep(rows, cols)?;
+        map.crop_to(rows, cols)?;
         if trim { map.trimmed() } else { Ok(map) }
     }
 
-    /// The rows and columns in which places are within the polygon.
+    /// Rows and columns of the flat image with places inside a polygon in the photo.
     fn bounds(&self, polygon: &[[f64; 2]]) -> Result<[Range<usize>; 2]> {
         let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
@@ -104,13 +104,13 @@ impl WarpMap {
         Ok([0, 1].map(|k| first[k]..last[k]))
     }
 
-    /// The pixel whose place is nearest to one in the photo.
+    /// The pixel of the flat image whose place is nearest to one in the photo.
     fn nearest_pixel(&self, wanted: [f64; 2]) -> [f64; 2] {
         let mut best = (f64::INFINITY, [0.0; 2]);
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
             for (col, place) in line.iter().enumerate() {
                 let [x, y] = [0, 1].map(|k| f64::from(place[k]) - wanted[k]);
-                // Of NaN nothing is less.
+                // Comparisons with NaN are false.
                 if x * x + y * y < best.0 {
                     best = (x * x + y * y, [col as f64, row as f64]);
                 }
@@ -119,9 +119,9 @@ impl WarpMap {
         best.1
     }
 
-    /// The rows and columns between the sides of a quadrangle: each of these passes through the middle
-    /// between the two corners that lie farthest to that side.
-    fn rectangle(&self, corners: [[f64; 2]; 4]) -> [Range<usize>; 2] {
+    /// Rows and columns of the upright rectangle of a quadrilateral in the photo: each side passes through the midpoint
+    /// of the two corners that lie farthest to that side.
+    fn upright_rectangle(&self, corners: [[f64; 2]; 4]) -> [Range<usize>; 2] {
         let pixels = corners.map(|corner| self.nearest_pixel(corner));
         [(1, self.height()), (0, self.width())].map(|(k, end)| {
             let mut at = pixels.map(|pixel| pixel[k]);

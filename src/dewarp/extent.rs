@@ -5,7 +5,7 @@ use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
 use crate::math::lanes;
 
-/// The part of the plane that a photo shows, in the surface's units.
+/// The rectangle of the plane that a photo from straight above shows, in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
     /// Lower left corner.
@@ -15,9 +15,8 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// That of the pixels of a height image: the photo shows the same, with as many pixels as it
-    /// likes.
-    pub fn of(image: &HeightImage) -> Self {
+    /// The extent of a height image. The photo may have another number of pixels.
+    pub fn from_image(image: &HeightImage) -> Self {
         let [width, height] = [image.width(), image.height()].map(|n| n as f64);
         Extent {
             min: [0.0, 0.0],
@@ -25,8 +24,8 @@ impl Extent {
         }
     }
 
-    /// That of a lattice, from its vertices' least to its largest coordinates.
-    pub fn of_lattice(field: &Heightfield) -> Self {
+    /// The extent of a heightfield's vertices.
+    pub fn from_heightfield(field: &Heightfield) -> Self {
         let lattice = field.lattice();
         let [left, top] = lattice.origin();
         let shift = if lattice.rows() > 1 { 0.5 } else { 0.0 };
@@ -40,7 +39,7 @@ impl Extent {
     }
 
     /// Texture coordinates of each vertex of a lattice: its place in the photo, as shares from the
-    /// left and from the bottom. What lies beside the photo has the place nearest to it.
+    /// left and from the bottom. Vertices outside of the extent have the nearest place in it.
     ///
     /// # Errors
     /// [`Error::Empty`] for an extent without area, [`Error::OutOfMemory`].
@@ -55,7 +54,10 @@ impl Extent {
         Ok(uvs)
     }
 
-    /// Width and height, of which there has to be some.
+    /// Width and height, in the surface's units.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without an area.
     pub(crate) fn sides(&self) -> Result<[f64; 2]> {
         let sides = [0, 1].map(|k| self.max[k] - self.min[k]);
         if sides.iter().all(|side| side.is_finite() && *side > 0.0) {

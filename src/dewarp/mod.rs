@@ -1,10 +1,10 @@
-//! Photos of bent pages made flat: resampled along the [unrolled](mod@super::unroll) surface.
+//! Dewarping: photos of bent pages made flat by the [unrolled](mod@super::unroll) surface.
 //!
-//! A [`Registration`] says where in the photo the surface's points are: photo and heights were both
+//! The photo can be registered to the surface in three ways ([`Registration`]): photo and heights were both
 //! taken straight from above ([`Extent`]), a camera took the photo, or there are texture coordinates.
 //! The flat image has
-//! the sheet's true proportions, stays upright, and is transparent where there is no sheet. The
-//! [`WarpMap`] is an output too: it carries coordinates from the flat image back to the photo.
+//! the sheet's true proportions, is upright, and is transparent where there is no sheet. The
+//! [`WarpMap`] is an output too: it maps each pixel of the flat image to its place in the photo.
 //!
 //! ```
 //! use developable::dewarp::{DewarpOptions, Extent, Photo, WarpMap};
@@ -19,7 +19,7 @@
 //!
 //! let sheet = unroll(&scan.to_lattice(None)?, &UnrollOptions::default())?;
 //! let options = DewarpOptions::default().trim(true);
-//! let map = WarpMap::new(&sheet, Extent::of(&scan), [width, height], &options)?;
+//! let map = WarpMap::new(&sheet, Extent::from_image(&scan), [width, height], &options)?;
 //! // A slope of 45° is √2 times as long as it looks: 39 pixels are 55, less a cell at the margins.
 //! assert!((51..57).contains(&map.width()), "{}", map.width());
 //! let flat = map.image(&photo)?; // RGBA bytes, row by row
@@ -28,24 +28,24 @@
 //! # }
 //! ```
 
+mod continuation;
 mod crop;
-mod extend;
+mod deskew;
 mod extent;
-mod grid;
-mod local;
-mod map;
+mod largest_rectangle;
+mod local_quadratic;
 mod options;
 mod photo;
 mod raster;
 mod registration;
-mod trim;
-mod turn;
 mod verdict;
+mod warp_grid;
+mod warp_map;
 
 pub use extent::Extent;
-pub use grid::WarpGrid;
-pub use map::WarpMap;
 pub use options::DewarpOptions;
 pub use photo::{Photo, paint};
 pub use registration::Registration;
 pub use verdict::Verdict;
+pub use warp_grid::WarpGrid;
+pub use warp_map::WarpMap;

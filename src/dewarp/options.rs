@@ -1,12 +1,12 @@
-//! Options of making photos flat.
+//! Options of dewarping.
 
-/// What of a flat image is wanted.
+/// Options of dewarping: resolution and margins of the flat image.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct DewarpOptions {
-    /// Pixels of the flat image per unit of length. `None`: as many as the photo has.
+    /// Resolution of the flat image, in pixels per unit of length. `None`: the mean resolution of the photo.
     pub dots: Option<f64>,
-    /// Cut off the margins: keep the largest upright rectangle that is all sheet. Default false.
+    /// Crop the flat image to the largest upright rectangle within the sheet. Default false.
     pub trim: bool,
 }
 
@@ -19,7 +19,7 @@ impl DewarpOptions {
         }
     }
 
-    /// These options with margins cut off, or not.
+    /// These options with or without cropping of the margins.
     pub fn trim(self, trim: bool) -> Self {
         DewarpOptions { trim, ..self }
     }

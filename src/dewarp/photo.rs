@@ -1,8 +1,8 @@
-//! A photo, and what colour it has between its pixels.
+//! A photo and its resampling.
 
 use crate::error::{Error, Result, check_shape};
 
-/// RGBA bytes of an image, row by row, top row first.
+/// A photo: RGBA bytes, row by row, top row first.
 #[derive(Debug, Clone, Copy)]
 pub struct Photo<'a> {
     width: usize,
@@ -10,8 +10,11 @@ pub struct Photo<'a> {
     rgba: &'a [u8],
 }
 
-/// Most samples along each side of a pixel.
-const FINEST: f32 = 8.0;
+/// Maximum number of samples along each side of a pixel of the flat image. Limits the cost where the photo is much finer.
+const MAX_SAMPLES_PER_PIXEL_SIDE: f32 = 8.0;
+
+/// Square of the longest side, in pixels of the photo, of a pixel of the flat image that takes a single sample along it.
+const MAX_SINGLE_SAMPLE_SQUARED_SIDE: f32 = 2.25;
 
 impl<'a> Photo<'a> {
     /// A photo from its bytes, four for each pixel.
@@ -55,9 +58,9 @@ impl<'a> Photo<'a> {
         self.rgba
     }
 
-    /// The colour, from 0 to 1, at texture coordinates: from the left and from the bottom, and over
-    /// and over again beyond 0 and 1. Between pixels it is bilinear. Nothing where the photo is
-    /// transparent, or a coordinate is no number.
+    /// Colour, from 0 to 1, at texture coordinates, which count from the left and from the bottom. The photo repeats
+    /// beyond 0 and 1; colours between pixels are bilinear. None where the photo is
+    /// transparent or a coordinate is not finite.
     pub fn color(&self, uv: [f32; 2]) -> Option<[f32; 3]> {
         let within = |v: f32| {
             if (0.0..=1.0).contains(&v) {
@@ -72,20 +75,19 @@ impl<'a> Photo<'a> {
         (a > 0.0).then(|| [r, g, b].map(|value| value / a / 255.0))
     }
 
-    /// The mean colour of the parallelogram around a place that two steps span, in pixels; `[0, 0]`
-    /// is the centre of the upper left one. Transparent outside of the photo.
+    /// Mean colour, as RGBA bytes, of the parallelogram around a place that two steps span, in pixels; `[0, 0]`
+    /// is the centre of the upper left pixel. Transparent outside of the photo.
     pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {
         let samples = |[dx, dy]: [f32; 2]| {
             let square = dx * dx + dy * dy;
-            // Up to a length of 1.5, the usual case, there is one.
-            match square < 2.25 {
+            match square < MAX_SINGLE_SAMPLE_SQUARED_SIDE {
                 true => 1.0,
-                false => square.sqrt().round().min(FINEST),
+                false => square.sqrt().round().min(MAX_SAMPLES_PER_PIXEL_SIDE),
             }
         };
         let [m, n] = [samples(across), samples(down)];
         if m * n == 1.0 {
-            return bytes(self.bilinear([x, y]), 1.0);
+            return to_bytes(self.bilinear([x, y]), 1.0);
         }
         let mut sum = [0.0f32; 4];
         for j in 0..n as usize {
@@ -99,11 +101,11 @@ impl<'a> Photo<'a> {
                 }
             }
         }
-        bytes(sum, m * n)
+        to_bytes(sum, m * n)
     }
 
-    /// Colour between four pixels, times its alpha, which goes up to 255. Up to half a pixel
-    /// beyond the outermost centres the photo goes on as it ends there.
+    /// Bilinear colour at a place, premultiplied by alpha, which is from 0 to 255. Up to half a pixel
+    /// beyond the outermost centres the photo has the colour at its border.
     fn bilinear(&self, [x, y]: [f32; 2]) -> [f32; 4] {
         let [right, bottom] = [self.width, self.height].map(|n| n as f32 - 0.5);
         if !((-0.5..=right).contains(&x) && (-0.5..=bottom).contains(&y)) {
@@ -135,8 +137,8 @@ impl<'a> Photo<'a> {
     }
 }
 
-/// A colour times its alpha, summed over so many samples.
-fn bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
+/// RGBA bytes of premultiplied colours that were summed over some samples.
+fn to_bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
     if a <= 0.0 {
         return [0; 4];
     }
@@ -145,8 +147,8 @@ fn bytes([r, g, b, a]: [f32; 4], samples: f32) -> [u8; 4] {
     [byte(r / a), byte(g / a), byte(b / a), byte(a / samples)]
 }
 
-/// Colours for vertices with texture coordinates, from the photo that these are about. Where it is
-/// transparent they stay as they are, and so do vertices that are not `wanted`.
+/// Colours vertices by their texture coordinates in a photo. Colours of vertices stay where the photo is
+/// transparent, and where `wanted` is false.
 ///
 /// # Panics
 /// If there are not as many colours as texture coordinates.

@@ -1,8 +1,15 @@
-//! Whether a flat image is to be trusted.
+//! Verdicts on flat images.
 
 use crate::unroll::UnrollReport;
 
-/// Whether a flat image is to be trusted, in a word.
+/// Maximum root mean square strain of the view from above for a surface that is called flat: 0.2 % is half a millimetre on a
+/// page of A4.
+const MAX_FLAT_STRAIN: f64 = 0.002;
+
+/// Maximum root mean square strain of a layout that is called unrolled: lengths are wrong by 1 %, 2 mm on a page of A4.
+const MAX_UNROLLED_STRAIN: f64 = 0.01;
+
+/// Verdict on a flat image: whether it can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -21,16 +28,13 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// From how a surface was unrolled: flat if the view from above is true to 0.2 % already;
-    /// stretched from strains of 1 % on, or where the layout overlaps or is flipped.
-    pub fn of(report: &UnrollReport) -> Self {
-        /// Root mean squares of the strains.
-        const FLAT: f64 = 0.002;
-        const STRETCHED: f64 = 0.01;
+    /// Verdict by the strain of an unrolled surface: stretched above a root mean square strain of 1 %, and if the layout
+    /// overlaps or has flipped triangles; flat if the view from above has a strain below 0.2 %; else unrolled.
+    pub fn from_report(report: &UnrollReport) -> Self {
         let sheet = report.distortion;
-        if sheet.rms > STRETCHED || sheet.flipped > 0 || report.crossings > 0 {
+        if sheet.rms > MAX_UNROLLED_STRAIN || sheet.flipped > 0 || report.crossings > 0 {
             Verdict::Stretched
-        } else if report.plan.rms < FLAT {
+        } else if report.plan.rms < MAX_FLAT_STRAIN {
             Verdict::Flat
         } else {
             Verdict::Unrolled

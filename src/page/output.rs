@@ -139,7 +139,7 @@ impl CurledPage {
                 *place = seen.map(lanes::single);
             }
         }
-        Ok(WarpMap::of_places(
+        Ok(WarpMap::from_places(
             [width, height],
             resolution,
             [0.0, size[1]],

@@ -12,7 +12,7 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
-use crate::shape::patches::extend::extended;
+use crate::shape::patches::extrapolate::extrapolated_height;
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::{UnrollOptions, unroll_mesh};
 
@@ -215,7 +215,7 @@ impl Leaf {
             if of[k] == patch {
                 *height = z;
             } else if !z.is_nan() && beside() {
-                let own = extended(surface, of, patch, k);
+                let own = extrapolated_height(surface, of, patch, k);
                 // A step between parts of one patch is a tear, too.
                 let near = (z - own).abs() <= TORN * whole.spacing();
                 let goes_on = labels.are_one(of[k], patch) && (near || own.is_nan());

@@ -349,7 +349,7 @@ impl<'a> Frame<'a> {
 /// A lattice's vertices with half a spacing around them: pixels of the spacing's size have their
 /// centres on the even rows' vertices.
 fn around(surface: &Heightfield) -> Extent {
-    let mut extent = Extent::of_lattice(surface);
+    let mut extent = Extent::from_heightfield(surface);
     let half = 0.5 * surface.lattice().spacing();
     extent.min = [surface.lattice().origin()[0] - half, extent.min[1] - half];
     extent.max = extent.max.map(|end| end + half);

@@ -136,7 +136,7 @@ fn holes_are_transparent_and_the_rest_is_opaque_up_to_its_border() {
     for (spacing, scale) in [(None, 1), (None, 3), (Some(2.0), 1), (Some(0.7), 1)] {
         let surface = image.to_lattice(spacing).unwrap();
         let options = PictureOptions::default()
-            .extent(Extent::of(&image))
+            .extent(Extent::from_image(&image))
             .width(scale * width);
         for style in [Style::shaded(), Style::curvature(), Style::patches()] {
             let picture = Picture::new(&surface, &options.style(style)).unwrap();
@@ -169,7 +169,7 @@ fn an_island_ends_where_its_vertices_do() {
     });
     let image = HeightImage::new(width, height, values.collect()).unwrap();
     let surface = image.to_lattice(None).unwrap();
-    let options = PictureOptions::default().extent(Extent::of(&image));
+    let options = PictureOptions::default().extent(Extent::from_image(&image));
     for scale in [1, 4] {
         let picture = Picture::new(&surface, &options.width(scale * width)).unwrap();
         for (i, pixel) in pixels(&picture).enumerate() {

@@ -1,4 +1,4 @@
-//! What a surface is like: its curvatures, its creases and patches, its rulings.
+//! Properties of a surface: curvatures, creases and patches, rulings.
 
 pub mod analysis;
 pub mod patches;

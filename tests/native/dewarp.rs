@@ -128,7 +128,7 @@ fn lines_on_the_page_are_straight_and_evenly_spaced_in_the_flat_image() {
 fn a_word_tells_whether_to_trust_it() {
     let verdict = |f: fn(f64, f64) -> f64| {
         let sheet = unroll(&unit_square(60, f), &UnrollOptions::default()).unwrap();
-        Verdict::of(sheet.report())
+        Verdict::from_report(sheet.report())
     };
     assert_eq!(verdict(|x, y| 0.01 * x - 0.02 * y), Verdict::Flat);
     assert_eq!(

@@ -248,7 +248,7 @@ fn a_photo_of_an_image_has_the_same_outline() {
     let image = HeightImage::new(4, 4, vec![0.0; 16]).unwrap();
     let image = image.with_pixel_size(0.5).unwrap();
     let field = image.to_lattice(None).unwrap();
-    let uvs = Extent::of(&image).uvs(field.lattice()).unwrap();
+    let uvs = Extent::from_image(&image).uvs(field.lattice()).unwrap();
     for (i, [u, v]) in uvs.iter().enumerate() {
         let cols = field.lattice().cols();
         let [x, y] = field.lattice().position(i / cols, i % cols);

@@ -16,13 +16,13 @@ use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
-use crate::shape::patches::crease::lines;
+use crate::shape::patches::crease::crease_lines;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
 /// An edge by its vertices, the lower one first; a vertex by itself, twice; a triangle by its
 /// number and that of no vertex. All in the numbers of the whole surface's mesh.
-pub(super) type Node = crate::shape::patches::crease::Node;
+pub(super) type Node = crate::shape::patches::crease::CreaseNode;
 
 /// Where four patches meet, there are two nodes of three each, this far apart at most, in spacings.
 pub(super) const SPECK: f64 = 3.0;
@@ -100,7 +100,9 @@ impl Net {
             ends: FxHashMap::default(),
             on_seams: FxHashMap::default(),
         };
-        for (crease, (patches, nodes)) in lines(&net.mesh, &labels.of).into_iter().enumerate() {
+        for (crease, (patches, nodes)) in
+            crease_lines(&net.mesh, &labels.of).into_iter().enumerate()
+        {
             let smooth = labels.are_one(patches[0], patches[1]);
             net.add_seam(crease, patches, smooth, nodes);
         }

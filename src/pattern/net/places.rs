@@ -2,7 +2,7 @@
 
 use super::{Net, Node, is_triangle};
 use crate::pattern::leaf::Leaf;
-use crate::shape::patches::crease::smoothed;
+use crate::shape::patches::crease::smooth_polyline;
 use crate::unroll::arap_mesh::BarycentricPoint;
 use crate::unroll::flat_triangle::Point;
 
@@ -67,7 +67,7 @@ impl Net {
             1.0
         };
         for _ in 0..times as usize {
-            line = smoothed(line);
+            line = smooth_polyline(line);
         }
         line.into_iter().map(|[x, y]| Point::new(x, y)).collect()
     }

@@ -1,4 +1,4 @@
-//! Curvature at the vertices, discrete and from the best-fit Hessian.
+//! Curvatures of a heightfield: discrete ones, and those of the best-fit Hessian.
 
 use std::f64::consts::TAU;
 
@@ -9,26 +9,26 @@ use crate::lattice::hessian::HessianOperator;
 use crate::lattice::hexagonal::ROW;
 use crate::math::sym2::Sym2;
 
-/// Fields at the vertices of a surface, row by row as its heights: NaN where a vertex or one of its
+/// Curvatures at the vertices of a heightfield, row by row; NaN where a vertex or one of its
 /// six neighbours has no height. Units are the surface's own: `1/length`, and `1/length²` for
 /// `gaussian`.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Curvatures {
     /// Discrete Gaussian curvature: the angle deficit `2π − Σ angles` over the lumped area, a third
-    /// of that of the six triangles ([paper](crate#references), Sec. 5.4). The surface's own,
-    /// slopes included.
+    /// of the area of the six triangles ([paper](crate#references), Sec. 5.4). It is that of the surface in space,
+    /// not of the Hessian.
     pub gaussian: Vec<f64>,
     /// `κ₁`: the eigenvalue of larger magnitude of the best-fit Hessian.
     pub kappa1: Vec<f64>,
-    /// `κ₂`: the eigenvalue of smaller magnitude, which the energy wants to vanish.
+    /// `κ₂`: the eigenvalue of smaller magnitude, which vanishes on developable surfaces.
     pub kappa2: Vec<f64>,
-    /// `‖H‖_* = |κ₁| + |κ₂|`: the energy's density.
+    /// Nuclear norm of the Hessian, `‖H‖_* = |κ₁| + |κ₂|`.
     pub nuclear_norm: Vec<f64>,
 }
 
 impl Curvatures {
-    /// The curvatures of a surface; costs `O(vertices)`.
+    /// The curvatures of a heightfield; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::NoInterior`](crate::Error::NoInterior) if no vertex has all six neighbours,
@@ -47,7 +47,7 @@ impl Curvatures {
         let hessians = operator.apply(surface.heights());
         for ((row, col), hessian) in operator.vertices().zip(&hessians) {
             let i = lattice.index(row, col);
-            let [kappa1, kappa2] = by_magnitude(*hessian);
+            let [kappa1, kappa2] = eigenvalues_by_magnitude(*hessian);
             fields.kappa1[i] = kappa1;
             fields.kappa2[i] = kappa2;
             fields.nuclear_norm[i] = hessian.nuclear_norm();
@@ -57,14 +57,14 @@ impl Curvatures {
                     surface.height(r, c) - surface.height(row, col)
                 })
             });
-            fields.gaussian[i] = gaussian(ring, lattice.spacing());
+            fields.gaussian[i] = gaussian_curvature(ring, lattice.spacing());
         }
         Ok(fields)
     }
 }
 
-/// The eigenvalues, that of larger magnitude first.
-pub(super) fn by_magnitude(hessian: Sym2) -> [f64; 2] {
+/// Eigenvalues of a matrix, the one of larger magnitude first.
+pub(super) fn eigenvalues_by_magnitude(hessian: Sym2) -> [f64; 2] {
     let [high, low] = hessian.eigenvalues();
     if high.abs() >= low.abs() {
         [high, low]
@@ -73,9 +73,9 @@ pub(super) fn by_magnitude(hessian: Sym2) -> [f64; 2] {
     }
 }
 
-/// Angle deficit over lumped area, from the heights of the neighbours W, E, NW, NE, SW, SE above
-/// the vertex.
-fn gaussian([w, e, nw, ne, sw, se]: [f64; 6], spacing: f64) -> f64 {
+/// Discrete Gaussian curvature: the angle deficit over the lumped area, from the heights of the neighbours W, E, NW, NE, SW,
+/// SE above the vertex.
+fn gaussian_curvature([w, e, nw, ne, sw, se]: [f64; 6], spacing: f64) -> f64 {
     // In units of the spacing, once around.
     let edges = [
         [1.0, 0.0, e],

@@ -1,11 +1,11 @@
-//! Curvatures of a mesh as it is.
+//! Curvatures of a mesh.
 
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::curvature::by_magnitude;
-use super::summary::{Measured, Summary};
+use super::curvature::eigenvalues_by_magnitude;
+use super::summary::{CurvatureMagnitudes, Summary};
 use crate::error::{Result, positive, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
 use crate::fit::mesh::linear::fit_at;
@@ -13,25 +13,24 @@ use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
 
-/// Fields at the vertices of a mesh, NaN where triangles do not go all around one. Units are the mesh's own:
-/// `1/length`, and `1/length²` for `gaussian`. Curvatures are above 0 where the surface bends away from the
-/// side that its triangles face, as a ball does.
+/// Curvatures at the vertices of a mesh; NaN on the border. Units are the mesh's own:
+/// `1/length`, and `1/length²` for `gaussian`. `κ₁` and `κ₂` are positive on a ball whose triangles face outwards.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshCurvatures {
-    /// Discrete Gaussian curvature: the angle deficit `2π − Σ angles` over a third of the area of the
-    /// triangles around.
+    /// Discrete Gaussian curvature: the angle deficit `2π − Σ angles` over the lumped area, a third of the area of the
+    /// triangles around a vertex.
     pub gaussian: Vec<f64>,
-    /// `κ₁`: the eigenvalue of larger magnitude of the second fundamental form, by the quadratic that fits the
-    /// vertices around best.
+    /// `κ₁`: the eigenvalue of larger magnitude of the second fundamental form of the least-squares
+    /// quadratic at a vertex.
     pub kappa1: Vec<f64>,
-    /// `κ₂`: the eigenvalue of smaller magnitude, which the energy wants to vanish.
+    /// `κ₂`: the eigenvalue of smaller magnitude, which vanishes on developable surfaces.
     pub kappa2: Vec<f64>,
-    /// `‖II‖_* = |κ₁| + |κ₂|`: the energy's density.
+    /// Nuclear norm of the second fundamental form, `‖II‖_* = |κ₁| + |κ₂|`.
     pub nuclear_norm: Vec<f64>,
-    /// The direction in which it bends by `κ₂`, a unit vector up to its sign: that of the ruling, where there
-    /// is one.
+    /// Principal direction of `κ₂`, a unit vector up to its sign: the direction of the ruling on a developable surface.
     pub rulings: Vec<[f64; 3]>,
+    /// Lumped areas; 0 on the border.
     areas: Vec<f64>,
 }
 
@@ -47,7 +46,7 @@ impl MeshCurvatures {
         let place = |vertex: &u32| Vector3::from(mesh.positions()[*vertex as usize]);
         let places: Vec<_> = topology.source.iter().map(place).collect();
         let up = normals(&topology, &places, None);
-        let (turns, areas) = turns_and_areas(&topology, &places);
+        let (turns, areas) = angles_and_areas(&topology, &places);
         let count = mesh.positions().len();
         let blank = || try_filled("curvatures", count, f64::NAN);
         let mut fields = MeshCurvatures {
@@ -77,7 +76,7 @@ impl MeshCurvatures {
             };
             // Heights over the tangent plane fall where the surface bends away.
             let bend = fit.hessian().scale(-1.0);
-            let ([k1, k2], along) = (by_magnitude(bend), weaker(bend));
+            let ([k1, k2], along) = (eigenvalues_by_magnitude(bend), minor_eigenvector(bend));
             fields.kappa1[i] = k1;
             fields.kappa2[i] = k2;
             fields.nuclear_norm[i] = k1.abs() + k2.abs();
@@ -87,6 +86,7 @@ impl MeshCurvatures {
         Ok(fields)
     }
 
+    /// Copies the curvatures of one vertex to another one at the same place.
     fn copy(&mut self, from: usize, to: usize) {
         let fields = [
             &mut self.gaussian,
@@ -100,9 +100,9 @@ impl MeshCurvatures {
         self.rulings[to] = self.rulings[from];
     }
 
-    /// The figures, in coordinates in which the ball about the mesh has the diameter 1, as λ is stated in for
-    /// meshes: [`Summary::size`] is that diameter. The sum of the nuclear norms is by area, in vertices of the
-    /// mean area.
+    /// Statistics of the curvatures, in coordinates in which the ball around the mesh has the diameter 1, as λ of
+    /// meshes: [`Summary::size`] is that diameter. Nuclear norms are summed by area, in units of the mean lumped area of a
+    /// vertex.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) unless the threshold is positive and finite,
@@ -121,7 +121,7 @@ impl MeshCurvatures {
         let shares = there
             .iter()
             .map(|i| self.nuclear_norm[*i] / scale * self.areas[*i] / mean);
-        Ok(Summary::of(Measured {
+        Ok(Summary::from_magnitudes(CurvatureMagnitudes {
             gaussian: magnitudes(&self.gaussian, scale * scale),
             kappa2: magnitudes(&self.kappa2, scale),
             nuclear_norm: shares.filter(|share| !share.is_nan()).sum(),
@@ -131,8 +131,8 @@ impl MeshCurvatures {
     }
 }
 
-/// The eigenvector of the eigenvalue of smaller magnitude.
-fn weaker(bend: Sym2) -> [f64; 2] {
+/// Unit eigenvector of the eigenvalue of smaller magnitude.
+fn minor_eigenvector(bend: Sym2) -> [f64; 2] {
     let [xx, xy, yy] = bend.entries();
     // The direction of the higher eigenvalue is half the angle of (xx − yy, 2xy).
     let high = 0.5 * (2.0 * xy).atan2(xx - yy);
@@ -144,8 +144,8 @@ fn weaker(bend: Sym2) -> [f64; 2] {
     }
 }
 
-/// The angles around each vertex, and a third of the area.
-fn turns_and_areas(topology: &Topology, places: &[Vector3<f64>]) -> (Vec<f64>, Vec<f64>) {
+/// Sum of the angles at each vertex, in radians, and its lumped area.
+fn angles_and_areas(topology: &Topology, places: &[Vector3<f64>]) -> (Vec<f64>, Vec<f64>) {
     let (mut turns, mut areas) = (vec![0.0; places.len()], vec![0.0; places.len()]);
     for corners in &topology.triangles {
         let [a, b, c] = corners.map(|v| places[v as usize]);

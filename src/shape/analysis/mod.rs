@@ -1,8 +1,8 @@
-//! How developable a surface is, and how that is told ([paper](crate#references), Sec. 5.4,
+//! Measures of how developable a surface is ([paper](crate#references), Sec. 5.4,
 //! Fig. 25 and Table 1).
 //!
-//! [`Curvatures`] are fields at the lattice's vertices; a [`Summary`] is what they come to,
-//! comparable between surfaces of any size; [`Deviation`] is how far one surface is from another.
+//! [`Curvatures`] are fields at the lattice's vertices; a [`Summary`] has their statistics,
+//! comparable between surfaces of any size; [`Deviation`] is the distance of one surface from another.
 //!
 //! ```
 //! use developable::analysis::{Curvatures, Summary};
@@ -28,4 +28,4 @@ mod summary;
 
 pub use curvature::Curvatures;
 pub use mesh::MeshCurvatures;
-pub use summary::{Deviation, Histogram, Summary, THRESHOLD};
+pub use summary::{DEFAULT_GAUSSIAN_THRESHOLD, Deviation, Histogram, Summary};

@@ -1,18 +1,17 @@
-//! Fields in figures.
+//! Statistics of curvatures, and deviations between surfaces.
 
 use super::curvature::Curvatures;
 use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::normalization::Normalization;
 
-/// The Gaussian curvature, in normalised coordinates, from which on a vertex counts as curved in
-/// two directions, unless another one is asked for: that of a sphere whose radius is the longer
-/// side of the surface.
-pub const THRESHOLD: f64 = 1.0;
+/// Default threshold of the Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts as
+/// curved in two directions: the curvature of a sphere whose radius is the longer side of the surface.
+pub const DEFAULT_GAUSSIAN_THRESHOLD: f64 = 1.0;
 
-/// What the curvatures of a surface come to: one row of the [paper](crate#references)'s Table 1.
+/// Statistics of a surface's curvatures, as in one row of the [paper](crate#references)'s Table 1.
 ///
-/// All in coordinates scaled to the unit square, as λ is, so that surfaces of any size compare:
+/// Curvatures are in coordinates scaled to the unit square, as λ is, so that surfaces of any size compare:
 /// `κ` times the longer side, `K` times its square.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
@@ -22,11 +21,11 @@ pub const THRESHOLD: f64 = 1.0;
 )]
 #[non_exhaustive]
 pub struct Summary {
-    /// Vertices that have curvatures.
+    /// Number of vertices that have curvatures.
     pub vertices: usize,
-    /// The longer side of the surface seen from above, in its own units.
+    /// Longer side of the surface seen from above, in its own units; of a mesh the diameter of the ball around it.
     pub size: f64,
-    /// The `|K|` above which a vertex counts.
+    /// Threshold of `|K|` for [`Summary::gaussian_above`].
     pub threshold: f64,
     /// Share of the vertices with `|K|` above the threshold, from 0 to 1.
     pub gaussian_above: f64,
@@ -36,27 +35,26 @@ pub struct Summary {
     pub median_kappa2: f64,
     /// Sum of `‖H‖_*` over the vertices: the energy without its fidelity term.
     pub nuclear_norm: f64,
-    /// How often which `|K|` occurs.
+    /// Histogram of `|K|`.
     pub gaussian: Histogram,
-    /// How often which `|κ₂|` occurs.
+    /// Histogram of `|κ₂|`.
     pub kappa2: Histogram,
 }
 
-/// How often magnitudes occur, in bins of half a decade that are always the same, so that
-/// histograms compare.
+/// Histogram of magnitudes in bins of half a decade, which are the same for all surfaces.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Histogram {
-    /// Where bins end, ascending: bin `i` holds the magnitudes from `edges[i − 1]` up to, but
-    /// without, `edges[i]`; the first one all below, and the last one, which has no end, all above.
+    /// Upper ends of the bins, ascending: bin `i` counts magnitudes from `edges[i − 1]` to below
+    /// `edges[i]`, the first bin all smaller ones, and the last bin, which has no upper end, all larger ones.
     pub edges: Vec<f64>,
-    /// Number of vertices in each bin, one bin more than edges.
+    /// Number of vertices in each bin; there is one bin more than edges.
     pub counts: Vec<usize>,
 }
 
 impl Summary {
-    /// The figures of a surface whose curvatures are given. Costs `O(vertices)`.
+    /// Statistics of the curvatures of a heightfield. Costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Option`] unless the threshold is positive and finite, [`Error::Shape`] if the
@@ -64,13 +62,13 @@ impl Summary {
     pub fn new(surface: &Heightfield, curvatures: &Curvatures, threshold: f64) -> Result<Self> {
         let threshold = positive("threshold", threshold)?;
         let lattice = surface.lattice();
-        same_shape(lattice.len(), surface, curvatures.gaussian.len())?;
+        check_same_shape(lattice.len(), surface, curvatures.gaussian.len())?;
         let scale = Normalization::UnitSquare.factor(surface);
         let magnitudes = |field: &[f64], factor: f64| -> Vec<f64> {
             let there = field.iter().filter(|value| !value.is_nan());
             there.map(|value| value.abs() / factor).collect()
         };
-        Ok(Summary::of(Measured {
+        Ok(Summary::from_magnitudes(CurvatureMagnitudes {
             gaussian: magnitudes(&curvatures.gaussian, scale * scale),
             kappa2: magnitudes(&curvatures.kappa2, scale),
             nuclear_norm: magnitudes(&curvatures.nuclear_norm, scale).iter().sum(),
@@ -79,8 +77,9 @@ impl Summary {
         }))
     }
 
-    pub(super) fn of(measured: Measured) -> Self {
-        let Measured {
+    /// Statistics of magnitudes of curvatures.
+    pub(super) fn from_magnitudes(measured: CurvatureMagnitudes) -> Self {
+        let CurvatureMagnitudes {
             mut gaussian,
             mut kappa2,
             nuclear_norm,
@@ -94,16 +93,16 @@ impl Summary {
             threshold,
             gaussian_above: above as f64 / gaussian.len().max(1) as f64,
             nuclear_norm,
-            gaussian: Histogram::of(&gaussian),
-            kappa2: Histogram::of(&kappa2),
+            gaussian: Histogram::from_magnitudes(&gaussian),
+            kappa2: Histogram::from_magnitudes(&kappa2),
             median_gaussian: median(&mut gaussian),
             median_kappa2: median(&mut kappa2),
         }
     }
 }
 
-/// Magnitudes of curvatures, in normalised coordinates.
-pub(super) struct Measured {
+/// Magnitudes of curvatures in coordinates scaled to the unit square, and the fields of [`Summary`] that come with them.
+pub(super) struct CurvatureMagnitudes {
     pub gaussian: Vec<f64>,
     pub kappa2: Vec<f64>,
     pub nuclear_norm: f64,
@@ -112,11 +111,14 @@ pub(super) struct Measured {
 }
 
 impl Histogram {
-    fn of(magnitudes: &[f64]) -> Self {
-        /// From a hundred-thousandth to a million, in half decades.
-        const BINS: i32 = 22;
-        let edges: Vec<f64> = (0..=BINS)
-            .map(|i| 10f64.powf(0.5 * f64::from(i) - 5.0))
+    /// The histogram of magnitudes.
+    fn from_magnitudes(magnitudes: &[f64]) -> Self {
+        /// Number of bins with two ends: half decades from 10⁻⁵ to 10⁶.
+        const BOUNDED_BINS: i32 = 22;
+        /// Exponent of ten of the lowest edge between the bins of a histogram.
+        const LOWEST_EDGE_EXPONENT: f64 = -5.0;
+        let edges: Vec<f64> = (0..=BOUNDED_BINS)
+            .map(|i| 10f64.powf(0.5 * f64::from(i) + LOWEST_EDGE_EXPONENT))
             .collect();
         let mut counts = vec![0; edges.len() + 1];
         for value in magnitudes {
@@ -126,27 +128,27 @@ impl Histogram {
     }
 }
 
-/// How far a surface is from another one on the same lattice, in their units, over the vertices
+/// Deviation of a surface from another one on the same lattice, in their units, over the vertices
 /// where both have a height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Deviation {
-    /// Number of these vertices.
+    /// Number of vertices where both surfaces have a height.
     pub vertices: usize,
-    /// Root of the mean square of the difference.
+    /// Root mean square of the differences of height.
     pub rms: f64,
-    /// Largest difference.
+    /// Largest difference of height.
     pub maximum: f64,
 }
 
 impl Deviation {
-    /// Between two surfaces; costs `O(vertices)`.
+    /// The deviation between two surfaces; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::Shape`] if their lattices have different shapes.
     pub fn between(a: &Heightfield, b: &Heightfield) -> Result<Self> {
-        same_shape(a.lattice().len(), a, b.heights().len())?;
+        check_same_shape(a.lattice().len(), a, b.heights().len())?;
         let pairs = a.heights().iter().zip(b.heights());
         let differences = pairs.map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan());
         let (mut vertices, mut squares, mut maximum) = (0, 0.0, 0.0f64);
@@ -163,7 +165,8 @@ impl Deviation {
     }
 }
 
-fn same_shape(expected: usize, surface: &Heightfield, found: usize) -> Result<()> {
+/// Checks that a field has the number of values that a surface has.
+fn check_same_shape(expected: usize, surface: &Heightfield, found: usize) -> Result<()> {
     if expected == found {
         return Ok(());
     }
@@ -176,7 +179,7 @@ fn same_shape(expected: usize, surface: &Heightfield, found: usize) -> Result<()
     })
 }
 
-/// The middle one of some numbers, the higher of two; NaN of none. Linear cost.
+/// Median of numbers, the higher of two in the middle; NaN if there are none. Costs `O(n)`.
 fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() {
@@ -223,7 +226,7 @@ mod tests {
     #[test]
     fn every_vertex_is_in_one_bin() {
         let magnitudes = [0.0, 1e-5, 0.9, 1.0, 1.1, 5.0, 1e9];
-        let histogram = Histogram::of(&magnitudes);
+        let histogram = Histogram::from_magnitudes(&magnitudes);
         assert_eq!(histogram.counts.iter().sum::<usize>(), magnitudes.len());
         assert_eq!(
             (histogram.counts[0], *histogram.counts.last().unwrap()),

@@ -1,17 +1,17 @@
-//! Edges put together to lines.
+//! Polylines from edges.
 
 use std::collections::BTreeMap;
 
-/// Edges one after the other.
+/// A polyline of consecutive edges.
 pub(crate) struct Chain {
-    /// The first one again at the end of a closed line.
+    /// Vertices along it; the last one is the first one if it is closed.
     pub vertices: Vec<u32>,
-    /// Their numbers among the edges that were given.
+    /// Numbers of its edges in the list that was given.
     pub edges: Vec<usize>,
 }
 
-/// The lines that edges make up: they end where one or more than two meet, and at each vertex that is an
-/// `end` besides.
+/// Joins edges to polylines. These end at vertices with one edge or more than two, and at each vertex for which `end` is
+/// true. Costs `O(n log n)`.
 pub(crate) fn chains(edges: &[[u32; 2]], end: impl Fn(u32) -> bool) -> Vec<Chain> {
     let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (number, ends) in edges.iter().enumerate() {
@@ -23,7 +23,7 @@ pub(crate) fn chains(edges: &[[u32; 2]], end: impl Fn(u32) -> bool) -> Vec<Chain
     let mut found = Vec::new();
     let ending = at.iter().filter(|(v, edges)| edges.len() != 2 || end(**v));
     let starts: Vec<u32> = ending.map(|(vertex, _)| *vertex).collect();
-    // Whatever is left after the lines with ends is closed.
+    // All that is left after the lines with ends is closed.
     for start in starts.into_iter().chain(edges.iter().map(|[a, _]| *a)) {
         while let Some(first) = at[&start].iter().copied().find(|edge| !used[*edge]) {
             let mut chain = Chain {

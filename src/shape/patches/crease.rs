@@ -1,52 +1,55 @@
-//! The lines between patches: where they run, how long they are and by which angle they fold.
+//! Creases of a heightfield: their courses, lengths and fold angles.
 
 use std::collections::BTreeMap;
 
-use super::bend::Bend;
+use super::bend_angles::BendAngles;
 use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
+use crate::math::index::NO_INDEX;
 use crate::scene::triangulation::Triangulation;
 
-/// A line between two patches.
+/// A crease: a curve along which two patches meet.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Crease {
-    /// The patches on either side, the lower number first.
+    /// Numbers of the patches on either side, the lower one first.
     pub patches: [u32; 2],
-    /// Its course on the surface, in the surface's units, smoothed along itself. Closed if the
-    /// last point is the first.
+    /// Points along the crease, in the surface's units, smoothed. The crease is closed if the last point is the first.
     pub points: Vec<[f64; 3]>,
-    /// Its length.
+    /// Length, in the surface's units.
     pub length: f64,
-    /// The angle between the normals of the two patches beside it, in radians, on average along
-    /// it: 0 where the surface is smooth.
+    /// Fold angle, in radians: between the normals of the patches on either side, on average along the crease; 0 where
+    /// the surface is smooth.
     pub fold: f64,
 }
 
-/// How often a line is smoothed: the lattice's zigzag goes, its course stays.
-const SMOOTHING: usize = 8;
+/// Number of smoothing passes of a crease: enough to remove the lattice's zigzag.
+const SMOOTHING_PASSES: usize = 8;
 
-/// An edge of the lattice between two patches, by the mesh's vertices, the lower one first; or a
-/// triangle between three, by its number and that of no vertex.
-pub(crate) type Node = (u32, u32);
+/// A node of a crease: the midpoint of an edge between two patches, by its two vertices, the lower number first; or the
+/// centre of a triangle between three patches, by its number and [`NO_INDEX`].
+pub(crate) type CreaseNode = (u32, u32);
 
-/// The nodes along each crease and the patches beside it, in the order of [`creases`].
-pub(crate) fn lines(mesh: &Triangulation, labels: &[u32]) -> Vec<([u32; 2], Vec<Node>)> {
+/// The patches on either side of each crease and the nodes along it, in the order of [`creases`].
+pub(crate) fn crease_lines(
+    mesh: &Triangulation,
+    labels: &[u32],
+) -> Vec<([u32; 2], Vec<CreaseNode>)> {
     let label = |vertex: u32| labels[mesh.vertices()[vertex as usize] as usize];
-    // For each pair of patches what its nodes are joined to.
-    let mut lines: BTreeMap<[u32; 2], BTreeMap<Node, Vec<Node>>> = BTreeMap::new();
+    // For each pair of patches the neighbours of each node.
+    let mut lines: BTreeMap<[u32; 2], BTreeMap<CreaseNode, Vec<CreaseNode>>> = BTreeMap::new();
     for (number, [a, b, c]) in mesh.triangles().iter().enumerate() {
         let crossed: Vec<(u32, u32)> = [(*a, *b), (*b, *c), (*c, *a)]
             .into_iter()
             .filter(|(p, q)| label(*p) != label(*q))
             .map(|(p, q)| (p.min(q), p.max(q)))
             .collect();
-        let pair = |(p, q): Node| {
+        let pair = |(p, q): CreaseNode| {
             let (p, q) = (label(p), label(q));
             [p.min(q), p.max(q)]
         };
-        let mut join = |patches: [u32; 2], from: Node, to: Node| {
+        let mut join = |patches: [u32; 2], from: CreaseNode, to: CreaseNode| {
             let line = lines.entry(patches).or_default();
             line.entry(from).or_default().push(to);
             line.entry(to).or_default().push(from);
@@ -55,7 +58,7 @@ pub(crate) fn lines(mesh: &Triangulation, labels: &[u32]) -> Vec<([u32; 2], Vec<
             [one, other] => join(pair(one), one, other),
             [_, _, _] => {
                 for edge in crossed {
-                    join(pair(edge), edge, (number as u32, u32::MAX));
+                    join(pair(edge), edge, (number as u32, NO_INDEX));
                 }
             }
             _ => {}
@@ -66,28 +69,34 @@ pub(crate) fn lines(mesh: &Triangulation, labels: &[u32]) -> Vec<([u32; 2], Vec<
         if patches[1] == NO_PATCH {
             continue;
         }
-        while let Some(nodes) = chain(&mut line) {
+        while let Some(nodes) = take_polyline(&mut line) {
             out.push((patches, nodes));
         }
     }
     out
 }
 
+/// The creases of a segmented heightfield.
 pub(super) fn creases(
     surface: &Heightfield,
     mesh: &Triangulation,
-    bend: &Bend,
+    bend: &BendAngles,
     labels: &[u32],
 ) -> Vec<Crease> {
-    let crease = |(patches, nodes): ([u32; 2], Vec<Node>)| {
-        let points = smoothed(nodes.iter().map(|node| point(mesh, *node)).collect());
+    let crease = |(patches, nodes): ([u32; 2], Vec<CreaseNode>)| {
+        let points = smooth_polyline(
+            nodes
+                .iter()
+                .map(|node| node_position(mesh, *node))
+                .collect(),
+        );
         let length = points.windows(2).map(|p| distance(p[0], p[1])).sum();
         let folds = nodes
             .iter()
-            .filter(|(_, q)| *q != u32::MAX)
+            .filter(|(_, q)| *q != NO_INDEX)
             .filter_map(|(p, q)| {
                 let ends = [p, q].map(|v| mesh.vertices()[*v as usize] as usize);
-                bend.fold(surface.lattice(), labels, ends)
+                bend.fold_angle(surface.lattice(), labels, ends)
             });
         let (sum, count) = folds.fold((0.0, 0.0), |(sum, n), fold| (sum + fold, n + 1.0));
         Crease {
@@ -97,11 +106,11 @@ pub(super) fn creases(
             fold: if count > 0.0 { sum / count } else { 0.0 },
         }
     };
-    lines(mesh, labels).into_iter().map(crease).collect()
+    crease_lines(mesh, labels).into_iter().map(crease).collect()
 }
 
-/// Takes one line off: from one end to the other, or around.
-fn chain(line: &mut BTreeMap<Node, Vec<Node>>) -> Option<Vec<Node>> {
+/// Removes one polyline, from one end to the other or closed, from a graph of nodes.
+fn take_polyline(line: &mut BTreeMap<CreaseNode, Vec<CreaseNode>>) -> Option<Vec<CreaseNode>> {
     let end = line.iter().find(|(_, joined)| joined.len() == 1);
     let mut here = *end.or_else(|| line.iter().next())?.0;
     let mut nodes = vec![here];
@@ -123,10 +132,10 @@ fn chain(line: &mut BTreeMap<Node, Vec<Node>>) -> Option<Vec<Node>> {
     Some(nodes)
 }
 
-/// The middle of an edge or of a triangle.
-fn point(mesh: &Triangulation, (p, q): Node) -> [f64; 3] {
+/// Position of a node: the midpoint of an edge, or the centre of a triangle.
+fn node_position(mesh: &Triangulation, (p, q): CreaseNode) -> [f64; 3] {
     let at = |v: u32| mesh.positions()[v as usize];
-    if q == u32::MAX {
+    if q == NO_INDEX {
         let corners = mesh.triangles()[p as usize].map(at);
         return [0, 1, 2].map(|k| corners.iter().map(|c| c[k]).sum::<f64>() / 3.0);
     }
@@ -134,11 +143,11 @@ fn point(mesh: &Triangulation, (p, q): Node) -> [f64; 3] {
     [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
 }
 
-/// Points along a line, smoothed but for its ends; closed if the last one is the first.
-pub(crate) fn smoothed<const N: usize>(mut points: Vec<[f64; N]>) -> Vec<[f64; N]> {
+/// Smooths a polyline and keeps its ends; it is closed if the last point is the first.
+pub(crate) fn smooth_polyline<const N: usize>(mut points: Vec<[f64; N]>) -> Vec<[f64; N]> {
     let n = points.len();
     let closed = n > 3 && points[0] == points[n - 1];
-    for _ in 0..SMOOTHING {
+    for _ in 0..SMOOTHING_PASSES {
         let last = points.clone();
         let mean = |a: [f64; N], b: [f64; N], c: [f64; N]| {
             std::array::from_fn(|k| 0.25 * a[k] + 0.5 * b[k] + 0.25 * c[k])

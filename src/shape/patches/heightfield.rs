@@ -1,10 +1,10 @@
 //! The patches of a heightfield.
 
-use super::bend::Bend;
+use super::bend_angles::BendAngles;
 use super::crease::{Crease, creases};
-use super::extend::settle;
-use super::flood::regions;
-use super::merge::merge;
+use super::extrapolate::reassign_border_vertices;
+use super::flood_fill::segment;
+use super::merge::merge_patches;
 use super::options::PatchOptions;
 use super::patch::{NO_PATCH, Patch};
 use crate::error::{Error, Result, check_shape, positive, try_filled};
@@ -13,7 +13,7 @@ use crate::lattice::hexagonal::Lattice;
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
-/// A surface cut along its creases.
+/// The patches of a heightfield and the creases between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patches {
     lattice: Lattice,
@@ -24,7 +24,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Looks for the patches of a surface; costs `O(n log n)` for `n` vertices.
+    /// The patches of a heightfield; costs `O(n log n)` for `n` vertices.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) for an angle that is not positive and finite or a
@@ -38,19 +38,19 @@ impl Patches {
                 "must be from 0 to 1",
             ));
         }
-        let bend = Bend::new(surface)?;
+        let bend = BendAngles::new(surface)?;
         let high = match options.bend {
             Some(bend) => positive("bend", bend)?,
-            None => bend.usual_threshold(),
+            None => bend.default_crease_bend(),
         };
         let fold = positive("fold", options.fold)?;
-        let mut labels = regions(surface, &bend, high)?;
+        let mut labels = segment(surface, &bend, high)?;
         let valid = labels.iter().filter(|label| **label != NO_PATCH).count();
-        let least = options.smallest * valid as f64;
-        merge(surface.lattice(), &bend, fold, least, &mut labels);
-        settle(surface, &bend, &mut labels);
+        let min_vertices = options.smallest * valid as f64;
+        merge_patches(surface.lattice(), &bend, fold, min_vertices, &mut labels);
+        reassign_border_vertices(surface, &bend, &mut labels);
         let mesh = Triangulation::new(surface, &Frame::default())?;
-        let (patches, _) = sorted(&mesh, &mut labels)?;
+        let (patches, _) = number_by_area(&mesh, &mut labels)?;
         let creases = creases(surface, &mesh, &bend, &labels);
         Ok(Patches {
             lattice: *surface.lattice(),
@@ -61,16 +61,18 @@ impl Patches {
         })
     }
 
-    /// The same for a surface with other patches, by the labels of its vertices; these are numbered anew
-    /// by their areas, and the second is what number each had.
+    /// Patches with other labels of the vertices, in the order of their areas, and the former number of each.
+    ///
+    /// # Errors
+    /// Those of [`Patches::new`].
     pub(crate) fn divided(
         &self,
         surface: &Heightfield,
         mut labels: Vec<u32>,
     ) -> Result<(Self, Vec<usize>)> {
-        let bend = Bend::new(surface)?;
+        let bend = BendAngles::new(surface)?;
         let mesh = Triangulation::new(surface, &Frame::default())?;
-        let (patches, order) = sorted(&mesh, &mut labels)?;
+        let (patches, order) = number_by_area(&mesh, &mut labels)?;
         let creases = creases(surface, &mesh, &bend, &labels);
         let divided = Patches {
             lattice: *surface.lattice(),
@@ -82,21 +84,20 @@ impl Patches {
         Ok((divided, order))
     }
 
-    /// The area of a surface.
+    /// Area of a heightfield's surface, in its units squared.
     pub(crate) fn area(surface: &Heightfield) -> Result<f64> {
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let mut labels = vec![0; surface.heights().len()];
-        let (patches, _) = sorted(&mesh, &mut labels)?;
+        let (patches, _) = number_by_area(&mesh, &mut labels)?;
         Ok(patches.iter().map(|patch| patch.area).sum())
     }
 
-    /// The patch of each vertex, row by row; [`NO_PATCH`] where there is none.
+    /// Number of the patch of each vertex, row by row; [`NO_PATCH`] where there is none.
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
 
-    /// Whether they may be those of a surface: its lattice, and patches where it has heights and
-    /// nowhere else.
+    /// Checks that patches belong to a surface: they are on its lattice, and a vertex has a patch where it has a height.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) or [`Error::Mismatch`](crate::Error::Mismatch).
@@ -117,24 +118,24 @@ impl Patches {
         }
     }
 
-    /// The patches, that with the largest area first.
+    /// The patches, in the order of their areas, the largest first.
     pub fn patches(&self) -> &[Patch] {
         &self.patches
     }
 
-    /// The creases between them.
+    /// The creases between the patches.
     pub fn creases(&self) -> &[Crease] {
         &self.creases
     }
 
-    /// The angle that counted as a crease, in radians from one vertex to the next.
+    /// Bend angle above which a vertex counted as crease, in radians from one vertex to the next.
     pub fn bend(&self) -> f64 {
         self.bend
     }
 }
 
-/// Measures the patches, and numbers them anew by their areas; the second is what number each had.
-fn sorted(mesh: &Triangulation, labels: &mut [u32]) -> Result<(Vec<Patch>, Vec<usize>)> {
+/// Measures the patches and numbers them by their areas. Returns them and the former number of each.
+fn number_by_area(mesh: &Triangulation, labels: &mut [u32]) -> Result<(Vec<Patch>, Vec<usize>)> {
     let count = labels.iter().filter(|label| **label != NO_PATCH).max();
     let count = count.map_or(0, |label| *label as usize + 1);
     let blank = Patch {

@@ -1,36 +1,41 @@
-//! Patches that no fold parts become one.
+//! Merging of patches across borders that are no creases.
 //!
-//! A surface that was solved from noise bends along few of its rulings and hardly in between, so
-//! that bands run where there is no crease. What tells the two apart is the angle between what lies
-//! on either side.
+//! A surface that was fitted to noise bends along few of its rulings and hardly in between, so
+//! that it is segmented where there is no crease. A crease has a fold angle between the patches on either side.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use super::bend::{ASIDE, Bend};
+use super::bend_angles::{BendAngles, NORMAL_DISTANCE_VERTICES};
 use super::patch::NO_PATCH;
 use crate::lattice::hexagonal::{Lattice, Towards};
 
-/// A border between patches that bend by themselves is none unless it folds by as many times more
-/// than either bends over the same distance.
-const TIMES: f64 = 2.0;
+/// Minimum ratio of a crease's fold angle to the angle by which the flatter of the two patches bends over the same distance.
+/// Limits what is taken for a crease on surfaces that bend.
+const MIN_FOLD_PER_BEND: f64 = 2.0;
 
-/// Merges patches whose common border folds by less than `fold` on average, or hardly more than
-/// they bend by themselves, the flattest border first, until there is none; then those of fewer than `least` vertices with the neighbour across
-/// their flattest border. Numbers them from 0 again.
-pub(super) fn merge(lattice: &Lattice, bend: &Bend, fold: f64, least: f64, labels: &mut [u32]) {
-    // Angles are measured anew once patches have grown, for then they can be further from the line.
+/// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches bend,
+/// the flattest border first, until there is none; then patches of fewer than `min_vertices` with the neighbour across
+/// their flattest border. Numbers the patches from 0 again.
+pub(super) fn merge_patches(
+    lattice: &Lattice,
+    bend: &BendAngles,
+    fold: f64,
+    min_vertices: f64,
+    labels: &mut [u32],
+) {
+    // Angles are measured again after patches have been merged, for then normals can be further from the border.
     loop {
-        let mut map = Map::new(lattice, bend, fold, labels);
-        let merged = map.merge_flat();
-        map.relabel(labels);
+        let mut graph = AdjacencyGraph::new(lattice, bend, fold, labels);
+        let merged = graph.merge_flat();
+        graph.relabel(labels);
         if !merged {
             break;
         }
     }
-    let mut map = Map::new(lattice, bend, fold, labels);
-    map.merge_small(least);
-    map.relabel(labels);
+    let mut graph = AdjacencyGraph::new(lattice, bend, fold, labels);
+    graph.merge_small(min_vertices);
+    graph.relabel(labels);
     let mut numbers = BTreeMap::new();
     for label in labels.iter_mut().filter(|label| **label != NO_PATCH) {
         let next = numbers.len() as u32;
@@ -38,38 +43,39 @@ pub(super) fn merge(lattice: &Lattice, bend: &Bend, fold: f64, least: f64, label
     }
 }
 
-/// Angles along a border, summed, and their number.
-type Sums = (f64, f64);
+/// Sum of angles, in radians, and their number.
+type AngleSum = (f64, f64);
 
-/// Which patches lie beside each other.
-struct Map {
-    /// Of each patch: its neighbours.
-    beside: Vec<BTreeMap<u32, Sums>>,
-    /// Its vertices.
+/// Region adjacency graph: which patches have a common border, and by which angles it folds.
+struct AdjacencyGraph {
+    /// Neighbours of each patch, with the fold angles along the common border.
+    neighbours: Vec<BTreeMap<u32, AngleSum>>,
+    /// Number of vertices of each patch.
     sizes: Vec<usize>,
-    /// The angles by which it bends from vertex to vertex, and their number.
-    bends: Vec<Sums>,
-    /// The least angle of a border.
+    /// Bend angles of each patch from vertex to vertex.
+    bends: Vec<AngleSum>,
+    /// Minimum fold angle of a crease, in radians.
     fold: f64,
-    /// The one it has become part of, or itself.
+    /// The patch that each one was merged into, or itself.
     parents: Vec<u32>,
 }
 
-impl Map {
-    fn new(lattice: &Lattice, bend: &Bend, fold: f64, labels: &[u32]) -> Self {
+impl AdjacencyGraph {
+    /// The graph of a segmentation.
+    fn new(lattice: &Lattice, bend: &BendAngles, fold: f64, labels: &[u32]) -> Self {
         let patches = labels.iter().filter(|label| **label != NO_PATCH);
         let count = patches.max().map_or(0, |label| *label as usize + 1);
-        let mut map = Map {
-            beside: vec![BTreeMap::new(); count],
+        let mut graph = AdjacencyGraph {
+            neighbours: vec![BTreeMap::new(); count],
             sizes: vec![0; count],
             bends: vec![(0.0, 0.0); count],
             fold,
             parents: (0..count as u32).collect(),
         };
         for i in (0..labels.len()).filter(|i| labels[*i] != NO_PATCH) {
-            map.sizes[labels[i] as usize] += 1;
+            graph.sizes[labels[i] as usize] += 1;
             if !bend.angle[i].is_nan() {
-                let (sum, number) = &mut map.bends[labels[i] as usize];
+                let (sum, number) = &mut graph.bends[labels[i] as usize];
                 *sum += bend.angle[i];
                 *number += 1.0;
             }
@@ -85,22 +91,22 @@ impl Map {
                     continue;
                 }
                 // Where nothing can be measured there is no reason to merge.
-                if let Some(angle) = bend.fold(lattice, labels, [i, k]) {
+                if let Some(angle) = bend.fold_angle(lattice, labels, [i, k]) {
                     for (one, other) in [(a, b), (b, a)] {
-                        let sums = map.beside[one as usize].entry(other).or_default();
+                        let sums = graph.neighbours[one as usize].entry(other).or_default();
                         *sums = (sums.0 + angle, sums.1 + 1.0);
                     }
                 }
             }
         }
-        map
+        graph
     }
 
-    /// Whether any were flat enough.
+    /// Merges patches across flat borders. Returns whether there were any.
     fn merge_flat(&mut self) -> bool {
         let mut queue = BinaryHeap::new();
-        for (a, beside) in self.beside.iter().enumerate() {
-            for (b, sums) in beside.range(a as u32 + 1..) {
+        for (a, neighbours) in self.neighbours.iter().enumerate() {
+            for (b, sums) in neighbours.range(a as u32 + 1..) {
                 queue.push(Reverse((self.sharpness(a as u32, *b, *sums), a as u32, *b)));
             }
         }
@@ -109,12 +115,12 @@ impl Map {
             if f64::from_bits(sharpness) >= 1.0 {
                 break;
             }
-            // What has changed since was put in the queue again.
-            let sums = self.beside[a as usize].get(&b);
+            // Borders that have changed since were put in the queue again.
+            let sums = self.neighbours[a as usize].get(&b);
             if sums.is_some_and(|sums| self.sharpness(a, b, *sums) == sharpness) {
                 merged = true;
-                let kept = self.join(a, b);
-                for (other, sums) in &self.beside[kept as usize] {
+                let kept = self.merge(a, b);
+                for (other, sums) in &self.neighbours[kept as usize] {
                     queue.push(Reverse((self.sharpness(kept, *other, *sums), kept, *other)));
                 }
             }
@@ -122,45 +128,46 @@ impl Map {
         merged
     }
 
-    fn merge_small(&mut self, least: f64) {
+    /// Merges patches of fewer vertices with a neighbour.
+    fn merge_small(&mut self, min_vertices: f64) {
         let mut queue: BinaryHeap<_> = (self.sizes.iter().enumerate())
             .map(|(patch, size)| Reverse((*size, patch as u32)))
             .collect();
         while let Some(Reverse((size, patch))) = queue.pop() {
-            if size as f64 >= least {
+            if size as f64 >= min_vertices {
                 break;
             }
             let alive = self.parents[patch as usize] == patch;
             if !alive || self.sizes[patch as usize] != size {
                 continue;
             }
-            let beside = self.beside[patch as usize].iter();
-            let flattest = beside
+            let neighbours = self.neighbours[patch as usize].iter();
+            let flattest = neighbours
                 .min_by_key(|(other, sums)| self.sharpness(patch, **other, **sums))
                 .map(|(other, _)| *other);
             if let Some(other) = flattest {
-                let kept = self.join(patch, other);
+                let kept = self.merge(patch, other);
                 queue.push(Reverse((self.sizes[kept as usize], kept)));
             }
         }
     }
 
-    /// The mean angle along a border over what makes it one, as bits: positive floats are in their
+    /// Mean fold angle of a border over the minimum that makes it a crease, as the bits of a positive float, which have its
     /// order.
-    fn sharpness(&self, a: u32, b: u32, (sum, number): Sums) -> u64 {
+    fn sharpness(&self, a: u32, b: u32, (sum, number): AngleSum) -> u64 {
         let bending = |patch: u32| {
             let (sum, number) = self.bends[patch as usize];
             if number > 0.0 { sum / number } else { 0.0 }
         };
-        let distance = 2.0 * ASIDE as f64;
-        let own = TIMES * distance * bending(a).min(bending(b));
+        let distance = 2.0 * NORMAL_DISTANCE_VERTICES as f64;
+        let own = MIN_FOLD_PER_BEND * distance * bending(a).min(bending(b));
         (sum / number / own.max(self.fold)).to_bits()
     }
 
-    /// Makes two patches one and returns its number, that of the one with more neighbours.
-    fn join(&mut self, a: u32, b: u32) -> u32 {
-        let neighbours = |patch: u32| self.beside[patch as usize].len();
-        let (kept, gone) = if neighbours(a) < neighbours(b) {
+    /// Merges two patches. Returns the number that is kept: that of the patch with more neighbours.
+    fn merge(&mut self, a: u32, b: u32) -> u32 {
+        let degree = |patch: u32| self.neighbours[patch as usize].len();
+        let (kept, gone) = if degree(a) < degree(b) {
             (b, a)
         } else {
             (a, b)
@@ -170,20 +177,21 @@ impl Map {
         let (sum, number) = self.bends[gone as usize];
         let all = &mut self.bends[kept as usize];
         *all = (all.0 + sum, all.1 + number);
-        self.beside[kept as usize].remove(&gone);
-        for (other, sums) in std::mem::take(&mut self.beside[gone as usize]) {
+        self.neighbours[kept as usize].remove(&gone);
+        for (other, sums) in std::mem::take(&mut self.neighbours[gone as usize]) {
             if other == kept {
                 continue;
             }
-            self.beside[other as usize].remove(&gone);
+            self.neighbours[other as usize].remove(&gone);
             for (one, two) in [(kept, other), (other, kept)] {
-                let all = self.beside[one as usize].entry(two).or_default();
+                let all = self.neighbours[one as usize].entry(two).or_default();
                 *all = (all.0 + sums.0, all.1 + sums.1);
             }
         }
         kept
     }
 
+    /// Applies the merges to labels.
     fn relabel(&self, labels: &mut [u32]) {
         for label in labels.iter_mut().filter(|label| **label != NO_PATCH) {
             while self.parents[*label as usize] != *label {

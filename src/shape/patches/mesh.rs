@@ -1,4 +1,4 @@
-//! The patches of a mesh as it is: its triangles, parted along the edges where the surface folds.
+//! The patches of a mesh: its triangles, segmented along the edges where the surface folds.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use crate::scene::facets::Facets;
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
 
-/// A mesh parted along its creases.
+/// The patches of a mesh and the creases between them.
 ///
-/// A crease runs along edges. Where noise or the triangles themselves have cut its corner, so that it is a
-/// strip of triangles, these go to the side that they bend away from less.
+/// A crease runs along edges. Where a crease is blunt, by noise or by its triangles, so that it is a
+/// strip of triangles, each of these belongs to the side from which it bends less.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshPatches {
     labels: Vec<u32>,
@@ -27,7 +27,7 @@ pub struct MeshPatches {
 }
 
 impl MeshPatches {
-    /// Looks for the patches of a mesh; costs `O(n log n)` for `n` triangles. [`PatchOptions::bend`] is the
+    /// The patches of a mesh; costs `O(n log n)` for `n` triangles. [`PatchOptions::bend`] is the
     /// angle between the triangles on either side of an edge; by default six times its median over edges
     /// that are not flat, from 0.035 to 0.35.
     ///
@@ -47,7 +47,7 @@ impl MeshPatches {
         let shape = Facets::new(places, topology.triangles)?;
         let bend = bend.unwrap_or_else(|| shape.usual_bend());
         let mut own = shape.parted(bend, options.smallest, fold)?;
-        let patches = sorted(&shape, &mut own);
+        let patches = number_by_area(&shape, &mut own);
         let mut labels = try_filled("patches", mesh.triangles().len(), NO_PATCH)?;
         for (label, triangle) in own.iter().zip(&topology.from) {
             labels[*triangle as usize] = *label;
@@ -60,31 +60,31 @@ impl MeshPatches {
         })
     }
 
-    /// The patch of each triangle; [`NO_PATCH`](super::NO_PATCH) for those without an area or that are
-    /// there twice.
+    /// Number of the patch of each triangle; [`NO_PATCH`](super::NO_PATCH) for duplicates and triangles without an
+    /// area.
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
 
-    /// The patches, that with the largest area first. Vertices on creases count for all patches there.
+    /// The patches, in the order of their areas, the largest first. A vertex on a crease counts for all patches there.
     pub fn patches(&self) -> &[Patch] {
         &self.patches
     }
 
-    /// The creases between them.
+    /// The creases between the patches.
     pub fn creases(&self) -> &[Crease] {
         &self.creases
     }
 
-    /// The angle that counted as a crease, in radians from one triangle to the next; half of it does along
-    /// an edge whose neighbours reach it.
+    /// Angle, in radians from one triangle to the next, above which an edge counted as crease; half of it does
+    /// beside an edge that reaches it.
     pub fn bend(&self) -> f64 {
         self.bend
     }
 }
 
-/// Measures the regions and numbers them by their areas.
-fn sorted(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
+/// Measures the patches and numbers them by their areas.
+fn number_by_area(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
     let mut found: BTreeMap<u32, (f64, Vec<u32>)> = BTreeMap::new();
     for ((label, area), corners) in labels.iter().zip(&facets.areas).zip(&facets.triangles) {
         let (sum, vertices) = found.entry(*label).or_default();
@@ -110,6 +110,7 @@ fn sorted(facets: &Facets, labels: &mut [u32]) -> Vec<Patch> {
     order.into_iter().map(|(_, patch)| patch).collect()
 }
 
+/// The creases between the labels of triangles.
 fn creases(facets: &Facets, labels: &[u32]) -> Vec<Crease> {
     let mut between: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (side, twin) in facets.pairs() {

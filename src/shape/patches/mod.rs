@@ -1,14 +1,13 @@
-//! Where a surface creases, and the smooth patches between the creases
-//! ([paper](crate#references), Sec. 6).
+//! Segmentation of a surface into patches along its creases ([paper](crate#references), Sec. 6).
 //!
-//! The paper floods the surface where the nuclear norm of the Hessian is low. Here what counts is
+//! The paper floods the surface where the nuclear norm of the Hessian is low. Here the measure is
 //! the angle by which the surface bends from one vertex to the next, so that a threshold means the
-//! same on steep and on level ground, and two thresholds instead of one: a crease is a band of
-//! vertices that bend by more than the lower one, with one among them that bends by more than the
-//! higher one. What is left falls apart into patches. Then the patches grow into the bands, the
-//! vertices that bend least first, until they meet on the bands' ridges; patches with hardly an
-//! angle between them become one. Where creases end at the border of the surface, vertices go to the
-//! patch that they lie on.
+//! same on steep and on level ground; and there are two thresholds (hysteresis): a crease is a band of
+//! vertices above the lower one that contains a vertex above the
+//! higher one. The connected components of the rest are patches. They grow into the bands, the
+//! vertices that bend least first, until they meet on the bands' ridges; patches that meet at a small
+//! angle are merged. Where creases end at the border of the surface, vertices are assigned to the
+//! patch whose extrapolation they lie on.
 //!
 //! ```
 //! use developable::patches::{PatchOptions, Patches};
@@ -25,11 +24,11 @@
 //! # }
 //! ```
 
-mod bend;
+mod bend_angles;
 pub(crate) mod chains;
 pub(crate) mod crease;
-pub(crate) mod extend;
-mod flood;
+pub(crate) mod extrapolate;
+mod flood_fill;
 mod heightfield;
 mod merge;
 mod mesh;

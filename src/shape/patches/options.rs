@@ -1,17 +1,23 @@
-//! Options of the search for patches.
+//! Options of the segmentation into patches.
 
-/// What counts as a crease and as a patch.
+/// Default minimum fold angle of a crease, in radians (about nine degrees). Limits how sharp the rulings of a surface that
+/// was fitted to noise may be without counting as creases.
+const DEFAULT_FOLD: f64 = 0.15;
+
+/// Default minimum size of a patch, as a share of all vertices.
+const DEFAULT_SMALLEST: f64 = 0.005;
+
+/// Options of the segmentation into patches: what counts as a crease and as a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PatchOptions {
-    /// Angle, in radians, by which the surface bends from one vertex to the next on a crease.
-    /// `None`: six times its median, and at least 0.035 (two degrees).
+    /// Bend angle, in radians from one vertex to the next, above which a vertex belongs to a crease.
+    /// `None`: six times the median of the surface, and at least 0.035 (two degrees).
     pub bend: Option<f64>,
-    /// Angle, in radians, between the surface on either side of a crease, on average along it:
-    /// patches that fold by less are one. Default 0.15, about nine degrees.
+    /// Minimum fold angle of a crease, in radians, on average along it: patches that meet at a smaller angle are merged.
+    /// Default 0.15, about nine degrees.
     pub fold: f64,
-    /// Share of all vertices that a patch has at least; smaller ones become part of those around
-    /// them. Default 0.005.
+    /// Minimum size of a patch, as a share of all vertices; smaller ones are merged with a neighbour. Default 0.005.
     pub smallest: f64,
 }
 
@@ -19,14 +25,14 @@ impl Default for PatchOptions {
     fn default() -> Self {
         PatchOptions {
             bend: None,
-            fold: 0.15,
-            smallest: 0.005,
+            fold: DEFAULT_FOLD,
+            smallest: DEFAULT_SMALLEST,
         }
     }
 }
 
 impl PatchOptions {
-    /// These options with another angle from vertex to vertex.
+    /// These options with another bend angle of a crease, in radians.
     pub fn bend(self, bend: f64) -> Self {
         PatchOptions {
             bend: Some(bend),
@@ -34,12 +40,12 @@ impl PatchOptions {
         }
     }
 
-    /// These options with another angle between patches.
+    /// These options with another minimum fold angle, in radians.
     pub fn fold(self, fold: f64) -> Self {
         PatchOptions { fold, ..self }
     }
 
-    /// These options with another share.
+    /// These options with another minimum size of a patch, as a share of all vertices.
     pub fn smallest(self, smallest: f64) -> Self {
         PatchOptions { smallest, ..self }
     }

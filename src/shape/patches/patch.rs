@@ -1,16 +1,15 @@
-//! What a patch is, and the label of vertices and triangles without one.
+//! A patch, and the label of vertices and triangles without one.
 
-/// Label of vertices without a height, and of those that belong to no patch.
+/// Label of vertices and triangles that belong to no patch, as those without a height.
 pub const NO_PATCH: u32 = u32::MAX;
 
-/// A smooth part of a surface.
+/// A patch: a region of a surface without a crease inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Patch {
     /// Number of its vertices.
     pub vertices: usize,
-    /// Its area on the surface, in the surface's units: each triangle's in equal parts its
-    /// corners'.
+    /// Area on the surface, in the surface's units squared. Each corner of a triangle counts a third of its area.
     pub area: f64,
 }

@@ -1,6 +1,6 @@
 //! The rulings of a heightfield.
 
-use super::direction::{PASSES, least, trusted};
+use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
@@ -8,20 +8,20 @@ use crate::lattice::hessian::HessianOperator;
 use crate::lattice::stencil::Quadratic;
 use crate::math::sym2::Sym2;
 
-/// The direction of the ruling at every vertex of a surface.
+/// The direction of the ruling at every vertex of a heightfield.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rulings {
     pub(super) surface: Heightfield,
-    /// `Σ H²` about each vertex.
+    /// Sum of `H²` over the neighbourhood of each vertex.
     pub(super) squares: Vec<Sym2>,
     pub(super) directions: Vec<[f64; 2]>,
     pub(super) confidence: Vec<f64>,
-    /// Angle by which the surface bends from vertex to vertex; NaN where there is no Hessian.
+    /// Bend angle at each vertex, in radians over one spacing; NaN where there is no Hessian.
     pub(super) bends: Vec<f64>,
 }
 
 impl Rulings {
-    /// The rulings of a surface; costs `O(vertices)`.
+    /// The rulings of a heightfield; costs `O(vertices)`.
     ///
     /// # Errors
     /// [`Error::NoInterior`](crate::Error::NoInterior) if no vertex has all six neighbours,
@@ -43,7 +43,7 @@ impl Rulings {
             let [gx, gy] = slope(surface, row, col);
             bends[i] = h.nuclear_norm() * lattice.spacing() / (1.0 + gx * gx + gy * gy);
         }
-        for _ in 0..PASSES {
+        for _ in 0..SMOOTHING_PASSES {
             let last = squares.clone();
             for (row, col) in operator.vertices() {
                 let i = lattice.index(row, col);
@@ -62,8 +62,8 @@ impl Rulings {
         let mut confidence = try_filled("rulings", lattice.len(), f64::NAN)?;
         for (row, col) in operator.vertices() {
             let i = lattice.index(row, col);
-            directions[i] = least(squares[i]);
-            confidence[i] = trusted(squares[i].eigenvalues(), lattice.spacing());
+            directions[i] = minor_axis(squares[i]);
+            confidence[i] = direction_confidence(squares[i].eigenvalues(), lattice.spacing());
         }
         Ok(Rulings {
             surface: surface.clone(),
@@ -80,13 +80,13 @@ impl Rulings {
         &self.directions
     }
 
-    /// How far each direction is to be trusted, from 0 to 1: low where the surface is nearly a
-    /// plane, and where it bends in both directions.
+    /// Confidence of each direction, from 0 to 1: low where the surface is nearly a
+    /// plane, and where it bends in both directions; NaN where there is no direction.
     pub fn confidence(&self) -> &[f64] {
         &self.confidence
     }
 
-    /// The unit vector along the ruling in space; `None` where there is none.
+    /// Unit vector in space along the ruling at a vertex; `None` where there is no direction.
     pub fn lifted(&self, row: usize, col: usize) -> Option<[f64; 3]> {
         let [x, y] = self.directions[self.surface.lattice().index(row, col)];
         if x.is_nan() {

@@ -1,8 +1,8 @@
-//! The rulings of a mesh as it is.
+//! The rulings of a mesh.
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::direction::{PASSES, least as least_in_plane, trusted};
+use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
 use crate::error::{Result, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
 use crate::fit::mesh::linear::fit_at;
@@ -11,10 +11,11 @@ use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;
 use crate::scene::mesh::Mesh;
 
-/// What bends by more from vertex to vertex, in radians, says nothing of what lies beside it.
-const CREASE: f64 = 0.2;
+/// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend less:
+/// it lies on a crease.
+const MAX_SMOOTHED_BEND: f64 = 0.2;
 
-/// The direction of the ruling at every vertex of a mesh, of whatever shape.
+/// The direction of the ruling at every vertex of a mesh of any shape.
 ///
 /// ```
 /// use developable::Mesh;
@@ -39,17 +40,18 @@ const CREASE: f64 = 0.2;
 /// ```
 #[derive(Debug, Clone)]
 pub struct MeshRulings {
-    /// Vertices at one place are one, as in all that follows but for what is told.
+    /// Positions of the vertices, where those at one place are one. All other fields but `directions` and `confidence` are
+    /// by these vertices.
     pub(super) places: Vec<Vector3<f64>>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) twins: Vec<u32>,
-    /// `Σ II²` about each vertex, and how far its smaller axis in the tangent plane is to be trusted; NaN where
-    /// there is no second fundamental form.
+    /// Sum of the squares of the second fundamental form over the neighbourhood of each vertex.
     pub(super) squares: Vec<Matrix3<f64>>,
+    /// Confidence of the ruling at each vertex; NaN where there is no second fundamental form.
     pub(super) trust: Vec<f64>,
-    /// Angle by which the surface bends from vertex to vertex; NaN likewise.
+    /// Bend angle at each vertex, in radians over one edge; NaN where there is no second fundamental form.
     pub(super) bends: Vec<f64>,
-    /// Length of an edge, on average.
+    /// Mean length of the edges.
     pub(super) spacing: f64,
     directions: Vec<[f64; 3]>,
     confidence: Vec<f64>,
@@ -85,17 +87,17 @@ impl MeshRulings {
                 + (cross + cross.transpose()) * xy
                 + t2 * t2.transpose() * yy;
             squares[vertex] = form * form;
-            bends[vertex] = bend.nuclear_norm() * around(&topology, &places, vertex);
+            bends[vertex] = bend.nuclear_norm() * mean_edge_length_at(&topology, &places, vertex);
             frames[vertex] = frame;
         }
-        for _ in 0..PASSES {
+        for _ in 0..SMOOTHING_PASSES {
             let last = squares.clone();
             for vertex in 0..count {
                 if bends[vertex].is_nan() {
                     continue;
                 }
                 let (mut sum, mut weight) = (last[vertex] * 2.0, 2.0);
-                let most = bends[vertex].max(CREASE);
+                let most = bends[vertex].max(MAX_SMOOTHED_BEND);
                 for other in topology.around(vertex).iter().map(|v| *v as usize) {
                     if bends[other] <= most {
                         sum += last[other];
@@ -110,7 +112,7 @@ impl MeshRulings {
         let mut rulings = MeshRulings {
             twins: twin_half_edges(&topology.triangles),
             trust: try_filled("rulings", count, f64::NAN)?,
-            spacing: spacing(&topology, &places),
+            spacing: mean_edge_length(&topology, &places),
             squares,
             bends,
             directions: blank,
@@ -123,10 +125,10 @@ impl MeshRulings {
             if rulings.bends[vertex].is_nan() {
                 continue;
             }
-            let square = within(&rulings.squares[vertex], &frames[vertex].tangents);
-            let spacing = around(&topology, &rulings.places, vertex);
-            rulings.trust[vertex] = trusted(square.eigenvalues(), spacing);
-            along[vertex] = least(square, &frames[vertex].tangents).into();
+            let square = restrict_to_plane(&rulings.squares[vertex], &frames[vertex].tangents);
+            let spacing = mean_edge_length_at(&topology, &rulings.places, vertex);
+            rulings.trust[vertex] = direction_confidence(square.eigenvalues(), spacing);
+            along[vertex] = minor_axis_in_space(square, &frames[vertex].tangents).into();
         }
         for (i, vertex) in topology.joined.iter().enumerate() {
             rulings.directions[i] = along[*vertex as usize];
@@ -135,33 +137,32 @@ impl MeshRulings {
         Ok(rulings)
     }
 
-    /// Unit vectors along the rulings, for each vertex of the mesh, up to their sign; NaN where triangles do not
-    /// go all around one.
+    /// Unit vectors along the rulings, for each vertex of the mesh, up to their sign; NaN at vertices on the border.
     pub fn directions(&self) -> &[[f64; 3]] {
         &self.directions
     }
 
-    /// How far each direction is to be trusted, from 0 to 1: low where the surface is nearly a plane, and where
-    /// it bends in both directions.
+    /// Confidence of each direction, from 0 to 1: low where the surface is nearly a plane, and where
+    /// it bends in both directions; NaN where there is no direction.
     pub fn confidence(&self) -> &[f64] {
         &self.confidence
     }
 }
 
-/// A tensor in a plane.
-pub(super) fn within(square: &Matrix3<f64>, [t1, t2]: &[Vector3<f64>; 2]) -> Sym2 {
+/// Restricts a symmetric tensor to the plane of two orthonormal vectors.
+pub(super) fn restrict_to_plane(square: &Matrix3<f64>, [t1, t2]: &[Vector3<f64>; 2]) -> Sym2 {
     let [a, b] = [square * t1, square * t2];
     Sym2::new(t1.dot(&a), t1.dot(&b), t2.dot(&b))
 }
 
-/// The eigenvector of the smaller eigenvalue, in space.
-pub(super) fn least(square: Sym2, [t1, t2]: &[Vector3<f64>; 2]) -> Vector3<f64> {
-    let [x, y] = least_in_plane(square);
+/// The eigenvector, in space, of the smaller eigenvalue of a tensor in the plane of two orthonormal vectors.
+pub(super) fn minor_axis_in_space(square: Sym2, [t1, t2]: &[Vector3<f64>; 2]) -> Vector3<f64> {
+    let [x, y] = minor_axis(square);
     t1 * x + t2 * y
 }
 
 /// Mean length of the edges at a vertex.
-fn around(topology: &Topology, places: &[Vector3<f64>], vertex: usize) -> f64 {
+fn mean_edge_length_at(topology: &Topology, places: &[Vector3<f64>], vertex: usize) -> f64 {
     let ring = topology.around(vertex);
     let lengths = ring
         .iter()
@@ -169,7 +170,8 @@ fn around(topology: &Topology, places: &[Vector3<f64>], vertex: usize) -> f64 {
     lengths.sum::<f64>() / ring.len().max(1) as f64
 }
 
-fn spacing(topology: &Topology, places: &[Vector3<f64>]) -> f64 {
-    let all = (0..places.len()).map(|vertex| around(topology, places, vertex));
+/// Mean length of all edges.
+fn mean_edge_length(topology: &Topology, places: &[Vector3<f64>]) -> f64 {
+    let all = (0..places.len()).map(|vertex| mean_edge_length_at(topology, places, vertex));
     all.sum::<f64>() / places.len().max(1) as f64
 }

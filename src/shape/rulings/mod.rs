@@ -1,11 +1,11 @@
-//! The straight lines of a developable surface ([paper](crate#references), Sec. 6).
+//! Rulings: the straight lines of a developable surface ([paper](crate#references), Sec. 6).
 //!
 //! Along a ruling the surface does not bend: seen from above it runs along the null direction of
-//! the Hessian. Of a Hessian that is estimated, the direction in which the surface bends least
+//! the Hessian. An estimated Hessian has no such direction, so the direction in which the surface bends least
 //! around a vertex is taken: the eigenvector of the smaller eigenvalue of `Σ H²` over its
-//! neighbourhood, which does not care about signs. Where the surface is nearly a plane, or bends
-//! in both directions, that means little, and the confidence is low. [`MeshRulings`] are the same of meshes as
-//! they are.
+//! neighbourhood, which does not depend on signs. Where the surface is nearly a plane, or bends
+//! in both directions, the direction is uncertain, and the confidence is low. [`Rulings`] are those of heightfields,
+//! [`MeshRulings`] those of meshes.
 //!
 //! ```
 //! use developable::rulings::{Rulings, TraceOptions};
@@ -28,12 +28,12 @@
 
 mod direction;
 mod heightfield;
+mod heightfield_trace;
 mod mesh;
+mod mesh_trace;
 mod options;
+mod point_hash;
 mod ruling;
-mod taken;
-mod trace;
-mod walk;
 
 pub use heightfield::Rulings;
 pub use mesh::MeshRulings;

@@ -2,17 +2,20 @@
 
 use crate::error::{Error, Result, positive};
 
-/// Which lines are wanted.
+/// Default distance between traced rulings, in spacings of the lattice or edge lengths of the mesh.
+const DEFAULT_SEPARATION_SPACINGS: f64 = 10.0;
+
+/// Options of tracing rulings: how far apart they are and where they end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TraceOptions {
-    /// Distance between lines, in the surface's units: as seen from above, or in space on a mesh. `None`: ten
-    /// spacings, or lengths of an edge.
+    /// Distance between rulings, in the surface's units: as seen from above on a heightfield, in space on a mesh.
+    /// `None`: ten spacings, or mean lengths of an edge.
     pub separation: Option<f64>,
-    /// A line ends where the direction is trusted by less, from 0 to 1. Default 0.3.
+    /// Minimum confidence of the direction, from 0 to 1: a ruling ends where it is lower. Default 0.3.
     pub confidence: f64,
-    /// A line ends where the surface bends by more from one vertex to the next, in radians: at a
-    /// crease. Default 0.2.
+    /// Bend angle of a crease, in radians from one vertex to the next: a ruling ends where the surface bends by more.
+    /// Default 0.2.
     pub crease: f64,
 }
 
@@ -27,7 +30,7 @@ impl Default for TraceOptions {
 }
 
 impl TraceOptions {
-    /// These options with another distance.
+    /// These options with another distance between rulings.
     pub fn separation(self, separation: f64) -> Self {
         TraceOptions {
             separation: Some(separation),
@@ -35,18 +38,18 @@ impl TraceOptions {
         }
     }
 
-    /// These options with another least confidence.
+    /// These options with another minimum confidence.
     pub fn confidence(self, confidence: f64) -> Self {
         TraceOptions { confidence, ..self }
     }
 
-    /// These options with another angle.
+    /// These options with another bend angle of a crease.
     pub fn crease(self, crease: f64) -> Self {
         TraceOptions { crease, ..self }
     }
 
-    /// The distance between lines where neighbours have one of `spacing`.
-    pub(super) fn checked(&self, spacing: f64) -> Result<f64> {
+    /// The distance between rulings for a given distance between vertices, after a check of all options.
+    pub(super) fn checked_separation(&self, spacing: f64) -> Result<f64> {
         positive("crease", self.crease)?;
         if !(0.0..=1.0).contains(&self.confidence) {
             let requirement = "must be from 0 to 1";
@@ -54,7 +57,7 @@ impl TraceOptions {
         }
         match self.separation {
             Some(separation) => positive("separation", separation),
-            None => Ok(10.0 * spacing),
+            None => Ok(DEFAULT_SEPARATION_SPACINGS * spacing),
         }
     }
 }

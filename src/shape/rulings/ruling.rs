@@ -1,23 +1,25 @@
 //! A traced ruling.
 
-/// A ruling, traced.
+/// A traced ruling: a nearly straight line in a surface.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Ruling {
-    /// Its course on the surface, a point about every spacing, or one on each edge that it crosses.
+    /// Points along the ruling on the surface: about one for each spacing of a lattice, one for each edge of a mesh that it
+    /// crosses.
     pub points: Vec<[f64; 3]>,
-    /// The distance between its ends.
+    /// Distance between the ruling's ends, in the surface's units.
     pub length: f64,
-    /// How far it is from straight: the largest distance of a point from the line through its
-    /// ends, over the distance of these.
+    /// Deviation from a straight line: the largest distance of a point from the line through the
+    /// ends, over the length.
     pub deviation: f64,
 }
 
-/// Lines of fewer separations are left out.
-pub(super) const SHORTEST: f64 = 1.0;
+/// Minimum length of a traced ruling, in distances between rulings. Shorter ones are discarded.
+pub(super) const MIN_LENGTH_SEPARATIONS: f64 = 1.0;
 
 impl Ruling {
+    /// A ruling through points; None if its ends coincide.
     pub(super) fn new(points: Vec<[f64; 3]>) -> Option<Self> {
         let (first, last) = (*points.first()?, *points.last()?);
         let difference = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

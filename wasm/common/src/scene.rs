@@ -48,13 +48,13 @@ impl Scene {
             let image = input.heights("height image", &input.data)?;
             return Ok(Scene {
                 surface: image.to_lattice(spacing)?,
-                extent: Extent::of(&image),
+                extent: Extent::from_image(&image),
             });
         }
         let input: LatticeInput = from_value(field)?;
         let surface = input.heights("heightfield", &input.heights)?;
         Ok(Scene {
-            extent: Extent::of_lattice(&surface),
+            extent: Extent::from_heightfield(&surface),
             surface,
         })
     }

@@ -88,7 +88,7 @@ pub fn read_photo(bytes: &Uint8Array) -> Result<JsValue> {
 pub fn plane_uvs(field: JsValue, extent: JsValue) -> Result<Float32Array> {
     let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
     let extent = match extent.is_undefined() {
-        true => Extent::of_lattice(&field),
+        true => Extent::from_heightfield(&field),
         false => extent_from(extent)?,
     };
     let uvs = extent.uvs(field.lattice())?;

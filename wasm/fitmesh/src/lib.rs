@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::analysis::{MeshCurvatures, Summary, THRESHOLD};
+use developable::analysis::{DEFAULT_GAUSSIAN_THRESHOLD, MeshCurvatures, Summary};
 use developable::rulings::{MeshRulings, Ruling, TraceOptions};
 use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
@@ -121,7 +121,7 @@ struct AnalysisOutput {
 /// How developable a mesh is.
 #[wasm_bindgen(js_name = analyzeMesh)]
 pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut threshold = THRESHOLD;
+    let mut threshold = DEFAULT_GAUSSIAN_THRESHOLD;
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "threshold" => threshold = option("threshold", value, "must be a number")?,

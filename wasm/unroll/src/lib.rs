@@ -9,7 +9,7 @@ use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use developable::Frame;
-use developable::analysis::{Curvatures, Deviation, Summary, THRESHOLD};
+use developable::analysis::{Curvatures, DEFAULT_GAUSSIAN_THRESHOLD, Deviation, Summary};
 use developable::checks::try_filled;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
@@ -49,7 +49,7 @@ struct AnalysisOutput {
 /// Curvatures of a surface, what they come to, and how far it is from another one.
 #[wasm_bindgen]
 pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<JsValue> {
-    let (mut threshold, mut spacing) = (THRESHOLD, None);
+    let (mut threshold, mut spacing) = (DEFAULT_GAUSSIAN_THRESHOLD, None);
     for (name, value) in entries(&options)? {
         match name.as_str() {
             "threshold" => threshold = option("threshold", value, "must be a number")?,
@@ -132,7 +132,7 @@ pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
         parts: sheet.parts().into(),
         stretches: sheet.stretches().as_flattened().into(),
         overlaps: sheet.overlaps().as_flattened().as_flattened().into(),
-        verdict: Verdict::of(sheet.report()),
+        verdict: Verdict::from_report(sheet.report()),
         report: *sheet.report(),
     })?)
 }

@@ -133,7 +133,7 @@ fn exact(page: &dyn Page) -> Outcome<Heightfield> {
 
 /// What a camera far above sees.
 fn photograph(page: &dyn Page, surface: &Heightfield) -> Scene {
-    let extent = Extent::of_lattice(surface);
+    let extent = Extent::from_heightfield(surface);
     let size = |k: usize| ((extent.max[k] - extent.min[k]) * ACROSS as f64) as usize;
     let (width, height) = (size(0), size(1));
     let place = |x: f64, y: f64| {

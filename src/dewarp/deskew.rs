@@ -1,13 +1,16 @@
-//! A flat image turned upright.
+//! Rotation of a flat image to upright.
 
 use super::WarpMap;
 use crate::error::{Result, checked_cells, try_filled};
 use crate::math::lanes;
 
 impl WarpMap {
-    /// The map turned counter-clockwise by an angle, as large as it then has to be. Between pixels it is
-    /// bilinear, so that up to a pixel of the border is lost.
-    pub(super) fn turned(&self, angle: f64) -> Result<Self> {
+    /// The map rotated counter-clockwise by an angle in radians, on a larger image that holds it. Places are interpolated
+    /// bilinearly, so that up to a pixel of the border is lost.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`](crate::Error::TooLarge), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn rotated(&self, angle: f64) -> Result<Self> {
         let (sin, cos) = angle.sin_cos();
         let resolution = self.resolution();
         let size = [self.width(), self.height()].map(|n| n as f64);
@@ -34,13 +37,13 @@ impl WarpMap {
                 let [x, y] = [left + col as f64 + 0.5, top - row as f64 - 0.5];
                 let from = [cos * x + sin * y, cos * y - sin * x];
                 let pixel = [from[0] - corner[0] - 0.5, corner[1] - from[1] - 0.5];
-                if let Some(found) = self.between(pixel) {
+                if let Some(found) = self.interpolate(pixel) {
                     *place = found.map(lanes::single);
                 }
             }
         }
         let corner = [left / resolution, top / resolution];
-        Ok(WarpMap::of_places(
+        Ok(WarpMap::from_places(
             [width, height],
             resolution,
             corner,
@@ -48,7 +51,7 @@ impl WarpMap {
         ))
     }
 
-    /// By how much the sheet has to be turned to be upright: the smallest rectangle around it is then.
+    /// Angle, in radians, by which the sheet has to be rotated for the smallest rectangle around it to be upright.
     pub(super) fn skew(&self) -> f64 {
         let mut points = Vec::new();
         for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
@@ -56,14 +59,14 @@ impl WarpMap {
             if let (Some(first), Some(last)) =
                 (line.iter().position(there), line.iter().rposition(there))
             {
-                // Downwards is down: y is up.
+                // Rows count downwards, y upwards.
                 points.extend([first, last].map(|col| [col as f64, -(row as f64)]));
             }
         }
-        let hull = hull(points);
+        let hull = convex_hull(points);
         let mut best = (f64::INFINITY, 0.0);
         for (from, to) in hull.iter().zip(hull.iter().cycle().skip(1)) {
-            let angle = folded((to[1] - from[1]).atan2(to[0] - from[0]));
+            let angle = modulo_right_angle((to[1] - from[1]).atan2(to[0] - from[0]));
             let (sin, cos) = angle.sin_cos();
             let span = |axis: [f64; 2]| {
                 let along = hull.iter().map(|p| p[0] * axis[0] + p[1] * axis[1]);
@@ -82,9 +85,9 @@ impl WarpMap {
     }
 }
 
-/// By how much a polygon, with y up, has to be turned for its sides to be as upright and level as they can
-/// be: the mean over its sides' directions, four of which are as good as each other.
-pub(super) fn skew_of(polygon: &[[f64; 2]]) -> f64 {
+/// Angle, in radians, by which a polygon, with y up, has to be rotated for its sides to be upright and level on average:
+/// the circular mean of their directions modulo 90°, weighted by length.
+pub(super) fn polygon_skew(polygon: &[[f64; 2]]) -> f64 {
     let mut sum = [0.0; 2];
     for (from, to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
         let side = [to[0] - from[0], to[1] - from[1]];
@@ -94,14 +97,14 @@ pub(super) fn skew_of(polygon: &[[f64; 2]]) -> f64 {
     -sum[1].atan2(sum[0]) / 4.0
 }
 
-/// The same direction or one perpendicular to it, within 45° of the right.
-fn folded(angle: f64) -> f64 {
+/// An angle modulo 90°, from −45° to 45°, in radians.
+fn modulo_right_angle(angle: f64) -> f64 {
     use std::f64::consts::FRAC_PI_2;
     angle - (angle / FRAC_PI_2).round() * FRAC_PI_2
 }
 
-/// The convex hull (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*, 1979).
-fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+/// The convex hull of points (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*, 1979).
+fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -133,10 +136,10 @@ mod tests {
             let (sin, cos) = angle.sin_cos();
             let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]]
                 .map(|[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y]);
-            assert!((skew_of(&corners) + angle).abs() < 1e-12, "{angle}");
+            assert!((polygon_skew(&corners) + angle).abs() < 1e-12, "{angle}");
             let inside = [1.4 * cos - 0.5 * sin, 1.4 * sin + 0.5 * cos];
             let points = corners.into_iter().chain([inside]).collect();
-            assert_eq!(hull(points).len(), 4);
+            assert_eq!(convex_hull(points).len(), 4);
         }
     }
 }

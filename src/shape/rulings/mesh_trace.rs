@@ -1,23 +1,24 @@
-//! Rulings of a mesh as lines, from triangle to triangle.
+//! Tracing of evenly spaced rulings on a mesh, from triangle to triangle.
 
 use nalgebra::Vector3;
 
-use super::mesh::{MeshRulings, least, within};
+use super::mesh::{MeshRulings, minor_axis_in_space, restrict_to_plane};
 use super::options::TraceOptions;
-use super::ruling::{Ruling, SHORTEST};
-use super::taken::Taken;
+use super::point_hash::PointHash;
+use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 
 type Place = Vector3<f64>;
 
-/// Points of lines with the normal there: what lies on the other side of a thin thing is not near.
-type Lines = Taken<3, Place>;
+/// Points of traced rulings with the normal there: a point on the other side of a thin body is no neighbour.
+type TracedPoints = PointHash<3, Place>;
 
-/// A line leaves a triangle no nearer to a corner than this share of a side, and passes none by mistake.
-const ASIDE: f64 = 1e-6;
+/// Minimum distance from a corner, as a share of the side, at which a line leaves a triangle, so that it never meets a
+/// vertex.
+const MIN_CORNER_DISTANCE_SHARE: f64 = 1e-6;
 
-/// Where a line is: in which triangle, by which of its sides it came, and which way it goes.
+/// State of a line that is traced: the triangle that it is in, the side by which it entered that, position and direction.
 #[derive(Clone, Copy)]
 struct Step {
     triangle: usize,
@@ -27,15 +28,16 @@ struct Step {
 }
 
 impl MeshRulings {
-    /// Lines along the rulings, from where these are surest, no closer together than half the separation; each
+    /// Traces evenly spaced rulings, the most certain ones first, no closer together than half the separation; each
     /// ends at the border of the mesh, at a crease or where it would come too close to another one, as on
-    /// [lattices](super::Rulings::trace). Beside a crease of flat faces lines may run along it.
+    /// [heightfields](super::Rulings::trace). Beside a crease between plane faces lines may run along it. Costs
+    /// `O(n log n)` for `n` triangles.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the
     /// confidence is from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
-        let separation = options.checked(self.spacing)?;
+        let separation = options.checked_separation(self.spacing)?;
         let third = |t: usize| {
             let corners = self.triangles[t].iter();
             corners.map(|v| self.trust[*v as usize]).sum::<f64>() / 3.0
@@ -45,15 +47,15 @@ impl MeshRulings {
             .filter(|(_, trust)| *trust >= options.confidence)
             .collect();
         seeds.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let mut taken = Lines::new(separation);
+        let mut taken = TracedPoints::new(separation);
         let mut lines = Vec::new();
         for (triangle, _) in seeds {
             let place = self.corners(triangle).iter().sum::<Place>() / 3.0;
             let normal = self.normal(triangle);
-            if taken.within(place.into(), separation, |other| other.dot(&normal) > 0.0) {
+            if taken.has_neighbour(place.into(), separation, |other| other.dot(&normal) > 0.0) {
                 continue;
             }
-            let Some(towards) = self.along(triangle, place, None, options) else {
+            let Some(towards) = self.direction_at(triangle, place, None, options) else {
                 continue;
             };
             let start = |towards| Step {
@@ -71,7 +73,7 @@ impl MeshRulings {
             }
             let points = course.into_iter().map(|(place, _)| place.into());
             if let Some(line) = Ruling::new(points.collect())
-                && line.length >= SHORTEST * separation
+                && line.length >= MIN_LENGTH_SEPARATIONS * separation
             {
                 lines.push(line);
             }
@@ -79,17 +81,22 @@ impl MeshRulings {
         Ok(lines)
     }
 
-    /// The points after a first one, on the sides that are crossed, with the normals there.
-    fn follow(&self, mut step: Step, options: &TraceOptions, taken: &Lines) -> Vec<(Place, Place)> {
+    /// Points of a ruling after its first one, on the sides of triangles that it crosses, with the normals there.
+    fn follow(
+        &self,
+        mut step: Step,
+        options: &TraceOptions,
+        taken: &TracedPoints,
+    ) -> Vec<(Place, Place)> {
         let mut course = Vec::new();
-        // A line that crosses more triangles than there are goes in circles.
+        // A line that crosses more triangles than there are is closed.
         while course.len() < self.triangles.len() {
             let normal = self.normal(step.triangle);
-            let Some((side, place, towards)) = self.across(&step, options) else {
+            let Some((side, place, towards)) = self.cross_triangle(&step, options) else {
                 break;
             };
             let near = |other: &Place| other.dot(&normal) > 0.0;
-            if taken.within(place.into(), 0.5 * taken.size, near) {
+            if taken.has_neighbour(place.into(), 0.5 * taken.cell_size, near) {
                 break;
             }
             course.push((place, normal));
@@ -107,21 +114,21 @@ impl MeshRulings {
         course
     }
 
-    /// The side by which a line leaves a triangle, where, and which way; straight within it, in the direction
-    /// halfway.
-    fn across(&self, step: &Step, options: &TraceOptions) -> Option<(usize, Place, Place)> {
+    /// Side and position at which a line leaves a triangle, and its direction: straight, in the direction of the ruling
+    /// halfway (midpoint rule).
+    fn cross_triangle(&self, step: &Step, options: &TraceOptions) -> Option<(usize, Place, Place)> {
         let near = Some(step.towards);
-        let first = self.along(step.triangle, step.place, near, options)?;
+        let first = self.direction_at(step.triangle, step.place, near, options)?;
         let (side, end) = self.exit(step, first)?;
         let middle = 0.5 * (step.place + end);
-        let better = self.along(step.triangle, middle, Some(first), options)?;
+        let better = self.direction_at(step.triangle, middle, Some(first), options)?;
         match self.exit(step, better) {
             Some((side, end)) => Some((side, end, better)),
             None => Some((side, end, first)),
         }
     }
 
-    /// Where a straight line in a triangle leaves it.
+    /// Side and position at which a straight line leaves a triangle.
     fn exit(&self, step: &Step, towards: Place) -> Option<(usize, Place)> {
         let corners = self.corners(step.triangle);
         let normal = self.normal(step.triangle);
@@ -135,7 +142,8 @@ impl MeshRulings {
             if !(from <= 0.0 && to >= 0.0 && to > from) {
                 continue;
             }
-            let share = (from / (from - to)).clamp(ASIDE, 1.0 - ASIDE);
+            let share = (from / (from - to))
+                .clamp(MIN_CORNER_DISTANCE_SHARE, 1.0 - MIN_CORNER_DISTANCE_SHARE);
             let place = a.lerp(&b, share);
             let ahead = towards.dot(&(place - step.place));
             if ahead > 0.0 && best.is_none_or(|(most, ..)| ahead > most) {
@@ -145,8 +153,9 @@ impl MeshRulings {
         best.map(|(_, side, place)| (side, place))
     }
 
-    /// The direction at a place of a triangle, whichever way is closer to one that is given.
-    fn along(
+    /// Direction of the ruling at a place in a triangle, with the sign that is closer to a given direction; None where a
+    /// ruling ends.
+    fn direction_at(
         &self,
         triangle: usize,
         place: Place,
@@ -171,7 +180,7 @@ impl MeshRulings {
         let trust: f64 = all.map(|(v, w)| self.trust[*v] * w).sum();
         let along = (b - a).normalize();
         let tangents = [along, normal.normalize().cross(&along)];
-        let found = least(within(&square, &tangents), &tangents);
+        let found = minor_axis_in_space(restrict_to_plane(&square, &tangents), &tangents);
         let found = match near {
             Some(near) if found.dot(&near) < 0.0 => -found,
             _ => found,
@@ -179,11 +188,12 @@ impl MeshRulings {
         (trust >= options.confidence).then_some(found)
     }
 
+    /// Positions of a triangle's corners.
     fn corners(&self, triangle: usize) -> [Place; 3] {
         self.triangles[triangle].map(|v| self.places[v as usize])
     }
 
-    /// Of length 1; zero where there is no area.
+    /// Unit normal of a triangle; zero if it has no area.
     fn normal(&self, triangle: usize) -> Place {
         let [a, b, c] = self.corners(triangle);
         let normal = (b - a).cross(&(c - a));

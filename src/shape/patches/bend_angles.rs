@@ -1,4 +1,4 @@
-//! By which angle a surface bends from one vertex to the next.
+//! The angle by which a heightfield bends from one vertex to the next.
 
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
@@ -6,24 +6,36 @@ use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, OPPOSITE};
 use crate::lattice::stencil::Quadratic;
 
-/// Angle and slope at each vertex of the lattice; NaN where a neighbour is missing.
-pub(super) struct Bend {
+/// Bend angle and slope of a heightfield at each vertex of the lattice; NaN where a neighbour is missing.
+pub(super) struct BendAngles {
+    /// Angle, in radians, by which the surface bends over one spacing: the nuclear norm of the Hessian along the surface,
+    /// times the spacing.
     pub angle: Vec<f64>,
+    /// Gradient of the best-fit quadratic.
     pub gradient: Vec<[f64; 2]>,
 }
 
-/// How many vertices from a crease, which is some vertices wide, the normals are taken.
-pub(super) const ASIDE: usize = 4;
+/// Distance from a crease, in vertices, at which the normals on either side are taken: a crease of a fitted surface is
+/// some vertices wide.
+pub(super) const NORMAL_DISTANCE_VERTICES: usize = 4;
 
-/// A crease bends by as many times the median, and by as much at least.
-const TIMES: f64 = 6.0;
-const LEAST: f64 = 0.035;
+/// Ratio of the default bend angle of a crease to the median over the surface: limits how much of a surface that bends
+/// everywhere is taken for crease.
+const CREASE_BEND_PER_MEDIAN: f64 = 6.0;
 
-impl Bend {
+/// Minimum default bend angle of a crease, in radians (two degrees): limits what noise on a flat surface is taken for
+/// crease.
+const MIN_CREASE_BEND: f64 = 0.035;
+
+impl BendAngles {
+    /// The bend angles of a heightfield; costs `O(vertices)`.
+    ///
+    /// # Errors
+    /// [`Error::NoInterior`](crate::Error::NoInterior), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub(super) fn new(surface: &Heightfield) -> Result<Self> {
         let lattice = surface.lattice();
         let h = lattice.spacing();
-        let mut bend = Bend {
+        let mut bend = BendAngles {
             angle: try_filled("bending", lattice.len(), f64::NAN)?,
             gradient: try_filled("bending", lattice.len(), [f64::NAN; 2])?,
         };
@@ -43,20 +55,25 @@ impl Bend {
         Ok(bend)
     }
 
-    /// Where a crease is told from a curve, if nobody says.
-    pub(super) fn usual_threshold(&self) -> f64 {
+    /// The bend angle that counts as a crease by default, in radians.
+    pub(super) fn default_crease_bend(&self) -> f64 {
         let mut angles: Vec<f64> = self.angle.iter().copied().filter(|a| !a.is_nan()).collect();
         let middle = angles.len() / 2;
         let median = match angles.is_empty() {
             true => 0.0,
             false => *angles.select_nth_unstable_by(middle, f64::total_cmp).1,
         };
-        (TIMES * median).max(LEAST)
+        (CREASE_BEND_PER_MEDIAN * median).max(MIN_CREASE_BEND)
     }
 
-    /// Angle between the normals some vertices away from an edge, on either side, as far as the
-    /// patches reach.
-    pub(super) fn fold(&self, lattice: &Lattice, labels: &[u32], ends: [usize; 2]) -> Option<f64> {
+    /// Fold angle, in radians, of a crease at an edge of the lattice between two patches: between the normals some vertices
+    /// away from the edge on either side, or as far as the patches reach. None if there is no normal.
+    pub(super) fn fold_angle(
+        &self,
+        lattice: &Lattice,
+        labels: &[u32],
+        ends: [usize; 2],
+    ) -> Option<f64> {
         let cols = lattice.cols();
         let step = |i: usize, towards: usize| {
             let (r, c) = NEIGHBOURS[towards].step((i / cols) as isize, (i % cols) as isize);
@@ -66,7 +83,7 @@ impl Bend {
         let towards = (0..6).find(|towards| step(ends[0], *towards) == Some(ends[1]))?;
         let normal = |from: usize, away: usize| {
             let mut place = from;
-            for _ in 0..ASIDE {
+            for _ in 0..NORMAL_DISTANCE_VERTICES {
                 match step(place, away) {
                     Some(next) if labels[next] == labels[from] && !self.angle[next].is_nan() => {
                         place = next;

@@ -1,21 +1,26 @@
-//! Vertices to patches: what does not bend is flooded, then what does is shared out.
+//! Segmentation of a heightfield by hysteresis thresholding, flood fill and region growing.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::bend::Bend;
+use super::bend_angles::BendAngles;
 use super::patch::NO_PATCH;
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 
-/// The lower threshold, in terms of the higher one.
-const LOW: f64 = 0.4;
+/// Ratio of the lower to the higher threshold of the bend angle (hysteresis). Limits how far a crease reaches from the
+/// vertices that bend most.
+const HYSTERESIS_LOW_RATIO: f64 = 0.4;
 
-/// Fewer vertices between bands are a part of these.
-const SPECK: usize = 8;
+/// Minimum number of vertices of a region between creases; smaller ones are part of the creases around them.
+const MIN_REGION_VERTICES: usize = 8;
 
-/// The patch of each vertex, numbered from 0 in no particular order.
-pub(super) fn regions(surface: &Heightfield, bend: &Bend, high: f64) -> Result<Vec<u32>> {
+/// The region of each vertex of a heightfield, numbered from 0, [`NO_PATCH`] where there is no height; `high` is the
+/// higher threshold of the bend angle, in radians. Costs `O(n log n)` for `n` vertices.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub(super) fn segment(surface: &Heightfield, bend: &BendAngles, high: f64) -> Result<Vec<u32>> {
     let lattice = surface.lattice();
     let valid = |i: usize| !surface.heights()[i].is_nan();
     let around = |i: usize| {
@@ -24,8 +29,7 @@ pub(super) fn regions(surface: &Heightfield, bend: &Bend, high: f64) -> Result<V
             .map(|(row, col)| lattice.index(row, col))
             .filter(|k| valid(*k))
     };
-    // Bands: what bends by more than the lower threshold and hangs together with what bends by
-    // more than the higher one.
+    // Bands of creases: vertices above the lower threshold that are connected with one above the higher threshold.
     let mut band = try_filled("patches", lattice.len(), false)?;
     let mut stack: Vec<usize> = (0..lattice.len())
         .filter(|i| bend.angle[*i] > high)
@@ -35,14 +39,14 @@ pub(super) fn regions(surface: &Heightfield, bend: &Bend, high: f64) -> Result<V
     }
     while let Some(i) = stack.pop() {
         for k in around(i) {
-            if !band[k] && bend.angle[k] > LOW * high {
+            if !band[k] && bend.angle[k] > HYSTERESIS_LOW_RATIO * high {
                 band[k] = true;
                 stack.push(k);
             }
         }
     }
 
-    // Vertices without an angle wait, so that no patch leaks around the end of a crease.
+    // Vertices without an angle come later, so that no patch leaks around the end of a crease.
     let open = |i: usize| !bend.angle[i].is_nan() && !band[i];
     let mut labels = try_filled("patches", lattice.len(), NO_PATCH)?;
     let mut seen = try_filled("patches", lattice.len(), false)?;
@@ -64,21 +68,21 @@ pub(super) fn regions(surface: &Heightfield, bend: &Bend, high: f64) -> Result<V
                 }
             }
         }
-        if members.len() >= SPECK {
+        if members.len() >= MIN_REGION_VERTICES {
             members.iter().for_each(|i| labels[*i] = count);
             count += 1;
         } else if members.len() > largest.0 {
             largest = (members.len(), members);
         }
     }
-    // A surface that is nothing but crease still has a patch.
+    // A surface that consists of creases alone still has one patch.
     if count == 0 {
         largest.1.iter().for_each(|i| labels[*i] = 0);
         count = 1;
     }
-    grow(lattice.len(), bend, &mut labels, &valid, around);
+    grow_regions(lattice.len(), bend, &mut labels, &valid, around);
 
-    // What no patch has reached: parts of the surface that are all crease or all border.
+    // Components that no region has reached: all of their vertices are creases or border.
     for first in 0..lattice.len() {
         if valid(first) && labels[first] == NO_PATCH {
             labels[first] = count;
@@ -97,16 +101,16 @@ pub(super) fn regions(surface: &Heightfield, bend: &Bend, high: f64) -> Result<V
     Ok(labels)
 }
 
-/// Patches take over the vertices beside them, those that bend least first.
-fn grow<I: Iterator<Item = usize>>(
+/// Region growing: regions take the vertices beside them, those with the smallest bend angle first.
+fn grow_regions<I: Iterator<Item = usize>>(
     len: usize,
-    bend: &Bend,
+    bend: &BendAngles,
     labels: &mut [u32],
     valid: &impl Fn(usize) -> bool,
     around: impl Fn(usize) -> I,
 ) {
-    // Positive floats are in the order of their bits. Vertices on the border have no angle; their
-    // neighbours' largest makes a crease go on to the end of the surface.
+    // Bits of positive floats are in their order. Vertices on the border have no angle; the largest of their
+    // neighbours continues a crease to the end of the surface.
     let key = |i: usize| -> u64 {
         let angle = bend.angle[i];
         let angles = around(i).map(|k| bend.angle[k]);
@@ -117,7 +121,7 @@ fn grow<I: Iterator<Item = usize>>(
         };
         angle.to_bits()
     };
-    // Of those that bend alike, the one that has waited longest.
+    // Among equal angles the vertex that has waited longest comes first.
     let mut waiting = 0u64;
     let mut queue = BinaryHeap::new();
     let mut offer = |queue: &mut BinaryHeap<_>, labels: &[u32], i: usize| {

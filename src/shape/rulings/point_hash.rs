@@ -1,23 +1,24 @@
-//! Where lines are already.
+//! A spatial hash of points.
 
 use std::collections::HashMap;
 
-/// Points of lines, in cubic cells, with what is told apart by.
-pub(super) struct Taken<const N: usize, T> {
-    pub size: f64,
+/// A spatial hash of points in `N` dimensions, each with an attribute.
+pub(super) struct PointHash<const N: usize, T> {
+    /// Side of a cell.
+    pub cell_size: f64,
     cells: HashMap<[i64; N], Vec<([f64; N], T)>>,
 }
 
-impl<const N: usize, T> Taken<N, T> {
-    pub(super) fn new(size: f64) -> Self {
-        Taken {
-            size,
+impl<const N: usize, T> PointHash<N, T> {
+    pub(super) fn new(cell_size: f64) -> Self {
+        PointHash {
+            cell_size,
             cells: HashMap::new(),
         }
     }
 
     fn cell(&self, place: [f64; N]) -> [i64; N] {
-        place.map(|v| (v / self.size).floor() as i64)
+        place.map(|v| (v / self.cell_size).floor() as i64)
     }
 
     pub(super) fn add(&mut self, place: [f64; N], kind: T) {
@@ -25,8 +26,8 @@ impl<const N: usize, T> Taken<N, T> {
         self.cells.entry(cell).or_default().push((place, kind));
     }
 
-    /// Whether there is a point that counts within a distance of at most the size of a cell.
-    pub(super) fn within(
+    /// Whether a point whose attribute `counts` is nearer than a distance, which is at most the side of a cell.
+    pub(super) fn has_neighbour(
         &self,
         place: [f64; N],
         distance: f64,

@@ -1,30 +1,37 @@
-//! A sheet continued beyond its border.
+//! Extrapolation of a warp map beyond the border of its sheet.
 
 use super::WarpMap;
-use super::local::Local;
+use super::local_quadratic::LocalQuadratic;
 use crate::error::{Result, checked_cells, try_filled};
+use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
-/// Marks a pixel from which no sheet was found.
-const FAR: u32 = u32::MAX;
+/// Minimum side, in pixels, of the cells whose pixels are extrapolated by one quadratic.
+const MIN_CELL_PIXELS: usize = 8;
+
+/// Minimum half side, in pixels, of the window that a quadratic is fitted to.
+const MIN_WINDOW_PIXELS: usize = 16;
 
 impl WarpMap {
-    /// The map with `margin` pixels more on each side, in which the sheet goes on smoothly where there was
-    /// none within so many pixels: holes and bays are filled, and a saw-toothed border has room to be cut
-    /// straight. Each new pixel goes on from the sheet's nearest one, by the quadratic that fits the map
-    /// around there best.
-    pub(super) fn continued(self, margin: usize) -> Result<Self> {
+    /// Adds `margin` pixels on each side and extrapolates the sheet to all pixels within that distance:
+    /// holes and bays are filled, and a saw-toothed border can be cut
+    /// straight. Each new pixel is extrapolated from the sheet's nearest one, by the least-squares quadratic of the map
+    /// around that. Costs `O(pixels)`.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`](crate::Error::TooLarge), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn with_continued_sheet(self, margin: usize) -> Result<Self> {
         let [width, height] = [self.width(), self.height()].map(|n| n + 2 * margin);
         let mut map = self.padded(margin)?;
-        let nearest = nearest(&map)?;
-        // One fit for all pixels that go on from the same cell.
-        let cell = (margin / 2).max(8);
+        let nearest = nearest_sheet_pixels(&map)?;
+        // One fit for all pixels that are extrapolated from the same cell.
+        let cell = (margin / 2).max(MIN_CELL_PIXELS);
         let across = width.div_ceil(cell);
-        let mut fits: Vec<Option<Option<Local>>> = Vec::new();
+        let mut fits: Vec<Option<Option<LocalQuadratic>>> = Vec::new();
         fits.resize_with(across * height.div_ceil(cell), || None);
         let mut found = Vec::new();
         for (i, from) in nearest.iter().enumerate() {
-            if *from == FAR || *from as usize == i {
+            if *from == NO_INDEX || *from as usize == i {
                 continue;
             }
             let pixel = |i: usize| [(i % width) as f64, (i / width) as f64];
@@ -37,7 +44,7 @@ impl WarpMap {
             let [col, row] = edge.map(|v| v as usize / cell);
             let fit = fits[row * across + col].get_or_insert_with(|| {
                 let middle = [col, row].map(|k| (k * cell) as f64 + 0.5 * cell as f64);
-                Local::new(&map, middle, (2 * margin).max(16) as f64)
+                LocalQuadratic::new(&map, middle, (2 * margin).max(MIN_WINDOW_PIXELS) as f64)
             });
             let Some(fit) = fit else { continue };
             let (there, at_edge) = (fit.at(here), fit.at(edge));
@@ -51,6 +58,7 @@ impl WarpMap {
         Ok(map)
     }
 
+    /// The map with empty margins.
     fn padded(self, margin: usize) -> Result<Self> {
         let [width, height] = [self.width(), self.height()].map(|n| n + 2 * margin);
         checked_cells("flat image", height, width)?;
@@ -61,7 +69,7 @@ impl WarpMap {
         }
         let shift = margin as f64 / self.resolution();
         let corner = [self.corner()[0] - shift, self.corner()[1] + shift];
-        Ok(WarpMap::of_places(
+        Ok(WarpMap::from_places(
             [width, height],
             self.resolution(),
             corner,
@@ -70,11 +78,11 @@ impl WarpMap {
     }
 }
 
-/// For each pixel the sheet's pixel that is (all but) nearest to it: itself on the sheet. In two sweeps each
-/// takes over what its neighbours have found (P.-E. Danielsson, *Euclidean distance mapping*, 1980).
-fn nearest(map: &WarpMap) -> Result<Vec<u32>> {
+/// Distance transform: for each pixel the number of the sheet's (nearly) nearest pixel, itself on the sheet; [`NO_INDEX`]
+/// without a sheet. Two sweeps (P.-E. Danielsson, *Euclidean distance mapping*, 1980).
+fn nearest_sheet_pixels(map: &WarpMap) -> Result<Vec<u32>> {
     let (width, height) = (map.width(), map.height());
-    let mut nearest = try_filled("flat image", width * height, FAR)?;
+    let mut nearest = try_filled("flat image", width * height, NO_INDEX)?;
     for (i, place) in map.places().iter().enumerate() {
         if !place[0].is_nan() {
             nearest[i] = i as u32;
@@ -91,7 +99,7 @@ fn nearest(map: &WarpMap) -> Result<Vec<u32>> {
     let take = |nearest: &mut [u32], i: usize, other: usize| {
         let candidate = nearest[other];
         let own = nearest[i];
-        if candidate != FAR && (own == FAR || square(i, candidate) < square(i, own)) {
+        if candidate != NO_INDEX && (own == NO_INDEX || square(i, candidate) < square(i, own)) {
             nearest[i] = candidate;
         }
     };

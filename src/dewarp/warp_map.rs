@@ -1,16 +1,17 @@
-//! From the pixels of the flat image to places in the photo.
+//! Warp maps: from the pixels of a flat image to places in the photo.
 
 use std::ops::Range;
 
+use super::largest_rectangle::largest_rectangle;
+use super::options::DewarpOptions;
 use super::photo::Photo;
-use super::raster::{Canvas, draw};
-use super::registration::Places;
-use super::trim::largest_rectangle;
-use super::{DewarpOptions, Registration, Verdict};
+use super::raster::{Canvas, rasterise};
+use super::registration::{PhotoProjection, Registration};
+use super::verdict::Verdict;
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::unroll::{UnrollReport, Unrolling};
 
-/// For every pixel of a flat image its place in the photo.
+/// The place in the photo of every pixel of a flat image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WarpMap {
     width: usize,
@@ -20,17 +21,21 @@ pub struct WarpMap {
     places: Vec<[f32; 2]>,
 }
 
-/// Marks a pixel without a place.
-const NOWHERE: [f32; 2] = [f32::NAN; 2];
+/// Maximum displacement, as [`WarpMap::displacement`] measures it, of a photo that is called flat: 0.2 % is half a millimetre
+/// on a page of A4.
+const MAX_FLAT_DISPLACEMENT: f64 = 0.002;
+
+/// Place of a pixel where there is no sheet.
+const NO_PLACE: [f32; 2] = [f32::NAN; 2];
 
 impl WarpMap {
-    /// The map for a photo of `photo` (width and height) pixels, in which the surface's points are
-    /// where the registration says: an [`Extent`](super::Extent) of the plane, a camera, texture
+    /// The map of an unrolled surface for a photo of `photo` (width and height) pixels. The registration tells where the
+    /// photo shows the surface's points: by an [`Extent`](super::Extent) of the plane, a camera, or texture
     /// coordinates.
     ///
-    /// Within each triangle of the sheet the point of the surface is linear, and so is the place in
-    /// the photo but for a camera's perspective. Where parts of the sheet lie on each
-    /// other the larger one is seen; where one lies on itself, the upper left triangle of the
+    /// Within each triangle of the sheet points of the surface are interpolated linearly, and so are places in
+    /// the photo but for a camera's perspective. Where components of the sheet overlap, the map shows the larger one; where
+    /// one overlaps itself, the upper left triangle of the
     /// surface. Costs `O(pixels + triangles)`.
     ///
     /// # Errors
@@ -46,13 +51,13 @@ impl WarpMap {
         photo: [usize; 2],
         options: &DewarpOptions,
     ) -> Result<Self> {
-        let places = Places::new(registration.into(), photo, sheet.mesh())?;
+        let projection = PhotoProjection::new(registration.into(), photo, sheet.mesh())?;
         let resolution = match options.dots {
             Some(dots) => positive("dots", dots)?,
-            None => resolution(sheet, &places)?,
+            None => photo_resolution(sheet, &projection)?,
         };
         let (min, max) = bounds(sheet.places());
-        // A hair less, so that a sheet of exactly n pixels has n, however it rounds.
+        // Slightly less, so that a sheet of exactly n pixels has n pixels in spite of rounding.
         let pixels = |k: usize| ((max[k] - min[k]) * resolution - 1e-6).ceil().max(1.0) as usize;
         let (width, height) = (pixels(0), pixels(1));
         checked_cells("flat image", height, width)?;
@@ -61,20 +66,20 @@ impl WarpMap {
             resolution,
             corner: [min[0], max[1]],
         };
-        let mut found = try_filled("flat image", width * height, NOWHERE)?;
-        draw(sheet, &places, &canvas, &mut found)?;
+        let mut found = try_filled("flat image", width * height, NO_PLACE)?;
+        rasterise(sheet, &projection, &canvas, &mut found)?;
         if found.iter().all(|place| place[0].is_nan()) {
             return Err(Error::Unsupported {
                 format: "flat image",
                 reason: "no pixel lies on the sheet; choose a higher resolution".into(),
             });
         }
-        let map = WarpMap::of_places(canvas.size, resolution, canvas.corner, found);
+        let map = WarpMap::from_places(canvas.size, resolution, canvas.corner, found);
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
-    /// A map whose places are known, row by row.
-    pub(crate) fn of_places(
+    /// A map from its places, row by row.
+    pub(crate) fn from_places(
         [width, height]: [usize; 2],
         resolution: f64,
         corner: [f64; 2],
@@ -100,27 +105,27 @@ impl WarpMap {
         self.height
     }
 
-    /// Pixels of the flat image per unit of length.
+    /// Resolution of the flat image, in pixels per unit of length.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }
 
-    /// Where the upper left corner of the flat image lies on the sheet, in the surface's units.
+    /// Position of the flat image's upper left corner on the sheet, in the surface's units.
     pub fn corner(&self) -> [f64; 2] {
         self.corner
     }
 
-    /// For each pixel, row by row, its place `[x, y]` in the photo, in its pixels: `[0, 0]` is the
+    /// Place `[x, y]` in the photo of each pixel, row by row, in the photo's pixels: `[0, 0]` is the
     /// centre of the upper left one. NaN where there is no sheet.
     pub fn places(&self) -> &[[f32; 2]] {
         &self.places
     }
 
-    /// How far places in the photo are from those in the flat image after the best turn, scaling and
-    /// shift, as the root of the mean square in shares of the root of the sheet's area: what the
-    /// photo itself is wrong by as a picture of the page.
+    /// Displacement between the photo and the flat image: the root mean square of the distances between places after the best
+    /// similarity (rotation, scaling and translation), as a share of the square root of the sheet's area. Measures how much
+    /// dewarping changes the photo.
     pub fn displacement(&self) -> f64 {
-        // Over complex numbers: the least squares of |p - (a q + b)|², with both from about the middle.
+        // The least squares of |p - (a q + b)|² over complex a and b, with p and q relative to about the middle.
         let middle = [self.width, self.height].map(|n| 0.5 * n as f64);
         let Some(about) = self.places.iter().find(|place| !place[0].is_nan()) else {
             return 0.0;
@@ -159,19 +164,17 @@ impl WarpMap {
         (rest / count).sqrt() / count.sqrt()
     }
 
-    /// Whether the flat image is to be trusted: stretched if the sheet is, see
-    /// [`Verdict::of`]; flat if the photo itself is right to 0.2 %, as
-    /// [`WarpMap::displacement`] measures it.
+    /// Verdict on the flat image: stretched if the sheet is, see
+    /// [`Verdict::from_report`]; flat if [`WarpMap::displacement`] is below 0.2 %; else unrolled.
     pub fn verdict(&self, sheet: &UnrollReport) -> Verdict {
-        const FLAT: f64 = 0.002;
-        match Verdict::of(sheet) {
+        match Verdict::from_report(sheet) {
             Verdict::Stretched => Verdict::Stretched,
-            _ if self.displacement() < FLAT => Verdict::Flat,
+            _ if self.displacement() < MAX_FLAT_DISPLACEMENT => Verdict::Flat,
             _ => Verdict::Unrolled,
         }
     }
 
-    /// The flat image: RGBA bytes, row by row, transparent where there is no sheet or no photo.
+    /// Resamples a photo to the flat image: RGBA bytes, row by row, transparent where there is no sheet or no photo.
     ///
     /// Bilinear, and the mean of several samples for each pixel where the photo is finer than the
     /// flat image. Colours are mixed by their alpha.
@@ -184,7 +187,8 @@ impl WarpMap {
         Ok(out)
     }
 
-    /// Some rows of the [image](WarpMap::image), in the bytes for just these, of what is transparent so far.
+    /// Resamples a photo to some rows of the [flat image](WarpMap::image). `rgba` holds these rows alone and is transparent
+    /// before.
     ///
     /// # Panics
     /// If there are not four bytes for each pixel of these rows, or not as many rows.
@@ -216,7 +220,7 @@ impl WarpMap {
         }
     }
 
-    /// How far the place moves from this pixel to the next one, or from the one before.
+    /// Step of the place in the photo from a pixel to the next one, or from the one before, in pixels of the photo.
     fn step(&self, i: usize, next: Option<usize>, previous: Option<usize>) -> [f32; 2] {
         let way = |from: usize, to: usize| {
             let (from, to) = (self.places[from], self.places[to]);
@@ -228,24 +232,25 @@ impl WarpMap {
         forth.or_else(back).unwrap_or([0.0; 2])
     }
 
-    /// The largest upright rectangle that is all sheet.
+    /// Crops the map to the largest upright rectangle within the sheet.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn trimmed(mut self) -> Result<Self> {
         let inside = |i: usize| !self.places[i][0].is_nan();
         let [rows, cols] = largest_rectangle(self.width, self.height, inside)?;
-        self.keep(rows, cols)?;
+        self.crop_to(rows, cols)?;
         Ok(self)
     }
 
+    /// Places in the photo, to be changed.
     pub(super) fn places_mut(&mut self) -> &mut [[f32; 2]] {
         &mut self.places
     }
 
-    /// Only some rows and columns.
-    pub(super) fn keep(&mut self, rows: Range<usize>, cols: Range<usize>) -> Result<()> {
-        let mut places = try_filled("flat image", rows.len() * cols.len(), NOWHERE)?;
+    /// Crops the map to some rows and columns.
+    pub(super) fn crop_to(&mut self, rows: Range<usize>, cols: Range<usize>) -> Result<()> {
+        let mut places = try_filled("flat image", rows.len() * cols.len(), NO_PLACE)?;
         for (out, row) in places.chunks_exact_mut(cols.len()).zip(rows.clone()) {
             let start = row * self.width + cols.start;
             out.copy_from_slice(&self.places[start..start + cols.len()]);
@@ -259,9 +264,12 @@ impl WarpMap {
     }
 }
 
-/// As many pixels per unit of length as the photo has on the mean over the sheet.
-fn resolution(sheet: &Unrolling, places: &Places) -> Result<f64> {
-    if let Places::Plane([across, up], _) = places {
+/// Mean resolution of the photo over the sheet, in pixels per unit of length.
+///
+/// # Errors
+/// [`Error::Unsupported`] if nothing of the surface is in the photo.
+fn photo_resolution(sheet: &Unrolling, projection: &PhotoProjection) -> Result<f64> {
+    if let PhotoProjection::Plane([across, up], _) = projection {
         return Ok((across * up).sqrt());
     }
     let mesh = sheet.mesh();
@@ -270,8 +278,9 @@ fn resolution(sheet: &Unrolling, places: &Places) -> Result<f64> {
     };
     let (mut seen, mut flat) = (0.0, 0.0);
     for triangle in mesh.triangles() {
-        let corners =
-            triangle.map(|v| places.of(places.of_vertex(v as usize, mesh.positions()[v as usize])));
+        let corners = triangle.map(|v| {
+            projection.project(projection.attributes(v as usize, mesh.positions()[v as usize]))
+        });
         if let [Some(a), Some(b), Some(c)] = corners {
             seen += area([a, b, c].map(|place| place.map(f64::from)));
             flat += area(triangle.map(|v| sheet.places()[v as usize]));
@@ -290,6 +299,7 @@ fn resolution(sheet: &Unrolling, places: &Places) -> Result<f64> {
     })
 }
 
+/// Lower left and upper right corner of the box around points.
 fn bounds(places: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for place in places {

@@ -1,31 +1,36 @@
-//! Patches that go on beyond their borders as they are within them, and what that tells of where
-//! these should be.
+//! Extrapolation of patches beyond their borders, and correction of the borders by it.
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::bend::Bend;
+use super::bend_angles::BendAngles;
 use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{ROW, shift};
 
-/// How many spacings around a vertex others are that its height is taken from.
-const REACH: usize = 3;
+/// Radius, in spacings, around a vertex within which the vertices of a patch determine its extrapolated height.
+const EXTRAPOLATION_RADIUS: usize = 3;
 
-/// A distance that is no reason to move, in spacings.
-const LITTLE: f64 = 0.02;
+/// Distance, in spacings, from the extrapolation of its own patch up to which a vertex stays in that patch.
+const MAX_OWN_DISTANCE: f64 = 0.02;
 
-/// How often labels are looked at.
-const PASSES: usize = 4;
+/// Maximum number of passes of reassigning vertices at the border.
+const MAX_REASSIGNMENT_PASSES: usize = 4;
 
-/// Moves vertices beside a crease's end to the patch that they lie on, where that is another one:
-/// with half the distance from its continuation, or less. Patches grow into the vertices of a
-/// crease in the order of their angles, and at the border of the surface these have none, where
-/// creases would wander off by a cell or two.
-pub(super) fn settle(surface: &Heightfield, bend: &Bend, labels: &mut [u32]) {
+/// A vertex moves to another patch if its distance from that one's extrapolation is less than this share of the distance
+/// from its own patch's.
+const MAX_OTHER_DISTANCE_SHARE: f64 = 0.5;
+
+/// Reassigns vertices at the border of the surface to the neighbouring patch whose extrapolation they lie nearest to. Bend
+/// angles, by which regions grow, are missing at the border, so that creases would end a cell or two beside their place.
+pub(super) fn reassign_border_vertices(
+    surface: &Heightfield,
+    bend: &BendAngles,
+    labels: &mut [u32],
+) {
     let lattice = surface.lattice();
     let at_border =
         |i: usize| bend.angle[i].is_nan() || lattice.around(i).any(|k| bend.angle[k].is_nan());
-    for _ in 0..PASSES {
+    for _ in 0..MAX_REASSIGNMENT_PASSES {
         let mut moves = Vec::new();
         for i in (0..labels.len()).filter(|i| labels[*i] != NO_PATCH && at_border(*i)) {
             let mut others: Vec<u32> = lattice
@@ -39,16 +44,19 @@ pub(super) fn settle(surface: &Heightfield, bend: &Bend, labels: &mut [u32]) {
             others.sort_unstable();
             others.dedup();
             let distance = |patch: u32| {
-                let away = (surface.heights()[i] - extended(surface, labels, patch, i)).abs();
+                let away =
+                    (surface.heights()[i] - extrapolated_height(surface, labels, patch, i)).abs();
                 if away.is_nan() { f64::INFINITY } else { away }
             };
             let own = distance(labels[i]);
-            if own <= LITTLE * lattice.spacing() {
+            if own <= MAX_OWN_DISTANCE * lattice.spacing() {
                 continue;
             }
             let nearest = others.into_iter().map(|patch| (distance(patch), patch));
             let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((_, patch)) = nearest.filter(|(away, _)| *away < 0.5 * own) {
+            if let Some((_, patch)) =
+                nearest.filter(|(away, _)| *away < MAX_OTHER_DISTANCE_SHARE * own)
+            {
                 moves.push((i, patch));
             }
         }
@@ -61,19 +69,27 @@ pub(super) fn settle(surface: &Heightfield, bend: &Bend, labels: &mut [u32]) {
     }
 }
 
-/// Height of a patch at a vertex on or beside its border, from its other vertices: that of the quadratic that fits its vertices nearby
-/// best, or where they do not determine one, of one that is as nearly a plane, and as level, as
-/// they leave it. NaN if there are none.
-pub(crate) fn extended(surface: &Heightfield, labels: &[u32], patch: u32, vertex: usize) -> f64 {
+/// Extrapolated height of a patch at a vertex on or beside its border, from the least-squares quadratic of its other vertices
+/// nearby. Where they do not determine a quadratic, it is as plane and as level as they allow. NaN if there are none.
+pub(crate) fn extrapolated_height(
+    surface: &Heightfield,
+    labels: &[u32],
+    patch: u32,
+    vertex: usize,
+) -> f64 {
     let lattice = surface.lattice();
     let (row, col) = (vertex / lattice.cols(), vertex % lattice.cols());
     let mut samples: Vec<([f64; 2], f64)> = Vec::new();
-    for r in row.saturating_sub(REACH)..=(row + REACH).min(lattice.rows() - 1) {
-        for c in col.saturating_sub(REACH + 1)..=(col + REACH + 1).min(lattice.cols() - 1) {
+    for r in row.saturating_sub(EXTRAPOLATION_RADIUS)
+        ..=(row + EXTRAPOLATION_RADIUS).min(lattice.rows() - 1)
+    {
+        for c in col.saturating_sub(EXTRAPOLATION_RADIUS + 1)
+            ..=(col + EXTRAPOLATION_RADIUS + 1).min(lattice.cols() - 1)
+        {
             let i = lattice.index(r, c);
             let x = c as f64 - shift(r) - (col as f64 - shift(row));
             let y = (row as f64 - r as f64) * ROW;
-            if i != vertex && labels[i] == patch && x.hypot(y) < REACH as f64 + 0.1 {
+            if i != vertex && labels[i] == patch && x.hypot(y) < EXTRAPOLATION_RADIUS as f64 + 0.1 {
                 samples.push(([x, y], surface.heights()[i]));
             }
         }
@@ -82,7 +98,7 @@ pub(crate) fn extended(surface: &Heightfield, labels: &[u32], patch: u32, vertex
         return f64::NAN;
     }
     let mean = samples.iter().map(|(_, z)| z).sum::<f64>() / samples.len() as f64;
-    // So little that it decides nothing but what the samples leave open.
+    // A ridge so small that it decides only what the samples leave open.
     let mut matrix = Matrix6::from_diagonal(&Vector6::new(1e-12, 1e-9, 1e-9, 1e-5, 1e-5, 1e-5));
     let mut right = Vector6::zeros();
     for ([x, y], z) in samples {
@@ -110,7 +126,7 @@ mod tests {
         for row in 2..10 {
             let col = (0..12).find(|c| labels[row * 12 + c] == 1).unwrap();
             let [x, y] = lattice.position(row, col);
-            let z = extended(&field, &labels, 0, row * 12 + col);
+            let z = extrapolated_height(&field, &labels, 0, row * 12 + col);
             assert!((z - truth(x, y)).abs() < 1e-4, "{z} {}", truth(x, y));
         }
     }
@@ -121,11 +137,11 @@ mod tests {
         let lattice = Lattice::new(3, 12, 1.0).unwrap();
         let field = Heightfield::from_fn(lattice, |x, y| 2.0 * x - y).unwrap();
         let labels: Vec<u32> = (0..36).map(|i| u32::from(i >= 24)).collect();
-        let z = extended(&field, &labels, 0, 24 + 6);
+        let z = extrapolated_height(&field, &labels, 0, 24 + 6);
         assert!((z - field.height(2, 6)).abs() < 1e-3, "{z}");
         // One row says nothing about its sides.
         let labels: Vec<u32> = (0..36).map(|i| u32::from(i >= 12)).collect();
-        assert!((extended(&field, &labels, 0, 12 + 6) - field.height(1, 6)).abs() < 1.0);
+        assert!((extrapolated_height(&field, &labels, 0, 12 + 6) - field.height(1, 6)).abs() < 1.0);
     }
 
     #[test]
@@ -139,7 +155,7 @@ mod tests {
         labels[5] = 1;
         labels[4] = 1;
         labels[8 * 12 + 6] = 0;
-        settle(&field, &Bend::new(&field).unwrap(), &mut labels);
+        reassign_border_vertices(&field, &BendAngles::new(&field).unwrap(), &mut labels);
         assert_eq!(labels, truth);
     }
 }

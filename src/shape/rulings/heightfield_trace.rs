@@ -1,36 +1,36 @@
-//! Rulings as lines, evenly spaced.
+//! Tracing of evenly spaced rulings on a heightfield.
 
-use super::direction::least;
+use super::direction::minor_axis;
 use super::heightfield::Rulings;
 use super::options::TraceOptions;
-use super::ruling::{Ruling, SHORTEST};
-use super::taken::Taken;
+use super::point_hash::PointHash;
+use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
 use crate::error::Result;
 use crate::math::sym2::Sym2;
 
-/// Where a line is on the surface, and which way it goes.
+/// Position and direction of a line, as seen from above.
 type Step = ([f64; 2], [f64; 2]);
 
 impl Rulings {
-    /// Lines along the rulings, from where these are surest, no closer together than half the
+    /// Traces evenly spaced rulings, the most certain ones first, no closer together than half the
     /// separation; each ends at the border of the surface, at a crease or where it would come too
-    /// close to another one. (After Jobard and Lefer 1997.)
+    /// close to another one. (After Jobard and Lefer 1997.) Costs `O(n log n)` for `n` vertices.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) unless separation and crease are positive and finite, and the confidence is
     /// from 0 to 1.
     pub fn trace(&self, options: &TraceOptions) -> Result<Vec<Ruling>> {
         let lattice = self.surface.lattice();
-        let separation = options.checked(lattice.spacing())?;
+        let separation = options.checked_separation(lattice.spacing())?;
         let mut seeds: Vec<usize> = (0..lattice.len())
             .filter(|i| self.confidence[*i] >= options.confidence)
             .collect();
         seeds.sort_by(|a, b| self.confidence[*b].total_cmp(&self.confidence[*a]));
-        let mut taken = Taken::new(separation);
+        let mut taken = PointHash::new(separation);
         let mut lines = Vec::new();
         for seed in seeds {
             let start = lattice.position(seed / lattice.cols(), seed % lattice.cols());
-            if taken.within(start, separation, |()| true) {
+            if taken.has_neighbour(start, separation, |()| true) {
                 continue;
             }
             let direction = self.directions[seed];
@@ -44,7 +44,7 @@ impl Rulings {
                 .collect();
             course.iter().for_each(|p| taken.add(*p, ()));
             if let Some(line) = Ruling::new(points)
-                && line.length >= SHORTEST * separation
+                && line.length >= MIN_LENGTH_SEPARATIONS * separation
             {
                 lines.push(line);
             }
@@ -52,27 +52,27 @@ impl Rulings {
         Ok(lines)
     }
 
-    /// The points after a first one.
+    /// Points of a ruling after its first one, by the midpoint rule with steps of one spacing.
     fn follow(
         &self,
         (mut place, mut towards): Step,
         separation: f64,
         options: &TraceOptions,
-        taken: &Taken<2, ()>,
+        taken: &PointHash<2, ()>,
     ) -> Vec<[f64; 2]> {
         let h = self.surface.lattice().spacing();
         let mut course = Vec::new();
-        // A line that is longer than the surface goes in circles.
+        // A line that is longer than the surface is closed.
         while course.len() < 2 * (self.surface.lattice().rows() + self.surface.lattice().cols()) {
             let half = [0, 1].map(|k| place[k] + 0.5 * h * towards[k]);
-            let Some(middle) = self.along(half, towards, options) else {
+            let Some(middle) = self.direction_at(half, towards, options) else {
                 break;
             };
             let next = [0, 1].map(|k| place[k] + h * middle[k]);
-            let Some(direction) = self.along(next, middle, options) else {
+            let Some(direction) = self.direction_at(next, middle, options) else {
                 break;
             };
-            if taken.within(next, 0.5 * separation, |()| true) {
+            if taken.has_neighbour(next, 0.5 * separation, |()| true) {
                 break;
             }
             course.push(next);
@@ -81,8 +81,13 @@ impl Rulings {
         course
     }
 
-    /// The direction at a place, whichever way is closer to one that is given.
-    fn along(&self, place: [f64; 2], near: [f64; 2], options: &TraceOptions) -> Option<[f64; 2]> {
+    /// Direction of the ruling at a place, with the sign that is closer to a given direction; None where a ruling ends.
+    fn direction_at(
+        &self,
+        place: [f64; 2],
+        near: [f64; 2],
+        options: &TraceOptions,
+    ) -> Option<[f64; 2]> {
         let lattice = self.surface.lattice();
         let triangle = lattice.locate(place);
         let mut square = Sym2::default();
@@ -98,7 +103,7 @@ impl Rulings {
             square = square + self.squares[i].scale(weight);
             confidence += weight * self.confidence[i];
         }
-        let [x, y] = least(square);
+        let [x, y] = minor_axis(square);
         let found = if x * near[0] + y * near[1] < 0.0 {
             [-x, -y]
         } else {
@@ -107,6 +112,7 @@ impl Rulings {
         (confidence >= options.confidence).then_some(found)
     }
 
+    /// Height at a place, linear in each triangle of the lattice.
     fn height(&self, place: [f64; 2]) -> Option<f64> {
         let lattice = self.surface.lattice();
         let triangle = lattice.locate(place);

@@ -1,12 +1,15 @@
-//! The largest upright rectangle within a shape.
+//! The largest upright rectangle within a shape of pixels.
 
 use std::ops::Range;
 
 use crate::error::{Result, try_filled};
 
 /// Rows and columns of the largest rectangle whose pixels are all inside; the first one of several.
-/// Linear cost: under each row there is a histogram of how far up the shape reaches, and a
-/// rectangle ends where a bar is lower than it.
+/// Costs `O(width · height)`, by the largest rectangle under the histogram of each row, whose bars tell how far up the shape
+/// reaches.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn largest_rectangle(
     width: usize,
     height: usize,
@@ -14,7 +17,7 @@ pub(super) fn largest_rectangle(
 ) -> Result<[Range<usize>; 2]> {
     let mut bars = try_filled("flat image", width, 0usize)?;
     let mut best = (0, [0..0, 0..0]);
-    // Bars of growing height, each with the column from which on no bar is lower.
+    // Bars of growing height, each with the first column from which no bar is lower.
     let mut open: Vec<(usize, usize)> = Vec::new();
     for row in 0..height {
         for col in 0..=width {

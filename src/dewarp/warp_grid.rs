@@ -1,45 +1,50 @@
-//! Warp maps in little room: places at the nodes of a grid, bilinear in between.
+//! Warp maps reduced to the nodes of a grid, bilinear in between.
 
 use super::WarpMap;
-use super::local::Local;
+use super::local_quadratic::LocalQuadratic;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::math::lanes;
 
 /// A warp map at the nodes of a grid over the flat image.
 ///
 /// Node `[i, j]` is at the pixel `[i · step, j · step]`, `[0, 0]` being the centre of the upper left
-/// pixel and the last one that of the lower right; in between places are bilinear. So it serves flat images of
-/// any size: the share of the way from the first node to the last one is what counts.
+/// pixel and the last node that of the lower right one; places in between are bilinear. The grid applies to flat images of
+/// any size, by shares of the way from the first node to the last one.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct WarpGrid {
-    /// Nodes along a row.
+    /// Number of nodes in each row.
     pub columns: usize,
-    /// Rows of nodes.
+    /// Number of rows of nodes.
     pub rows: usize,
     /// Pixels of the flat image from one node to the next, along rows and along columns.
     pub step: [f64; 2],
-    /// The nodes' places in the photo, row by row, NaN for those around which there is no sheet. Those just
-    /// beside it have the place at which the map would go on, so that all the sheet lies between nodes
+    /// Places of the nodes in the photo, in pixels, row by row; NaN for nodes with no sheet around them. Nodes just
+    /// beside the sheet have an extrapolated place, so that all of the sheet lies between nodes
     /// with places.
     pub places: Vec<[f32; 2]>,
-    /// How far its places are from those of the map, in pixels of the photo: root mean square over
+    /// Root mean square of the distances between the grid's places and the map's, in pixels of the photo, over
     /// all pixels of the sheet.
     pub rms: f64,
-    /// The same, at most.
+    /// Maximum distance between the grid's places and the map's, in pixels of the photo.
     pub maximum: f64,
 }
 
-/// Cells along the longer side: how many to begin with, and how many more each time.
-const COARSEST: f64 = 16.0;
-const FINER: f64 = 1.4;
+/// Number of cells along the longer side of the coarsest grid that is tried.
+const COARSEST_GRID_CELLS: f64 = 16.0;
 
-/// Pixels that are looked at to choose the step.
-const LOOKS: usize = 200_000;
+/// Ratio of the numbers of cells along a side of one grid that is tried and the one before.
+const GRID_REFINEMENT_FACTOR: f64 = 1.4;
+
+/// Maximum number of pixels by which the error of a grid that is tried is measured.
+const MAX_MEASURED_PIXELS: usize = 200_000;
+
+/// Distance, in nodes or pixels, and weight up to which rounding errors of interpolation are ignored.
+const INTERPOLATION_TOLERANCE: f64 = 1e-6;
 
 impl WarpMap {
-    /// The map on the coarsest of some grids whose places are right to `tolerance`, in pixels of the
-    /// photo, or on the last one that has no more than `most` nodes: creases take many.
+    /// Reduces the map to the coarsest grid whose places are right to `tolerance`, in pixels of the
+    /// photo, or else to the finest one that has no more than `most` nodes: sheets with creases need many.
     /// Costs `O(pixels + nodes)`.
     ///
     /// # Errors
@@ -55,15 +60,15 @@ impl WarpMap {
         let shape =
             |cells: f64| sides.map(|side| ((side / longer * cells).ceil() as usize).max(1) + 1);
         let pixels = self.places().len();
-        let mut cells = COARSEST;
+        let mut cells = COARSEST_GRID_CELLS;
         while shape(cells)[0] * shape(cells)[1] > most && cells > 1.0 {
-            cells /= FINER;
+            cells /= GRID_REFINEMENT_FACTOR;
         }
         let mut grid = self.sampled(shape(cells))?;
-        let stride = pixels / LOOKS + 1;
+        let stride = pixels / MAX_MEASURED_PIXELS + 1;
         loop {
             grid.measure(self, stride);
-            cells *= FINER;
+            cells *= GRID_REFINEMENT_FACTOR;
             let [columns, rows] = shape(cells);
             let enough = grid.maximum <= tolerance || cells > longer;
             if enough || columns * rows > most {
@@ -77,6 +82,7 @@ impl WarpMap {
         Ok(grid)
     }
 
+    /// The grid of so many nodes, without its errors.
     fn sampled(&self, [columns, rows]: [usize; 2]) -> Result<WarpGrid> {
         let sides = [self.width(), self.height()].map(|n| (n - 1) as f64);
         let step = [
@@ -89,9 +95,9 @@ impl WarpMap {
                 (i % columns) as f64 * step[0],
                 (i / columns) as f64 * step[1],
             ];
-            *place = match self.between(node) {
+            *place = match self.interpolate(node) {
                 Some(place) => place.map(lanes::single),
-                None => self.beside(node, step).unwrap_or(*place),
+                None => self.extrapolate(node, step).unwrap_or(*place),
             };
         }
         Ok(WarpGrid {
@@ -104,16 +110,16 @@ impl WarpMap {
         })
     }
 
-    /// The place between four pixels that have one.
-    pub(super) fn between(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    /// Bilinear interpolation of the place between pixels; None unless all of them have one.
+    pub(super) fn interpolate(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let [width, height] = [self.width(), self.height()];
         bilinear([x, y], [width, height], |i| self.places()[i].map(f64::from))
     }
 
-    /// Where the map would go on at a node, if there is sheet in the cells around it.
-    fn beside(&self, node: [f64; 2], step: [f64; 2]) -> Option<[f32; 2]> {
+    /// Extrapolated place of a node; None if there is no sheet in the cells around it.
+    fn extrapolate(&self, node: [f64; 2], step: [f64; 2]) -> Option<[f32; 2]> {
         let reach = step[0].max(step[1]);
-        // Only what lies in one of the four cells around is of use.
+        // Pixels in the four cells around the node.
         let range = |k: usize, size: usize| {
             let [low, high] = [-1.0, 1.0].map(|side| node[k] + side * step[k]);
             low.ceil().max(0.0) as usize..(high.floor() as usize + 1).min(size)
@@ -132,13 +138,13 @@ impl WarpMap {
             return None;
         }
         let middle = near.0.map(|sum| sum / near.1);
-        let fit = Local::new(self, middle, 1.5 * reach.max(2.0))?;
+        let fit = LocalQuadratic::new(self, middle, 1.5 * reach.max(2.0))?;
         Some(fit.at(node).map(lanes::single))
     }
 }
 
 impl WarpGrid {
-    /// The place at a pixel of the flat image, or between pixels. Nothing where there is no sheet near.
+    /// Place in the photo of a pixel of the flat image, or of a point between pixels; None where there is no sheet near.
     pub fn at(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         // A side of one pixel has nodes that coincide.
         let share = |v: f64, step: f64| if step > 0.0 { v / step } else { 0.0 };
@@ -148,10 +154,11 @@ impl WarpGrid {
         })
     }
 
+    /// Measures the error of the grid by every `stride`-th pixel of each row.
     fn measure(&mut self, map: &WarpMap, stride: usize) {
         let (mut squares, mut maximum, mut count) = (0.0, 0.0f64, 0.0);
         for (row, places) in map.places().chunks_exact(map.width()).enumerate() {
-            // Other columns in each row.
+            // Rows begin at different columns.
             for col in (row % stride..map.width()).step_by(stride) {
                 let place = places[col];
                 if place[0].is_nan() {
@@ -173,15 +180,16 @@ impl WarpGrid {
     }
 }
 
-/// Between four values of a field, where all of them are there.
+/// Bilinear interpolation of a field; None outside of it, and where a value is NaN.
 fn bilinear(
     [x, y]: [f64; 2],
     [columns, rows]: [usize; 2],
     value: impl Fn(usize) -> [f64; 2],
 ) -> Option<[f64; 2]> {
-    const SLACK: f64 = 1e-6;
     let [right, bottom] = [columns, rows].map(|n| (n - 1) as f64);
-    if !((-SLACK..=right + SLACK).contains(&x) && (-SLACK..=bottom + SLACK).contains(&y)) {
+    if !((-INTERPOLATION_TOLERANCE..=right + INTERPOLATION_TOLERANCE).contains(&x)
+        && (-INTERPOLATION_TOLERANCE..=bottom + INTERPOLATION_TOLERANCE).contains(&y))
+    {
         return None;
     }
     let cell = |v: f64, n: usize| (v.max(0.0) as usize).min(n.saturating_sub(2));
@@ -194,8 +202,8 @@ fn bilinear(
         (0, 1, (1.0 - fx) * fy),
         (1, 1, fx * fy),
     ] {
-        // What has no weight need not be there.
-        if weight.abs() > SLACK {
+        // Values without weight may be missing.
+        if weight.abs() > INTERPOLATION_TOLERANCE {
             let found = value((row + dy) * columns + col + dx);
             sum = [sum[0] + weight * found[0], sum[1] + weight * found[1]];
         }

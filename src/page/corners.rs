@@ -1,12 +1,21 @@
-//! Edges in one order, by the corners at their ends.
+//! Order of a page's edges, by the corners at their ends.
 
-use super::line::{Line, Traced, distance};
+use super::traced_line::{TracedLine, TracedPage, distance};
 use crate::error::{Error, Result};
 
-/// Makes both edges run the same way, so that the corners lie clockwise as they are seen, and checks
-/// that they can be those of a page.
-pub(super) fn arrange([first, second]: &mut [Line; 2]) -> Result<()> {
-    let turns = |first: &Line, second: &Line| {
+/// Maximum number of segments of an edge that are checked for crossings.
+const MAX_CROSSING_SEGMENTS: usize = 1000;
+
+/// Maximum distance between two edges' ends at a common corner, as a share of the edge's length.
+const MAX_CORNER_GAP_SHARE: f64 = 0.05;
+
+/// Makes both edges run the same way, so that the corners lie clockwise in the photo, and checks
+/// that they can belong to a page.
+///
+/// # Errors
+/// [`Error::Edges`].
+pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
+    let turns = |first: &TracedLine, second: &TracedLine| {
         let ([a, b], [d, c]) = (first.ends(), second.ends());
         let corners = [a, b, c, d];
         [0, 1, 2, 3].map(|i| {
@@ -38,7 +47,7 @@ pub(super) fn arrange([first, second]: &mut [Line; 2]) -> Result<()> {
     } else if found[0] < 0.0 {
         // Both run backwards, or each is called by the other's name.
         let sideways = first.name == "right";
-        let runs = |line: &Line| {
+        let runs = |line: &TracedLine| {
             let [from, to] = line.ends();
             let k = usize::from(sideways);
             to[k] - from[k]
@@ -61,14 +70,13 @@ pub(super) fn arrange([first, second]: &mut [Line; 2]) -> Result<()> {
         first.points.reverse();
         second.points.reverse();
     }
-    crossing(first, second)
+    check_no_crossing(first, second)
 }
 
-/// Refuses edges that cross each other.
-fn crossing(first: &Line, second: &Line) -> Result<()> {
-    // A thousand by a thousand segments is enough to tell.
-    let thin = |line: &Line| -> Vec<[f64; 2]> {
-        let step = line.points.len().div_ceil(1000);
+/// Checks that two edges do not cross each other.
+fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
+    let thin = |line: &TracedLine| -> Vec<[f64; 2]> {
+        let step = line.points.len().div_ceil(MAX_CROSSING_SEGMENTS);
         let mut thin: Vec<_> = line.points.iter().copied().step_by(step).collect();
         thin.push(line.points[line.points.len() - 1]);
         thin
@@ -101,9 +109,12 @@ fn crossing(first: &Line, second: &Line) -> Result<()> {
     Ok(())
 }
 
-/// Checks that the second page begins at the gutter, where the first one ends.
-pub(super) fn neighbours(one: &mut Traced, other: &mut Traced) -> Result<()> {
-    let gap = |one: &Traced, other: &Traced| -> f64 {
+/// Puts the two pages of a spread in order, and checks that the second one begins at the gutter, where the first one ends.
+///
+/// # Errors
+/// [`Error::Edges`].
+pub(super) fn arrange_spread(one: &mut TracedPage, other: &mut TracedPage) -> Result<()> {
+    let gap = |one: &TracedPage, other: &TracedPage| -> f64 {
         (0..2)
             .map(|e| distance(one.pair[e].ends()[1], other.pair[e].ends()[0]))
             .sum()
@@ -114,7 +125,7 @@ pub(super) fn neighbours(one: &mut Traced, other: &mut Traced) -> Result<()> {
     let (one, other) = (&one.pair, &other.pair);
     for e in 0..2 {
         let apart = distance(one[e].ends()[1], other[e].ends()[0]);
-        if apart > 0.05 * one[e].chord().max(other[e].chord()) {
+        if apart > MAX_CORNER_GAP_SHARE * one[e].chord().max(other[e].chord()) {
             return Err(Error::Edges {
                 reason: format!(
                     "the {} edges of the two pages end {apart:.0} pixels apart; the pages of a \
@@ -127,9 +138,14 @@ pub(super) fn neighbours(one: &mut Traced, other: &mut Traced) -> Result<()> {
     Ok(())
 }
 
-/// Checks that the two other edges end at the bent ones' corners, and makes them run from the first
-/// bent edge to the second.
-pub(super) fn at_corners([first, second]: &[Line; 2], sides: &[Line; 2]) -> Result<()> {
+/// Checks that the straight edges end at the bent edges' corners.
+///
+/// # Errors
+/// [`Error::Edges`].
+pub(super) fn check_sides(
+    [first, second]: &[TracedLine; 2],
+    sides: &[TracedLine; 2],
+) -> Result<()> {
     for (k, side) in sides.iter().enumerate() {
         let corners = [first.ends()[k], second.ends()[k]];
         let off = |ends: [[f64; 2]; 2]| {
@@ -139,12 +155,61 @@ pub(super) fn at_corners([first, second]: &[Line; 2], sides: &[Line; 2]) -> Resu
         };
         let [from, to] = side.ends();
         let apart = off([from, to]).min(off([to, from]));
-        if apart > 0.05 * side.chord().max(first.chord()) {
+        if apart > MAX_CORNER_GAP_SHARE * side.chord().max(first.chord()) {
             return Err(Error::Edges {
                 reason: format!(
                     "the {} edge ends {apart:.0} pixels from the corner that the {} and {} edges \
                      have there; all four edges go from corner to corner",
                     side.name, first.name, second.name
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Maximum distance of a traced line outside of its page, as a share of the page's edge.
+const MAX_OUTSIDE_SHARE: f64 = 0.03;
+
+/// Checks that a line of text is on its page.
+///
+/// # Errors
+/// [`Error::Edges`].
+pub(super) fn check_on_page(
+    [first, second]: &[TracedLine; 2],
+    points: &[[f64; 2]],
+    number: usize,
+) -> Result<()> {
+    let thin = |line: &TracedLine| -> Vec<[f64; 2]> {
+        let step = line.points.len().div_ceil(200);
+        let mut thin: Vec<_> = line.points.iter().copied().step_by(step).collect();
+        thin.push(line.points[line.points.len() - 1]);
+        thin
+    };
+    let mut outline = thin(first);
+    outline.extend(thin(second).into_iter().rev());
+    let slack = MAX_OUTSIDE_SHARE * first.chord().max(second.chord());
+    let sides = || (outline.iter().copied()).zip(outline.iter().cycle().skip(1).copied());
+    for [x, y] in points {
+        let crossed = sides()
+            .filter(|(p, q)| {
+                (p[1] > *y) != (q[1] > *y) && *x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])
+            })
+            .count();
+        let near = || {
+            sides().any(|(p, q)| {
+                let (way, off) = ([q[0] - p[0], q[1] - p[1]], [x - p[0], y - p[1]]);
+                let squared = (way[0] * way[0] + way[1] * way[1]).max(1e-12);
+                let t = ((way[0] * off[0] + way[1] * off[1]) / squared).clamp(0.0, 1.0);
+                (off[0] - t * way[0]).hypot(off[1] - t * way[1]) < slack
+            })
+        };
+        if crossed % 2 == 0 && !near() {
+            return Err(Error::Edges {
+                reason: format!(
+                    "line {number} of the text (the first is line 0) has a point at ({x:.0}, \
+                     {y:.0}), which is not between the {} and {} edges of its page",
+                    first.name, second.name
                 ),
             });
         }

@@ -2,52 +2,56 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-/// Pieces that each page's curve is integrated over.
-pub(super) const PIECES: usize = 96;
+/// Number of pieces over which each page's curve is integrated.
+pub(super) const CURVE_PIECES: usize = 96;
+
+/// Number of secant steps by which the intersection of a line of sight with a piece of the curve is exact to rounding: a
+/// piece is nearly straight.
+const SECANT_STEPS: usize = 3;
 
 /// Half the step of central differences by a cylinder's parameters and by places on the page, which are of order 1.
 /// About the cube root of the rounding error, where truncation and rounding are equally small.
 pub(super) const DIFFERENCE_STEP: f64 = 1e-5;
 
-/// One page, or several that share rulings, side by side. Lengths are in widths of the first one.
+/// A page, or the two of a spread, as a cylinder seen by a pinhole camera. Lengths are in widths of the first page.
 #[derive(Debug, Clone)]
 pub(super) struct Cylinder {
     /// Focal length, in pixels.
     pub focal: f64,
     /// Principal point, in pixels.
     pub centre: [f64; 2],
-    /// Columns: the curve's two axes, and the rulings' direction from the first edge to the second.
+    /// Rotation whose columns are the curve's two axes and the rulings' direction, from the first edge to the second.
     pub axes: Matrix3<f64>,
-    /// Where the first edge starts, from the camera: x to the right, y down, z ahead.
+    /// Start of the first edge in the camera's axes: x to the right, y down, z ahead.
     pub origin: Vector3<f64>,
-    /// Length of the rulings.
+    /// Length of the rulings, in widths of the first page.
     pub length: f64,
-    /// Each page.
-    pub pages: Vec<Strip>,
-    /// By how much the print is turned on each page, in radians, where lines of text tell; else none.
+    /// The curve of each page.
+    pub pages: Vec<CurveSeries>,
+    /// Angle by which the print is rotated on each page, in radians; empty without lines of text.
     pub skews: Vec<f64>,
 }
 
-/// One page's part of the curve.
+/// The curve of one page, by its direction as a Legendre series over the arc length.
 #[derive(Debug, Clone)]
-pub(super) struct Strip {
-    /// Its arc length.
+pub(super) struct CurveSeries {
+    /// Arc length: the width of the page.
     pub width: f64,
-    /// Its direction in the curve's plane, in radians, as coefficients of the Legendre polynomials
-    /// over the page's arc length. The first page's mean is 0: it is in the axes.
+    /// Coefficients, in radians, of the Legendre polynomials over the arc length whose sum is the curve's direction in its
+    /// plane. The first page's mean direction is 0: it is in the axes.
     pub turns: Vec<f64>,
 }
 
-/// The curve itself, in its plane.
+/// The curve of all pages in its plane, integrated to nodes.
 #[derive(Debug, Clone)]
-pub(super) struct Curve {
-    /// For each page its nodes: place and direction.
+pub(super) struct SampledCurve {
+    /// Position and direction at each page's nodes.
     nodes: Vec<Vec<([f64; 2], [f64; 2])>>,
     widths: Vec<f64>,
 }
 
 impl Cylinder {
-    /// How many numbers describe it, but for the principal point.
+    /// Number of parameters of least squares; the principal point is none.
     pub fn parameters(&self) -> usize {
         8 + self
             .pages
@@ -58,12 +62,12 @@ impl Cylinder {
             + self.skews.len()
     }
 
-    /// Degree of the polynomials.
+    /// Degree of the Legendre series.
     pub fn degree(&self) -> usize {
         self.pages[0].turns.len() - 1
     }
 
-    /// The same with a longer or shorter series.
+    /// This cylinder with another degree of the Legendre series.
     pub fn with_degree(mut self, degree: usize) -> Self {
         for page in &mut self.pages {
             page.turns.resize(degree + 1, 0.0);
@@ -71,8 +75,8 @@ impl Cylinder {
         self
     }
 
-    /// Each parameter changed a little, in the order: logarithm of the focal length, rotation
-    /// about the page's middle (3), place (3), logarithm of the length, and for each page the
+    /// This cylinder with its parameters changed by a step. Their order is: logarithm of the focal length, rotation
+    /// about the page's middle (3), translation (3), logarithm of the length, and for each page the
     /// logarithm of its width and its coefficients, but for the first page's width and mean; the
     /// skews come last.
     pub fn moved(&self, step: &[f64]) -> Self {
@@ -101,27 +105,28 @@ impl Cylinder {
         moved
     }
 
+    /// Middle of the chord's box in space, about which steps rotate.
     fn middle(&self) -> Vector3<f64> {
         let width: f64 = self.pages.iter().map(|page| page.width).sum();
         self.origin + self.axes * Vector3::new(width / 2.0, 0.0, self.length / 2.0)
     }
 
-    /// Integrates the curve, by Simpson's rule.
-    pub fn curve(&self) -> Curve {
+    /// Integrates the curve by Simpson's rule.
+    pub fn curve(&self) -> SampledCurve {
         let mut place = [0.0; 2];
         let mut nodes = Vec::with_capacity(self.pages.len());
         for page in &self.pages {
-            let step = page.width / PIECES as f64;
+            let step = page.width / CURVE_PIECES as f64;
             let direction = |at: f64| {
-                let (sin, cos) = series(&page.turns, at).sin_cos();
+                let (sin, cos) = legendre_sum(&page.turns, at).sin_cos();
                 [cos, sin]
             };
             let mut here = direction(0.0);
-            let mut own = Vec::with_capacity(PIECES + 1);
+            let mut own = Vec::with_capacity(CURVE_PIECES + 1);
             own.push((place, here));
-            for i in 0..PIECES {
-                let between = direction((i as f64 + 0.5) / PIECES as f64);
-                let next = direction((i + 1) as f64 / PIECES as f64);
+            for i in 0..CURVE_PIECES {
+                let between = direction((i as f64 + 0.5) / CURVE_PIECES as f64);
+                let next = direction((i + 1) as f64 / CURVE_PIECES as f64);
                 for k in 0..2 {
                     place[k] += step / 6.0 * (here[k] + 4.0 * between[k] + next[k]);
                 }
@@ -130,19 +135,20 @@ impl Cylinder {
             }
             nodes.push(own);
         }
-        Curve {
+        SampledCurve {
             nodes,
             widths: self.pages.iter().map(|page| page.width).collect(),
         }
     }
 
-    /// The point in space over a point of the curve, `down` along its ruling.
+    /// The point in space on the ruling through a point of the curve, at a distance `down` along it.
     pub fn point(&self, [x, y]: [f64; 2], down: f64) -> Vector3<f64> {
         self.origin + self.axes * Vector3::new(x, y, down)
     }
 
-    /// Where that is seen, in pixels; nowhere if it is not in front of the camera.
-    pub fn seen(&self, on: [f64; 2], down: f64) -> Option<[f64; 2]> {
+    /// Projects the point on the ruling through a point of the curve, at a distance `down` along it, to pixels. None unless it
+    /// is in front of the camera.
+    pub fn project(&self, on: [f64; 2], down: f64) -> Option<[f64; 2]> {
         let point = self.point(on, down);
         (point.z > 1e-9).then(|| {
             [
@@ -154,9 +160,14 @@ impl Cylinder {
 }
 
 impl Cylinder {
-    /// Where on a page a pixel lies: along its curve, and down its ruling. Beyond the page's sides the
-    /// curve goes on straight.
-    pub fn place(&self, curve: &Curve, page: usize, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    /// Back-projects a pixel to a page: returns the distances along its curve and down its ruling. Beyond the page's sides the
+    /// curve is extended straight.
+    pub fn back_project(
+        &self,
+        curve: &SampledCurve,
+        page: usize,
+        [x, y]: [f64; 2],
+    ) -> Option<[f64; 2]> {
         let focal = self.focal;
         let sight = Vector3::new(
             (x - self.centre[0]) / focal,
@@ -167,9 +178,9 @@ impl Cylinder {
         let (camera, sight) = (self.axes.tr_mul(&-self.origin), self.axes.tr_mul(&sight));
         let beside = |[u, v]: [f64; 2]| sight.x * (v - camera.y) - sight.y * (u - camera.x);
         let at = |node: usize| beside(curve.node(page, node));
-        let [first, last] = [at(0), at(PIECES)];
+        let [first, last] = [at(0), at(CURVE_PIECES)];
         let (along, on) = if (first > 0.0) != (last > 0.0) {
-            let (mut low, mut high) = (0, PIECES);
+            let (mut low, mut high) = (0, CURVE_PIECES);
             while high - low > 1 {
                 let middle = (low + high) / 2;
                 if (at(middle) > 0.0) == (first > 0.0) {
@@ -178,11 +189,10 @@ impl Cylinder {
                     high = middle;
                 }
             }
-            let share = |piece: f64| (low as f64 + piece) / PIECES as f64;
+            let share = |piece: f64| (low as f64 + piece) / CURVE_PIECES as f64;
             let (mut from, mut to) = ((0.0, at(low)), (1.0, at(high)));
-            // Three steps of the secant are exact to rounding, for a piece is nearly straight.
             let mut piece = 0.5;
-            for _ in 0..3 {
+            for _ in 0..SECANT_STEPS {
                 if from.1 == to.1 {
                     break;
                 }
@@ -194,13 +204,13 @@ impl Cylinder {
         } else {
             let (end, here) = match first.abs() < last.abs() {
                 true => (0, first),
-                false => (PIECES, last),
+                false => (CURVE_PIECES, last),
             };
             let (_, way) = curve.nodes[page][end];
             let change = sight.x * way[1] - sight.y * way[0];
             let width = self.pages[page].width;
-            let along = end as f64 / PIECES as f64 * width - here / change;
-            (along, curve.straight(page, along / width))
+            let along = end as f64 / CURVE_PIECES as f64 * width - here / change;
+            (along, curve.at_extended(page, along / width))
         };
         let off = [on[0] - camera.x, on[1] - camera.y];
         let reach = (off[0] * sight.x + off[1] * sight.y) / (sight.x.powi(2) + sight.y.powi(2));
@@ -208,10 +218,11 @@ impl Cylinder {
         found.iter().all(|v| v.is_finite()).then_some(found)
     }
 
-    /// By how much the direction changes at most along the curve of a page, in radians.
+    /// Range of the direction along the curve of a page, in radians: that of the page that bends most.
     pub fn bend(&self) -> f64 {
-        let page = |page: &Strip| {
-            let turns = (0..=PIECES).map(|i| series(&page.turns, i as f64 / PIECES as f64));
+        let page = |page: &CurveSeries| {
+            let turns = (0..=CURVE_PIECES)
+                .map(|i| legendre_sum(&page.turns, i as f64 / CURVE_PIECES as f64));
             let (low, high) = turns
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), turn| {
                     (low.min(turn), high.max(turn))
@@ -221,8 +232,8 @@ impl Cylinder {
         self.pages.iter().map(page).fold(0.0, f64::max)
     }
 
-    /// Whether a part of it is seen from the other side than the rest.
-    pub fn hides_itself(&self) -> bool {
+    /// Whether the camera sees a part of the page from behind, so that another part is hidden.
+    pub fn has_hidden_part(&self) -> bool {
         let curve = self.curve();
         let mut seen = [false; 2];
         for nodes in &curve.nodes {
@@ -237,15 +248,14 @@ impl Cylinder {
     }
 }
 
-impl Curve {
-    /// The place at a share of one page's width.
+impl SampledCurve {
+    /// Position at a share of one page's width, by cubic Hermite interpolation.
     pub fn at(&self, page: usize, share: f64) -> [f64; 2] {
-        let scaled = share.clamp(0.0, 1.0) * PIECES as f64;
-        let piece = (scaled as usize).min(PIECES - 1);
+        let scaled = share.clamp(0.0, 1.0) * CURVE_PIECES as f64;
+        let piece = (scaled as usize).min(CURVE_PIECES - 1);
         let x = scaled - piece as f64;
         let [(p, d), (q, e)] = [self.nodes[page][piece], self.nodes[page][piece + 1]];
-        let step = self.widths[page] / PIECES as f64;
-        // Cubic Hermite: the directions are known.
+        let step = self.widths[page] / CURVE_PIECES as f64;
         let (x2, x3) = (x * x, x * x * x);
         [0, 1].map(|k| {
             p[k] * (1.0 - 3.0 * x2 + 2.0 * x3)
@@ -254,9 +264,9 @@ impl Curve {
         })
     }
 
-    /// The same, and beyond the page's sides straight on.
-    pub fn straight(&self, page: usize, share: f64) -> [f64; 2] {
-        let end = if share < 0.0 { 0 } else { PIECES };
+    /// Position at a share of one page's width; beyond 0 and 1 the curve is extended straight.
+    pub fn at_extended(&self, page: usize, share: f64) -> [f64; 2] {
+        let end = if share < 0.0 { 0 } else { CURVE_PIECES };
         let beyond = if share < 0.0 {
             share
         } else {
@@ -267,14 +277,14 @@ impl Curve {
         [0, 1].map(|k| on[k] + beyond * self.widths[page] * way[k])
     }
 
-    /// The place at a node.
+    /// Position of a node.
     pub fn node(&self, page: usize, node: usize) -> [f64; 2] {
         self.nodes[page][node].0
     }
 }
 
-/// Sum of Legendre polynomials over the unit interval (Clenshaw).
-fn series(coefficients: &[f64], at: f64) -> f64 {
+/// Sum of a series of Legendre polynomials over the unit interval (Clenshaw's recurrence).
+fn legendre_sum(coefficients: &[f64], at: f64) -> f64 {
     let x = 2.0 * at - 1.0;
     let (mut b1, mut b2) = (0.0, 0.0);
     for (k, c) in coefficients.iter().enumerate().rev() {
@@ -285,8 +295,8 @@ fn series(coefficients: &[f64], at: f64) -> f64 {
     b1
 }
 
-/// The Legendre polynomials up to a degree, at a place of the unit interval.
-pub(super) fn legendre(degree: usize, at: f64) -> Vec<f64> {
+/// Values of the Legendre polynomials over the unit interval, up to a degree.
+pub(super) fn legendre_values(degree: usize, at: f64) -> Vec<f64> {
     let x = 2.0 * at - 1.0;
     let mut values = vec![1.0];
     for k in 0..degree {
@@ -306,17 +316,17 @@ mod tests {
         for at in [0.0, 0.2, 0.5, 0.9, 1.0] {
             let x: f64 = 2.0 * at - 1.0;
             let known = [1.0, x, 1.5 * x * x - 0.5, 2.5 * x.powi(3) - 1.5 * x];
-            for (found, known) in legendre(3, at).into_iter().zip(known) {
+            for (found, known) in legendre_values(3, at).into_iter().zip(known) {
                 assert!((found - known).abs() < 1e-14);
             }
             let sum = 0.3 * known[0] - 2.0 * known[1] + 0.7 * known[2] + 0.1 * known[3];
-            assert!((series(&[0.3, -2.0, 0.7, 0.1], at) - sum).abs() < 1e-14);
+            assert!((legendre_sum(&[0.3, -2.0, 0.7, 0.1], at) - sum).abs() < 1e-14);
         }
     }
 
     #[test]
     fn a_place_is_where_it_is_seen() {
-        let page = |turns: &[f64]| Strip {
+        let page = |turns: &[f64]| CurveSeries {
             width: 1.0,
             turns: turns.to_vec(),
         };
@@ -333,15 +343,15 @@ mod tests {
         let curve = cylinder.curve();
         for (number, share, down) in [(0, 0.0, 0.2), (0, 0.37, 1.4), (1, 0.71, 0.6), (1, 1.0, 0.0)]
         {
-            let seen = cylinder.seen(curve.at(number, share), down).unwrap();
-            let [along, found] = cylinder.place(&curve, number, seen).unwrap();
+            let seen = cylinder.project(curve.at(number, share), down).unwrap();
+            let [along, found] = cylinder.back_project(&curve, number, seen).unwrap();
             assert!((along - share).abs() < 1e-7 && (found - down).abs() < 1e-7);
         }
         // Beyond its end the curve is a straight line.
-        let (from, way) = curve.nodes[1][PIECES];
+        let (from, way) = curve.nodes[1][CURVE_PIECES];
         let beyond = [0, 1].map(|k| from[k] + 0.1 * way[k]);
-        let seen = cylinder.seen(beyond, 0.5).unwrap();
-        let [along, down] = cylinder.place(&curve, 1, seen).unwrap();
+        let seen = cylinder.project(beyond, 0.5).unwrap();
+        let [along, down] = cylinder.back_project(&curve, 1, seen).unwrap();
         assert!(
             (along - 1.1).abs() < 1e-9 && (down - 0.5).abs() < 1e-9,
             "{along} {down}"
@@ -350,7 +360,7 @@ mod tests {
 
     #[test]
     fn a_constant_turn_is_an_arc() {
-        let page = Strip {
+        let page = CurveSeries {
             width: 2.0,
             turns: vec![0.0, 0.6],
         };

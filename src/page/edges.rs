@@ -1,46 +1,46 @@
 //! The edges of a page as they were traced.
 
-/// An edge as it was traced in a photo, from one corner of the page to the next, in the photo's
+/// A traced edge of a page, from one corner to the next, or a traced line of text, in the photo's
 /// pixels: `[0, 0]` is the centre of the upper left one.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Trace {
-    /// Points on the edge, as many as there are, at any distances; the first and the last one are
-    /// corners. Between them the edge is smooth, not straight.
+    /// Points on the edge, any number at any distances; the first and the last one are
+    /// corners. The edge is smooth between points, not straight.
     Points(Vec<[f64; 2]>),
     /// Cubic Bézier curves that follow each other: 4, 7, 10 … control points.
     Beziers(Vec<[f64; 2]>),
 }
 
-/// The edges of a page: the two that are bent, or all. Each is listed from left to right, or from top to bottom; if all
-/// are the other way round that is seen and mended.
+/// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom; if
+/// all run the other way, they are reversed.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Edges {
-    /// Of a page whose rulings run from top to bottom, as a book's.
+    /// The upper and the lower edge, of a page whose rulings run from top to bottom, as in a book.
     TopBottom {
-        /// The upper edge as one reads.
+        /// The upper edge, as the page is read.
         top: Trace,
-        /// The lower one.
+        /// The lower edge.
         bottom: Trace,
     },
-    /// Of a page whose rulings run from left to right.
+    /// The left and the right edge, of a page whose rulings run from left to right.
     LeftRight {
-        /// The left edge as one reads.
+        /// The left edge, as the page is read.
         left: Trace,
-        /// The right one.
+        /// The right edge.
         right: Trace,
     },
-    /// All four, of which two are bent and the other two straight: which ones is seen. The straight
-    /// ones check the page: a letter that is folded along two of its edges shows it by the others.
+    /// All four edges, of which two opposite ones are bent and the others straight; which ones are bent is found out. The
+    /// straight ones check the page: they show a fold along the bent ones.
     All {
-        /// The upper edge as one reads.
+        /// The upper edge, as the page is read.
         top: Trace,
-        /// The lower one.
+        /// The lower edge.
         bottom: Trace,
-        /// The left one.
+        /// The left edge.
         left: Trace,
-        /// The right one.
+        /// The right edge.
         right: Trace,
     },
 }

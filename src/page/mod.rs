@@ -1,14 +1,13 @@
 //! Flat pages from one photo and the traces of their bent edges.
 //!
 //! A page that is curled one way (a book's page, a letter that was rolled up) is a cylinder over
-//! some curve: its rulings are straight, parallel, and normal to the two edges that are bent. Then
-//! one photo in which these edges are traced, with the page's corners at their ends, tells the whole
+//! some curve: its rulings are straight, parallel, and normal to the two edges that are bent. So
+//! one photo in which these edges are traced, with the page's corners at their ends, determines the
 //! surface: the corners are those of a plane rectangle, which gives the rulings' direction, and each
-//! traced point is where its ray meets the plane of its edge. (Huaigu Cao, Xiaoqing Ding, Changsong
+//! traced point is the intersection of its line of sight with the plane of its edge. (Huaigu Cao, Xiaoqing Ding, Changsong
 //! Liu, *A Cylindrical Surface Model to Rectify the Bound Document Image*, ICCV 2003, have the same
-//! model; they derive the bend from lines of text.) From this closed form the least-squares
-//! cylinder is found by which both edges, the corners and what else is known are met best; what is
-//! left says how good it is.
+//! model; they derive the bend from lines of text.) The closed form is the initial guess of the least-squares
+//! cylinder of both edges, the corners and prior knowledge; its residuals give the verdict.
 //!
 //! ```
 //! use developable::dewarp::DewarpOptions;
@@ -39,34 +38,36 @@
 //! # }
 //! ```
 //!
-//! What two edges cannot tell: an edge whose plane passes near the camera looks straight however the
-//! page is bent, and then nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
-//! slight fold that both edges explain nearly as well by a curve is told from one by its known
+//! Limits of two edges: an edge whose plane passes near the camera appears straight however the
+//! page is bent, so that nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
+//! slight fold, which both edges fit nearly as well as a curve, is recognised by its known
 //! format, by lines of text ([`CurledPage::in_photo`] finds them, [`CurledPage::with_lines`] is given them) or by its
 //! straight edges ([`Edges::All`]).
-//! Lenses are taken to be free of distortion.
+//! Lenses are assumed to have no distortion.
 
+mod closed_form;
 mod corners;
-mod cross;
+mod cross_sections;
+mod curled_page;
 mod cylinder;
 mod edges;
-mod estimate;
-mod find;
+mod error_estimate;
 mod huber;
-mod known;
-mod line;
-mod misfit;
+mod in_photo;
+mod known_sizes;
+mod levenberg_marquardt;
 mod options;
 mod output;
-mod photo;
 mod prior;
+mod read_traces;
 mod report;
-mod solve;
-mod start;
+mod residual_statistics;
+mod search;
 mod text;
-mod trace;
+mod traced_line;
+mod traces;
 
+pub use curled_page::CurledPage;
 pub use edges::{Edges, Trace};
-pub use find::CurledPage;
 pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use report::{PageReport, PageVerdict};

@@ -1,31 +1,31 @@
-//! What is known of a page and its camera.
+//! Options of finding a page: knowledge about the page and its camera.
 
-/// What is known of the camera's focal length.
+/// Knowledge about the camera's focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum FocalLength {
-    /// Nothing: it is found from the perspective, if that is strong enough.
+    /// Unknown: it is found from the perspective, if that is strong enough.
     #[default]
     Unknown,
-    /// In pixels of the photo.
+    /// Focal length in pixels of the photo.
     Pixels(f64),
-    /// As the angle, in degrees, that the photo's longer side covers.
+    /// Field of view along the photo's longer side, in degrees.
     FieldOfView(f64),
-    /// In millimetres, as for a film of 36 by 24 mm with the same diagonal angle: Exif's
-    /// `FocalLengthIn35mmFilm`. Such numbers are taken to be right to 2 %.
+    /// Focal length in millimetres of a camera for 35 mm film (36 by 24 mm) with the same diagonal field of view: Exif's
+    /// `FocalLengthIn35mmFilm`. Its standard deviation is taken to be 2 %.
     Film35(f64),
 }
 
-/// What is known of a page's size.
+/// Knowledge about a page's size.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Format {
-    /// Nothing: the page's width is the unit of length.
+    /// Unknown: the page's width is the unit of length.
     #[default]
     Unknown,
-    /// 210 by 297 mm, upright or across, whichever is nearer to what is seen.
+    /// A4: 210 by 297 mm, upright or across, whichever is nearer to the edges.
     A4,
-    /// 8.5 by 11 inches, likewise.
+    /// US letter: 8.5 by 11 inches, upright or across, whichever is nearer to the edges.
     Letter,
     /// Width and height of a page, in millimetres.
     Millimetres([f64; 2]),
@@ -36,15 +36,15 @@ pub enum Format {
 /// A known distance on the flat page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ruler {
-    /// Where it begins in the photo, in pixels.
+    /// Position of the first end in the photo, in pixels.
     pub from: [f64; 2],
-    /// Where it ends.
+    /// Position of the second end in the photo, in pixels.
     pub to: [f64; 2],
-    /// Its length, in millimetres.
+    /// Distance between the ends on the flat page, in millimetres.
     pub length: f64,
 }
 
-/// What is known besides the edges.
+/// Options of finding a page: what is known besides its edges.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct PageOptions {
@@ -52,13 +52,13 @@ pub struct PageOptions {
     pub focal_length: FocalLength,
     /// The page's format; of a spread that of each of its pages. Default: unknown.
     pub format: Format,
-    /// A known length on the page, where its format is not known in millimetres.
+    /// A known distance on the page, for a page whose format is not known in millimetres.
     pub ruler: Option<Ruler>,
-    /// The principal point, in pixels; of a photo that was cropped, the middle of the whole one.
-    /// Default: the photo's middle, right to 0.4 % of the diagonal.
+    /// The principal point, in pixels: in a photo that was cropped, the middle of the original one.
+    /// Default: the photo's middle, with a standard deviation of 0.4 % of the diagonal.
     pub centre: Option<[f64; 2]>,
-    /// How near to the edge traced points are meant to lie, as a standard deviation in pixels; the
-    /// points' own scatter corrects it. Default: 1/2500 of the photo's diagonal, 2 pixels of a
+    /// Standard deviation of the traced points from the edge, in pixels; if
+    /// the points scatter more, that counts. Default: 1/2500 of the photo's diagonal, 2 pixels of a
     /// 12-megapixel photo.
     pub accuracy: Option<f64>,
 }

@@ -1,17 +1,20 @@
-//! What a page is good for: its flat image, and the surface itself.
+//! Outputs of a page: sizes, warp map and mesh.
 
-use super::cylinder::Curve;
-use super::find::CurledPage;
+use super::curled_page::CurledPage;
+use super::cylinder::SampledCurve;
 use crate::dewarp::{DewarpOptions, WarpMap};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
-/// Vertices along a page's curve.
-const FINE: usize = 97;
+/// Maximum number of steps of Newton's method for a place on the page.
+const MAX_NEWTON_STEPS: usize = 30;
+
+/// Number of vertices of the mesh along a page's curve.
+const VERTICES_PER_CURVE: usize = 97;
 
 impl CurledPage {
-    /// Width and height of the flat page, or of both pages of a spread together: in millimetres if
+    /// Width and height of the flat page, or of both pages of a spread together, in millimetres if
     /// the format or a ruler is known, else in widths of a page.
     pub fn flat_size(&self) -> [f64; 2] {
         self.size().map(|side| side * self.unit)
@@ -22,12 +25,12 @@ impl CurledPage {
         self.millimetres
     }
 
-    /// How many pages lie side by side.
+    /// Number of pages side by side.
     pub fn pages(&self) -> usize {
         self.cylinder.pages.len()
     }
 
-    /// The same in the cylinder's own unit.
+    /// Width and height of the flat page in the cylinder's unit.
     pub(super) fn size(&self) -> [f64; 2] {
         let width = self.cylinder.pages.iter().map(|page| page.width).sum();
         if self.sideways {
@@ -37,16 +40,16 @@ impl CurledPage {
         }
     }
 
-    /// Where a place on the flat page is seen, in the photo's pixels; `from_left` and `from_top` are
-    /// shares of its sides.
+    /// Projects a place on the flat page to the photo, in pixels; `from_left` and `from_top` are
+    /// shares of the page's sides. None if it is not in front of the camera.
     pub fn photo_place(&self, [from_left, from_top]: [f64; 2]) -> Option<[f64; 2]> {
-        let (along, down) = self.turned([from_left, from_top]);
+        let (along, down) = self.curve_shares([from_left, from_top]);
         let on = self.on_curve(&self.cylinder.curve(), along);
-        self.cylinder.seen(on, down * self.cylinder.length)
+        self.cylinder.project(on, down * self.cylinder.length)
     }
 
-    /// Shares along the curve, and along the rulings.
-    pub(super) fn turned(&self, [from_left, from_top]: [f64; 2]) -> (f64, f64) {
+    /// Shares along the curve and along the rulings of a place on the flat page.
+    pub(super) fn curve_shares(&self, [from_left, from_top]: [f64; 2]) -> (f64, f64) {
         if self.sideways {
             (from_top, 1.0 - from_left)
         } else {
@@ -54,8 +57,8 @@ impl CurledPage {
         }
     }
 
-    /// The place at a share of all pages' width.
-    fn on_curve(&self, curve: &Curve, share: f64) -> [f64; 2] {
+    /// Position on the curve at a share of all pages' width.
+    fn on_curve(&self, curve: &SampledCurve, share: f64) -> [f64; 2] {
         let pages = &self.cylinder.pages;
         let mut rest = share * pages.iter().map(|page| page.width).sum::<f64>();
         for (number, page) in pages.iter().enumerate() {
@@ -67,29 +70,35 @@ impl CurledPage {
         curve.at(0, 0.0)
     }
 
-    /// Where a pixel lies on the flat page, from its upper left corner, in the cylinder's unit: the
-    /// nearest of a grid, and Newton's method from there. None if it is not on the page.
+    /// Back-projects a pixel to the flat page, from its upper left corner, in the cylinder's unit: Newton's method from
+    /// the nearest of a grid of places. None if the pixel is not on the page.
     pub(super) fn flat_place(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
-        const GRID: usize = 24;
+        /// Number of initial places along each side of the page.
+        const INITIAL_PLACES_PER_SIDE: usize = 24;
         let off = |at: [f64; 2]| {
             let seen = self.photo_place(at)?;
             Some([seen[0] - pixel[0], seen[1] - pixel[1]])
         };
         let mut best = (f64::INFINITY, [0.5; 2]);
-        for i in 0..GRID * GRID {
-            let at = [i % GRID, i / GRID].map(|k| (k as f64 + 0.5) / GRID as f64);
+        for i in 0..INITIAL_PLACES_PER_SIDE * INITIAL_PLACES_PER_SIDE {
+            let at = [i % INITIAL_PLACES_PER_SIDE, i / INITIAL_PLACES_PER_SIDE]
+                .map(|k| (k as f64 + 0.5) / INITIAL_PLACES_PER_SIDE as f64);
             let distance = off(at).map_or(f64::INFINITY, |o| o[0].hypot(o[1]));
             if distance < best.0 {
                 best = (distance, at);
             }
         }
         let mut at = best.1;
-        for _ in 0..30 {
-            const STEP: f64 = 1e-6;
+        for _ in 0..MAX_NEWTON_STEPS {
+            /// Step of forward differences, as a share of a page's side.
+            const NEWTON_DIFFERENCE_STEP: f64 = 1e-6;
             let here = off(at)?;
-            let [right, below] = [off([at[0] + STEP, at[1]])?, off([at[0], at[1] + STEP])?];
-            let [a, c] = [0, 1].map(|k| (right[k] - here[k]) / STEP);
-            let [b, d] = [0, 1].map(|k| (below[k] - here[k]) / STEP);
+            let [right, below] = [
+                off([at[0] + NEWTON_DIFFERENCE_STEP, at[1]])?,
+                off([at[0], at[1] + NEWTON_DIFFERENCE_STEP])?,
+            ];
+            let [a, c] = [0, 1].map(|k| (right[k] - here[k]) / NEWTON_DIFFERENCE_STEP);
+            let [b, d] = [0, 1].map(|k| (below[k] - here[k]) / NEWTON_DIFFERENCE_STEP);
             let area = a * d - b * c;
             at = [
                 (at[0] - (d * here[0] - b * here[1]) / area).clamp(0.0, 1.0),
@@ -97,17 +106,17 @@ impl CurledPage {
             ];
         }
         let left = off(at)?;
-        // To a pixel: beside the page the nearest place on it is farther away.
+        // To one pixel: outside of the page the nearest place on it is farther away.
         (left[0].hypot(left[1]) < 1.0).then(|| {
             let size = self.size();
             [at[0] * size[0], at[1] * size[1]]
         })
     }
 
-    /// For every pixel of the flat page its place in the photo, exactly. `dots` are pixels per unit
-    /// of [`CurledPage::flat_size`], by default as many as the photo has of the page in all;
-    /// `trim` changes nothing, for the page fills its image. Where the page goes on beyond the photo
-    /// the flat image is transparent.
+    /// The warp map of the flat page: the place in the photo of each of its pixels. `dots` are pixels per unit
+    /// of [`CurledPage::flat_size`], by default so many that the flat page has as many pixels as the photo has of it;
+    /// `trim` has no effect, because the page fills its image. The flat image is transparent where the page is outside of
+    /// the photo.
     ///
     /// # Errors
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an
@@ -134,8 +143,8 @@ impl CurledPage {
                 (row as f64 + 0.5) / height as f64,
             ];
             let on = line[if self.sideways { row } else { col }];
-            let (_, down) = self.turned(share);
-            if let Some(seen) = self.cylinder.seen(on, down * self.cylinder.length) {
+            let (_, down) = self.curve_shares(share);
+            if let Some(seen) = self.cylinder.project(on, down * self.cylinder.length) {
                 *place = seen.map(lanes::single);
             }
         }
@@ -147,14 +156,18 @@ impl CurledPage {
         ))
     }
 
-    /// Pixels of the photo that the page covers.
+    /// Number of the photo's pixels that the page covers.
     fn seen_area(&self) -> f64 {
-        const CELLS: usize = 16;
+        /// Number of quadrilaterals along each side of the page whose areas are summed.
+        const AREA_CELLS_PER_SIDE: usize = 16;
         let mut area = 0.0;
-        for i in 0..CELLS * CELLS {
+        for i in 0..AREA_CELLS_PER_SIDE * AREA_CELLS_PER_SIDE {
             let corner = |dx: usize, dy: usize| {
-                let at = [(i % CELLS + dx) as f64, (i / CELLS + dy) as f64];
-                self.photo_place(at.map(|v| v / CELLS as f64))
+                let at = [
+                    (i % AREA_CELLS_PER_SIDE + dx) as f64,
+                    (i / AREA_CELLS_PER_SIDE + dy) as f64,
+                ];
+                self.photo_place(at.map(|v| v / AREA_CELLS_PER_SIDE as f64))
                     .unwrap_or([0.0; 2])
             };
             let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
@@ -175,7 +188,7 @@ impl CurledPage {
     /// [`Error::OutOfMemory`].
     pub fn mesh(&self) -> Result<Mesh> {
         let pages = self.pages();
-        let along = pages * (FINE - 1) + 1;
+        let along = pages * (VERTICES_PER_CURVE - 1) + 1;
         let step = self
             .cylinder
             .pages
@@ -198,14 +211,14 @@ impl CurledPage {
                 (i % cols) as f64 / (cols - 1) as f64,
                 (i / cols) as f64 / (rows - 1) as f64,
             ];
-            let (at, down) = self.turned(share);
+            let (at, down) = self.curve_shares(share);
             let on = self.on_curve(&curve, at);
             let down = down * self.cylinder.length;
             let point = self.cylinder.point(on, down) * self.unit;
             positions[i] = [point.x, -point.y, -point.z];
             let [x, y] = self
                 .cylinder
-                .seen(on, down)
+                .project(on, down)
                 .ok_or(Error::Empty { what: "page" })?;
             uvs[i] = [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single);
         }

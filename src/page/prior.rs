@@ -1,26 +1,27 @@
-//! What is known of a page besides its traces.
+//! Prior knowledge about a page and its camera, as equations of least squares.
 
 use super::cylinder::Cylinder;
 
-/// What is known besides the traces, each as a value and its standard deviation.
+/// Prior knowledge about a page: values with their standard deviations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Prior {
-    /// Logarithm of the focal length.
+    /// Logarithm of the focal length in pixels, and its standard deviation.
     pub focal: Option<[f64; 2]>,
-    /// Logarithm of length over width.
+    /// Logarithm of length over width, and its standard deviation.
     pub ratio: Option<[f64; 2]>,
     /// Standard deviation of a traced point, in pixels.
     pub accuracy: f64,
 }
 
-/// Standard deviation of a coefficient of the curve's direction, over its degree, in radians.
-const TURN: f64 = 1.0;
+/// Standard deviation of the first coefficient of the curve's direction, in radians; that of degree `k` is `1/k` of it. Keeps
+/// curves smooth between traced points.
+const CURVE_COEFFICIENT_DEVIATION: f64 = 1.0;
 
-/// That of the angle by which print is turned on its page.
-const SKEW: f64 = 0.0087;
+/// Standard deviation of the angle by which print is turned on its page, in radians (half a degree).
+const PRINT_SKEW_DEVIATION: f64 = 0.0087;
 
-/// What is known besides the traces: how far off it is, over its standard deviation, and the
-/// derivatives of that.
+/// Residuals of the prior knowledge, in standard deviations, each with its derivatives by the numbers of the cylinder's
+/// parameters.
 pub(super) fn prior_rows(cylinder: &Cylinder, prior: &Prior) -> Vec<(f64, Vec<(usize, f64)>)> {
     let mut rows = Vec::new();
     if let Some([value, deviation]) = prior.focal {
@@ -44,13 +45,16 @@ pub(super) fn prior_rows(cylinder: &Cylinder, prior: &Prior) -> Vec<(f64, Vec<(u
         // All but the first have a width and a mean.
         at += if number > 0 { 2 } else { 0 };
         for (k, turn) in page.turns.iter().enumerate().skip(1) {
-            let scale = k as f64 / TURN;
+            let scale = k as f64 / CURVE_COEFFICIENT_DEVIATION;
             rows.push((turn * scale, vec![(at, scale)]));
             at += 1;
         }
     }
     for skew in &cylinder.skews {
-        rows.push((skew / SKEW, vec![(at, 1.0 / SKEW)]));
+        rows.push((
+            skew / PRINT_SKEW_DEVIATION,
+            vec![(at, 1.0 / PRINT_SKEW_DEVIATION)],
+        ));
         at += 1;
     }
     rows

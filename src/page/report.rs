@@ -1,9 +1,12 @@
-//! What is told about a page besides its shape.
+//! Report and verdict of a page.
 
-use super::estimate::Estimate;
-use super::misfit::Misfit;
+use super::cylinder::Cylinder;
+use super::error_estimate::ErrorEstimate;
+use super::residual_statistics::ResidualStatistics;
+use super::traced_line::TracedLine;
+use super::traces::{Residuals, Traces};
 
-/// Whether a flat page is to be trusted, in a word.
+/// Verdict on a flat page: whether it can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -12,24 +15,24 @@ use super::misfit::Misfit;
 )]
 #[non_exhaustive]
 pub enum PageVerdict {
-    /// Both edges are straight, and so are lines of text where they are known; only the perspective is
-    /// taken out. The page was flat, or it is folded along them, which they do not show (its other two
+    /// Both edges are straight, and so are lines of text if they are known; only the perspective is
+    /// removed. The page was flat, or it is folded along these edges, which they do not show (the other two
     /// edges do: [`Edges::All`](super::Edges::All)).
     Flat,
     /// The page was curled one way and is flat now, with lengths as on the page.
     Unrolled,
-    /// It may be: too few points were traced, or one of the edges looks straight however the page
+    /// The page may be right: too few points were traced, or one of the edges appears straight however the page
     /// is bent, so that nothing checks the other one.
     Unchecked,
-    /// The page is likely to be wrong by more than 1 % of its width, or hides a part of itself, or its
-    /// edges and lines disagree by about as much as they were meant to be traced to.
+    /// The expected error is above 1 % of the page's width, or the page hides a part of itself, or its
+    /// edges and lines disagree by about the accuracy of the traced points.
     Doubtful,
-    /// The edges, or the lines of text, are not those of a page that is curled one way only: it is
-    /// folded, crumpled, bent both ways, or one is traced wrongly. Depth is needed, or better traces.
+    /// The edges, or the lines of text, cannot belong to a page that is curled one way only: the page is
+    /// folded, crumpled or bent both ways, or a line is traced wrongly. Measured depths are needed, or better traces.
     NotThisKind,
 }
 
-/// How a page was found.
+/// Verdict and figures of a page that was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -38,96 +41,143 @@ pub enum PageVerdict {
 )]
 #[non_exhaustive]
 pub struct PageReport {
-    /// The verdict, in a word.
+    /// Whether the page can be trusted.
     pub verdict: PageVerdict,
-    /// Expected displacement of what is on the flat page, as a root mean square after the best
+    /// Expected displacement of points on the flat page: the root mean square after the best
     /// similarity, in % of a page's width.
     pub error: f64,
-    /// The same, but not exceeded in 95 of 100 cases, if the page is curled one way.
+    /// Displacement that is not exceeded in 95 of 100 cases if the page is curled one way, in % of a page's width.
     pub error_bound: f64,
     /// Focal length, in pixels of the photo.
     pub focal_length: f64,
-    /// Its standard deviation, in %.
+    /// Standard deviation of the focal length, in %.
     pub focal_deviation: f64,
     /// Angle between the camera's axis and the normal of the page's chord, in degrees.
     pub tilt: f64,
-    /// By how much the page's direction changes from one end of its curve to the other at most, in
-    /// degrees.
+    /// Range of the page's direction along its curve, in degrees: of the page that bends most.
     pub bend: f64,
-    /// Root mean square of the distances between the traced points and the edge found, in pixels; of
+    /// Root mean square distance between the traced points and the edge that was found, in pixels: of
     /// the edge that fits worst, or of all lines of text together.
     pub residual: f64,
-    /// The part of it that goes on from point to point along an edge, or from one line of text to the
-    /// next, which is no scatter of a hand: by how much they disagree, in % of a page's width as it is
-    /// seen.
+    /// Part of the residual that neighbouring points of an edge, or neighbouring lines of text, have in common, so that it is
+    /// not due to inaccurate tracing, in % of a page's width in the photo.
     pub disagreement: f64,
-    /// Lines of text that it was found by besides the edges, given and found.
+    /// Number of lines of text that the page was found by besides the edges, given and found ones.
     pub lines: usize,
-    /// Lines of text that were found in the photo by themselves.
+    /// Number of lines of text that were found in the photo.
     pub lines_found: usize,
-    /// Those of them that it was found by, all or none: if they contradict the edges, the page is that of the edges,
-    /// and only the verdict is theirs.
+    /// Number of lines found in the photo that the page was found by: all or none. If they contradict the edges, the page is
+    /// that of the edges, and only the verdict takes them into account.
     pub lines_used: usize,
-    /// By how much lines of text disagree with the page, in % of its width as it is seen: what neighbouring ones
-    /// have in common of it.
+    /// Part of the distances of lines of text from the page that neighbouring lines have in common, in % of the page's width in
+    /// the photo.
     pub lines_disagreement: f64,
-    /// Height over width of a page as it is seen, without use of a format that was given.
+    /// Height over width of a page as the edges show it, without use of a format that was given.
     pub ratio: f64,
 }
 
-/// What a verdict is made of.
-pub(super) struct Findings {
-    pub estimate: Estimate,
-    /// How the residuals are spread along each of the edges.
-    pub edges: Vec<Misfit>,
-    /// Likewise along lines of text that were given.
-    pub text: Vec<Misfit>,
-    /// What lines of text, found ones too, have in common, as a mean square in pixels².
+/// Maximum expected error of a page that is not doubtful, as a share of the page's width.
+const MAX_TRUSTED_ERROR: f64 = 0.01;
+
+/// Minimum accuracy of traced points that residuals are compared with, as a share of a page's width in the photo: lens
+/// distortion, which is not modelled, moves points by about as much.
+const MIN_ACCURACY_SHARE: f64 = 0.0007;
+
+/// Maximum residual of an edge with many points, over the accuracy of traced points.
+const MAX_EDGE_RESIDUAL: f64 = 1.3;
+
+/// Addition to the maximum residual of an edge, times the square root of its number of independent points: scatter of the
+/// residual by chance.
+const EDGE_RESIDUAL_SCATTER: f64 = 1.3;
+
+/// Maximum residual of lines of text, over that which is exceeded by chance once in a few thousand times.
+const MAX_TEXT_RESIDUAL: f64 = 1.3;
+
+/// Maximum common residual of neighbouring points of an edge, over the accuracy, of a page that is curled one way.
+const MAX_COMMON_RESIDUAL: f64 = 1.2;
+
+/// Maximum common residual of neighbouring points of an edge, over the accuracy, of a page that is not doubtful.
+const MAX_TRUSTED_COMMON_RESIDUAL: f64 = 0.85;
+
+/// Ratio of the limits of the common residual of lines of text and of edges: the former is free of errors of tracing, which
+/// are independent from line to line, so that less of it is significant.
+const TEXT_COMMON_RESIDUAL_RATIO: f64 = 0.27;
+
+/// Minimum number of independent points of an edge, corners included, of a page that counts as checked.
+const MIN_CHECKED_POINTS: f64 = 4.0;
+
+/// Maximum distance of an edge's points from its chord, in standard deviations of a traced point, of a straight edge.
+const MAX_STRAIGHT_BOW: f64 = 3.0;
+
+/// Minimum distance of the more bent edge's points from its chord, over that of a straight edge, for which the other edge has
+/// to be bent, too.
+const MIN_CHECKED_BOW_RATIO: f64 = 4.0;
+
+/// Minimum distance of the other edge's points from its chord, in standard deviations of a traced point, for which it checks
+/// the more bent one.
+const MIN_CHECKING_BOW: f64 = 2.0;
+
+/// Quantile of the normal distribution that is exceeded once in a few thousand times.
+const CHANCE_QUANTILE: f64 = 3.4;
+
+/// Figures that a verdict is made of.
+pub(super) struct VerdictFigures {
+    pub estimate: ErrorEstimate,
+    /// Statistics of the residuals along each edge.
+    pub edges: Vec<ResidualStatistics>,
+    /// Statistics of the residuals along each line of text that was given.
+    pub text: Vec<ResidualStatistics>,
+    /// Covariance of the residuals of neighbouring lines of text, found ones included, in pixels².
     pub common: f64,
-    /// Standard deviation that was assumed.
+    /// Standard deviation of a traced point that was assumed, in pixels.
     pub accuracy: f64,
-    /// Length of a page's edge as it is seen, in pixels.
-    pub seen: f64,
-    /// How far from straight the two edges are seen, in pixels, the straighter one last; if there are
-    /// lines of text that run like them, the two least straight of all.
+    /// Mean length of the edges' chords in the photo, in pixels.
+    pub edge_length: f64,
+    /// Largest distances of the two edges from their chords in the photo, in pixels, the straighter edge last; if
+    /// lines of text run like the edges, the two largest of all.
     pub bow: [f64; 2],
-    /// Independent points of the edge with fewest, corners included.
-    pub fewest: f64,
-    /// Whether a part of the page lies behind another.
+    /// Number of independent points of the edge with the fewest, corners included.
+    pub fewest_points: f64,
+    /// Whether a part of the page is hidden by another.
     pub hidden: bool,
 }
 
-impl Findings {
+impl VerdictFigures {
+    /// The verdict on a page.
     pub fn verdict(&self) -> PageVerdict {
-        /// Share of the page's width.
-        const DOUBTFUL: f64 = 0.01;
-        /// What lines have in common is free of errors of tracing them, so that less of it tells.
-        const LINES: f64 = 0.27;
-        // No lens is true to less than this share of the width.
-        let least = self.accuracy.max(0.0007 * self.seen);
-        // What that many points come to by chance, and a little more.
-        let scatter = 1.3 + 1.3 / self.fewest.sqrt();
-        let over = |limit: f64| {
-            let smooth = |own: &Misfit| own.smooth.sqrt() > limit * least;
-            self.edges.iter().any(smooth) || self.common.sqrt() > LINES * limit * least
+        let accuracy = self.accuracy.max(MIN_ACCURACY_SHARE * self.edge_length);
+        let max_residual = MAX_EDGE_RESIDUAL + EDGE_RESIDUAL_SCATTER / self.fewest_points.sqrt();
+        let has_common_residual = |limit: f64| {
+            let edge = |own: &ResidualStatistics| own.common.sqrt() > limit * accuracy;
+            self.edges.iter().any(edge)
+                || self.common.sqrt() > TEXT_COMMON_RESIDUAL_RATIO * limit * accuracy
         };
-        let far =
-            |own: &Misfit| own.all.sqrt() > 1.3 * chance(own.count / own.correlation()) * least;
-        if over(1.2)
+        let far = |own: &ResidualStatistics| {
+            own.mean_square.sqrt()
+                > MAX_TEXT_RESIDUAL
+                    * chance_residual(own.independent / own.points_per_error())
+                    * accuracy
+        };
+        if has_common_residual(MAX_COMMON_RESIDUAL)
             || self
                 .edges
                 .iter()
-                .any(|own| own.all.sqrt() > scatter * least)
+                .any(|own| own.mean_square.sqrt() > max_residual * accuracy)
             || self.text.iter().any(far)
-            || Misfit::together(&self.text).is_some_and(|all| far(&all))
+            || ResidualStatistics::pooled(&self.text).is_some_and(|all| far(&all))
         {
             return PageVerdict::NotThisKind;
         }
-        if self.estimate.expected > DOUBTFUL || self.hidden || over(0.85) {
+        if self.estimate.expected > MAX_TRUSTED_ERROR
+            || self.hidden
+            || has_common_residual(MAX_TRUSTED_COMMON_RESIDUAL)
+        {
             return PageVerdict::Doubtful;
         }
-        let straight = 3.0 * self.accuracy;
-        if self.fewest < 4.0 || (self.bow[0] > 4.0 * straight && self.bow[1] < 2.0 * self.accuracy)
+        let straight = MAX_STRAIGHT_BOW * self.accuracy;
+        if self.fewest_points < MIN_CHECKED_POINTS
+            || (self.bow[0] > MIN_CHECKED_BOW_RATIO * straight
+                && self.bow[1] < MIN_CHECKING_BOW * self.accuracy)
         {
             return PageVerdict::Unchecked;
         }
@@ -139,9 +189,68 @@ impl Findings {
     }
 }
 
-/// What so many points' root mean square exceeds once in a few thousand times, over its expectation
-/// (Wilson and Hilferty's quantile of chi-squared).
-fn chance(count: f64) -> f64 {
+/// Root mean square of normally distributed errors, over its expectation, that a number of points exceeds once in a few
+/// thousand times (Wilson and Hilferty's quantile of chi-squared).
+fn chance_residual(count: f64) -> f64 {
     let part = 2.0 / (9.0 * count.max(1.0));
-    (1.0 - part + 3.4 * part.sqrt()).powf(1.5)
+    (1.0 - part + CHANCE_QUANTILE * part.sqrt()).powf(1.5)
+}
+
+/// The report of a page that was found: its verdict, and the figures that this is made of.
+pub(super) fn report(
+    cylinder: &Cylinder,
+    pages: &[[TracedLine; 2]],
+    traces: &Traces,
+    residuals: &Residuals,
+    estimate: ErrorEstimate,
+    accuracy: f64,
+) -> PageReport {
+    let [edges, text, found] = traces.statistics(residuals);
+    let common = traces.common(residuals);
+    // The largest of the edges, or that of all lines of text.
+    let lines = ResidualStatistics::pooled(&[&text[..], &found].concat());
+    let worst = |of: fn(&ResidualStatistics) -> f64, of_lines: f64| {
+        let squares = edges.iter().map(of);
+        squares.fold(of_lines, f64::max).sqrt()
+    };
+    let residual = worst(
+        |own| own.mean_square,
+        lines.map_or(0.0, |own| own.mean_square),
+    );
+    let common_residual = worst(|own| own.common, common);
+    let lines = || pages.iter().flatten();
+    let seen = lines().map(TracedLine::chord).sum::<f64>() / lines().count() as f64;
+    let mut bow = traces.bows(cylinder).unwrap_or(vec![f64::INFINITY; 2]);
+    bow.sort_by(|p, q| q.total_cmp(p));
+    let fewest = lines()
+        .map(|line| line.independent)
+        .fold(f64::INFINITY, f64::min);
+    let lines_found = found.len();
+    let findings = VerdictFigures {
+        estimate,
+        edges,
+        text,
+        common,
+        accuracy,
+        edge_length: seen,
+        bow: [bow[0], bow[1]],
+        fewest_points: fewest,
+        hidden: cylinder.has_hidden_part(),
+    };
+    PageReport {
+        verdict: findings.verdict(),
+        error: 100.0 * estimate.expected,
+        error_bound: 100.0 * estimate.bound,
+        focal_length: cylinder.focal,
+        focal_deviation: 100.0 * estimate.focal,
+        tilt: cylinder.axes.column(1).z.abs().min(1.0).acos().to_degrees(),
+        bend: cylinder.bend().to_degrees(),
+        residual,
+        disagreement: 100.0 * common_residual / seen,
+        lines: traces.text(),
+        lines_found,
+        lines_used: lines_found,
+        lines_disagreement: 100.0 * common.sqrt() / seen,
+        ratio: cylinder.length,
+    }
 }

@@ -101,7 +101,7 @@ pub struct PictureOptions {
     /// Its width in pixels; the height follows. `None`: a pixel for each lattice spacing.
     pub width: Option<usize>,
     /// The part of the plane that it shows. `None`: that of the lattice, half a spacing around its
-    /// vertices. Of a surface that was made from an image rather [`Extent::of`] that image: its
+    /// vertices. Of a surface that was made from an image rather [`Extent::from_image`] of that image: its
     /// pixels are the picture's then.
     pub extent: Option<Extent>,
 }

@@ -1,43 +1,46 @@
-//! Bands of ink that go on from strip to strip of a page.
+//! Bands of ink that continue from strip to strip of a page.
 
-use super::ink::Ink;
+use super::ink::InkImage;
 use super::ranking::ranked;
 
-/// How much ink each row has, by upright strips of the page.
-pub(super) struct Strips {
-    /// Of pixels.
+/// Amount of ink in each row, by vertical strips of the page.
+pub(super) struct StripProfiles {
+    /// Width of a strip, in pixels.
     pub step: f64,
     profiles: Vec<Vec<f32>>,
 }
 
-/// The same, smoothed along the columns.
-pub(super) struct Smoothed(pub Vec<Vec<f32>>);
+/// Strip profiles smoothed along the columns.
+pub(super) struct SmoothedProfiles(pub Vec<Vec<f32>>);
 
-/// The middle of a band: strips, and its row in each.
+/// The middle of a band: the numbers of its strips, and its row in each.
 pub(super) type Band = Vec<(usize, f64)>;
 
-/// Strips across a page: of body text on A4, each shows some two letters.
-const STRIPS: usize = 48;
+/// Number of strips across a page: each is about two letters of body text on A4 wide.
+const STRIPS_ACROSS: usize = 48;
 
-/// Pixels of a strip at least.
-const NARROW: usize = 6;
+/// Minimum width of a strip, in pixels.
+const MIN_STRIP_PIXELS: usize = 6;
 
-/// Strips in a band at least.
-pub(super) const LEAST: usize = 8;
+/// Minimum number of strips in a band.
+pub(super) const MIN_BAND_STRIPS: usize = 8;
 
-/// Strips that a band may miss.
-const GAP: usize = 2;
+/// Maximum number of consecutive strips that a band may miss.
+const MAX_MISSING_STRIPS: usize = 2;
 
-/// Share of ink by which a band differs from what is above and below it, at least.
-const FAINT: f32 = 0.03;
+/// Minimum difference of the amount of ink between a band and the rows above and below it, from 0 to 1.
+const MIN_BAND_CONTRAST: f32 = 0.03;
 
-/// How far from where a band goes on it is looked for, over its scale, and its steepest slope.
-const REACH: f64 = 1.0;
-const STEEP: f64 = 0.25;
+/// Maximum distance of a band in the next strip from its extrapolated row, over its scale.
+const MAX_BAND_OFFSET: f64 = 1.0;
 
-impl Strips {
-    pub fn new(ink: &Ink) -> Self {
-        let count = STRIPS.min(ink.width / NARROW).max(1);
+/// Maximum slope of a band, in rows per column.
+const MAX_BAND_SLOPE: f64 = 0.25;
+
+impl StripProfiles {
+    /// The profiles of an ink image.
+    pub fn new(ink: &InkImage) -> Self {
+        let count = STRIPS_ACROSS.min(ink.width / MIN_STRIP_PIXELS).max(1);
         let step = ink.width as f64 / count as f64;
         let edge = |k: usize| ((k as f64 * step) as usize).min(ink.width);
         let blocks: Vec<Vec<f32>> = (0..count)
@@ -51,7 +54,7 @@ impl Strips {
                     .collect()
             })
             .collect();
-        // With half of both neighbours.
+        // Averaged with the neighbours, which count half.
         let profiles = (0..count)
             .map(|k| {
                 let [before, after] = [k.saturating_sub(1), (k + 1).min(count - 1)];
@@ -62,10 +65,11 @@ impl Strips {
                     .collect()
             })
             .collect();
-        Strips { step, profiles }
+        StripProfiles { step, profiles }
     }
 
-    pub fn smoothed(&self, sigma: f64) -> Smoothed {
+    /// Smooths the profiles by a Gaussian of a standard deviation in pixels.
+    pub fn smoothed(&self, sigma: f64) -> SmoothedProfiles {
         let reach = (3.0 * sigma).ceil() as usize;
         let kernel: Vec<f32> = (0..=2 * reach)
             .map(|i| (-0.5 * ((i as f64 - reach as f64) / sigma).powi(2)).exp() as f32)
@@ -87,12 +91,12 @@ impl Strips {
                 })
                 .collect()
         };
-        Smoothed(self.profiles.iter().map(smooth).collect())
+        SmoothedProfiles(self.profiles.iter().map(smooth).collect())
     }
 }
 
-impl Smoothed {
-    /// Where the profile of a strip is brightest against both sides: largest second derivatives.
+impl SmoothedProfiles {
+    /// Rows where the profile of a strip has the most ink relative to both sides: maxima of the negative second derivative.
     fn peaks(&self, strip: usize, sigma: f64) -> Vec<f64> {
         let p = &self.0[strip];
         let scale = (sigma * sigma) as f32;
@@ -100,18 +104,19 @@ impl Smoothed {
         (2..p.len().saturating_sub(2))
             .filter_map(|row| {
                 let [a, b, c] = [bent(row - 1), bent(row), bent(row + 1)];
-                (b > FAINT && b >= a && b > c).then(|| row as f64 + vertex([a, b, c]))
+                (b > MIN_BAND_CONTRAST && b >= a && b > c)
+                    .then(|| row as f64 + parabola_vertex([a, b, c]))
             })
             .collect()
     }
 
-    /// Bands of about that scale.
+    /// Bands of about a scale, in pixels; `step` is the width of a strip.
     pub fn bands(&self, sigma: f64, step: f64) -> Vec<Band> {
-        struct Open {
+        struct OpenBand {
             band: Band,
             slope: f64,
         }
-        let mut open: Vec<Open> = Vec::new();
+        let mut open: Vec<OpenBand> = Vec::new();
         let mut found = Vec::new();
         for strip in 0..self.0.len() {
             let peaks = self.peaks(strip, sigma);
@@ -120,7 +125,7 @@ impl Smoothed {
                 let (last, row) = one.band[one.band.len() - 1];
                 let gone = (strip - last) as f64;
                 let ahead = row + one.slope * gone * step;
-                let reach = (REACH * sigma).max(1.0) * gone.sqrt();
+                let reach = (MAX_BAND_OFFSET * sigma).max(1.0) * gone.sqrt();
                 let from = peaks.partition_point(|y| *y < ahead - reach);
                 for (j, y) in peaks.iter().enumerate().skip(from) {
                     if *y > ahead + reach {
@@ -141,27 +146,28 @@ impl Smoothed {
                 let one = &mut open[i];
                 let (last, row) = one.band[one.band.len() - 1];
                 let slope = (peaks[j] - row) / ((strip - last) as f64 * step);
-                one.slope = (0.75 * one.slope + 0.25 * slope).clamp(-STEEP, STEEP);
+                one.slope =
+                    (0.75 * one.slope + 0.25 * slope).clamp(-MAX_BAND_SLOPE, MAX_BAND_SLOPE);
                 one.band.push((strip, peaks[j]));
             }
             let (on, ended): (Vec<_>, Vec<_>) = open
                 .into_iter()
-                .partition(|one| strip - one.band[one.band.len() - 1].0 <= GAP);
+                .partition(|one| strip - one.band[one.band.len() - 1].0 <= MAX_MISSING_STRIPS);
             found.extend(ended.into_iter().map(|one| one.band));
             open = on;
             for (row, _) in peaks.iter().zip(&taken).filter(|(_, taken)| !**taken) {
-                open.push(Open {
+                open.push(OpenBand {
                     band: vec![(strip, *row)],
                     slope: 0.0,
                 });
             }
         }
         found.extend(open.into_iter().map(|one| one.band));
-        found.retain(|band| band.len() >= LEAST);
+        found.retain(|band| band.len() >= MIN_BAND_STRIPS);
         found
     }
 
-    /// The lower edge of a band: where ink ends most steeply.
+    /// Row of the lower edge of a band in a strip: where ink decreases most steeply. None if there is no such row nearby.
     pub fn baseline(&self, strip: usize, row: f64, sigma: f64) -> Option<f64> {
         let p = &self.0[strip];
         let [from, to] = [0.1, 2.4].map(|k| (row + k * sigma).round());
@@ -172,12 +178,12 @@ impl Smoothed {
         let drop = |row: usize| p[row - 1] - p[row + 1];
         let best = (from..=to).max_by(|i, j| drop(*i).total_cmp(&drop(*j)))?;
         let [a, b, c] = [drop(best - 1), drop(best), drop(best + 1)];
-        (b > 0.0 && b >= a && b >= c).then(|| best as f64 + vertex([a, b, c]))
+        (b > 0.0 && b >= a && b >= c).then(|| best as f64 + parabola_vertex([a, b, c]))
     }
 }
 
-/// Where the parabola through three values has its vertex, from the middle one.
-fn vertex([a, b, c]: [f32; 3]) -> f64 {
+/// Position of the vertex of the parabola through three equidistant values, from the middle one, from −0.5 to 0.5.
+fn parabola_vertex([a, b, c]: [f32; 3]) -> f64 {
     let bend = f64::from(a - 2.0 * b + c);
     if bend == 0.0 {
         return 0.0;

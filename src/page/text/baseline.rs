@@ -1,54 +1,64 @@
-//! Which bands are lines of text: those that end below at a smooth line, as all of their neighbours do.
+//! Baselines of bands of ink, and which of them are lines of text: those with a smooth baseline that is parallel to its
+//! neighbours.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::bands::{Band, LEAST, Smoothed};
+use super::bands::{Band, MIN_BAND_STRIPS, SmoothedProfiles};
 use super::ranking::ranked;
-use crate::page::cylinder::legendre;
+use crate::page::cylinder::legendre_values;
 
-/// A line that letters stand on, in pixels of the ink.
+/// Baseline of a line of text, in pixels of the ink image.
 #[derive(Debug, Clone)]
 pub(super) struct Baseline {
     pub points: Vec<[f64; 2]>,
+    /// Half the x-height.
     pub sigma: f64,
-    /// Its mean row.
+    /// Mean row.
     pub level: f64,
 }
 
-/// Share of a band's strips that lie on its line, at least.
-const ON: f64 = 0.6;
+/// Minimum share of a band's strips whose lower edge lies on the baseline.
+const MIN_INLIER_SHARE: f64 = 0.6;
 
-/// Scatter of all about the line, at most, in pixels of the ink, and over half the height of letters besides:
-/// letters of a print stand on a line, those of a hand, and round things, do not.
-const SCATTER: [f64; 2] = [0.3, 0.05];
+/// Maximum scatter of the strips' lower edges about the baseline, in pixels of the ink image, to which a share of the letters'
+/// height is added. Letters of print stand on a line; handwriting and pictures do not.
+const MAX_SCATTER_PIXELS: f64 = 0.3;
 
-/// Lines on a page, at least: fewer prove nothing.
-const FEW: usize = 4;
+/// Share of half the x-height that is added to the maximum scatter.
+const MAX_SCATTER_SCALES: f64 = 0.05;
 
-/// How far away a line may be that another is compared with, over half the height of its letters, and how many
-/// are.
-const AWAY: f64 = 25.0;
-const AROUND: usize = 4;
+/// Minimum number of lines on a page: fewer may be parallel by chance.
+const MIN_LINES: usize = 4;
 
-/// What parallel lines may be off, as a root mean square: in pixels of the ink, and over half the height of
-/// letters besides.
-const PARALLEL: [f64; 2] = [0.5, 0.08];
+/// Maximum distance of a neighbouring line that a line is compared with, over half the x-height.
+const MAX_NEIGHBOUR_DISTANCE: f64 = 25.0;
 
-/// Share of all lines that are parallel to those around them, at least: else it is no print.
-const PRINT: f64 = 0.65;
+/// Number of neighbouring lines that a line is compared with.
+const COMPARED_NEIGHBOURS: usize = 4;
+
+/// Maximum root mean square change of the distance between parallel lines, in pixels of the ink image, to which a share of the
+/// letters' height is added.
+const MAX_NON_PARALLEL_PIXELS: f64 = 0.5;
+
+/// Share of half the x-height that is added to the maximum change.
+const MAX_NON_PARALLEL_SCALES: f64 = 0.08;
+
+/// Minimum share of all lines that are parallel to those around them: below it the page has no print.
+const MIN_PARALLEL_SHARE: f64 = 0.65;
 
 impl Baseline {
-    pub fn new(band: &Band, fine: &Smoothed, sigma: f64, step: f64) -> Option<Self> {
+    /// The baseline of a band, by a polynomial through its strips' lower edges. None if these scatter too much.
+    pub fn new(band: &Band, fine: &SmoothedProfiles, sigma: f64, step: f64) -> Option<Self> {
         let all: Vec<[f64; 2]> = (band.iter())
             .filter_map(|(strip, row)| {
                 let y = fine.baseline(*strip, *row, sigma)?;
                 Some([(*strip as f64 + 0.5) * step, y])
             })
             .collect();
-        if all.len() < LEAST {
+        if all.len() < MIN_BAND_STRIPS {
             return None;
         }
-        let curve = robust(&all, 4.min(all.len() / 6).max(1))?;
+        let curve = fit_robust(&all, 4.min(all.len() / 6).max(1))?;
         let off: Vec<f64> = all.iter().map(|p| (p[1] - curve.at(p[0])).abs()).collect();
         let scatter = 1.4826 * median(off.clone());
         let near = (2.5 * scatter).max(0.3);
@@ -56,8 +66,8 @@ impl Baseline {
             .filter(|(_, off)| **off <= near)
             .map(|(p, _)| *p)
             .collect();
-        let enough = LEAST.max((ON * band.len() as f64).ceil() as usize);
-        if scatter > SCATTER[0] + SCATTER[1] * sigma || points.len() < enough {
+        let enough = MIN_BAND_STRIPS.max((MIN_INLIER_SHARE * band.len() as f64).ceil() as usize);
+        if scatter > MAX_SCATTER_PIXELS + MAX_SCATTER_SCALES * sigma || points.len() < enough {
             return None;
         }
         Some(Baseline {
@@ -67,7 +77,7 @@ impl Baseline {
         })
     }
 
-    /// Whether both are seen in one place.
+    /// Whether both lines are at the same place.
     pub fn covers(&self, other: &Baseline) -> bool {
         let near = 2.0 * self.sigma.max(other.sigma);
         let both = (self.points.iter())
@@ -76,16 +86,15 @@ impl Baseline {
         both >= 3
     }
 
-    /// The root mean square by which the distance from another line changes along it; none where they have too
-    /// little in common.
-    fn apart(&self, other: &Baseline) -> Option<f64> {
+    /// Root mean square change of the distance from another line; None if they have too few strips in common.
+    fn distance_change(&self, other: &Baseline) -> Option<f64> {
         let gaps: Vec<f64> = (self.points.iter())
             .filter_map(|p| {
                 let q = other.points.iter().find(|q| q[0] == p[0])?;
                 Some(q[1] - p[1])
             })
             .collect();
-        if gaps.len() < LEAST / 2 {
+        if gaps.len() < MIN_BAND_STRIPS / 2 {
             return None;
         }
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
@@ -93,28 +102,36 @@ impl Baseline {
         Some((squares / gaps.len() as f64).sqrt())
     }
 
-    fn agrees(&self, lines: &[Baseline], own: usize) -> bool {
+    /// Whether the line is parallel to half of its neighbours.
+    fn is_parallel(&self, lines: &[Baseline], own: usize) -> bool {
         let (away, apart): (Vec<f64>, Vec<f64>) = (lines.iter().enumerate())
-            .filter(|(i, other)| *i != own && (other.level - self.level).abs() < AWAY * self.sigma)
-            .filter_map(|(_, other)| Some(((other.level - self.level).abs(), self.apart(other)?)))
+            .filter(|(i, other)| {
+                *i != own && (other.level - self.level).abs() < MAX_NEIGHBOUR_DISTANCE * self.sigma
+            })
+            .filter_map(|(_, other)| {
+                Some((
+                    (other.level - self.level).abs(),
+                    self.distance_change(other)?,
+                ))
+            })
             .unzip();
         let mut near = ranked(&away);
-        near.truncate(AROUND);
-        let limit = PARALLEL[0] + PARALLEL[1] * self.sigma;
+        near.truncate(COMPARED_NEIGHBOURS);
+        let limit = MAX_NON_PARALLEL_PIXELS + MAX_NON_PARALLEL_SCALES * self.sigma;
         let alike = near.iter().filter(|k| apart[**k] < limit).count();
-        2 * alike >= near.len().max(AROUND)
+        2 * alike >= near.len().max(COMPARED_NEIGHBOURS)
     }
 }
 
-/// Those that are parallel to half of the lines above and below them: print is, and little else.
-pub(super) fn together(mut lines: Vec<Baseline>) -> Vec<Baseline> {
+/// Lines that are parallel to half of the lines above and below them, as those of print are; none if they are too few.
+pub(super) fn parallel_lines(mut lines: Vec<Baseline>) -> Vec<Baseline> {
     let all = lines.len();
     loop {
         let kept: Vec<Baseline> = (lines.iter().enumerate())
-            .filter(|(i, line)| line.agrees(&lines, *i))
+            .filter(|(i, line)| line.is_parallel(&lines, *i))
             .map(|(_, line)| line.clone())
             .collect();
-        if kept.len() < FEW || (kept.len() as f64) < PRINT * all as f64 {
+        if kept.len() < MIN_LINES || (kept.len() as f64) < MIN_PARALLEL_SHARE * all as f64 {
             return Vec::new();
         }
         if kept.len() == lines.len() {
@@ -124,7 +141,7 @@ pub(super) fn together(mut lines: Vec<Baseline>) -> Vec<Baseline> {
     }
 }
 
-/// A polynomial over an interval.
+/// A polynomial over an interval, as a Legendre series.
 struct Polynomial {
     from: f64,
     span: f64,
@@ -132,9 +149,10 @@ struct Polynomial {
 }
 
 impl Polynomial {
+    /// Value at a place.
     fn at(&self, x: f64) -> f64 {
         let degree = self.coefficients.len() - 1;
-        let values = legendre(degree, (x - self.from) / self.span);
+        let values = legendre_values(degree, (x - self.from) / self.span);
         values
             .iter()
             .zip(&self.coefficients)
@@ -143,12 +161,12 @@ impl Polynomial {
     }
 }
 
-/// The polynomial whose distances from the points are smallest, by their sizes.
-fn robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
+/// The polynomial with the least sum of absolute distances from points, by iteratively reweighted least squares.
+fn fit_robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
     let from = points.first()?[0];
     let span = (points.last()?[0] - from).max(1e-9);
     let rows: Vec<DVector<f64>> = (points.iter())
-        .map(|p| DVector::from_vec(legendre(degree, (p[0] - from) / span)))
+        .map(|p| DVector::from_vec(legendre_values(degree, (p[0] - from) / span)))
         .collect();
     let mut weights = vec![1.0; points.len()];
     let mut found = None;
@@ -172,6 +190,7 @@ fn robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
     found
 }
 
+/// Median of values; 0 if there are none.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)

@@ -1,62 +1,65 @@
-//! The ink on a page, roughly flattened by the page that its edges show.
+//! The ink image of a page, flattened by the page that its edges show.
 
 use crate::dewarp::Photo;
 use crate::math::lanes;
-use crate::page::cylinder::Curve;
-use crate::page::find::CurledPage;
+use crate::page::curled_page::CurledPage;
+use crate::page::cylinder::SampledCurve;
 
-/// One page in a photo, or one of the two of a spread, by shares of its own sides.
-pub(super) struct Leaf<'a> {
+/// One page in a photo, or one of the two of a spread, with coordinates as shares of its sides.
+pub(super) struct PageView<'a> {
     page: &'a CurledPage,
-    curve: Curve,
+    curve: SampledCurve,
     number: usize,
 }
 
-/// How dark each pixel of the flat page is against the paper around it, from 0 to 1.
-pub(super) struct Ink {
+/// Darkness of each pixel of the flat page relative to the paper around it, from 0 to 1.
+pub(super) struct InkImage {
     pub width: usize,
     pub height: usize,
     pub data: Vec<f32>,
 }
 
-/// Most pixels across: of body text on A4 an x is 8 high then.
-const ACROSS: f64 = 1000.0;
+/// Maximum width of the ink image, in pixels: the x-height of body text on A4 is 8 pixels then.
+const MAX_INK_WIDTH: f64 = 1000.0;
 
-/// Pixels from which on there is something to be seen.
-const LEAST: f64 = 100.0;
+/// Minimum width and height of a page in the photo, in pixels, for text to be found.
+const MIN_PAGE_PIXELS: f64 = 100.0;
 
-/// Blocks across the page whose paper is looked for, and the share of a block that is darker than it.
-const BLOCKS: usize = 40;
-const PAPER: f64 = 0.85;
+/// Number of blocks across the page for each of which the paper's brightness is measured.
+const PAPER_BLOCKS_ACROSS: usize = 40;
 
-/// Beside the page's edges nothing is looked at, for they are traced with errors: a share of the page.
-const MARGIN: f64 = 0.015;
+/// Quantile of the brightness of a block's pixels that is taken for the paper's.
+const PAPER_QUANTILE: f64 = 0.85;
 
-/// Most samples along each side of a pixel.
-const SAMPLES: f64 = 4.0;
+/// Width of the margin along the page's edges that is left out, as a share of the page: edges are traced with errors.
+const MARGIN_SHARE: f64 = 0.015;
 
-impl<'a> Leaf<'a> {
+/// Maximum number of samples along each side of a pixel.
+const MAX_SAMPLES_PER_SIDE: f64 = 4.0;
+
+impl<'a> PageView<'a> {
     pub fn new(page: &'a CurledPage, number: usize) -> Self {
-        Leaf {
+        PageView {
             page,
             curve: page.cylinder.curve(),
             number,
         }
     }
 
-    /// Where a place on the page is seen in the photo.
-    pub fn seen(&self, share: [f64; 2]) -> Option<[f64; 2]> {
+    /// Projects a place on the page to the photo, in pixels.
+    pub fn project(&self, share: [f64; 2]) -> Option<[f64; 2]> {
         let cylinder = &self.page.cylinder;
-        let (along, down) = self.page.turned(share);
-        cylinder.seen(self.curve.at(self.number, along), down * cylinder.length)
+        let (along, down) = self.page.curve_shares(share);
+        cylinder.project(self.curve.at(self.number, along), down * cylinder.length)
     }
 
-    /// Its width and height in the photo, in pixels, across its middle.
+    /// Width and height of the page in the photo, in pixels, along the lines through its middle.
     fn size(&self) -> Option<[f64; 2]> {
-        const STEPS: usize = 16;
+        /// Number of segments by which a length is measured.
+        const SIZE_STEPS: usize = 16;
         let length = |along: fn(f64) -> [f64; 2]| -> Option<f64> {
-            let seen: Option<Vec<_>> = (0..=STEPS)
-                .map(|i| self.seen(along(i as f64 / STEPS as f64)))
+            let seen: Option<Vec<_>> = (0..=SIZE_STEPS)
+                .map(|i| self.project(along(i as f64 / SIZE_STEPS as f64)))
                 .collect();
             Some(
                 (seen?.windows(2))
@@ -68,21 +71,22 @@ impl<'a> Leaf<'a> {
     }
 }
 
-impl Ink {
-    /// None where too little of the page is seen.
-    pub fn new(leaf: &Leaf<'_>, photo: &Photo<'_>) -> Option<Self> {
-        let [seen, down] = leaf.size()?;
-        if !(seen >= LEAST && down >= LEAST && seen < 1e6 && down < 1e6) {
+impl InkImage {
+    /// The ink image of a page; None if too little of the page is in the photo.
+    pub fn new(view: &PageView<'_>, photo: &Photo<'_>) -> Option<Self> {
+        let [seen, down] = view.size()?;
+        if !(seen >= MIN_PAGE_PIXELS && down >= MIN_PAGE_PIXELS && seen < 1e6 && down < 1e6) {
             return None;
         }
-        let scale = (ACROSS / seen).min(1.0);
-        let [width, height] = [seen * scale, (down * scale).min(4.0 * ACROSS)].map(|n| n as usize);
-        let samples = (1.0 / scale).ceil().min(SAMPLES) as usize;
+        let scale = (MAX_INK_WIDTH / seen).min(1.0);
+        let [width, height] =
+            [seen * scale, (down * scale).min(4.0 * MAX_INK_WIDTH)].map(|n| n as usize);
+        let samples = (1.0 / scale).ceil().min(MAX_SAMPLES_PER_SIDE) as usize;
         let mut data = vec![f32::NAN; width * height];
-        let [left, top] = [width, height].map(|n| (MARGIN * n as f64).ceil() as usize);
+        let [left, top] = [width, height].map(|n| (MARGIN_SHARE * n as f64).ceil() as usize);
         for row in top..height - top {
             for col in left..width - left {
-                let place = |x: f64, y: f64| leaf.seen([x / width as f64, y / height as f64]);
+                let place = |x: f64, y: f64| view.project([x / width as f64, y / height as f64]);
                 let [x, y] = [col, row].map(|n| n as f64 + 0.5);
                 let here = place(x, y)?;
                 let ends = [place(x + 0.5, y)?, place(x, y + 0.5)?];
@@ -97,7 +101,7 @@ impl Ink {
                 data[row * width + col] = sum / (samples * samples) as f32;
             }
         }
-        let paper = Paper::new(&data, [width, height]);
+        let paper = PaperBrightness::new(&data, [width, height]);
         for (i, value) in data.iter_mut().enumerate() {
             let white = paper.at([i % width, i / width]);
             *value = if white > 1.0 && value.is_finite() {
@@ -106,7 +110,7 @@ impl Ink {
                 0.0
             };
         }
-        Some(Ink {
+        Some(InkImage {
             width,
             height,
             data,
@@ -114,7 +118,7 @@ impl Ink {
     }
 }
 
-/// How bright a photo is between its pixels; not a number outside of it and where it is transparent.
+/// Bilinear brightness of a photo, from 0 to 255; NaN outside of it and where it is transparent.
 fn brightness(photo: &Photo<'_>, [x, y]: [f64; 2]) -> f32 {
     let [width, height] = [photo.width(), photo.height()];
     if !(x >= 0.0 && y >= 0.0 && x <= (width - 1) as f64 && y <= (height - 1) as f64) {
@@ -135,17 +139,17 @@ fn brightness(photo: &Photo<'_>, [x, y]: [f64; 2]) -> f32 {
         + t * ((1.0 - s) * at(col, below) + s * at(right, below))
 }
 
-/// How bright the paper is, block by block: shadows are taken out by it.
-struct Paper {
+/// Brightness of the paper, block by block: corrects for shadows.
+struct PaperBrightness {
     side: usize,
     cols: usize,
     rows: usize,
     levels: Vec<f32>,
 }
 
-impl Paper {
+impl PaperBrightness {
     fn new(data: &[f32], [width, height]: [usize; 2]) -> Self {
-        let side = width.div_ceil(BLOCKS).max(8);
+        let side = width.div_ceil(PAPER_BLOCKS_ACROSS).max(8);
         let [cols, rows] = [width, height].map(|n| n.div_ceil(side));
         let mut levels = Vec::with_capacity(cols * rows);
         for block in 0..cols * rows {
@@ -159,7 +163,7 @@ impl Paper {
                 }
             }
             let all: u32 = counts.iter().sum();
-            let mut rest = f64::from(all) * (1.0 - PAPER);
+            let mut rest = f64::from(all) * (1.0 - PAPER_QUANTILE);
             let level = (0..256).rev().find(|level| {
                 rest -= f64::from(counts[*level]);
                 rest < 0.0
@@ -169,7 +173,7 @@ impl Paper {
                 None => f32::NAN,
             });
         }
-        // Where a block has no pixels of its own, at the margins, what those beside it have.
+        // Blocks without pixels, at the margins, have the brightness of those beside them.
         for _ in 0..2 {
             let before = levels.clone();
             for block in 0..cols * rows {
@@ -188,7 +192,7 @@ impl Paper {
                 }
             }
         }
-        Paper {
+        PaperBrightness {
             side,
             cols,
             rows,
@@ -196,7 +200,7 @@ impl Paper {
         }
     }
 
-    /// Bilinear between the middles of blocks.
+    /// Brightness at a pixel, bilinear between the middles of blocks.
     fn at(&self, pixel: [usize; 2]) -> f32 {
         let sides = [self.cols, self.rows];
         let [(x, s), (y, t)] = [0, 1].map(|k| {

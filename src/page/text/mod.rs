@@ -1,8 +1,9 @@
-//! Lines of text in a photo of a page, found by themselves.
+//! Detection of lines of text in a photo of a page.
 //!
-//! On the flat page that the edges show, lines of text are nearly level. There the ink is added up along the
-//! rows of narrow upright strips; where that has bands which go on from strip to strip, their lower edge is
-//! where letters stand. What scatters too much, or runs another way than what is above and below it, is none.
+//! On the flat page that the edges show, lines of text are nearly level. There the ink is summed along the
+//! rows of narrow vertical strips. A line of text is a band of ink that continues from strip to strip; its lower edge is
+//! the baseline. Bands that scatter too much, or are not parallel to those above and below, are discarded. Thresholds were
+//! chosen on the shapes and layouts of BENCHMARKS.md (flat pages from a photo alone), at half their resolution.
 
 mod bands;
 mod baseline;
@@ -10,4 +11,4 @@ mod ink;
 mod lines;
 mod ranking;
 
-pub(super) use lines::find;
+pub(super) use lines::find_lines;

@@ -1,6 +1,6 @@
-//! The order of values.
+//! Sorting by values.
 
-/// The numbers of values from the smallest to the largest. One sort for all, for each kind of sort is some
+/// Numbers of the values in ascending order. One function for all callers, because each kind of sort takes some
 /// kilobytes of wasm.
 pub(super) fn ranked(values: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..values.len()).collect();

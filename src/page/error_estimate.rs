@@ -1,67 +1,69 @@
-//! How wrong the flat page is likely to be: the covariance of the least-squares solution, carried
-//! over to places on the page.
+//! Estimate of the flat page's error: the covariance of the least-squares solution, propagated
+//! to places on the page.
 
 use nalgebra::{DMatrix, DVector, Matrix2};
 
 use super::cylinder::{Cylinder, DIFFERENCE_STEP};
 use super::prior::Prior;
-use super::solve::{Residuals, Traces};
+use super::traces::{Residuals, Traces};
 
-/// Root mean square of the displacements on the flat page after the best similarity, over the width
+/// Error estimate of a flat page: root mean square displacement after the best similarity, over the width
 /// of a page.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Estimate {
-    /// Expected.
+pub(super) struct ErrorEstimate {
+    /// Expected displacement.
     pub expected: f64,
-    /// Not exceeded in 95 of 100 cases, if the page is of this kind.
+    /// Displacement that is not exceeded in 95 of 100 cases, if the page is curled one way.
     pub bound: f64,
     /// Relative standard deviation of the focal length.
     pub focal: f64,
 }
 
-/// Places on each page, from its start and from the first edge.
-const ACROSS: usize = 11;
-const DOWN: usize = 7;
+/// Number of places along each page's curve at which displacements are estimated.
+const PLACES_ACROSS: usize = 11;
 
-/// As if so many points more had been seen to lie as near as was assumed.
-const BELIEF: f64 = 4.0;
+/// Number of places along each ruling at which displacements are estimated.
+const PLACES_DOWN: usize = 7;
 
-/// `centre`: standard deviation of the principal point, in pixels. None if the traces leave
-/// something open.
-pub(super) fn estimate(
+/// Weight of the assumed accuracy of traced points, as a number of points that have exactly this error.
+const PRIOR_POINTS: f64 = 4.0;
+
+/// Estimates the error of the flat page of a cylinder. `centre` is the standard deviation of the principal point, in pixels.
+/// None if the traces do not determine all parameters.
+pub(super) fn estimate_error(
     cylinder: &Cylinder,
     traces: &Traces,
     residuals: &Residuals,
     prior: &Prior,
     centre: f64,
-) -> Option<Estimate> {
+) -> Option<ErrorEstimate> {
     let (matrix, _) = traces.jacobian(cylinder, residuals, prior)?;
     let rows = traces.rows();
     let data = matrix.rows(0, rows);
     let known = matrix.rows(rows, matrix.nrows() - rows);
     let count = traces.count();
-    let free = (count - cylinder.parameters() as f64).max(0.0) + BELIEF;
+    let free = (count - cylinder.parameters() as f64).max(0.0) + PRIOR_POINTS;
     let assumed = prior.accuracy.powi(2);
-    // Not less than was assumed, for a curve follows errors that are smooth.
-    let squared = ((traces.squares(residuals) + BELIEF * assumed) / free).max(assumed);
-    // Errors that go on from one point to the next are fewer, so they are larger.
-    let share = assumed / (squared * traces.correlation(residuals));
+    // At least the assumed error, because a curve follows smooth errors.
+    let squared = ((traces.squares(residuals) + PRIOR_POINTS * assumed) / free).max(assumed);
+    // Points that share an error count as one.
+    let share = assumed / (squared * traces.points_per_error(residuals));
     let normal = data.tr_mul(&data) * share + known.tr_mul(&known);
     let covariance = normal.cholesky()?.inverse();
 
-    let places = displacement(cylinder)?;
+    let places = displacement_jacobian(cylinder)?;
     let parameters = cylinder.parameters();
     let mut field = places.columns(0, parameters).into_owned();
     let mut centred = places.columns(parameters, 2).into_owned();
-    // A wrong principal point moves everything, and the solution after it.
-    let pull = data.tr_mul(&traces.shifted(cylinder, residuals, prior)?) * share;
+    // An error of the principal point moves the projection, and the solution with it.
+    let pull = data.tr_mul(&traces.principal_point_jacobian(cylinder, residuals, prior)?) * share;
     centred -= product(&field, &product(&covariance, &pull));
-    let similarities = similarities(cylinder);
+    let similarities = similarity_basis(cylinder);
     for k in 0..parameters {
-        without(&mut field, k, &similarities);
+        remove_components(&mut field, k, &similarities);
     }
     for k in 0..2 {
-        without(&mut centred, k, &similarities);
+        remove_components(&mut centred, k, &similarities);
     }
 
     let points = field.nrows() as f64 / 2.0;
@@ -77,36 +79,36 @@ pub(super) fn estimate(
 
     let all = [expected, bound, covariance[(0, 0)].sqrt()];
     let [expected, bound, focal] = all;
-    all.iter().all(|v| v.is_finite()).then_some(Estimate {
+    all.iter().all(|v| v.is_finite()).then_some(ErrorEstimate {
         expected,
         bound,
         focal,
     })
 }
 
-/// A product, by columns.
+/// Product of two matrices, column by column.
 fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     left.transpose().tr_mul(right)
 }
 
-/// Root mean square of the displacements between the flat pages of two cylinders for the same photo,
-/// likewise.
-pub(super) fn between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
+/// Root mean square displacement between the flat pages of two cylinders for the same photo, after the best similarity, over
+/// the width of a page. None if they do not show the same.
+pub(super) fn displacement_between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
     let (curve, found) = (one.curve(), other.curve());
     let mut way = Vec::new();
     let mut starts = [0.0; 2];
     let mut last = 0;
-    for (page, share, down) in grid(one.pages.len()) {
+    for (page, share, down) in page_places(one.pages.len()) {
         if page != last {
             starts[0] += one.pages[last].width;
             starts[1] += other.pages[last].width;
             last = page;
         }
-        let pixel = one.seen(curve.at(page, share), down * one.length)?;
+        let pixel = one.project(curve.at(page, share), down * one.length)?;
         let mut at = nalgebra::Vector2::new(share, down);
         for _ in 0..20 {
             let off = |dx: f64, dy: f64| {
-                let seen = other.seen(found.at(page, at.x + dx), (at.y + dy) * other.length)?;
+                let seen = other.project(found.at(page, at.x + dx), (at.y + dy) * other.length)?;
                 Some(nalgebra::Vector2::new(
                     seen[0] - pixel[0],
                     seen[1] - pixel[1],
@@ -125,27 +127,34 @@ pub(super) fn between(one: &Cylinder, other: &Cylinder) -> Option<f64> {
         way.push(at.y * other.length - down * one.length);
     }
     let mut field = DMatrix::from_vec(way.len(), 1, way);
-    without(&mut field, 0, &similarities(one));
+    remove_components(&mut field, 0, &similarity_basis(one));
     let width = one.pages.iter().map(|page| page.width).sum::<f64>() / one.pages.len() as f64;
     let mean = (2.0 * field.norm_squared() / field.len() as f64).sqrt() / width;
     mean.is_finite().then_some(mean)
 }
 
-/// Where on the page each of the places is: the page, its share of it, and down the ruling.
-fn grid(pages: usize) -> impl Iterator<Item = (usize, f64, f64)> {
-    (0..pages * ACROSS * DOWN).map(|i| {
-        let (page, i) = (i / (ACROSS * DOWN), i % (ACROSS * DOWN));
+/// Places at which displacements are estimated: the number of the page, and the shares of its width and of its rulings.
+fn page_places(pages: usize) -> impl Iterator<Item = (usize, f64, f64)> {
+    (0..pages * PLACES_ACROSS * PLACES_DOWN).map(|i| {
+        let (page, i) = (
+            i / (PLACES_ACROSS * PLACES_DOWN),
+            i % (PLACES_ACROSS * PLACES_DOWN),
+        );
         let share = |i: usize, of: usize| (i as f64 + 0.5) / of as f64;
-        (page, share(i % ACROSS, ACROSS), share(i / ACROSS, DOWN))
+        (
+            page,
+            share(i % PLACES_ACROSS, PLACES_ACROSS),
+            share(i / PLACES_ACROSS, PLACES_DOWN),
+        )
     })
 }
 
-/// How far what is seen at a pixel moves on the flat page for each parameter, and for the principal
+/// Jacobian of places on the flat page, at fixed pixels, by the parameters and by the principal
 /// point: rows are x and y of each place.
-fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
-    let places: Vec<_> = grid(cylinder.pages.len()).collect();
+fn displacement_jacobian(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
+    let places: Vec<_> = page_places(cylinder.pages.len()).collect();
     let parameters = cylinder.parameters();
-    // In the photo, and on the page.
+    // Positions in the photo and on the page.
     let look = |of: &Cylinder, moved: [f64; 2]| -> Option<Vec<([f64; 2], [f64; 2])>> {
         let curve = of.curve();
         let mut starts = vec![0.0];
@@ -155,7 +164,7 @@ fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
         (places.iter())
             .map(|&(page, share, down)| {
                 let (share, down) = (share + moved[0], (down + moved[1]) * of.length);
-                let seen = of.seen(curve.at(page, share), down)?;
+                let seen = of.project(curve.at(page, share), down)?;
                 Some((seen, [starts[page] + share * of.pages[page].width, down]))
             })
             .collect()
@@ -204,13 +213,13 @@ fn displacement(cylinder: &Cylinder) -> Option<DMatrix<f64>> {
     Some(out)
 }
 
-/// Shifts, scaling and rotation as displacements of the places, orthonormal.
-fn similarities(cylinder: &Cylinder) -> Vec<DVector<f64>> {
+/// Orthonormal basis of the displacements by translations, scaling and rotation.
+fn similarity_basis(cylinder: &Cylinder) -> Vec<DVector<f64>> {
     let mut starts = vec![0.0];
     for page in &cylinder.pages {
         starts.push(starts[starts.len() - 1] + page.width);
     }
-    let places: Vec<[f64; 2]> = grid(cylinder.pages.len())
+    let places: Vec<[f64; 2]> = page_places(cylinder.pages.len())
         .map(|(page, share, down)| {
             [
                 starts[page] + share * cylinder.pages[page].width,
@@ -232,7 +241,8 @@ fn similarities(cylinder: &Cylinder) -> Vec<DVector<f64>> {
     found
 }
 
-fn without(field: &mut DMatrix<f64>, column: usize, motions: &[DVector<f64>]) {
+/// Subtracts from a column its components along orthonormal vectors.
+fn remove_components(field: &mut DMatrix<f64>, column: usize, motions: &[DVector<f64>]) {
     for motion in motions {
         let part = field.column(column).dot(motion);
         field.column_mut(column).axpy(-part, motion, 1.0);

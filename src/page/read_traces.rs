@@ -1,27 +1,36 @@
-//! Edges as they were traced: checked, and brought into one order.
+//! Reading of traced edges: checks, and a common order.
 
-use super::corners::{arrange, at_corners, neighbours};
+use super::corners::{arrange, arrange_spread, check_sides};
 use super::edges::{Edges, Trace};
-use super::line::{Line, Traced, distance};
+use super::traced_line::{TracedLine, TracedPage, distance};
 use crate::error::{Error, Result};
 
-/// Points of a cubic Bézier curve that are looked at.
-const STEPS: usize = 12;
+/// Number of points that a cubic Bézier curve is sampled at.
+const BEZIER_SAMPLES: usize = 12;
 
-/// Most points of one edge.
-const MOST: usize = 100_000;
+/// Maximum number of points of one edge.
+const MAX_EDGE_POINTS: usize = 100_000;
 
-/// How far beyond the photo a point may lie, as a share of the photo's diagonal.
-const BEYOND: f64 = 0.05;
+/// Minimum distance, in pixels, between the ends of an edge.
+const MIN_EDGE_LENGTH: f64 = 2.0;
 
-/// Everything that was traced, page by page from the curve's start, and whether the curve runs down
-/// the page. Lines of text, by page, are those that are given, and those that were found on the pages in their
-/// order from left to right.
-pub(super) fn traced(
+/// Ratio of the lengths of the path through an edge's points as given and as sorted, above which they are sorted.
+const DISORDER_LENGTH_RATIO: f64 = 1.5;
+
+/// Maximum distance of a traced point outside of the photo, as a share of the photo's diagonal.
+const MAX_OUTSIDE_SHARE: f64 = 0.05;
+
+/// Checks all traces and brings them into a common order: page by page from the curve's start. Returns whether the curve runs
+/// down the page, too. Lines of text are those that are given, page by page, and those that were found on the pages in
+/// their order from left to right.
+///
+/// # Errors
+/// Those of [`CurledPage::with_lines`](super::CurledPage::with_lines) about edges and lines.
+pub(super) fn read_traces(
     pages: &[Edges],
     [text, seen]: [&[Vec<Trace>]; 2],
     photo: [usize; 2],
-) -> Result<(Vec<Traced>, bool)> {
+) -> Result<(Vec<TracedPage>, bool)> {
     if !(1..=2).contains(&pages.len()) {
         return Err(Error::option(
             "edges",
@@ -36,26 +45,26 @@ pub(super) fn traced(
             "must be the lines of text of each page, in the order of the edges",
         ));
     }
-    let sideways = bent_sideways(pages)?;
-    let lines = |own: Option<&Vec<Trace>>| -> Result<Vec<Line>> {
+    let sideways = is_bent_sideways(pages)?;
+    let lines = |own: Option<&Vec<Trace>>| -> Result<Vec<TracedLine>> {
         (own.into_iter().flatten())
-            .map(|trace| line((TEXT, trace), photo))
+            .map(|trace| read_line((TEXT_LINE_NAME, trace), photo))
             .collect()
     };
     let mut found = Vec::with_capacity(pages.len());
     for (number, page) in pages.iter().enumerate() {
         // Turned by 90°, the right edge is the top one, and the left one the bottom.
         let ([first, second], sides) = page.named(sideways);
-        let mut pair = [line(first, photo)?, line(second, photo)?];
+        let mut pair = [read_line(first, photo)?, read_line(second, photo)?];
         arrange(&mut pair)?;
         let sides = match sides {
-            Some([start, end]) => Some([line(start, photo)?, line(end, photo)?]),
+            Some([start, end]) => Some([read_line(start, photo)?, read_line(end, photo)?]),
             None => None,
         };
         if let Some(sides) = &sides {
-            at_corners(&pair, sides)?;
+            check_sides(&pair, sides)?;
         }
-        found.push(Traced {
+        found.push(TracedPage {
             pair,
             sides,
             text: lines(text.get(number))?,
@@ -63,9 +72,9 @@ pub(super) fn traced(
         });
     }
     if let [one, other] = &mut found[..] {
-        neighbours(one, other)?;
+        arrange_spread(one, other)?;
     }
-    // Found on pages that lie in their order, not as they are given.
+    // Pages on which lines were found are in their order from left to right, not as they are given.
     for (page, own) in found.iter_mut().zip(seen) {
         page.found = lines(Some(own))?;
     }
@@ -75,7 +84,7 @@ pub(super) fn traced(
 type Named<'a> = (&'static str, &'a Trace);
 
 impl Edges {
-    /// The bent edges, and those along the first and the last ruling.
+    /// The two bent edges and, if there are, those along the first and the last ruling, with their names.
     fn named(&self, sideways: bool) -> ([Named<'_>; 2], Option<[Named<'_>; 2]>) {
         match self {
             Edges::TopBottom { top, bottom } => ([("top", top), ("bottom", bottom)], None),
@@ -97,9 +106,9 @@ impl Edges {
     }
 }
 
-/// Whether it is the left and the right edges that are bent; of pages with all four, those that are
-/// seen farther from straight.
-fn bent_sideways(pages: &[Edges]) -> Result<bool> {
+/// Whether the left and the right edges are the bent ones. Of pages with all four edges, the bent ones are those that are
+/// farther from straight in the photo.
+fn is_bent_sideways(pages: &[Edges]) -> Result<bool> {
     let mut bows = [0.0; 2];
     let mut told = Vec::new();
     for page in pages {
@@ -112,8 +121,8 @@ fn bent_sideways(pages: &[Edges]) -> Result<bool> {
                 left,
                 right,
             } => {
-                bows[0] += bow(top) + bow(bottom);
-                bows[1] += bow(left) + bow(right);
+                bows[0] += relative_bow(top) + relative_bow(bottom);
+                bows[1] += relative_bow(left) + relative_bow(right);
             }
         }
     }
@@ -125,11 +134,11 @@ fn bent_sideways(pages: &[Edges]) -> Result<bool> {
     Ok(told.first().copied().unwrap_or(bows[1] > bows[0]))
 }
 
-/// How far from straight a trace is, as a share of its chord.
-fn bow(trace: &Trace) -> f64 {
+/// Largest distance of a trace from its chord, as a share of the chord.
+fn relative_bow(trace: &Trace) -> f64 {
     let points = match trace {
         Trace::Points(points) => points.clone(),
-        Trace::Beziers(control) if control.len() % 3 == 1 => sampled(control),
+        Trace::Beziers(control) if control.len() % 3 == 1 => sample_beziers(control),
         Trace::Beziers(_) => return 0.0,
     };
     let [Some(from), Some(to)] = [points.first(), points.last()] else {
@@ -142,25 +151,30 @@ fn bow(trace: &Trace) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// What lines of text are called among edges.
-const TEXT: &str = "text";
+/// Name of lines of text among those of edges.
+const TEXT_LINE_NAME: &str = "text";
 
-fn called(name: &str) -> String {
+/// Description of an edge or a line of text in error messages.
+fn described(name: &str) -> String {
     match name {
-        TEXT => "a line of text".into(),
+        TEXT_LINE_NAME => "a line of text".into(),
         edge => format!("the {edge} edge"),
     }
 }
 
-fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line> {
+/// Checks one trace and samples it.
+///
+/// # Errors
+/// [`Error::Edges`], [`Error::NotFinite`], [`Error::TooLarge`].
+fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<TracedLine> {
     let given = match trace {
         Trace::Points(points) | Trace::Beziers(points) => points,
     };
-    if given.len() > MOST {
+    if given.len() > MAX_EDGE_POINTS {
         return Err(Error::TooLarge {
             what: "edge",
             requested: given.len(),
-            limit: MOST,
+            limit: MAX_EDGE_POINTS,
         });
     }
     if let Some((row, col)) = given
@@ -180,7 +194,7 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
         Trace::Points(points) => {
             let mut points = points.clone();
             points.dedup();
-            order(&mut points);
+            sort_along_chord(&mut points);
             let count = points.len() as f64;
             (points, count)
         }
@@ -190,30 +204,34 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
                     reason: format!(
                         "{} has {} control points; cubic Bézier curves that follow each other have \
                          4, 7, 10 and so on",
-                        called(name),
+                        described(name),
                         control.len()
                     ),
                 });
             }
-            let mut points = sampled(control);
+            let mut points = sample_beziers(control);
             points.dedup();
             (points, (2 * control.len() / 3 + 2) as f64)
         }
     };
     let ends = match &points[..] {
-        [first, .., last] if distance(*first, *last) >= 2.0 => [*first, *last],
+        [first, .., last] if distance(*first, *last) >= MIN_EDGE_LENGTH => [*first, *last],
         _ => {
             return Err(Error::Edges {
                 reason: format!(
                     "{} must go from one {} to the other, through at least 2 different points",
-                    called(name),
-                    if name == TEXT { "end" } else { "corner" },
+                    described(name),
+                    if name == TEXT_LINE_NAME {
+                        "end"
+                    } else {
+                        "corner"
+                    },
                 ),
             });
         }
     };
     let [width, height] = photo.map(|n| n as f64);
-    let slack = BEYOND * width.hypot(height);
+    let slack = MAX_OUTSIDE_SHARE * width.hypot(height);
     let outside = |p: &&[f64; 2]| {
         let within = |v: f64, end: f64| (-slack..=end + slack).contains(&v);
         !(within(p[0], width) && within(p[1], height))
@@ -223,20 +241,19 @@ fn line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<Line
             reason: format!(
                 "{} has a point at ({x:.0}, {y:.0}), outside of the photo of {width} by {height} \
                  pixels; give the places in pixels of this very photo",
-                called(name),
+                described(name),
             ),
         });
     }
-    Ok(Line {
+    Ok(TracedLine {
         name,
         points,
         independent,
     })
 }
 
-/// Puts points in order along the edge, unless they nearly are. An edge is taken for a graph over
-/// its chord then.
-fn order(points: &mut [[f64; 2]]) {
+/// Sorts points by their positions along the chord if they are in disorder.
+fn sort_along_chord(points: &mut [[f64; 2]]) {
     let length =
         |points: &[[f64; 2]]| -> f64 { points.windows(2).map(|w| distance(w[0], w[1])).sum() };
     if points.len() < 4 {
@@ -254,8 +271,8 @@ fn order(points: &mut [[f64; 2]]) {
     let along = |p: &[f64; 2]| cos * p[0] + sin * p[1];
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| along(p).total_cmp(&along(q)));
-    // Noise takes a little back and forth; disorder takes a lot.
-    if length(points) > 1.5 * length(&sorted) {
+    // Noise makes the path through the points a little longer, disorder much longer.
+    if length(points) > DISORDER_LENGTH_RATIO * length(&sorted) {
         let turned = along(&points[0]) > along(&points[points.len() - 1]);
         if turned {
             sorted.reverse();
@@ -264,12 +281,13 @@ fn order(points: &mut [[f64; 2]]) {
     }
 }
 
-fn sampled(control: &[[f64; 2]]) -> Vec<[f64; 2]> {
+/// Points on cubic Bézier curves.
+fn sample_beziers(control: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut points = vec![control[0]];
     for start in (0..control.len() - 1).step_by(3) {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| control[start + i]);
-        for i in 1..=STEPS {
-            let t = i as f64 / STEPS as f64;
+        for i in 1..=BEZIER_SAMPLES {
+            let t = i as f64 / BEZIER_SAMPLES as f64;
             let s = 1.0 - t;
             points.push([0, 1].map(|k| {
                 s * s * s * a[k]

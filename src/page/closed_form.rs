@@ -1,16 +1,25 @@
-//! The cylinder in closed form, from the corners and one edge after the other.
+//! Initial guess of the cylinder in closed form, from the corners and edges.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
-use super::cylinder::{Cylinder, Strip, legendre};
-use super::line::Line;
+use super::cylinder::{CurveSeries, Cylinder, legendre_values};
+use super::traced_line::TracedLine;
 
-/// Degree of the curve that the search begins with.
-const DEGREE: usize = 5;
+/// Maximum degree of the polynomial that is fitted to a page's points for the initial curve.
+const MAX_INITIAL_DEGREE: usize = 5;
 
-/// The focal length for which the rulings are perpendicular to the chord: both directions meet the
-/// image in a vanishing point, `x₁x₂ + y₁y₂ + f² w₁w₂ = 0`.
-pub(super) fn focal(pages: &[[Line; 2]], centre: [f64; 2]) -> Option<f64> {
+/// Minimum distance of an edge's plane from the camera, over that of the other edge, for the edge to tell the curve.
+const MIN_EDGE_PLANE_DISTANCE: f64 = 0.2;
+
+/// Maximum distance of a traced point from the camera, over that of the page's first corner along the same axis.
+const MAX_POINT_SCALE: f64 = 100.0;
+
+/// Maximum ratio of a page's length and width, and of its width and length.
+const MAX_LENGTH_RATIO: f64 = 1e3;
+
+/// Focal length, in pixels, for which the rulings are perpendicular to the chord: the vanishing points of both directions
+/// satisfy `x₁x₂ + y₁y₂ + f² w₁w₂ = 0`. None if there is none.
+pub(super) fn focal_length(pages: &[[TracedLine; 2]], centre: [f64; 2]) -> Option<f64> {
     let [a, b, c, d] = corners(pages).map(|p| ray(p, centre, 1.0));
     let r = a.cross(&d).cross(&b.cross(&c));
     let q = a.cross(&b).cross(&d.cross(&c));
@@ -18,8 +27,8 @@ pub(super) fn focal(pages: &[[Line; 2]], centre: [f64; 2]) -> Option<f64> {
     (squared.is_finite() && squared > 0.0).then(|| squared.sqrt())
 }
 
-/// The outer corners, clockwise from the first edge's start.
-pub(super) fn corners(pages: &[[Line; 2]]) -> [[f64; 2]; 4] {
+/// The outer corners of all pages in the photo, clockwise from the first edge's start.
+pub(super) fn corners(pages: &[[TracedLine; 2]]) -> [[f64; 2]; 4] {
     let last = &pages[pages.len() - 1];
     [
         pages[0][0].ends()[0],
@@ -29,14 +38,19 @@ pub(super) fn corners(pages: &[[Line; 2]]) -> [[f64; 2]; 4] {
     ]
 }
 
+/// Line of sight of a pixel, with `z = 1`.
 fn ray(p: [f64; 2], centre: [f64; 2], focal: f64) -> Vector3<f64> {
     Vector3::new((p[0] - centre[0]) / focal, (p[1] - centre[1]) / focal, 1.0)
 }
 
-/// The cylinder for a focal length. None where the corners are no rectangle's.
-pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Option<Cylinder> {
+/// The cylinder for a focal length in pixels. None if the corners are not those of a rectangle.
+pub(super) fn cylinder(
+    pages: &[[TracedLine; 2]],
+    centre: [f64; 2],
+    focal: f64,
+) -> Option<Cylinder> {
     let ray = |p: &[f64; 2]| ray(*p, centre, focal);
-    // Rulings are parallel: all planes through the camera and one of them contain their direction.
+    // Rulings are parallel: their direction is in all planes through the camera and one of them.
     let mut planes = Matrix3::zeros();
     for [first, second] in pages {
         for end in 0..2 {
@@ -56,9 +70,10 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
         (ruling, length) = (-ruling, -length);
     }
     let end = origin + ruling * length;
-    // An edge whose plane passes near the camera looks straight whatever its shape.
+    // An edge whose plane passes near the camera appears straight whatever its shape.
     let reaches = [origin, end].map(|corner| ruling.dot(&corner));
-    let telling = |reach: f64| reach.abs() > 0.2 * reaches[0].abs().max(reaches[1].abs());
+    let telling =
+        |reach: f64| reach.abs() > MIN_EDGE_PLANE_DISTANCE * reaches[0].abs().max(reaches[1].abs());
     // Points of each page in the plane through the origin and normal to the rulings.
     let mut points: Vec<Vec<(Vector3<f64>, f64)>> = Vec::new();
     for pair in pages {
@@ -71,7 +86,7 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
             for p in &line.points {
                 let sight = ray(p);
                 let scale = reach / ruling.dot(&sight);
-                if scale.is_finite() && scale > 0.0 && scale < 100.0 {
+                if scale.is_finite() && scale > 0.0 && scale < MAX_POINT_SCALE {
                     let point = sight * scale;
                     let level = point - ruling * ruling.dot(&(point - origin));
                     own.push((level, reach * reach));
@@ -106,7 +121,7 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
         let flat: Vec<_> = (own.iter())
             .map(|(p, weight)| ((p - origin).dot(&along), (p - origin).dot(&normal), *weight))
             .collect();
-        pages.push(strip(&flat)?);
+        pages.push(fit_curve(&flat)?);
     }
     let mut found = Cylinder {
         focal,
@@ -136,40 +151,43 @@ pub(super) fn cylinder(pages: &[[Line; 2]], centre: [f64; 2], focal: f64) -> Opt
         .chain(&found.origin)
         .chain(&found.axes)
         .all(|v| v.is_finite());
-    (finite && found.length > 1e-3 && found.length < 1e3).then_some(found)
+    (finite && found.length > 1.0 / MAX_LENGTH_RATIO && found.length < MAX_LENGTH_RATIO)
+        .then_some(found)
 }
 
-/// One page's curve, a polynomial over its chord, as its width and direction.
-fn strip(points: &[(f64, f64, f64)]) -> Option<Strip> {
+/// The curve of one page from its points `(along the chord, across it, weight)`: fits a polynomial over the chord and converts
+/// it to a Legendre series of the direction over the arc length. None if there are too few points.
+fn fit_curve(points: &[(f64, f64, f64)]) -> Option<CurveSeries> {
     let low = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
     let high = points.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
     let span = high - low;
     if !(span.is_finite() && span > 0.0) {
         return None;
     }
-    let degree = DEGREE.min(points.len() / 3).max(1);
+    let degree = MAX_INITIAL_DEGREE.min(points.len() / 3).max(1);
     let mut normal = DMatrix::<f64>::identity(degree + 1, degree + 1) * 1e-9;
     let mut right = DVector::<f64>::zeros(degree + 1);
     for (u, v, weight) in points {
-        let row = DVector::from_vec(legendre(degree, (u - low) / span));
+        let row = DVector::from_vec(legendre_values(degree, (u - low) / span));
         normal.ger(*weight, &row, &row, 1.0);
         right += row * (*v * *weight);
     }
     let fitted = normal.cholesky()?.solve(&right);
     let height = |at: f64| -> f64 {
-        legendre(degree, at)
+        legendre_values(degree, at)
             .iter()
             .zip(&fitted)
             .map(|(p, c)| p * c)
             .sum()
     };
-    const STEPS: usize = 200;
-    let mut pieces = Vec::with_capacity(STEPS);
+    /// Number of pieces over which the arc length is summed.
+    const ARC_LENGTH_STEPS: usize = 200;
+    let mut pieces = Vec::with_capacity(ARC_LENGTH_STEPS);
     let mut width = 0.0;
-    for i in 0..STEPS {
-        let [from, to] = [i, i + 1].map(|i| i as f64 / STEPS as f64);
+    for i in 0..ARC_LENGTH_STEPS {
+        let [from, to] = [i, i + 1].map(|i| i as f64 / ARC_LENGTH_STEPS as f64);
         let rise = height(to) - height(from);
-        let run = span / STEPS as f64;
+        let run = span / ARC_LENGTH_STEPS as f64;
         pieces.push((
             width + 0.5 * run.hypot(rise),
             run.hypot(rise),
@@ -181,11 +199,11 @@ fn strip(points: &[(f64, f64, f64)]) -> Option<Strip> {
     for (middle, length, angle) in pieces {
         for (k, (turn, p)) in turns
             .iter_mut()
-            .zip(legendre(degree, middle / width))
+            .zip(legendre_values(degree, middle / width))
             .enumerate()
         {
             *turn += (2 * k + 1) as f64 * angle * p * length / width;
         }
     }
-    Some(Strip { width, turns })
+    Some(CurveSeries { width, turns })
 }

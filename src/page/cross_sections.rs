@@ -1,150 +1,159 @@
-//! What checks a page's bent edges: lines of text, and its straight edges.
+//! Lines of text and straight edges as cross-sections and rulings, which check a page's bent edges.
 //!
 //! A line of text is level on the flat page, so it is a further cross-section where the edges above
 //! and below the text are bent, and a ruling where those beside it are. Its level is not known, and
-//! the print may be turned a little on the page. The straight edges are the first and the last
+//! the print may be rotated a little on the page. The straight edges are the first and the last
 //! ruling.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::corners::check_on_page;
 use super::cylinder::{Cylinder, DIFFERENCE_STEP};
 use super::huber::{huber_cost, huber_weight};
-use super::line::{Line, Traced};
-use super::misfit::Misfit;
 use super::prior::Prior;
+use super::residual_statistics::ResidualStatistics;
+use super::traced_line::{TracedLine, TracedPage};
 use crate::error::{Error, Result};
 
 /// A line of text, or a straight edge.
 #[derive(Debug, Clone)]
-struct Cross {
+struct CrossSection {
     page: usize,
-    /// Whether it is a ruling, and not a cross-section.
+    /// Whether it is a ruling, or else a cross-section.
     ruling: bool,
-    /// Where it is, as a share of the page; of text that is open.
+    /// Position of a straight edge, as a share of the page's width; None for text, whose level is eliminated.
     level: Option<f64>,
-    /// Whether it is text that was found, not traced by anybody.
+    /// Whether it is text that was found in the photo.
     found: bool,
     points: Vec<[f64; 2]>,
     weight: f64,
 }
 
-/// All of them.
+/// All lines of text and straight edges of the pages.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Crosses {
-    list: Vec<Cross>,
-    /// Whether there are lines of text.
+pub(super) struct CrossSections {
+    list: Vec<CrossSection>,
+    /// Number of lines of text.
     pub text: usize,
 }
 
-/// One of them on a cylinder: its points' distances from their line.
+/// Residuals of one line or straight edge on a cylinder.
 #[derive(Debug, Clone)]
-pub(super) struct Off {
-    points: Vec<Distance>,
-    /// Where it is on the page.
+pub(super) struct LineResiduals {
+    points: Vec<PointResidual>,
+    /// Position of the line on the page, in widths of the first page.
     level: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Distance {
-    /// In pixels, across the line.
+struct PointResidual {
+    /// Distance across the line, in pixels.
     pixels: f64,
-    /// Where on the line.
+    /// Position along the line, in widths of the first page.
     along: f64,
-    /// Pixels for a unit of length on the page.
+    /// Pixels per unit of length on the page, across the line.
     scale: f64,
-    /// What the weight of an outlier comes down to.
+    /// Huber's weight: 1, or less for an outlier.
     trust: f64,
 }
 
-/// A point's place on the page, and its coordinate across its line.
-type Raw = ([f64; 2], f64);
+/// Position of a point on the page, and its coordinate across its line.
+type LinePoint = ([f64; 2], f64);
 
-/// Most lines of text.
-const MOST: usize = 500;
+/// Maximum number of lines of text.
+const MAX_TEXT_LINES: usize = 500;
 
-/// Points of a line that are looked at, at most, and of all.
-const EACH: usize = 24;
-const ALL: usize = 800;
+/// Maximum number of points of a line that are used.
+const MAX_POINTS_PER_LINE: usize = 24;
 
-/// The same of text that was found: it lies nearer to its line than what a hand traces.
-const EACH_FOUND: usize = 12;
-const ALL_FOUND: usize = 400;
+/// Maximum number of points of all lines of text that were given.
+const MAX_TEXT_POINTS: usize = 800;
 
-/// Most independent points that the errors of tracing one are taken for.
-const INDEPENDENT: f64 = 8.0;
+/// Maximum number of points of a line that was found in the photo. Fewer are enough, for they are more exact than traced ones.
+const MAX_POINTS_PER_FOUND_LINE: usize = 12;
 
-/// How far beside the page a line may be traced, as a share of the page's edge.
-const BESIDE: f64 = 0.03;
+/// Maximum number of points of all lines that were found in the photo.
+const MAX_FOUND_POINTS: usize = 400;
 
-impl Crosses {
+/// Maximum number of independent points that a line counts as: errors of tracing continue along the line.
+const MAX_INDEPENDENT_POINTS: f64 = 8.0;
+
+impl CrossSections {
+    /// The lines of text and straight edges of all pages.
+    ///
     /// # Errors
-    /// [`Error::Edges`] for lines beside the page.
-    pub fn new(pages: &[Traced], sideways: bool) -> Result<Self> {
+    /// [`Error::Edges`] for lines beside the page, [`Error::TooLarge`] for too many lines.
+    pub fn new(pages: &[TracedPage], sideways: bool) -> Result<Self> {
         let text: usize = pages.iter().map(|page| page.text.len()).sum();
-        if text > MOST {
+        if text > MAX_TEXT_LINES {
             return Err(Error::TooLarge {
                 what: "list of lines of text",
                 requested: text,
-                limit: MOST,
+                limit: MAX_TEXT_LINES,
             });
         }
         let found: usize = pages.iter().map(|page| page.found.len()).sum();
-        let each = EACH.min((ALL / text.max(1)).max(2));
-        let each_found = EACH_FOUND.min((ALL_FOUND / found.max(1)).max(3));
+        let each = MAX_POINTS_PER_LINE.min((MAX_TEXT_POINTS / text.max(1)).max(2));
+        let each_found = MAX_POINTS_PER_FOUND_LINE.min((MAX_FOUND_POINTS / found.max(1)).max(3));
         let mut list = Vec::new();
         for (page, traced) in pages.iter().enumerate() {
             for (number, line) in traced.text.iter().enumerate() {
-                let cross = Cross::new(line, page, each);
-                beside(&traced.pair, &cross.points, number)?;
-                list.push(Cross {
+                let cross = CrossSection::new(line, page, each);
+                check_on_page(&traced.pair, &cross.points, number)?;
+                list.push(CrossSection {
                     ruling: sideways,
                     ..cross
                 });
             }
             for line in &traced.found {
-                list.push(Cross {
+                list.push(CrossSection {
                     ruling: sideways,
                     found: true,
-                    ..Cross::new(line, page, each_found)
+                    ..CrossSection::new(line, page, each_found)
                 });
             }
             for (line, level) in traced.sides.iter().flatten().zip([0.0, 1.0]) {
-                list.push(Cross {
+                list.push(CrossSection {
                     ruling: true,
                     level: Some(level),
-                    ..Cross::new(line, page, EACH)
+                    ..CrossSection::new(line, page, MAX_POINTS_PER_LINE)
                 });
             }
         }
-        Ok(Crosses {
+        Ok(CrossSections {
             list,
             text: text + found,
         })
     }
 
-    /// How many distances count, by their weights.
+    /// Number of independent distances: the sum of their weights, less one for each level that is eliminated.
     pub fn count(&self) -> f64 {
-        let own = |cross: &Cross| {
+        let own = |cross: &CrossSection| {
             cross.weight * cross.points.len() as f64 - f64::from(u8::from(cross.level.is_none()))
         };
         self.list.iter().map(own).sum()
     }
 
-    /// Rows in the matrix of derivatives.
+    /// Number of rows in the Jacobian.
     pub fn rows(&self) -> usize {
         self.list.iter().map(|cross| cross.points.len()).sum()
     }
 
-    /// Distances, and what they add to the cost.
-    pub fn distances(&self, cylinder: &Cylinder, prior: &Prior) -> Option<(Vec<Off>, f64)> {
+    /// Residuals of all lines on a cylinder, and the sum of their Huber penalties. None if a part is not in front of the camera.
+    pub fn residuals(
+        &self,
+        cylinder: &Cylinder,
+        prior: &Prior,
+    ) -> Option<(Vec<LineResiduals>, f64)> {
         let curve = cylinder.curve();
         let mut found = Vec::with_capacity(self.list.len());
         let mut cost = 0.0;
-        for (cross, raw) in self.list.iter().zip(self.raw(cylinder)?) {
+        for (cross, raw) in self.list.iter().zip(self.line_points(cylinder)?) {
             let mut points = Vec::with_capacity(raw.len());
             for ([along, down], _) in &raw {
                 let width = cylinder.pages[cross.page].width;
-                let seen = |x: f64, y: f64| cylinder.seen(curve.straight(cross.page, x / width), y);
+                let seen =
+                    |x: f64, y: f64| cylinder.project(curve.at_extended(cross.page, x / width), y);
                 let by = |dx: f64, dy: f64| -> Option<[f64; 2]> {
                     let [p, q] = [seen(along + dx, down + dy)?, seen(along - dx, down - dy)?];
                     Some([0, 1].map(|k| (p[k] - q[k]) / (2.0 * DIFFERENCE_STEP)))
@@ -154,20 +163,20 @@ impl Crosses {
                     (way, across) = (across, way);
                 }
                 let area = way[0] * across[1] - way[1] * across[0];
-                points.push(Distance {
+                points.push(PointResidual {
                     pixels: 0.0,
                     along: if cross.ruling { *down } else { *along },
                     scale: area.abs() / way[0].hypot(way[1]),
                     trust: 1.0,
                 });
             }
-            // The level that suits most of the points.
+            // The level by iteratively reweighted least squares.
             let passes = if cross.level.is_some() { 1 } else { 3 };
             let mut level = 0.0;
             for _ in 0..passes {
                 level = match cross.level {
                     Some(share) => share * cylinder.pages[cross.page].width,
-                    None => mean(&points, raw.iter().map(|(_, value)| *value)),
+                    None => weighted_mean(&points, raw.iter().map(|(_, value)| *value)),
                 };
                 for (point, (_, value)) in points.iter_mut().zip(&raw) {
                     point.pixels = (value - level) * point.scale;
@@ -178,13 +187,13 @@ impl Crosses {
             cost += (points.iter())
                 .map(|point| cross.weight * huber_cost(point.pixels.abs() / prior.accuracy))
                 .sum::<f64>();
-            found.push(Off { points, level });
+            found.push(LineResiduals { points, level });
         }
         cost.is_finite().then_some((found, cost))
     }
 
-    /// What they are on a cylinder, line by line.
-    fn raw(&self, cylinder: &Cylinder) -> Option<Vec<Vec<Raw>>> {
+    /// Back-projects the points of each line to a cylinder.
+    fn line_points(&self, cylinder: &Cylinder) -> Option<Vec<Vec<LinePoint>>> {
         let curve = cylinder.curve();
         (self.list.iter())
             .map(|cross| {
@@ -194,7 +203,7 @@ impl Crosses {
                 };
                 (cross.points.iter())
                     .map(|p| {
-                        let place = cylinder.place(&curve, cross.page, *p)?;
+                        let place = cylinder.back_project(&curve, cross.page, *p)?;
                         let [along, down] = place;
                         let value = if cross.ruling {
                             along + skew * down
@@ -208,17 +217,17 @@ impl Crosses {
             .collect()
     }
 
-    /// Writes the rows of the matrix from `first` on: derivatives by the column's parameter, of which
-    /// `plus` and `minus` are half a step away; an open level follows.
-    pub fn column(
+    /// Writes one column of the Jacobian, from row `first` on: the derivatives of the weighted distances by a parameter in which
+    /// the cylinders `plus` and `minus` differ. Levels that are eliminated follow the points.
+    pub fn write_derivatives(
         &self,
         first: usize,
-        off: &[Off],
+        off: &[LineResiduals],
         [plus, minus]: [&Cylinder; 2],
         prior: &Prior,
         mut write: impl FnMut(usize, f64),
     ) -> Option<()> {
-        let (plus_raw, minus_raw) = (self.raw(plus)?, self.raw(minus)?);
+        let (plus_raw, minus_raw) = (self.line_points(plus)?, self.line_points(minus)?);
         let mut row = first;
         for (((cross, own), p), m) in self.list.iter().zip(off).zip(plus_raw).zip(minus_raw) {
             let level = |of: &Cylinder| {
@@ -230,7 +239,7 @@ impl Crosses {
                 .collect();
             let shift = match cross.level {
                 Some(_) => 0.0,
-                None => mean(&own.points, changes.iter().copied()),
+                None => weighted_mean(&own.points, changes.iter().copied()),
             };
             for (change, point) in changes.iter().zip(&own.points) {
                 let factor = (cross.weight * point.trust).sqrt() / prior.accuracy;
@@ -241,8 +250,14 @@ impl Crosses {
         Some(())
     }
 
-    /// The weighted distances, as [`Crosses::column`] has their derivatives.
-    pub fn values(&self, first: usize, off: &[Off], prior: &Prior, values: &mut DVector<f64>) {
+    /// Writes the weighted distances whose derivatives [`CrossSections::write_derivatives`] writes.
+    pub fn write_residuals(
+        &self,
+        first: usize,
+        off: &[LineResiduals],
+        prior: &Prior,
+        values: &mut DVector<f64>,
+    ) {
         let mut row = first;
         for (cross, own) in self.list.iter().zip(off) {
             for point in &own.points {
@@ -252,17 +267,17 @@ impl Crosses {
         }
     }
 
-    /// Derivatives by the principal point.
-    pub fn shifted(
+    /// Writes the derivatives of the weighted distances by the principal point.
+    pub fn principal_point_jacobian(
         &self,
         first: usize,
-        off: &[Off],
+        off: &[LineResiduals],
         cylinder: &Cylinder,
         prior: &Prior,
         matrix: &mut DMatrix<f64>,
     ) -> Option<()> {
         for k in 0..2 {
-            // In pixels, of which a step as of other parameters is too small.
+            // The principal point is in pixels, so its step is a share of the focal length.
             let focal = cylinder.focal;
             let moved = [1.0, -1.0].map(|sign| {
                 let mut moved = cylinder.clone();
@@ -270,7 +285,7 @@ impl Crosses {
                 moved
             });
             let [plus, minus] = &moved;
-            self.column(first, off, [plus, minus], prior, |row, value| {
+            self.write_derivatives(first, off, [plus, minus], prior, |row, value| {
                 matrix[(row, k)] = value / focal;
             })?;
         }
@@ -278,7 +293,7 @@ impl Crosses {
     }
 
     /// The weighted sum of squares of the distances, in pixels².
-    pub fn squares(&self, off: &[Off]) -> f64 {
+    pub fn squares(&self, off: &[LineResiduals]) -> f64 {
         (self.list.iter().zip(off))
             .map(|(cross, own)| {
                 cross.weight * own.points.iter().map(|p| p.pixels * p.pixels).sum::<f64>()
@@ -286,24 +301,24 @@ impl Crosses {
             .sum()
     }
 
-    /// How the distances are spread along each straight edge, along each line of text that was given, and along
+    /// Statistics of the distances along each straight edge, along each line of text that was given, and along
     /// each that was found.
-    pub fn misfits(&self, off: &[Off]) -> [Vec<Misfit>; 3] {
+    pub fn statistics(&self, off: &[LineResiduals]) -> [Vec<ResidualStatistics>; 3] {
         let mut found = [const { Vec::new() }; 3];
         for (cross, own) in self.list.iter().zip(off) {
             let pixels: Vec<f64> = own.points.iter().map(|point| point.pixels).collect();
             let count = cross.weight * pixels.len() as f64;
             let kind = usize::from(cross.level.is_none()) + usize::from(cross.found);
-            found[kind].push(Misfit::new(&pixels, count));
+            found[kind].push(ResidualStatistics::new(&pixels, count));
         }
         found
     }
 
-    /// The mean product of the distances of neighbouring lines of text at the same places, in pixels²,
-    /// and over how many: what lines have in common is no error of tracing them.
-    pub fn common(&self, off: &[Off]) -> (f64, f64) {
-        /// So many lines may stand between, in columns beside.
-        const COLUMNS: usize = 6;
+    /// Covariance of the distances of neighbouring lines of text at the same positions along them, in pixels²,
+    /// and the number of independent points that it is from. Errors of tracing are independent from line to line.
+    pub fn covariance(&self, off: &[LineResiduals]) -> (f64, f64) {
+        /// Maximum number of lines in the order of levels, of columns beside, before the next line of a column.
+        const MAX_LINES_BETWEEN: usize = 6;
         let (mut sum, mut points, mut count) = (0.0, 0.0, 0.0);
         let mut order: Vec<usize> = (0..off.len())
             .filter(|i| self.list[*i].level.is_none())
@@ -314,8 +329,8 @@ impl Crosses {
             p.cmp(&q).then(x.total_cmp(&y))
         });
         for (i, one) in order.iter().enumerate() {
-            // The next one below in the same column.
-            let below = (order[i + 1..].iter().take(COLUMNS))
+            // The next line below in the same column.
+            let below = (order[i + 1..].iter().take(MAX_LINES_BETWEEN))
                 .filter(|other| self.list[**other].page == self.list[*one].page)
                 .map(|other| -> Vec<f64> {
                     let own = off[*one].points.iter();
@@ -336,7 +351,7 @@ impl Crosses {
         }
     }
 
-    /// How far from straight those are seen that are cross-sections, in pixels, by their points.
+    /// Largest distance from the chord, in the photo, of each cross-section, in pixels.
     pub fn bows(&self) -> Vec<f64> {
         (self.list.iter())
             .filter(|cross| !cross.ruling)
@@ -352,8 +367,8 @@ impl Crosses {
     }
 }
 
-impl Off {
-    /// The distance at a place along the line, in pixels.
+impl LineResiduals {
+    /// Distance at a position along the line, in pixels, linear between points.
     fn at(&self, along: f64) -> Option<f64> {
         self.points.windows(2).find_map(|pair| {
             let (from, to) = (pair[0], pair[1]);
@@ -365,16 +380,17 @@ impl Off {
     }
 }
 
-impl Cross {
-    fn new(line: &Line, page: usize, most: usize) -> Self {
+impl CrossSection {
+    /// A line with at most a number of its points, as a cross-section.
+    fn new(line: &TracedLine, page: usize, most: usize) -> Self {
         let last = line.points.len() - 1;
         let step = last.div_ceil(most - 1).max(1);
         let mut points: Vec<_> = (line.points[..last].iter().copied())
             .step_by(step)
             .collect();
         points.push(line.points[last]);
-        let weight = (line.independent.min(INDEPENDENT) / points.len() as f64).min(1.0);
-        Cross {
+        let weight = (line.independent.min(MAX_INDEPENDENT_POINTS) / points.len() as f64).min(1.0);
+        CrossSection {
             page,
             ruling: false,
             level: None,
@@ -385,8 +401,8 @@ impl Cross {
     }
 }
 
-/// The mean that the level of a line is.
-fn mean(points: &[Distance], values: impl Iterator<Item = f64>) -> f64 {
+/// Level of a line: the mean of its points' coordinates across it, weighted by Huber's weight and by scale.
+fn weighted_mean(points: &[PointResidual], values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut weights) = (0.0, 0.0);
     for (point, value) in points.iter().zip(values) {
         let weight = point.trust * point.scale * point.scale;
@@ -394,43 +410,4 @@ fn mean(points: &[Distance], values: impl Iterator<Item = f64>) -> f64 {
         weights += weight;
     }
     sum / weights
-}
-
-/// Refuses lines of text that are not on the page.
-fn beside([first, second]: &[Line; 2], points: &[[f64; 2]], number: usize) -> Result<()> {
-    let thin = |line: &Line| -> Vec<[f64; 2]> {
-        let step = line.points.len().div_ceil(200);
-        let mut thin: Vec<_> = line.points.iter().copied().step_by(step).collect();
-        thin.push(line.points[line.points.len() - 1]);
-        thin
-    };
-    let mut outline = thin(first);
-    outline.extend(thin(second).into_iter().rev());
-    let slack = BESIDE * first.chord().max(second.chord());
-    let sides = || (outline.iter().copied()).zip(outline.iter().cycle().skip(1).copied());
-    for [x, y] in points {
-        let crossed = sides()
-            .filter(|(p, q)| {
-                (p[1] > *y) != (q[1] > *y) && *x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])
-            })
-            .count();
-        let near = || {
-            sides().any(|(p, q)| {
-                let (way, off) = ([q[0] - p[0], q[1] - p[1]], [x - p[0], y - p[1]]);
-                let squared = (way[0] * way[0] + way[1] * way[1]).max(1e-12);
-                let t = ((way[0] * off[0] + way[1] * off[1]) / squared).clamp(0.0, 1.0);
-                (off[0] - t * way[0]).hypot(off[1] - t * way[1]) < slack
-            })
-        };
-        if crossed % 2 == 0 && !near() {
-            return Err(Error::Edges {
-                reason: format!(
-                    "line {number} of the text (the first is line 0) has a point at ({x:.0}, \
-                     {y:.0}), which is not between the {} and {} edges of its page",
-                    first.name, second.name
-                ),
-            });
-        }
-    }
-    Ok(())
 }

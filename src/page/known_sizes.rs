@@ -1,0 +1,108 @@
+//! Focal lengths and formats as options give them, in the units of the search.
+
+use super::options::{FocalLength, Format};
+use crate::error::{Error, Result, positive};
+use crate::scene::camera::focal_length_of;
+
+/// Diagonal of 35 mm film (36 by 24 mm), in millimetres.
+const FILM_DIAGONAL_MM: f64 = 43.266_615;
+
+/// Relative standard deviation of a focal length that is given in pixels, as from a calibration.
+const PIXELS_DEVIATION: f64 = 0.003;
+
+/// Relative standard deviation of a focal length that is given as a field of view.
+const FIELD_OF_VIEW_DEVIATION: f64 = 0.01;
+
+/// Relative standard deviation of a focal length that is given as that of 35 mm film: Exif rounds it to millimetres.
+const FILM35_DEVIATION: f64 = 0.02;
+
+/// Minimum focal length, over the photo's longer side.
+const MIN_FOCAL_RATIO: f64 = 0.05;
+
+/// Maximum focal length, over the photo's longer side.
+const MAX_FOCAL_RATIO: f64 = 100.0;
+
+/// Maximum ratio of the sides of a page.
+const MAX_SIDE_RATIO: f64 = 50.0;
+
+/// Focal length in pixels and its relative standard deviation; None if it is unknown. `longer` and `diagonal` are the photo's
+/// longer side and diagonal in pixels.
+///
+/// # Errors
+/// [`Error::Option`].
+pub(super) fn focal_length(
+    given: FocalLength,
+    longer: f64,
+    diagonal: f64,
+) -> Result<Option<[f64; 2]>> {
+    let (name, value, found, deviation) = match given {
+        FocalLength::Unknown => return Ok(None),
+        FocalLength::Pixels(pixels) => ("focal_length", pixels, pixels, PIXELS_DEVIATION),
+        FocalLength::FieldOfView(degrees) => {
+            let pixels = focal_length_of(degrees, longer)?;
+            ("field_of_view", degrees, pixels, FIELD_OF_VIEW_DEVIATION)
+        }
+        FocalLength::Film35(length) => (
+            "film35",
+            length,
+            length * diagonal / FILM_DIAGONAL_MM,
+            FILM35_DEVIATION,
+        ),
+    };
+    positive(name, value)?;
+    if !(MIN_FOCAL_RATIO * longer..=MAX_FOCAL_RATIO * longer).contains(&found) {
+        let requirement =
+            "must give between 1/20 of the photo's longer side and 100 times that, in pixels";
+        return Err(Error::option(name, value, requirement));
+    }
+    Ok(Some([found, deviation]))
+}
+
+/// Proportions of a page whose format is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sides {
+    /// Height over width.
+    ratio: f64,
+    /// Whether the page may be upright or across.
+    either: bool,
+    /// Width and height in millimetres, if known.
+    pub millimetres: Option<[f64; 2]>,
+}
+
+impl Sides {
+    /// Height over width, upright or across, whichever is nearer to a ratio that was found.
+    pub fn ratio(&self, seen: f64) -> f64 {
+        if self.either && (seen > 1.0) != (self.ratio > 1.0) {
+            1.0 / self.ratio
+        } else {
+            self.ratio
+        }
+    }
+}
+
+/// Proportions of a format; None if it is unknown.
+///
+/// # Errors
+/// [`Error::Option`].
+pub(super) fn sides(format: Format) -> Result<Option<Sides>> {
+    let (sides, either) = match format {
+        Format::Unknown => return Ok(None),
+        Format::A4 => ([210.0, 297.0], true),
+        Format::Letter => ([215.9, 279.4], true),
+        Format::Millimetres(sides) => (sides, false),
+        Format::Ratio(ratio) => ([1.0, ratio], false),
+    };
+    for side in sides {
+        positive("format", side)?;
+    }
+    let ratio = sides[1] / sides[0];
+    if !(1.0 / MAX_SIDE_RATIO..=MAX_SIDE_RATIO).contains(&ratio) {
+        let requirement = "must not be more than 50 times as long as wide";
+        return Err(Error::option("format", format!("{sides:?}"), requirement));
+    }
+    Ok(Some(Sides {
+        ratio,
+        either,
+        millimetres: (!matches!(format, Format::Ratio(_))).then_some(sides),
+    }))
+}

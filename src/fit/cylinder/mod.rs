@@ -1,10 +1,10 @@
-//! Heights of a cylinder: of what is bent about parallel rulings, as pages of books, curled sheets and sheets with parallel
-//! folds are.
+//! Fits of cylinders: surfaces whose rulings are all parallel, as pages of books, curled sheets and sheets with parallel
+//! folds.
 //!
-//! A piecewise developable surface is straight along its rulings, but which way they run may change from place to place,
-//! so that noise is averaged over a neighbourhood only. Where the rulings of the whole surface are parallel there is one
-//! profile for all of them, and what is known of it grows with their length. [`fit_cylinder`] finds it, and says whether
-//! what it leaves of the heights is noise.
+//! A piecewise developable surface is straight along its rulings, but their direction may change from place to place,
+//! so that noise is averaged over a neighbourhood only. A cylinder has one
+//! profile for all rulings, which is averaged over their whole length. [`fit_cylinder`] finds it, and tests whether
+//! its residuals are noise.
 
 mod noise;
 mod profile;
@@ -12,9 +12,9 @@ mod profile;
 use super::input::Input;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
-use profile::{Penalty, Profile, Sums};
+use profile::{Penalty, Profile, ProfileEquations};
 
-/// Whether heights are those of a cylinder.
+/// Verdict on heights: whether their surface is a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -23,13 +23,13 @@ use profile::{Penalty, Profile, Sums};
 )]
 #[non_exhaustive]
 pub enum CylinderVerdict {
-    /// What it leaves of them does not go on along the rulings any more than noise does.
+    /// The residuals are not more correlated along the rulings than noise is.
     Cylinder,
-    /// It does, or there are too few to tell: they are of another shape.
+    /// The surface has another shape: residuals are correlated along the rulings, or there are too few heights.
     Other,
 }
 
-/// How near heights are to a cylinder.
+/// Figures of the fit of a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -38,20 +38,20 @@ pub enum CylinderVerdict {
 )]
 #[non_exhaustive]
 pub struct CylinderReport {
-    /// Whether they are those of one.
+    /// Whether the surface is a cylinder.
     pub verdict: CylinderVerdict,
-    /// The direction of the rulings: a unit vector in the axes of the heights.
+    /// Direction of the rulings: a unit vector in the axes of the heights.
     pub rulings: [f64; 3],
-    /// Root of the mean square of what the cylinder leaves of the heights, in their unit.
+    /// Root mean square residual of the heights, in their unit.
     pub residual: f64,
-    /// How much of what it leaves goes on along the rulings: about 1 for a cylinder and noise, and below 1.95; not a
-    /// number where there is too little to tell.
+    /// Correlation of the residuals along the rulings, relative to noise: about 1 for a cylinder with noise, and at most 1.95;
+    /// NaN if there are too few heights.
     pub excess: f64,
-    /// Heights that it was fitted to.
+    /// Number of heights that the cylinder was fitted to.
     pub vertices: usize,
 }
 
-/// The cylinder next to some heights.
+/// The least-squares cylinder of heights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cylinder {
     heightfield: Heightfield,
@@ -59,48 +59,57 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// Its heights wherever the input has one, and where small holes are [bridged](crate::Bridging).
+    /// Heights of the cylinder wherever the input has one, and where small holes are [bridged](crate::Bridging).
     pub fn heightfield(&self) -> &Heightfield {
         &self.heightfield
     }
 
-    /// The same.
+    /// Heights of the cylinder, as [`Cylinder::heightfield`].
     pub fn into_heightfield(self) -> Heightfield {
         self.heightfield
     }
 
-    /// How near it is.
+    /// Figures of the fit.
     pub fn report(&self) -> &CylinderReport {
         &self.report
     }
 }
 
-/// Stretches of the rulings that are left out one at a time, to choose the penalty.
-const FOLDS: usize = 6;
+/// Number of stretches of the rulings that are left out one at a time, to choose the penalty by cross-validation.
+const CROSS_VALIDATION_FOLDS: usize = 6;
 
-/// Directions that are tried at first, and rounds that narrow the best one down.
-const DIRECTIONS: usize = 60;
-const ROUNDS: usize = 16;
+/// Number of directions of the rulings that are tried at first.
+const INITIAL_DIRECTIONS: usize = 60;
 
-/// Most heights that are looked at to find the direction, and most bins of a profile.
-const LOOKS: usize = 20_000;
-const BINS: usize = 2000;
+/// Number of golden-section steps that refine the best direction.
+const GOLDEN_SECTION_STEPS: usize = 16;
 
-/// Fewest heights, and bins, that say anything.
-const FEW: usize = 400;
-const NARROW: usize = 16;
+/// Maximum number of heights by which the direction is found.
+const MAX_DIRECTION_HEIGHTS: usize = 20_000;
 
-/// A height where it lies in the plane.
+/// Penalty of the profiles by which directions are compared: nearly unsmoothed.
+const DIRECTION_PENALTY: Penalty = Penalty::Squares(0.1);
+
+/// Maximum number of bins of a profile.
+const MAX_PROFILE_BINS: usize = 2000;
+
+/// Minimum number of heights that a cylinder is fitted to.
+const MIN_HEIGHTS: usize = 400;
+
+/// Minimum number of bins of a profile, across the rulings.
+const MIN_PROFILE_BINS: usize = 16;
+
+/// A height with its position in the plane and its weight.
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct WeightedHeight {
     at: [f64; 2],
     height: f64,
     weight: f64,
 }
 
-/// The axes of a profile in the plane.
+/// Axes of a profile in the plane, across and along the rulings.
 #[derive(Debug, Clone, Copy)]
-struct Axes {
+struct ProfileAxes {
     cos: f64,
     sin: f64,
     start: f64,
@@ -110,18 +119,18 @@ struct Axes {
     unit: f64,
 }
 
-impl Axes {
-    fn new(points: &[Point], angle: f64, spacing: f64) -> Self {
+impl ProfileAxes {
+    fn new(points: &[WeightedHeight], angle: f64, spacing: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
-        let span = |of: &dyn Fn(&Point) -> f64| {
+        let span = |of: &dyn Fn(&WeightedHeight) -> f64| {
             (points.iter().map(of)).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
                 [low.min(v), high.max(v)]
             })
         };
         let across = span(&|p| cos * p.at[0] + sin * p.at[1]);
         let along = span(&|p| cos * p.at[1] - sin * p.at[0]);
-        let unit = spacing.max((across[1] - across[0]) / (BINS - 2) as f64);
-        Axes {
+        let unit = spacing.max((across[1] - across[0]) / (MAX_PROFILE_BINS - 2) as f64);
+        ProfileAxes {
             cos,
             sin,
             start: across[0],
@@ -132,20 +141,21 @@ impl Axes {
         }
     }
 
-    /// Across the rulings, in bins, and along them, in the heights' unit.
+    /// Position across the rulings, in bins, and along them, in the heights' unit.
     fn place(&self, at: [f64; 2]) -> [f64; 2] {
         let across = (self.cos * at[0] + self.sin * at[1] - self.start) / self.unit;
         [across.max(0.0), self.cos * at[1] - self.sin * at[0]]
     }
 
-    /// The stretch of the rulings, of so many, that a place along them is on.
+    /// Number of the stretch of the rulings, of `of` equal ones, that a position along them is on.
     fn stretch(&self, along: f64, of: usize) -> usize {
         let share = (along - self.first) / (self.last - self.first).max(f64::MIN_POSITIVE);
         ((share * of as f64) as usize).min(of - 1)
     }
 
-    fn sums(&self, points: impl Iterator<Item = Point>) -> Result<Sums> {
-        let mut sums = Sums::new(self.bins)?;
+    /// Normal equations of a profile from heights.
+    fn sums(&self, points: impl Iterator<Item = WeightedHeight>) -> Result<ProfileEquations> {
+        let mut sums = ProfileEquations::new(self.bins)?;
         for point in points {
             let [across, along] = self.place(point.at);
             sums.add(across, along, point.height, point.weight);
@@ -154,12 +164,12 @@ impl Axes {
     }
 }
 
-/// Finds the cylinder next to heights, by least squares, and says whether they are those of one.
+/// Fits a cylinder to heights, by least squares, and tests whether their surface is one.
 ///
-/// How smooth its profile is, or how straight between kinks, is what predicts each sixth of the rulings best from the
-/// other five; noise that is alike from vertex to vertex is no help there, and does no harm. It is a cylinder if what
-/// is left over half the length of the rulings varies no more than what is left over short stretches lets expect.
-/// Constraints and occlusions of the input are not looked at. Costs `O(vertices)`, some hundred passes over at most
+/// The penalty of the profile is the one that predicts each sixth of the rulings best from the
+/// other five; noise that is correlated over a few vertices does not matter to that. The surface is a cylinder if means of
+/// the residuals over long stretches of the rulings vary no more than short stretches let expect.
+/// Constraints and occlusions of the input are ignored. Costs `O(vertices)`, some hundred passes over at most
 /// 20 thousand of them.
 ///
 /// # Errors
@@ -173,7 +183,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
     for (i, height) in input.field.heights().iter().enumerate() {
         let weight = seen(i);
         if !height.is_nan() && weight > 0.0 {
-            points.push(Point {
+            points.push(WeightedHeight {
                 at: lattice.position(i / lattice.cols(), i % lattice.cols()),
                 height: *height,
                 weight,
@@ -185,7 +195,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
         format: "cylinder",
         reason: format!("{vertices} heights are too few, or too narrow, to find one"),
     };
-    if vertices < FEW {
+    if vertices < MIN_HEIGHTS {
         return Err(few());
     }
     let middle = mean(&points);
@@ -193,13 +203,13 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
         point.at = [point.at[0] - middle[0], point.at[1] - middle[1]];
         point.height -= middle[2];
     }
-    let angle = direction(&points, spacing)?;
-    let axes = Axes::new(&points, angle, spacing);
-    if axes.bins < NARROW {
+    let angle = find_direction(&points, spacing)?;
+    let axes = ProfileAxes::new(&points, angle, spacing);
+    if axes.bins < MIN_PROFILE_BINS {
         return Err(few());
     }
-    let profile = chosen(&points, &axes)?;
-    let left = |point: &Point| {
+    let profile = select_profile(&points, &axes)?;
+    let left = |point: &WeightedHeight| {
         let [across, along] = axes.place(point.at);
         point.height - profile.at(across) - profile.slope * along
     };
@@ -208,9 +218,9 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
         squares += point.weight * left(point).powi(2);
         weights += point.weight;
     }
-    let excess = noise::excess(points.iter().map(|point| {
+    let excess = noise::residual_excess(points.iter().map(|point| {
         let [across, along] = axes.place(point.at);
-        noise::Rest {
+        noise::FitResidual {
             across: across / axes.bins as f64,
             along,
             value: left(point),
@@ -227,7 +237,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
     }
     let length = profile.slope.hypot(1.0);
     let report = CylinderReport {
-        verdict: match excess <= noise::MOST {
+        verdict: match excess <= noise::MAX_CYLINDER_EXCESS {
             true => CylinderVerdict::Cylinder,
             false => CylinderVerdict::Other,
         },
@@ -242,7 +252,8 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
     })
 }
 
-fn mean(points: &[Point]) -> [f64; 3] {
+/// Mean position and height.
+fn mean(points: &[WeightedHeight]) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for point in points {
         for (sum, value) in sums
@@ -255,18 +266,18 @@ fn mean(points: &[Point]) -> [f64; 3] {
     sums.map(|sum| sum / points.len() as f64)
 }
 
-/// The angle of the profile's axis by which all but unsmoothed profiles leave least.
-fn direction(points: &[Point], spacing: f64) -> Result<f64> {
+/// Angle, in radians, of the axis across the rulings for which nearly unsmoothed profiles have the smallest residuals.
+fn find_direction(points: &[WeightedHeight], spacing: f64) -> Result<f64> {
     use std::f64::consts::PI;
-    let step = points.len().div_ceil(LOOKS);
+    let step = points.len().div_ceil(MAX_DIRECTION_HEIGHTS);
     let left = |angle: f64| -> Result<f64> {
-        let axes = Axes::new(points, angle, spacing);
+        let axes = ProfileAxes::new(points, angle, spacing);
         let sums = axes.sums(points.iter().step_by(step).copied())?;
-        Ok(sums.fit(Penalty::Squares(0.1)).misfit)
+        Ok(sums.fit(DIRECTION_PENALTY).misfit)
     };
     let mut best = (f64::INFINITY, 0.0);
-    for k in 0..DIRECTIONS {
-        let angle = k as f64 * PI / DIRECTIONS as f64;
+    for k in 0..INITIAL_DIRECTIONS {
+        let angle = k as f64 * PI / INITIAL_DIRECTIONS as f64;
         let found = left(angle)?;
         if found < best.0 {
             best = (found, angle);
@@ -275,12 +286,12 @@ fn direction(points: &[Point], spacing: f64) -> Result<f64> {
     // By golden sections.
     let share = 0.5 * (5.0f64.sqrt() - 1.0);
     let (mut low, mut high) = (
-        best.1 - PI / DIRECTIONS as f64,
-        best.1 + PI / DIRECTIONS as f64,
+        best.1 - PI / INITIAL_DIRECTIONS as f64,
+        best.1 + PI / INITIAL_DIRECTIONS as f64,
     );
     let mut inner = [high - share * (high - low), low + share * (high - low)];
     let mut values = [left(inner[0])?, left(inner[1])?];
-    for _ in 0..ROUNDS {
+    for _ in 0..GOLDEN_SECTION_STEPS {
         if values[0] < values[1] {
             high = inner[1];
             inner = [high - share * (high - low), inner[0]];
@@ -294,35 +305,36 @@ fn direction(points: &[Point], spacing: f64) -> Result<f64> {
     Ok(0.5 * (low + high))
 }
 
-/// The profile under the penalty that predicts stretches best which it was not fitted to.
-fn chosen(points: &[Point], axes: &Axes) -> Result<Profile> {
-    let mut parts = Vec::with_capacity(FOLDS);
-    for _ in 0..FOLDS {
-        parts.push(Sums::new(axes.bins)?);
+/// The profile under the penalty with the smallest error of prediction (cross-validation).
+fn select_profile(points: &[WeightedHeight], axes: &ProfileAxes) -> Result<Profile> {
+    let mut parts = Vec::with_capacity(CROSS_VALIDATION_FOLDS);
+    for _ in 0..CROSS_VALIDATION_FOLDS {
+        parts.push(ProfileEquations::new(axes.bins)?);
     }
     for point in points {
         let [across, along] = axes.place(point.at);
         // In bins, so that penalties have no unit.
         let height = point.height / axes.unit;
-        parts[axes.stretch(along, FOLDS)].add(across, along, height, point.weight);
+        parts[axes.stretch(along, CROSS_VALIDATION_FOLDS)].add(across, along, height, point.weight);
     }
-    let mut all = Sums::new(axes.bins)?;
+    let mut all = ProfileEquations::new(axes.bins)?;
     for part in &parts {
-        all.plus(part, 1.0);
+        all.add_scaled(part, 1.0);
     }
-    let without = |part: &Sums| {
+    let without = |part: &ProfileEquations| {
         let mut others = all.clone();
-        others.plus(part, -1.0);
+        others.add_scaled(part, -1.0);
         others
     };
-    let folds: Vec<(&Sums, Sums)> = parts.iter().map(|part| (part, without(part))).collect();
+    let folds: Vec<(&ProfileEquations, ProfileEquations)> =
+        parts.iter().map(|part| (part, without(part))).collect();
     let half_decades = |from: i32, to: i32| (from..=to).map(|k| 10f64.powf(0.5 * f64::from(k)));
     let penalties =
         (half_decades(-6, 10).map(Penalty::Squares)).chain(half_decades(-6, 4).map(Penalty::Kinks));
     let mut best = (f64::INFINITY, Penalty::Squares(1.0));
     for penalty in penalties {
         let off = (folds.iter())
-            .map(|(part, others)| part.off(&others.fit(penalty)))
+            .map(|(part, others)| part.squared_residual(&others.fit(penalty)))
             .sum();
         if off < best.0 {
             best = (off, penalty);

@@ -1,72 +1,90 @@
-//! Whether what is left of heights is noise, which does not go on along the rulings.
+//! Test whether residuals of a cylinder are noise, which is not correlated along the rulings.
 
-/// Stripes across the rulings, and the blocks into which each is cut along them.
-const STRIPES: usize = 12;
-const BLOCKS: usize = 48;
+/// Minimum weight of a stretch that is tested, as a share of its weight if all blocks had the same.
+const MIN_WEIGHT_SHARE: f64 = 0.25;
 
-/// Share of the rulings at either end that is not looked at: depths are biased at outlines.
-const ENDS: f64 = 0.04;
+/// Number of stripes across the rulings.
+const STRIPE_COUNT: usize = 12;
 
-/// Blocks in half a long stretch, and in half the short one that it is compared with.
-const LONG: [usize; 3] = [24, 12, 6];
-const SHORT: usize = 3;
+/// Number of blocks along the rulings in each stripe.
+const BLOCKS_PER_STRIPE: usize = 48;
 
-/// Parts of the rulings whose means are correlated, and how far apart they are at most.
-const PARTS: usize = 12;
-const LAGS: usize = 6;
+/// Share of the rulings at either end that is left out: depths are biased at outlines.
+const END_SHARE: f64 = 0.04;
 
-/// What both tests come to for noise that is alike over a part of the short stretch, as depths' is: smoothed by a
+/// Number of blocks in half a long stretch of the rulings, for each length whose variance is tested.
+const LONG_HALF_BLOCKS: [usize; 3] = [24, 12, 6];
+
+/// Number of blocks in half the short stretch that long ones are compared with.
+const SHORT_HALF_BLOCKS: usize = 3;
+
+/// Number of parts of the rulings whose means are tested for correlation.
+const CORRELATED_PARTS: usize = 12;
+
+/// Maximum distance between parts that are tested for correlation, in parts.
+const MAX_LAG_PARTS: usize = 6;
+
+/// Product of both tests' ratios for the noise of depths, which is correlated over a part of the short stretch: smoothed by a
 /// Gaussian of 2 pixels, on pages half as large as the image.
-const USUAL: f64 = 4.7;
+const DEPTH_NOISE_PRODUCT: f64 = 4.7;
 
-/// Most of the excess that a cylinder has.
-pub(super) const MOST: f64 = 1.95;
+/// Maximum excess of the residuals of a cylinder. Chosen on the pages of BENCHMARKS.md and three more draws of their noise.
+pub(super) const MAX_CYLINDER_EXCESS: f64 = 1.95;
 
-/// What is left of a height, at a share of the way across the rulings and at a place along them.
+/// Residual of a height.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rest {
+pub(super) struct FitResidual {
+    /// Share of the way across the rulings, from 0 to 1.
     pub across: f64,
+    /// Position along the rulings.
     pub along: f64,
+    /// Height less that of the cylinder.
     pub value: f64,
     pub weight: f64,
 }
 
-/// Sums over blocks: of weighted values, and of weights.
-type Sum = [f64; 2];
+/// Sums over a block: of weighted values and of weights.
+type BlockSum = [f64; 2];
 
-fn sum(blocks: &[Sum]) -> Sum {
-    let add = |[value, weight]: Sum, block: &Sum| [value + block[0], weight + block[1]];
+/// Adds the sums of blocks.
+fn sum(blocks: &[BlockSum]) -> BlockSum {
+    let add = |[value, weight]: BlockSum, block: &BlockSum| [value + block[0], weight + block[1]];
     blocks.iter().fold([0.0; 2], add)
 }
 
-/// How much more of what is left goes on along the rulings than of noise, which has about 1: the geometric mean of
-/// two tests. Means over long stretches vary no more than the number of their heights lets expect from short ones;
-/// and means over parts of the rulings are not correlated. It is not a number where there is too little to tell.
-pub(super) fn excess(rest: impl Iterator<Item = Rest> + Clone) -> f64 {
-    let blocks = blocks(rest);
+/// Excess of the residuals' correlation along the rulings over that of noise: about 1 for noise. It is the geometric mean of
+/// two tests: whether means over long stretches vary more than those over short ones and the number of heights let expect,
+/// and whether means over parts of the rulings are correlated. NaN if there are too few heights.
+pub(super) fn residual_excess(rest: impl Iterator<Item = FitResidual> + Clone) -> f64 {
+    let blocks = block_sums(rest);
     let all: f64 = blocks.iter().flatten().map(|block| block[1]).sum();
     if blocks.iter().flatten().all(|block| block[0] == 0.0) {
         return 0.0;
     }
-    // Corners of a sheet that lies askew have few.
-    let few = |blocks: usize| 0.25 * all * blocks as f64 / (STRIPES * BLOCKS) as f64;
-    (variances(&blocks, few) * correlations(&blocks, few) / USUAL).sqrt()
+    // Stretches at the corners of a rotated sheet have too few heights.
+    let few = |blocks: usize| {
+        MIN_WEIGHT_SHARE * all * blocks as f64 / (STRIPE_COUNT * BLOCKS_PER_STRIPE) as f64
+    };
+    (variance_ratio(&blocks, few) * correlation_ratio(&blocks, few) / DEPTH_NOISE_PRODUCT).sqrt()
 }
 
-fn blocks(rest: impl Iterator<Item = Rest> + Clone) -> [[Sum; BLOCKS]; STRIPES] {
-    let stripe = |across: f64| ((across * STRIPES as f64) as usize).min(STRIPES - 1);
-    let mut spans = [[f64::INFINITY, f64::NEG_INFINITY]; STRIPES];
-    for Rest { across, along, .. } in rest.clone() {
+/// Sums residuals in each block of each stripe.
+fn block_sums(
+    rest: impl Iterator<Item = FitResidual> + Clone,
+) -> [[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT] {
+    let stripe = |across: f64| ((across * STRIPE_COUNT as f64) as usize).min(STRIPE_COUNT - 1);
+    let mut spans = [[f64::INFINITY, f64::NEG_INFINITY]; STRIPE_COUNT];
+    for FitResidual { across, along, .. } in rest.clone() {
         let [low, high] = &mut spans[stripe(across)];
         (*low, *high) = (low.min(along), high.max(along));
     }
-    let mut blocks = [[[0.0; 2]; BLOCKS]; STRIPES];
+    let mut blocks = [[[0.0; 2]; BLOCKS_PER_STRIPE]; STRIPE_COUNT];
     for rest in rest {
         let stripe = stripe(rest.across);
         let [low, high] = spans[stripe];
-        let share = ((rest.along - low) / (high - low) - ENDS) / (1.0 - 2.0 * ENDS);
+        let share = ((rest.along - low) / (high - low) - END_SHARE) / (1.0 - 2.0 * END_SHARE);
         if (0.0..1.0).contains(&share) {
-            let block = &mut blocks[stripe][(share * BLOCKS as f64) as usize];
+            let block = &mut blocks[stripe][(share * BLOCKS_PER_STRIPE as f64) as usize];
             block[0] += rest.weight * rest.value;
             block[1] += rest.weight;
         }
@@ -74,8 +92,11 @@ fn blocks(rest: impl Iterator<Item = Rest> + Clone) -> [[Sum; BLOCKS]; STRIPES] 
     blocks
 }
 
-/// The variance of long stretches over that of short ones: by differences between both halves of each.
-fn variances(blocks: &[[Sum; BLOCKS]; STRIPES], few: impl Fn(usize) -> f64) -> f64 {
+/// Ratio of the variances over long and over short stretches, by the differences between the halves of each.
+fn variance_ratio(
+    blocks: &[[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT],
+    few: impl Fn(usize) -> f64,
+) -> f64 {
     let squares = |half: usize| {
         let mut total = [0.0; 2];
         for pair in blocks
@@ -90,18 +111,21 @@ fn variances(blocks: &[[Sum; BLOCKS]; STRIPES], few: impl Fn(usize) -> f64) -> f
         }
         total
     };
-    let [long, lengths] = sum(&LONG.map(squares));
-    let [short, shorts] = squares(SHORT);
+    let [long, lengths] = sum(&LONG_HALF_BLOCKS.map(squares));
+    let [short, shorts] = squares(SHORT_HALF_BLOCKS);
     (long / lengths) / (short / shorts)
 }
 
-/// Squares of the correlations between parts of the rulings, over what they have by chance (G. E. P. Box, D. A. Pierce,
+/// Mean ratio of the squared correlations between parts of the rulings to those by chance (G. E. P. Box, D. A. Pierce,
 /// *Distribution of residual autocorrelations*, 1970).
-fn correlations(blocks: &[[Sum; BLOCKS]; STRIPES], few: impl Fn(usize) -> f64) -> f64 {
-    let length = BLOCKS / PARTS;
+fn correlation_ratio(
+    blocks: &[[BlockSum; BLOCKS_PER_STRIPE]; STRIPE_COUNT],
+    few: impl Fn(usize) -> f64,
+) -> f64 {
+    let length = BLOCKS_PER_STRIPE / CORRELATED_PARTS;
     let means = blocks.map(|stripe| {
         let mut parts = stripe.chunks_exact(length).map(sum);
-        [(); PARTS].map(|()| {
+        [(); CORRELATED_PARTS].map(|()| {
             let [value, weight] = parts.next().unwrap_or_default();
             (weight > few(length)).then(|| value / weight)
         })
@@ -112,7 +136,7 @@ fn correlations(blocks: &[[Sum; BLOCKS]; STRIPES], few: impl Fn(usize) -> f64) -
         count += 1.0;
     }
     let mut found = 0.0;
-    for lag in 1..=LAGS {
+    for lag in 1..=MAX_LAG_PARTS {
         let (mut products, mut pairs) = (0.0, 0.0);
         for stripe in &means {
             for (a, b) in stripe.iter().zip(&stripe[lag..]) {
@@ -124,5 +148,5 @@ fn correlations(blocks: &[[Sum; BLOCKS]; STRIPES], few: impl Fn(usize) -> f64) -
         }
         found += (products * count / squares).powi(2) / pairs;
     }
-    found / LAGS as f64
+    found / MAX_LAG_PARTS as f64
 }

@@ -1,30 +1,38 @@
-//! A cylinder's profile: heights along one axis, linear in between, by least squares under a penalty on how
-//! their slope changes.
+//! The profile of a cylinder: heights along one axis, linear in between, by least squares with a penalty on changes of
+//! the slope.
 
 use crate::error::{Result, try_filled};
 
-/// What heights have to say about a profile, once it is known which way the rulings run: the normal equations
-/// of hat functions, and of the slope along the rulings. Sums of several are those of all their points.
+/// Normal equations of a profile for a given direction of the rulings: of hat functions, and of the slope along the rulings.
+/// The equations of several sets of points are their sums.
 #[derive(Debug, Clone)]
-pub(super) struct Sums {
-    /// Of products of two hats: the same one, and neighbours.
+pub(super) struct ProfileEquations {
+    /// Diagonal: sums of squares of each hat function.
     own: Vec<f64>,
+    /// Next diagonal: sums of products of neighbouring hat functions.
     next: Vec<f64>,
-    /// Of hats times heights, and times places along the rulings.
+    /// Sums of hat functions times heights.
     heights: Vec<f64>,
+    /// Sums of hat functions times positions along the rulings.
     places: Vec<f64>,
-    /// Of squares of heights, of places, and of their products.
+    /// Sum of squares of heights.
     square: f64,
+    /// Sum of squares of positions along the rulings.
     along: f64,
+    /// Sum of products of heights and positions along the rulings.
     both: f64,
-    /// Of weights.
+    /// Sum of weights.
     pub weight: f64,
 }
 
-impl Sums {
+impl ProfileEquations {
+    /// Equations of no points.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(bins: usize) -> Result<Self> {
         let zeros = || try_filled("profile", bins, 0.0);
-        Ok(Sums {
+        Ok(ProfileEquations {
             own: zeros()?,
             next: zeros()?,
             heights: zeros()?,
@@ -36,7 +44,7 @@ impl Sums {
         })
     }
 
-    /// A height at `at`, counted in bins, and at a place along the rulings.
+    /// Adds a height at the position `at` across the rulings, in bins, and `place` along them.
     pub fn add(&mut self, at: f64, place: f64, height: f64, weight: f64) {
         let bin = (at as usize).min(self.own.len() - 2);
         let right = at - bin as f64;
@@ -54,8 +62,8 @@ impl Sums {
         self.weight += weight;
     }
 
-    /// These and others, `sign` times.
-    pub fn plus(&mut self, other: &Sums, sign: f64) {
+    /// Adds other equations, multiplied by `sign`.
+    pub fn add_scaled(&mut self, other: &ProfileEquations, sign: f64) {
         let pairs = [
             (&mut self.own, &other.own),
             (&mut self.next, &other.next),
@@ -73,35 +81,35 @@ impl Sums {
         self.weight += sign * other.weight;
     }
 
-    /// The profile under a penalty, stated for one point in each bin.
+    /// Fits a profile under a penalty, whose weight is that for one point in each bin.
     pub fn fit(&self, penalty: Penalty) -> Profile {
         let bins = self.own.len();
         let scale = self.weight / bins as f64;
         match penalty {
-            Penalty::Squares(weight) => self.under(&vec![weight * scale; bins]),
+            Penalty::Squares(weight) => self.fit_weighted(&vec![weight * scale; bins]),
             Penalty::Kinks(weight) => {
-                // By squares whose weights follow: |x| is x²/|x|.
+                // Iteratively reweighted: |x| is x²/|x|.
                 let mut weights = vec![weight * scale; bins];
-                let mut found = self.under(&weights);
-                for _ in 0..ROUNDS {
+                let mut found = self.fit_weighted(&weights);
+                for _ in 0..KINK_REWEIGHTING_PASSES {
                     for (own, bend) in weights.iter_mut().zip(found.bends()) {
-                        *own = weight * scale / bend.abs().max(STRAIGHT);
+                        *own = weight * scale / bend.abs().max(MIN_KINK_BEND);
                     }
-                    found = self.under(&weights);
+                    found = self.fit_weighted(&weights);
                 }
                 found
             }
         }
     }
 
-    /// With a weight for the square of each bend, the first and the last being none.
-    fn under(&self, weights: &[f64]) -> Profile {
+    /// Fits a profile with a weight for the square of each bend; the first and the last weight have no effect.
+    fn fit_weighted(&self, weights: &[f64]) -> Profile {
         let bins = self.own.len();
-        // Of each row the diagonal and two places left of it.
+        // Each row's diagonal and the two entries to the left of it.
         let mut matrix: Vec<[f64; 3]> = (0..bins)
             .map(|i| {
                 let before = if i > 0 { self.next[i - 1] } else { 0.0 };
-                // So little that it counts only where nothing else does.
+                // A ridge so small that it decides only bins without points.
                 [self.own[i] + 1e-12 * self.weight, before, 0.0]
             })
             .collect();
@@ -136,8 +144,8 @@ impl Sums {
         }
     }
 
-    /// Sum of squares of what a profile leaves of these heights.
-    pub fn off(&self, profile: &Profile) -> f64 {
+    /// Sum of squares of the residuals of a profile at these points.
+    pub fn squared_residual(&self, profile: &Profile) -> f64 {
         let (f, m) = (&profile.values, profile.slope);
         let mut sum = self.square - 2.0 * m * self.both + m * m * self.along;
         for (i, value) in f.iter().enumerate() {
@@ -150,16 +158,18 @@ impl Sums {
     }
 }
 
-/// Rounds of reweighting, and the least bend that counts as one, in shares of a bin.
-const ROUNDS: usize = 20;
-const STRAIGHT: f64 = 1e-4;
+/// Number of reweighting passes for a profile that is straight between kinks.
+const KINK_REWEIGHTING_PASSES: usize = 20;
 
-/// What a profile is to be: smooth, or straight between kinks.
+/// Minimum bend, in bins, that a weight is divided by: smaller bends count as straight.
+const MIN_KINK_BEND: f64 = 1e-4;
+
+/// Penalty on the bends of a profile, with its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Penalty {
-    /// Of the squares of its bends.
+    /// Sum of squares of the bends: smooth profiles.
     Squares(f64),
-    /// Of their sizes.
+    /// Sum of absolute bends: profiles that are straight between kinks.
     Kinks(f64),
 }
 
@@ -168,24 +178,26 @@ pub(super) enum Penalty {
 pub(super) struct Profile {
     pub values: Vec<f64>,
     pub slope: f64,
-    /// Sum of squares that is left, and the penalty.
+    /// Sum of squared residuals and penalty.
     pub misfit: f64,
 }
 
 impl Profile {
+    /// Height at a position across the rulings, in bins.
     pub fn at(&self, at: f64) -> f64 {
         let bin = (at.max(0.0) as usize).min(self.values.len() - 2);
         let right = at - bin as f64;
         (1.0 - right) * self.values[bin] + right * self.values[bin + 1]
     }
 
+    /// Second differences of the heights.
     fn bends(&self) -> impl Iterator<Item = f64> + '_ {
         let inner = self.values.windows(3).map(|f| f[0] - 2.0 * f[1] + f[2]);
         std::iter::once(0.0).chain(inner).chain([0.0])
     }
 }
 
-/// Cholesky's factor of a matrix with two diagonals below the main one.
+/// Cholesky factorisation, in place, of a matrix with two diagonals below the main one.
 fn factor(matrix: &mut [[f64; 3]]) {
     for i in 0..matrix.len() {
         let [mut own, mut near, mut far] = matrix[i];
@@ -201,6 +213,7 @@ fn factor(matrix: &mut [[f64; 3]]) {
     }
 }
 
+/// Solves a system by its Cholesky factor.
 fn solve(factor: &[[f64; 3]], mut x: Vec<f64>) -> Vec<f64> {
     for i in 0..x.len() {
         let [own, near, far] = factor[i];
@@ -226,9 +239,9 @@ mod tests {
     use super::*;
 
     /// Points of a line with one kink, on a slope along the rulings.
-    fn roof() -> (Sums, impl Fn(f64) -> f64) {
+    fn roof() -> (ProfileEquations, impl Fn(f64) -> f64) {
         let height = |at: f64| 0.3 * (at - 17.0).abs();
-        let mut sums = Sums::new(40).unwrap();
+        let mut sums = ProfileEquations::new(40).unwrap();
         for i in 0..3000 {
             let (at, place) = (39.0 * (i % 300) as f64 / 300.0, (i / 300) as f64 - 4.5);
             sums.add(at, place, height(at) - 0.2 * place, 1.0);
@@ -245,7 +258,7 @@ mod tests {
             for at in [0.0, 3.3, 17.0, 38.9] {
                 assert!((profile.at(at) - height(at)).abs() < 1e-6, "{at}");
             }
-            assert!(sums.off(&profile) < 1e-9);
+            assert!(sums.squared_residual(&profile) < 1e-9);
         }
     }
 

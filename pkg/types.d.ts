@@ -931,7 +931,7 @@ export interface Histogram {
 
 /** A row of the paper's Table 1, in coordinates scaled to the unit square. */
 export interface AnalysisSummary {
-  /** Vertices that have curvatures. */
+  /** Vertices that have curvatures. Where none has any, as in a single triangle, all figures of curvatures are 0. */
   vertices: number;
   /** The longer side of the surface seen from above, in its own units. */
   size: number;

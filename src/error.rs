@@ -1,5 +1,10 @@
 //! Everything that can be wrong with an input, an option or a file.
 
+mod readable;
+
+pub use readable::{Readable, rounded};
+
+use readable::count;
 use thiserror::Error;
 
 /// The crate's result type.
@@ -22,8 +27,9 @@ pub enum Error {
 
     /// The number of values does not match the stated shape, or rows differ in length.
     #[error(
-        "{what} has {found} values where its shape, {rows} rows of {cols}, needs {expected}; \
-         every row must be equally long and the shape must match the data"
+        "{what}: there are {found} values, and its shape of {} × {} (rows × columns) needs {}; \
+         every row must be equally long and the shape must match the data",
+        count(*.rows), count(*.cols), count(*.expected)
     )]
     Shape {
         /// What was being read.
@@ -39,7 +45,7 @@ pub enum Error {
     },
 
     /// A value that must be finite is not.
-    #[error("{what} is {value} at row {row}, column {col}; {advice}")]
+    #[error("{what} is {} at row {row}, column {col}; {advice}", .value.readable())]
     NotFinite {
         /// What was being read.
         what: &'static str,
@@ -151,8 +157,9 @@ pub enum Error {
 
     /// The energy of the input is not a finite number.
     #[error(
-        "the energy overflows: the heights are too large for a lattice spacing of {spacing:e}; \
-         check the units of the heights and of the spacing"
+        "the energy overflows: the heights are too large for a lattice spacing of {}; \
+         check the units of the heights and of the spacing",
+        .spacing.readable()
     )]
     Overflow {
         /// The lattice spacing, in the input's units.
@@ -161,8 +168,9 @@ pub enum Error {
 
     /// The energy of the input is so small that its squares would be lost.
     #[error(
-        "the energy underflows: the heights are too small for a lattice spacing of {spacing:e}; \
-         check the units of the heights and of the spacing"
+        "the energy underflows: the heights are too small for a lattice spacing of {}; \
+         check the units of the heights and of the spacing",
+        .spacing.readable()
     )]
     Underflow {
         /// The lattice spacing, in the input's units.
@@ -172,8 +180,8 @@ pub enum Error {
     /// More memory would be needed than the limit allows or the machine has.
     /// Raised before anything of that size is allocated.
     #[error(
-        "{what} needs {requested} cells, more than the limit of {limit}; use a coarser spacing \
-         or a smaller input"
+        "{what} needs {} cells, more than the limit of {}; use a coarser spacing or a smaller input",
+        count(*.requested), count(*.limit)
     )]
     TooLarge {
         /// What would have been allocated.
@@ -185,7 +193,7 @@ pub enum Error {
     },
 
     /// The machine could not provide the memory, though it is within the limit.
-    #[error("out of memory while allocating {bytes} bytes for {what}; use a coarser spacing")]
+    #[error("out of memory while allocating {} bytes for {what}; use a coarser spacing", count(*.bytes))]
     OutOfMemory {
         /// What was being allocated.
         what: &'static str,
@@ -243,15 +251,23 @@ impl Error {
         }
     }
 
+    /// A mesh whose size, in the unit of its coordinates, is 0 or cannot be computed with.
+    pub(crate) fn mesh_size(size: f64) -> Self {
+        let reason = match size == 0.0 {
+            true => "all its vertices are in one place",
+            false => "its coordinates are too large or too small to compute with",
+        };
+        Error::Topology {
+            reason: reason.into(),
+            advice: "check its coordinates and their unit",
+        }
+    }
+
     /// An option out of its range, by its name.
-    pub fn option(
-        name: &'static str,
-        value: impl std::fmt::Display,
-        requirement: &'static str,
-    ) -> Self {
+    pub fn option(name: &'static str, value: impl Readable, requirement: &'static str) -> Self {
         Error::Option {
             name,
-            value: value.to_string(),
+            value: value.readable(),
             requirement,
         }
     }
@@ -283,7 +299,7 @@ pub fn check_shape(what: &'static str, rows: usize, cols: usize, found: usize) -
 
 /// Whether `found` values fill a shape of any size.
 pub fn check_count(what: &'static str, rows: usize, cols: usize, found: usize) -> Result<()> {
-    let expected = rows * cols;
+    let expected = rows.saturating_mul(cols);
     if found == expected {
         return Ok(());
     }

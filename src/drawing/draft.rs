@@ -11,7 +11,7 @@ use super::pack::Place;
 use super::smooth::smoothed;
 use super::tabs::{Tab, tabbed};
 use super::{DrawingOptions, DrawnSheet, FLATNESS, Line};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, rounded};
 use crate::pattern::{Run, Sheet};
 
 /// Letters for the creases that are cut, in their order.
@@ -94,7 +94,8 @@ impl DrawnSheet {
             true => outwards(&plain, out).ok_or_else(|| Error::Unsupported {
                 format: "pattern",
                 reason: format!(
-                    "the outline of {name} would cross itself {out} mm further out; choose a smaller kerf and allowance"
+                    "the outline of {name} would cross itself {} mm further out; choose a smaller kerf and allowance",
+                    rounded(out)
                 ),
             })?,
             false => plain.clone(),

@@ -1,7 +1,7 @@
 //! What a solve is about: heights, and what is known about them.
 
 use crate::error::try_filled;
-use crate::error::{Error, Result, check_shape};
+use crate::error::{Error, Readable, Result, check_shape};
 use crate::heights::bridging::{BridgedImage, Bridging, OnLattice, Surroundings};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
@@ -285,7 +285,12 @@ pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Res
         if !(0.0..=MOST).contains(weight) {
             return Err(Error::option(
                 "confidence",
-                format!("{weight:?} at row {}, column {}", i / cols, i % cols),
+                format!(
+                    "{} at row {}, column {}",
+                    weight.readable(),
+                    i / cols,
+                    i % cols
+                ),
                 "must lie between 0 and 1e6; a height that must be met is a constraint",
             ));
         }

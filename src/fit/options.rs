@@ -438,7 +438,7 @@ impl Options {
         if !LAMBDAS.contains(&self.lambda.value()) {
             return Err(Error::option(
                 "lambda",
-                format!("{:e}", self.lambda.value()),
+                self.lambda.value(),
                 "must lie between 1e-12 and 1e15",
             ));
         }
@@ -463,7 +463,7 @@ impl Options {
         {
             return Err(Error::option(
                 "tie_break",
-                format!("{weight:e}"),
+                weight,
                 "must lie between 1e-12 and 1e15",
             ));
         }
@@ -474,7 +474,7 @@ impl Options {
             if radius.is_some_and(|radius| !RADII.contains(&radius)) {
                 return Err(Error::option(
                     name,
-                    format!("{:e}", radius.unwrap_or_default()),
+                    radius.unwrap_or_default(),
                     "must lie between 1e-6 and 1e6",
                 ));
             }

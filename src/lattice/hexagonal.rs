@@ -68,11 +68,7 @@ impl Lattice {
     /// [`Error::Option`] if `origin` is not finite.
     pub fn with_origin(self, origin: [f64; 2]) -> Result<Self> {
         if !origin.iter().all(|v| v.is_finite()) {
-            return Err(Error::option(
-                "origin",
-                format!("{origin:?}"),
-                "must be finite",
-            ));
+            return Err(Error::option("origin", origin, "must be finite"));
         }
         Ok(Lattice { origin, ..self })
     }

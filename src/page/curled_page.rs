@@ -13,7 +13,7 @@ use super::residual_statistics::ResidualStatistics;
 use super::search::{CylinderSearch, is_searched};
 use super::traced_line::TracedLine;
 use super::traces::Traces;
-use crate::error::{Error, Result, positive};
+use crate::error::{Error, Readable, Result, positive};
 
 /// A page that is curled one way (a cylinder), or the two pages of a spread, in space.
 #[derive(Debug, Clone)]
@@ -133,7 +133,7 @@ impl CurledPage {
             .all(|v| v.abs() <= MAX_CENTRE_DIAGONALS * diagonal)
         {
             let requirement = "must be two numbers, in pixels, not far outside of the photo";
-            return Err(Error::option("centre", format!("{centre:?}"), requirement));
+            return Err(Error::option("centre", centre, requirement));
         }
         let accuracy = match options.accuracy {
             Some(accuracy) => positive("accuracy", accuracy)?,
@@ -271,7 +271,7 @@ impl CurledPage {
             let length = positive("ruler.length", ruler.length)?;
             let ends = [ruler.from, ruler.to].map(|end| self.flat_place(end));
             let [Some(from), Some(to)] = ends else {
-                let ends = format!("from {:?} to {:?}", ruler.from, ruler.to);
+                let ends = format!("from {} to {}", ruler.from.readable(), ruler.to.readable());
                 return Err(Error::option(
                     "ruler",
                     ends,

@@ -98,7 +98,7 @@ pub(super) fn sides(format: Format) -> Result<Option<Sides>> {
     let ratio = sides[1] / sides[0];
     if !(1.0 / MAX_SIDE_RATIO..=MAX_SIDE_RATIO).contains(&ratio) {
         let requirement = "must not be more than 50 times as long as wide";
-        return Err(Error::option("format", format!("{sides:?}"), requirement));
+        return Err(Error::option("format", sides, requirement));
     }
     Ok(Some(Sides {
         ratio,

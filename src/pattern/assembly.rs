@@ -14,7 +14,7 @@ use super::shape::{folds, lines, outlines};
 use super::spots::spots;
 use super::trim::Trouble;
 use super::{Direction, Missing, Pattern, PatternOptions, Seam, Sheet};
-use crate::error::Result;
+use crate::error::{Result, rounded};
 use crate::heights::heightfield::Heightfield;
 use crate::math::planar::polyline_length;
 use crate::math::union_find::UnionFind;
@@ -73,9 +73,9 @@ impl Fault {
     fn reason(&self, limit: f64) -> String {
         match self {
             Fault::Strain(strain, _) => format!(
-                "its strain would be {:.2} %, more than the limit of {:.2} %",
-                100.0 * strain,
-                100.0 * limit
+                "its strain would be {} %, more than the limit of {} %",
+                rounded(100.0 * strain),
+                rounded(100.0 * limit)
             ),
             Fault::Flipped(_) => "triangles of it would lie upside down".into(),
             Fault::Crossing(_) => "its outline would cross itself".into(),

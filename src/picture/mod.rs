@@ -190,7 +190,7 @@ fn shaded(frame: &Frame<'_>, light: [f64; 3]) -> Result<Picture> {
     let length = light[0].hypot(light[1]).hypot(light[2]);
     if !(length.is_finite() && light[2] > 0.0) {
         let requirement = "must be three finite numbers, the last above zero";
-        return Err(Error::option("light", format!("{light:?}"), requirement));
+        return Err(Error::option("light", light, requirement));
     }
     let [lx, ly, lz] = light.map(|c| c / length);
     let (surface, lattice) = (frame.surface, frame.surface.lattice());

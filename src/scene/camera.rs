@@ -289,12 +289,14 @@ impl Camera {
         ];
         if !(unit && square && dot(cross, c) > 0.0) {
             let requirement = "must be a rotation matrix: orthonormal, without a reflection";
-            let found = format!("{:?}", self.pose.rotation);
-            return Err(Error::option("rotation", found, requirement));
+            return Err(Error::option("rotation", self.pose.rotation, requirement));
         }
         if !self.pose.translation.iter().all(|t| t.is_finite()) {
-            let found = format!("{:?}", self.pose.translation);
-            return Err(Error::option("translation", found, "must be finite"));
+            return Err(Error::option(
+                "translation",
+                self.pose.translation,
+                "must be finite",
+            ));
         }
         Ok(Camera {
             intrinsics: self.intrinsics.for_size(size)?,

@@ -41,8 +41,8 @@ impl Mesh {
             return Err(Error::Format {
                 format: "mesh",
                 reason: format!(
-                    "triangle {triangle} names vertex {vertex}, but there are only {} (counted \
-                     from 0)",
+                    "triangle {triangle} names vertex {vertex}, but the mesh has {} vertices, \
+                     counted from 0",
                     positions.len()
                 ),
             });

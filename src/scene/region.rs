@@ -53,7 +53,7 @@ pub(crate) fn check_crop(polygon: &[[f64; 2]]) -> Result<()> {
         return Ok(());
     }
     let requirement = "must be three or more corners, each with a finite x and y";
-    Err(Error::option("crop", format!("{polygon:?}"), requirement))
+    Err(Error::option("crop", polygon, requirement))
 }
 
 impl Intrinsics {

@@ -110,7 +110,7 @@ impl Frame {
         if !(largest > 0.0 && direction.iter().all(|v| v.is_finite())) {
             return Err(Error::option(
                 "view",
-                format!("{direction:?}"),
+                direction,
                 "must be a finite vector that is not zero",
             ));
         }

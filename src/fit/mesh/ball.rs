@@ -28,10 +28,7 @@ impl Ball {
         let radius = named.map(|x| (x - centre).norm()).fold(0.0, f64::max);
         let scale = 0.5 / radius;
         if !centre.iter().all(|x| x.is_finite()) || !scale.is_normal() || !radius.is_normal() {
-            return Err(Error::Topology {
-                reason: format!("it is {radius:e} from its centre to its farthest vertex"),
-                advice: "check its coordinates",
-            });
+            return Err(Error::mesh_size(radius));
         }
         Ok(Ball { centre, scale })
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::{Error, Result, try_filled};
+use crate::error::{Error, Result, rounded, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::scene::mesh::Mesh;
 
@@ -297,7 +297,7 @@ impl Topology {
 }
 
 fn place(mesh: &Mesh, vertex: u32) -> String {
-    let [x, y, z] = mesh.positions()[vertex as usize];
+    let [x, y, z] = mesh.positions()[vertex as usize].map(rounded);
     format!("vertex {vertex} ({x}, {y}, {z})")
 }
 

@@ -63,7 +63,7 @@ impl Bridging {
             Bridging::Off => Ok(0),
             Bridging::UpTo(width) if (1..=WIDEST).contains(&width) => Ok(width),
             Bridging::UpTo(width) => {
-                let requirement = "must be a width from 1 to 16 vertices or pixels, or off";
+                let requirement = "must be a width from 1 to 16 vertices or pixels, or none";
                 Err(Error::option("bridge", width, requirement))
             }
         }

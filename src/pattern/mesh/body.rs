@@ -48,10 +48,7 @@ impl Body {
         });
         let spacing = lengths.sum::<f64>() / (3 * triangles.len()) as f64;
         if !spacing.is_normal() {
-            return Err(Error::Topology {
-                reason: format!("its edges are {spacing:e} long on average"),
-                advice: "check its coordinates",
-            });
+            return Err(Error::mesh_size(spacing));
         }
         let mut body = Body {
             parts: vec![0; triangles.len()],

@@ -14,7 +14,7 @@ mod seams;
 use std::collections::BTreeMap;
 
 use super::{PatternOptions, Sheet};
-use crate::error::{Error, Result, check_count, positive};
+use crate::error::{Error, Result, check_count, positive, rounded};
 use crate::fit::mesh::topology::Topology;
 use crate::scene::mesh::Mesh;
 use crate::shape::patches::{Crease, MeshPatches, Patch};
@@ -149,7 +149,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
             }
         }
         let Some((_, plane)) = best else {
-            let [x, y, z]: [f64; 3] = worst.into();
+            let [x, y, z] = <[f64; 3]>::from(worst).map(rounded);
             return Err(Error::Unsupported {
                 format: "pattern",
                 reason: format!(

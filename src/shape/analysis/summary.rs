@@ -29,9 +29,9 @@ pub struct Summary {
     pub threshold: f64,
     /// Share of the vertices with `|K|` above the threshold, from 0 to 1.
     pub gaussian_above: f64,
-    /// Median of `|K|`.
+    /// Median of `|K|`; 0 if no vertex has curvatures, as all figures are then.
     pub median_gaussian: f64,
-    /// Median of `|κ₂|`.
+    /// Median of `|κ₂|`; 0 if no vertex has curvatures.
     pub median_kappa2: f64,
     /// Sum of `‖H‖_*` over the vertices: the energy without its fidelity term.
     pub nuclear_norm: f64,
@@ -179,11 +179,11 @@ fn check_same_shape(expected: usize, surface: &Heightfield, found: usize) -> Res
     })
 }
 
-/// Median of numbers, the higher of two in the middle; NaN if there are none. Costs `O(n)`.
+/// Median of numbers, the higher of two in the middle; 0 if there are none. Costs `O(n)`.
 fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() {
-        return f64::NAN;
+        return 0.0;
     }
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -22,7 +22,7 @@ pub fn filled<T: Copy, const N: usize>(length: u32, value: T) -> Result<Vec<[T; 
     let length = length as usize;
     if !length.is_multiple_of(N) {
         return Err(Error::Shape {
-            what: "array of the mesh",
+            what: "positions or triangles of the mesh",
             rows: length / N,
             cols: N,
             expected: length - length % N,

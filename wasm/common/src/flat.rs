@@ -6,7 +6,7 @@ use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
-use super::options::option;
+use super::options::{option, renamed};
 use developable::checks::try_filled;
 use developable::dewarp::{Photo, WarpGrid, WarpMap};
 
@@ -77,7 +77,8 @@ impl MapOptions {
         let found = self
             .grid
             .then(|| map.grid(self.tolerance, NODES))
-            .transpose()?;
+            .transpose()
+            .map_err(|error| renamed(error, "tolerance", "grid"))?;
         Ok(found.as_ref().map(GridOutput::new))
     }
 }

@@ -31,7 +31,10 @@ pub fn option<T: DeserializeOwned>(
     requirement: &'static str,
 ) -> Result<T> {
     from_value(value.clone()).map_err(|_| {
-        // `undefined`, functions and symbols have no JSON: then this is no string.
+        // JSON has no infinity and no NaN; and of `undefined`, functions and symbols there is none: then this is no string.
+        if let Some(number) = value.as_f64() {
+            return Failure::from(Error::option(name, number, requirement));
+        }
         let json = js_sys::JSON::stringify(&value);
         let shown = json.ok().and_then(|text| JsValue::from(text).as_string());
         Failure::from(Error::option(
@@ -51,6 +54,16 @@ pub fn lambda(value: JsValue) -> Result<Lambda> {
     let name: String = option("lambda", value, REQUIREMENT)?;
     Lambda::named(&name)
         .ok_or_else(|| Error::option("lambda", format!("{name:?}"), REQUIREMENT).into())
+}
+
+/// The error of a Rust option as one of the JS option that it stands for, where that has another name.
+pub fn renamed(mut error: Error, rust: &str, js: &'static str) -> Failure {
+    if let Error::Option { name, .. } = &mut error
+        && *name == rust
+    {
+        *name = js;
+    }
+    error.into()
 }
 
 pub fn unknown(name: &str, known: &str) -> Failure {

@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use super::Result;
 use super::bytes::copied;
 use super::options::option;
+use developable::Error;
 use developable::dewarp::{Extent, Photo};
 
 /// `Photo` of `types.d.ts`, as `asPhoto` makes it.
@@ -47,8 +48,13 @@ impl Pixels {
 
 /// The option `extent`.
 pub fn extent_from(value: JsValue) -> Result<Extent> {
-    let requirement = "must be four numbers: left, bottom, right, top";
-    let [left, bottom, right, top] = option("extent", value, requirement)?;
+    let requirement = "must be four numbers: left, bottom, right and top, left less than right and bottom less than top";
+    let sides: [f64; 4] = option("extent", value, requirement)?;
+    let [left, bottom, right, top] = sides;
+    let has_area = left < right && bottom < top;
+    if !has_area || sides.iter().any(|side| !side.is_finite()) {
+        return Err(Error::option("extent", sides, requirement).into());
+    }
     Ok(Extent {
         min: [left, bottom],
         max: [right, top],

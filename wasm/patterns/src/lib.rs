@@ -204,7 +204,7 @@ fn bending(
             None => Ok(None),
             Some(_) => Err(Failure {
                 code: "OPTION",
-                message: "innerRadius and kFactor need a thickness".into(),
+                message: "options `innerRadius` and `kFactor` are about bent metal: give the option `thickness`, too".into(),
             }),
         };
     };
@@ -275,8 +275,8 @@ pub fn write_dxf_file(drawing: JsValue) -> Result<Uint8Array> {
 
 /// `Drawing` of `types.d.ts`.
 fn drawn(drawing: JsValue) -> Result<Drawing> {
-    from_value(drawing).map_err(|error| Failure {
+    from_value(drawing).map_err(|_| Failure {
         code: "INPUT",
-        message: format!("the drawing must be one that `pattern` gave: {error}"),
+        message: "the drawing must be one that `pattern` or `patternMesh` gave, with nothing taken out or changed".into(),
     })
 }

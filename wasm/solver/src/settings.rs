@@ -118,7 +118,7 @@ fn number(name: &'static str, value: JsValue) -> Result<f64> {
 
 /// A width; `true` for the default one, `false` for none.
 fn bridging(value: JsValue) -> Result<Bridging> {
-    let requirement = "must be a width from 1 to 16 vertices or pixels, or false";
+    let requirement = "must be a width from 1 to 16 vertices or pixels, or none";
     Ok(match value.as_bool() {
         Some(true) => Bridging::default(),
         Some(false) => Bridging::Off,

@@ -10,7 +10,7 @@ use developable::page::{
     CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::{entries, option, renamed, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
 
@@ -173,10 +173,11 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
     let page = if find {
-        CurledPage::in_photo(&pages, &lines, &photo, &known)?
+        CurledPage::in_photo(&pages, &lines, &photo, &known)
     } else {
-        CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)?
-    };
+        CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)
+    }
+    .map_err(|error| renamed(error, "format", "page"))?;
     let map = page.warp_map(&wanted)?;
     let mesh = page.mesh()?;
     Ok(to_value(&PageOutput {

@@ -1,0 +1,184 @@
+//! Values in messages, as people write them.
+
+/// A value that a message can show.
+pub trait Readable {
+    /// The value as a person would write it: 0.5, 1e300 or infinity.
+    fn readable(&self) -> String;
+}
+
+/// Magnitudes of the numbers that are written without an exponent.
+const PLAIN_MAGNITUDES: std::ops::Range<f64> = 1e-5..1e16;
+
+/// Maximum number of items of a list that are shown.
+const MAX_SHOWN_ITEMS: usize = 6;
+
+/// Maximum number of letters of a text that are shown.
+const MAX_SHOWN_LETTERS: usize = 80;
+
+/// Decimals of a rounded number's mantissa.
+const ROUNDED_DECIMALS: usize = 3;
+
+impl Readable for f64 {
+    fn readable(&self) -> String {
+        match *self {
+            0.0 => "0".into(),
+            f64::INFINITY => "infinity".into(),
+            f64::NEG_INFINITY => "-infinity".into(),
+            value if value.is_nan() || PLAIN_MAGNITUDES.contains(&value.abs()) => value.to_string(),
+            value => format!("{value:e}"),
+        }
+    }
+}
+
+impl Readable for f32 {
+    fn readable(&self) -> String {
+        f64::from(*self).readable()
+    }
+}
+
+impl Readable for usize {
+    fn readable(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Readable for u32 {
+    fn readable(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Readable for u8 {
+    fn readable(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Readable for i32 {
+    fn readable(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Readable for str {
+    fn readable(&self) -> String {
+        match self {
+            "" => "\"\"".into(),
+            text => match text.char_indices().nth(MAX_SHOWN_LETTERS) {
+                Some((end, _)) => format!("{}…", &text[..end]),
+                None => text.into(),
+            },
+        }
+    }
+}
+
+impl Readable for String {
+    fn readable(&self) -> String {
+        self.as_str().readable()
+    }
+}
+
+impl<T: Readable> Readable for [T] {
+    fn readable(&self) -> String {
+        let shown: Vec<String> = self.iter().take(MAX_SHOWN_ITEMS).map(T::readable).collect();
+        let more = if self.len() > shown.len() {
+            ", …"
+        } else {
+            ""
+        };
+        format!("[{}{more}]", shown.join(", "))
+    }
+}
+
+impl<T: Readable, const N: usize> Readable for [T; N] {
+    fn readable(&self) -> String {
+        self.as_slice().readable()
+    }
+}
+
+impl<T: Readable + ?Sized> Readable for &T {
+    fn readable(&self) -> String {
+        (**self).readable()
+    }
+}
+
+/// A number that was computed, to four significant digits.
+pub fn rounded(value: f64) -> String {
+    let text = format!("{value:.ROUNDED_DECIMALS$e}");
+    text.parse().unwrap_or(value).readable()
+}
+
+/// A count with a comma before every three digits; what a `usize` of 32 bits cannot hold is "billions of".
+pub(super) fn count(value: usize) -> String {
+    if value >= u32::MAX as usize {
+        return "billions of".into();
+    }
+    let digits = value.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_people_write_them() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (0.5, "0.5"),
+            (-3.0, "-3"),
+            (20_000.0, "20000"),
+            (1e-5, "0.00001"),
+            (1e300, "1e300"),
+            (-2.5e-300, "-2.5e-300"),
+            (f64::MAX, "1.7976931348623157e308"),
+            (f64::INFINITY, "infinity"),
+            (f64::NEG_INFINITY, "-infinity"),
+            (f64::NAN, "NaN"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(value.readable(), text);
+        }
+        assert_eq!(rounded(2.819_865_836_443_307), "2.82");
+        assert_eq!(rounded(1.0 / 3e200), "3.333e-201");
+        assert_eq!(rounded(f64::INFINITY), "infinity");
+    }
+
+    #[test]
+    fn counts_have_separators_and_no_saturated_digits() {
+        let cases = [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1,000"),
+            (20_971_520, "20,971,520"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(count(value), text);
+        }
+        for saturated in [u32::MAX as usize, usize::MAX] {
+            assert_eq!(count(saturated), "billions of");
+        }
+    }
+
+    #[test]
+    fn long_lists_are_cut_and_texts_without_letters_are_seen() {
+        assert_eq!(
+            [[0.0, 1e300], [f64::NAN, 2.0]].readable(),
+            "[[0, 1e300], [NaN, 2]]"
+        );
+        assert_eq!([7.0; 100].readable(), "[7, 7, 7, 7, 7, 7, …]");
+        assert_eq!("".readable(), "\"\"");
+        assert_eq!(
+            "ä".repeat(1000).readable().chars().count(),
+            MAX_SHOWN_LETTERS + 1
+        );
+    }
+}

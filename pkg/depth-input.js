@@ -2,7 +2,7 @@
 import { DevelopableError } from './errors.js';
 import { cells, count, numbers } from './input.js';
 import { optionsOf } from './options.js';
-import { record } from './values.js';
+import { record, show } from './values.js';
 
 /** The levels that a phone's sensor tells (ARKit): not to be trusted, a little, and fully. */
 const LEVELS = [0, 0.25, 1];
@@ -66,6 +66,6 @@ function asConfidence(image) {
   if (odd < 0) return { ...size, data: weights };
   throw new DevelopableError(
     'INPUT',
-    `the confidence is ${data[odd]} at row ${Math.floor(odd / size.width)}, column ${odd % size.width}, but floats must be from 0 to 1`,
+    `the confidence is ${show(data[odd])} at row ${Math.floor(odd / size.width)}, column ${odd % size.width}, but floats must be from 0 to 1`,
   );
 }

@@ -23,7 +23,7 @@ export const init = (input) => solver.init(input);
 /** @type {typeof import('./direct.js').load} */
 export async function load(...parts) {
   const places = reading('OPTION', 'the parts to load', () =>
-    parts.flatMap((part) => Object.entries(isRecord(part) ? part : { [String(part)]: undefined })));
+    parts.flatMap((part) => Object.entries(isRecord(part) ? part : { [typeof part === 'string' ? part : show(part)]: undefined })));
   const wanted = places.map(([name, place]) => ({ part: partOf(name), place }));
   await Promise.all(wanted.map(({ part, place }) => part.init(place)));
 }

@@ -321,14 +321,26 @@ export function copied(array) {
 export function asBytes(bytes) {
   const what = "the file's bytes";
   return reading('INPUT', what, () => {
-    if (bytes instanceof ArrayBuffer) return /** @type {Uint8Array} */ (viewOf(what, new Uint8Array(bytes)));
-    if (bytes instanceof DataView) return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    if (bytes instanceof ArrayBuffer || bytes instanceof DataView) return bytesOf(what, bytes);
     if (typeOf(bytes) !== undefined) {
       const { buffer, byteOffset, byteLength } = viewOf(what, bytes);
       return new Uint8Array(buffer, byteOffset, byteLength);
     }
     throw new DevelopableError('INPUT', `${what} must be a Uint8Array or ArrayBuffer, but are ${show(bytes)}`);
   });
+}
+
+/**
+ * The bytes of a buffer or of a part of one.
+ * @param {string} what
+ * @param {ArrayBuffer | DataView} bytes
+ */
+function bytesOf(what, bytes) {
+  try {
+    return bytes instanceof DataView ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+  } catch {
+    throw new DevelopableError('INPUT', `${what} have no memory any more: their buffer was handed over, or made smaller`);
+  }
 }
 
 /**

@@ -2,7 +2,7 @@
 import { DevelopableError } from './errors.js';
 import { asBytes, asCamera, asLattice, numbers, optionalFloats, typed, unitOf } from './input.js';
 import { asPhoto } from './sheet-input.js';
-import { isRecord, reading, record, refuseUnknown, typeOf } from './values.js';
+import { isRecord, reading, record, refuseUnknown, show, typeOf } from './values.js';
 
 const MESH = /** @type {const} */ (['positions', 'triangles', 'colors', 'uvs', 'textures', 'textureOf', 'missing', 'camera', 'unit', 'confidence', 'report']);
 
@@ -88,5 +88,5 @@ function indices(triangles) {
   if (values instanceof Uint32Array) return values;
   const odd = values.findIndex((value) => !(Number.isInteger(value) && value >= 0 && value < 2 ** 32));
   if (odd < 0) return Uint32Array.from(values);
-  throw new DevelopableError('INPUT', `triangles[${odd}] must be the number of a vertex, but is ${values[odd]}`);
+  throw new DevelopableError('INPUT', `triangles[${odd}] must be the number of a vertex, but is ${show(values[odd])}`);
 }

@@ -18,7 +18,7 @@ const number = {
 
 /** @type {Kind} */
 const whole = {
-  must: 'must be a whole number from 0 to 2^32 - 1',
+  must: 'must be a whole number from 0 to about 4 billion',
   take: (value) => (Number.isInteger(value) && Number(value) >= 0 && Number(value) < 2 ** 32 ? value : undefined),
 };
 
@@ -30,6 +30,9 @@ const text = { must: 'must be a text', take: (value) => (typeof value === 'strin
 
 /** @type {Kind} */
 const callback = { must: 'must be a function', take: (value) => (typeof value === 'function' ? value : undefined) };
+
+/** @type {Kind} */
+const address = { must: 'must be a text or a URL', take: (value) => (typeof value === 'string' || value instanceof URL ? value : undefined) };
 
 /** What is checked by who takes it. @type {Kind} */
 const anything = { must: '', take: (value) => value };
@@ -81,7 +84,7 @@ const signal = {
 
 /** The width of holes that are bridged; `false` for none. @type {Kind} */
 const bridging = {
-  must: 'must be a number, true for the default, or false, 0, none or off',
+  must: 'must be a number, true for the default, or none (also off, 0 or false)',
   take: (value) => (value === 0 || choice('none', 'off').take(value) ? false : flag.take(value) ?? number.take(value)),
 };
 
@@ -268,7 +271,7 @@ export const OPTIONS = {
   writeGlb: { texture: anything },
   example: { size: whole, noise: number, seed: whole },
   worker: {
-    workerUrl: anything,
+    workerUrl: address,
     wasm: anything,
     filesWasm: anything,
     imagesWasm: anything,
@@ -299,7 +302,7 @@ export function optionsOf(call, given) {
     const kinds = OPTIONS[call];
     const names = Object.keys(kinds);
     const former = Object.keys(FORMER_NAMES).filter((name) => !(name in kinds) && FORMER_NAMES[name] in kinds);
-    refuseUnknown('OPTION', 'option', given, [...names, ...former]);
+    refuseUnknown('OPTION', 'option', given, names, former);
     const entries = Object.entries(record('OPTION', 'the options', given, [...names, ...former]));
     const copies = entries.map(([given, value]) => {
       const name = given in kinds ? given : FORMER_NAMES[given];

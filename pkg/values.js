@@ -52,9 +52,11 @@ export function record(code, what, given, names) {
  * @param {string} what such a name is of, as in `option`
  * @param {unknown} given
  * @param {readonly string[]} known
+ * @param {readonly string[]} [former] names that go on working, and are not told
  */
-export function refuseUnknown(code, what, given, known) {
-  const stray = reading(code, `what is given as ${what}`, () => Object.keys(Object(given)).find((name) => !known.includes(name)));
+export function refuseUnknown(code, what, given, known, former = []) {
+  if (!isRecord(given)) return; // what it must be instead is said where it is used
+  const stray = reading(code, `what is given as ${what}`, () => Object.keys(Object(given)).find((name) => !known.includes(name) && !former.includes(name)));
   if (stray !== undefined) throw new DevelopableError(code, unknownName(what, stray, known));
 }
 
@@ -124,6 +126,9 @@ export function viewOf(name, array) {
   }
 }
 
+/** Maximum number of items of a list that a message shows. */
+const MAX_SHOWN_ITEMS = 6;
+
 /**
  * A value in an error message.
  * @param {unknown} value
@@ -133,8 +138,14 @@ export function show(value) {
   if (typeof value === 'string') return JSON.stringify(value.length > 80 ? `${value.slice(0, 80)}…` : value);
   if (typeof value === 'bigint') return `${value}n`;
   if (typeof value === 'function') return 'a function';
+  if (typeof value === 'number') return String(value).replace('e+', 'e');
   if (typeof value !== 'object' || value === null) return String(value);
   try {
+    if (Array.isArray(value)) {
+      const items = Array.from({ length: Math.min(value.length, MAX_SHOWN_ITEMS) }, (_, i) => value[i]);
+      const texts = items.map((item) => (typeof item === 'object' && item !== null ? '…' : show(item)));
+      return `[${texts.join(', ')}${value.length > MAX_SHOWN_ITEMS ? ', …' : ''}]`;
+    }
     return typeOf(value) ?? Object.prototype.toString.call(value).slice(8, -1);
   } catch {
     return 'an object';

@@ -1,6 +1,7 @@
 /** From the command line to a task. */
 import { extname } from 'node:path';
 import { OPTIONS } from '../options.js';
+import { show } from '../values.js';
 import { checkFlags, commandNamed } from './commands.js';
 import { split, usage } from './flags.js';
 import { refuseSameFiles } from './same-file.js';
@@ -115,7 +116,7 @@ export function parse(args) {
   const command = commandNamed(name);
   checkFlags(command, values);
   if (input === undefined) throw usage('the input is missing', command);
-  if (more.length > 0) throw usage(`one input at a time: what is "${more[0]}"?`, command);
+  if (more.length > 0) throw usage(`one input at a time: what is ${show(more[0])}?`, command);
   const { output = '', report, mask, confidence, constraints, texture, mtl, map, array } = values;
   if (command === 'info') return { command, input, array };
   if (values.output === undefined && !telling.includes(command) && !values.explore) throw usage('the output is missing: -o FILE', command);
@@ -376,7 +377,7 @@ function format(text) {
   if (name !== undefined) return name;
   const [width, height, ...more] = text.split(/x/i).map((side) => (side.trim() === '' ? NaN : Number(side)));
   if (more.length > 0 || !Number.isFinite(width) || !Number.isFinite(height)) {
-    throw usage(`--page must be a4, letter or WIDTHxHEIGHT in millimetres, but is "${text}"`, 'dewarp');
+    throw usage(`--page must be a4, letter or WIDTHxHEIGHT in millimetres, but is ${show(text)}`, 'dewarp');
   }
   return [width, height];
 }
@@ -448,7 +449,7 @@ function stock(text) {
   if (name !== undefined) return name;
   const [, width, height] = /^(\d*\.?\d+)x(\d*\.?\d+)?$/i.exec(text) ?? [];
   if (width === undefined) {
-    throw usage(`--stock must be a4, letter, none, WIDTHxHEIGHT or, for a roll, WIDTHx in millimetres, but is "${text}"`, 'pattern');
+    throw usage(`--stock must be a4, letter, none, WIDTHxHEIGHT or, for a roll, WIDTHx in millimetres, but is ${show(text)}`, 'pattern');
   }
   return height === undefined ? [Number(width)] : [Number(width), Number(height)];
 }
@@ -498,11 +499,11 @@ function checkKind(kind, command, values) {
  */
 function intrinsics({ intrinsics: text = '', ray = false, turn: rotate }) {
   const turn = [0, 90, 180, 270].find((degrees) => rotate !== undefined && String(degrees) === rotate);
-  if (rotate !== undefined && turn === undefined) throw usage(`--turn must be 90, 180 or 270, but is "${rotate}"`);
+  if (rotate !== undefined && turn === undefined) throw usage(`--turn must be 90, 180 or 270, but is ${show(rotate)}`);
   if (/\.(json|csv|txt)$/i.test(text)) return { file: text, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
   const numbers = list(text);
   if (numbers.length < 4 || numbers.length > 5 || numbers.some(Number.isNaN)) {
-    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .csv or .txt, but is "${text}"`);
+    throw usage(`--intrinsics must be fx,fy,cx,cy or fx,fy,cx,cy,scale or a file .json, .csv or .txt, but is ${show(text)}`);
   }
   const [fx, fy, cx, cy, depthScale] = numbers;
   return { numbers: { fx, fy, cx, cy, depthScale }, ray, turn: /** @type {CameraTask['turn']} */ (turn) };
@@ -517,7 +518,7 @@ function corners(text) {
   if (text === undefined) return undefined;
   const numbers = list(text);
   if (numbers.length < 6 || numbers.length % 2 !== 0 || numbers.some(Number.isNaN)) {
-    throw usage(`--crop must be three or more corners as in x,y,x,y,x,y, but is "${text}"`);
+    throw usage(`--crop must be three or more corners as in x,y,x,y,x,y, but is ${show(text)}`);
   }
   return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
 }
@@ -543,7 +544,7 @@ function view(text) {
   if (!text.includes(',')) return /** @type {import('../types.js').ViewName} */ (text);
   const vector = list(text);
   if (vector.length !== 3 || vector.some(Number.isNaN)) {
-    throw usage(`--view must be a name or three numbers as in 0,-1,-1, but is "${text}"`);
+    throw usage(`--view must be a name or three numbers as in 0,-1,-1, but is ${show(text)}`);
   }
   return /** @type {[number, number, number]} */ (/** @type {unknown} */ (vector));
 }
@@ -559,7 +560,7 @@ function extension(what, output, known) {
   const extension = known.find((one) => one === found);
   if (extension) return extension;
   const choices = known.length > 1 ? `${known.slice(0, -1).join(', ')} or ${known.at(-1)}` : known[0];
-  throw usage(`the ${what} must end in ${choices}, but is "${output}"`);
+  throw usage(`the ${what} must end in ${choices}, but is ${show(output)}`);
 }
 
 /**
@@ -591,7 +592,7 @@ function isWord(value, ...words) {
 function choice(name, value, choices) {
   const chosen = choices.find((known) => isWord(value, known));
   if (chosen !== undefined) return chosen;
-  throw usage(`--${name} must be ${choices.join(' or ')}, but is "${value}"`);
+  throw usage(`--${name} must be ${choices.join(' or ')}, but is ${show(value)}`);
 }
 
 /**
@@ -607,7 +608,7 @@ function one(name, values, kind) {
   if (text === undefined) return undefined;
   const value = kind.take(text);
   if (value !== undefined) return /** @type {SolverOptions[N]} */ (value);
-  throw usage(`--${name} ${kind.must}, but is "${text}"`);
+  throw usage(`--${name} ${kind.must}, but is ${show(text)}`);
 }
 
 /**
@@ -621,5 +622,5 @@ function number(name, values, names = '') {
   // `Number` takes blanks for 0.
   const value = text.trim() === '' ? NaN : Number(text);
   if (!Number.isNaN(value)) return value;
-  throw usage(`--${name} must be ${names}a number, but is "${text}"`);
+  throw usage(`--${name} must be ${names}a number, but is ${show(text)}`);
 }

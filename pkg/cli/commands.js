@@ -1,5 +1,6 @@
 /** The commands: what each does, reads, writes and takes. */
 import { nearest } from '../nearest.js';
+import { show } from '../values.js';
 import { usage } from './flags.js';
 
 /**
@@ -180,7 +181,7 @@ export function commandNamed(name) {
   const command = names.find((known) => known === name);
   if (command) return command;
   const near = nearest(name, names);
-  throw usage(`there is no command "${name}", ${near === undefined ? `only ${names.join(', ')}` : `did you mean "${near}"?`}`);
+  throw usage(`there is no command ${show(name)}, ${near === undefined ? `only ${names.join(', ')}` : `did you mean "${near}"?`}`);
 }
 
 /**

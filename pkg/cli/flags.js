@@ -314,9 +314,25 @@ const flags = /** @type {Record<Flag, FlagInfo>} */ (
 /** Flags by the names of their options, where those differ. */
 const renamed = new Map(Object.entries(flags).flatMap(([flag, { option }]) => (option ? [[option, flag]] : [])));
 
-/** How an option of the library is called here: `maxIterations` is `--max-iterations`. @param {string} option */
+/**
+ * How an option of the library is called here: `maxIterations` is `--max-iterations`. Nothing for those that have no flag.
+ * @param {string} option
+ */
 export function flagOf(option) {
-  return `--${renamed.get(option) ?? option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}`;
+  const flag = renamed.get(option) ?? option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+  return flag in flags ? `--${flag}` : undefined;
+}
+
+/** Numbers of a camera, which --intrinsics, --photo-camera or their files give. */
+const CAMERA_NUMBERS = ['fx', 'fy', 'cx', 'cy', 'depthScale'];
+
+/** A message of the library with the options by their names here. @param {string} message */
+export function asFlags(message) {
+  return message.replace(/(?:\bthe )?\boptions? (`\w+`(?:(?:, | and )`\w+`)*)/g, (whole, names) =>
+    names.replace(/`(\w+)`/g, (/** @type {string} */ name, /** @type {string} */ option) => {
+      if (CAMERA_NUMBERS.includes(option)) return `${option === 'depthScale' ? 'scale' : option} of the camera (--intrinsics or --photo-camera)`;
+      return flagOf(option) ?? name;
+    }));
 }
 
 /** Names that flags had before, which go on working and are not in the help. @type {ReadonlyMap<string, Flag>} */
@@ -375,6 +391,8 @@ export function split(args) {
   );
   try {
     const { values, positionals } = parseArgs({ args: withCurrentNames(joined(args)).renamed, options, allowPositionals: true });
+    const bare = Object.keys(values).find((flag) => values[flag] === '');
+    if (bare !== undefined) throw new Error(`--${bare} is empty: it needs a value, as in --${bare} ${flags[/** @type {Flag} */ (bare)].value}`);
     return { values: /** @type {Values} */ (values), positionals };
   } catch (error) {
     const message = messageOf(error).replace(/\. To specify a positional.*$/s, '');

@@ -1,9 +1,10 @@
 /** What a solve is about, from files: the heights, and what else is known. */
 import { realpath, stat } from 'node:fs/promises';
-import { dirname, join, sep } from 'node:path';
+import { dirname, join, resolve, sep } from 'node:path';
 import * as developable from '../index.js';
 import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
+import { asFlags } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
 import { during, say } from './terminal.js';
@@ -172,7 +173,7 @@ export async function readMesh({ input, array, camera, mask, confidence, noData,
   if (!camera) {
     const mesh = await readMeshFile(input, await readBytes(input), force ? [] : written);
     for (const name of mesh.missing ?? []) {
-      say(`warning: ${input} names ${JSON.stringify(name)}, which is not there`);
+      say(`warning: ${input} names ${JSON.stringify(name)}, ${await whyMissing(dirname(input), name)}`);
     }
     return mesh;
   }
@@ -327,6 +328,18 @@ async function neighbour(folder, name) {
 }
 
 /**
+ * Why a file that another one names was not read.
+ * @param {string} folder
+ * @param {string} name
+ */
+async function whyMissing(folder, name) {
+  const elsewhere = await stat(resolve(folder, name.replaceAll('\\', '/'))).catch(() => undefined);
+  return elsewhere?.isFile()
+    ? 'which is outside of its folder: only files there or below are read. Copy it there'
+    : 'which is not there';
+}
+
+/**
  * @param {string} path
  * @param {string} [array] of an NPZ file
  * @returns {Promise<ReadResult>}
@@ -347,7 +360,7 @@ export async function about(path, read) {
     return await read();
   } catch (error) {
     if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${error.message.replace('the option `array`', '--array')}`);
+      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/: readMesh reads it$/, '')}`);
     }
     throw error;
   }

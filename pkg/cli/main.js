@@ -5,7 +5,7 @@ import { messageOf } from '../errors.js';
 import { Problem, status } from './problem.js';
 import { parse } from './arguments.js';
 import { fit } from './fit.js';
-import { asSpelled, flagOf } from './flags.js';
+import { asFlags, asSpelled } from './flags.js';
 import { helpOn, overview } from './help.js';
 import { info } from './info.js';
 import { occlusions } from './occlusions.js';
@@ -95,11 +95,6 @@ function explain(error) {
     default:
       return new Problem(status.input, error.message);
   }
-}
-
-/** Options by their names here. @param {string} message */
-function asFlags(message) {
-  return message.replace(/option `(\w+)`/, (_, name) => flagOf(name));
 }
 
 async function version() {

@@ -6,6 +6,9 @@ import { say } from './terminal.js';
 /** Maximum number of vertices that are fitted without a question. More of them take minutes, and gigabytes of memory. */
 export const MAX_VERTICES_UNASKED = 2_000_000;
 
+/** Maximum number of vertices of a lattice: `MAX_CELLS` in Rust. More are refused, so that there is nothing to ask. */
+const MAX_VERTICES = 5 * 2 ** 22;
+
 /** Vertices of the lattice for each square whose side is the spacing. */
 const VERTICES_PER_SQUARE = 2 / Math.sqrt(3);
 
@@ -27,8 +30,10 @@ export async function confirmSize(task, input, signal, user = terminalUser) {
   const { lattice, resolution, spacing, force } = task;
   // Of heights that are on the lattice already the spacing makes no vertices.
   if (force || lattice === 'hex' || (resolution === undefined && spacing === undefined)) return;
+  // What cannot be is refused by the fit, which says why.
+  if (spacing !== undefined && !(spacing > 0)) return;
   const vertices = vertexCount(task, input);
-  if (vertices <= MAX_VERTICES_UNASKED) return;
+  if (vertices <= MAX_VERTICES_UNASKED || vertices > MAX_VERTICES) return;
   const flag = resolution === undefined ? '--spacing' : '--resolution';
   const size = `${flag} ${resolution ?? spacing} makes ${vertices.toLocaleString('en')} vertices, which take long to fit and much memory`;
   if (!user.answers) {

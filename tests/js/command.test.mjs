@@ -84,8 +84,7 @@ test('each command has a help of its own, with its flags, an example and how it 
   assert.ok(overview.split('\n').every((line) => line.length <= 80));
   // All that a solve can be told can be told here.
   for (const option of Object.keys(OPTIONS.solver)) {
-    const flag = flagOf(option).slice(2);
-    assert.ok(every.includes(flag) || every.includes(`no-${flag}`), option);
+    assert.ok(every.includes(flagOf(option)?.slice(2) ?? ''), option);
   }
 });
 

@@ -145,8 +145,23 @@ async function survives(call, run) {
     assert.notEqual(error.code, 'TRAP', `${call}: ${error.message}`);
     assert.notEqual(error.code, undefined, call);
     assert.ok(error.message.length < 1000, `${call}: ${error.message.slice(0, 200)}`);
+    assert.doesNotMatch(error.message, UNREADABLE, `${call}: ${error.message}`);
+    for (const [, option] of error.message.matchAll(/(?<!unknown )option `(\w+)`/g)) assert.ok(names.has(option), `${call}: ${error.message}`);
   }
 }
+
+/** Names of all options, and of what arguments are and have. */
+const names = new Set([
+  ...Object.values(OPTIONS).flatMap((kinds) => Object.keys(kinds)),
+  ...Object.values(calls).flatMap(({ args }) => Object.entries(args).flatMap(([name, value]) => [name, ...Object.keys(value)])),
+  'example', 'picture',
+]);
+
+/**
+ * What nobody writes: a number with a needless exponent, of 25 digits, without its name or as large as a counter goes; and what
+ * a parser says of itself.
+ */
+const UNREADABLE = /\de0|\binf\b|\d\.?\d{25}|\de\+\d|NaN (?:long|%)|is -0\b(?![.\d])|4294967295|18446744073709551615|JsValue|invalid type|\bstruct |Construct/;
 
 for (const [kind, api] of /** @type {[string, Record<string, any>][]} */ ([['direct', direct], ['promise', promise]])) {
   for (const name of everyFunction(api)) {

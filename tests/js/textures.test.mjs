@@ -112,7 +112,7 @@ test('what is missing or damaged', async () => {
   assert.throws(() => direct.sampleMesh({ ...direct.readMesh(glb), textureOf: new Int32Array(1) }), error('SHAPE'));
   const bare = { rows: 3, cols: 3, spacing: 1, heights: new Float64Array(9) };
   assert.throws(() => direct.paint(bare, png, /** @type {any} */ ({ place: 1 })), error('OPTION', /place/));
-  assert.throws(() => direct.paint(bare, png, { extent: [0, 0, 0, 1] }), error('EMPTY'));
+  assert.throws(() => direct.paint(bare, png, { extent: [0, 0, 0, 1] }), error('OPTION', /extent/));
   assert.throws(() => direct.writeObj(bare, { materials: 'a.mtl' }), error('UNSUPPORTED', /texture coordinates/));
   assert.throws(() => direct.writeMtl('two\nlines'), error('OPTION'));
 });
@@ -222,7 +222,7 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
     const { status, stderr } = await command('fit scan/textured.obj --resolution 40 -o out.ply');
     assert.equal(status, 0);
     if (found) assert.equal(stderr, '');
-    else assert.match(stderr, new RegExp(`warning: scan/textured\\.obj names ".*${name.slice(-8)}", which is not there`));
+    else assert.match(stderr, new RegExp(`warning: scan/textured\\.obj names ".*${name.slice(-8)}", which is outside of its folder`));
     const info = (await command('info scan/textured.obj')).stdout;
     assert.equal(/^missing: /m.test(info), !found, info);
   }

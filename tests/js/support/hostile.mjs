@@ -53,6 +53,7 @@ export function hostileValues() {
     true: true,
     minusOne: -1,
     zero: 0,
+    minusZero: -0,
     half: 0.5,
     NaN,
     infinity: Infinity,
@@ -72,6 +73,9 @@ export function hostileValues() {
     function: () => 1,
     class: class {},
     list: [],
+    pair: [0, 1],
+    longAndThin: [1e300, 1e-300],
+    noArea: [0, 0, 0, 0],
     nested: [[1, 2], [3]],
     sparse: [1, , 3], // eslint-disable-line no-sparse-arrays
     mixed: [1, '2', null],

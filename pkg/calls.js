@@ -194,12 +194,13 @@ export function forPictures(pictures) {
 }
 
 /**
- * A copy of an input, whose buffers go to the worker.
+ * A copy of an input, or itself if that is wanted, whose buffers go to the worker.
  * @template {import('./input.js').Image | import('./input.js').Lattice} T
  * @param {T} input
+ * @param {import('./index.js').HandOver} [options]
  */
-export function handedOver(input) {
-  const { field, buffers } = detached(/** @type {any} */ (input));
+export function handedOver(input, options) {
+  const { field, buffers } = detached(/** @type {any} */ (input), options);
   return transfer(field, buffers);
 }
 

@@ -5,7 +5,7 @@ import { Connection } from './connection.js';
 import { controlOf } from './control.js';
 import { DevelopableError, messageOf } from './errors.js';
 import { explored, exploredMesh } from './explore.js';
-import { asInput, asLattice, detached } from './input.js';
+import { asInput, asLattice, checkLengths } from './input.js';
 import { asPicture, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { optionsOf } from './options.js';
@@ -14,7 +14,6 @@ import { extentOf } from './sheet-input.js';
 import { orAborted, solve } from './solve.js';
 import { reading } from './values.js';
 import { compile, locate } from './wasm-source.js';
-import { transfer } from './wire.js';
 
 /**
  * @typedef {import('./index.js').DevelopableWorker} DevelopableWorkerApi
@@ -57,10 +56,15 @@ export class DevelopableWorker {
   async fit(input, given) {
     const { control, options: { transfer: handOver, ...options } } = controlOf('fit', given);
     if (!control.keep) control.signal?.throwIfAborted();
-    const { field, buffers } = detached(asInput(input), { transfer: handOver });
-    const sent = transfer(field, buffers);
-    const surface = this.#request((remote) =>
-      solve(remote, (id, interval) => remote.start(id, sent, options, interval), control));
+    const field = asInput(input);
+    if (handOver) checkLengths(field);
+    // What is copied is copied at once; what is handed over stays the caller's until nothing can be wrong with the options.
+    const copy = handOver ? undefined : handedOver(field);
+    const surface = this.#request(async (remote) => {
+      if (handOver) await remote.check(options);
+      const sent = copy ?? handedOver(field, { transfer: true });
+      return solve(remote, (id, interval) => remote.start(id, sent, options, interval), control);
+    });
     return orAborted(surface, control);
   }
 
@@ -69,8 +73,7 @@ export class DevelopableWorker {
    * @param {import('./index.js').HandOver} [options]
    */
   async open(input, options) {
-    const { field, buffers } = detached(asInput(input), options);
-    const sent = transfer(field, buffers);
+    const sent = handedOver(asInput(input), options);
     const connection = this.#connect();
     opened += 1;
     const id = opened;

@@ -275,6 +275,26 @@ function known({ confidence, constraints, occlusions }, design) {
   };
 }
 
+/** Arrays with a value for each pixel or vertex. */
+const VALUES = ['data', 'heights', 'mask', 'confidence', 'constraints', 'occlusions', 'brokenEdges'];
+
+/**
+ * Refuses arrays that do not match the shape: before they are handed over.
+ * @param {Image | Lattice} field
+ */
+export function checkLengths(field) {
+  const [rows, cols] = field.kind === 'image' ? [field.height, field.width] : [field.rows, field.cols];
+  for (const name of VALUES) {
+    const array = /** @type {Record<string, any>} */ (field)[name];
+    if (array === undefined || array.length === rows * cols) continue;
+    throw new DevelopableError(
+      'SHAPE',
+      `${name}: there are ${array.length} values, and its shape of ${rows} × ${cols} (rows × columns) needs ${rows * cols}; `
+        + 'every row must be equally long and the shape must match the data',
+    );
+  }
+}
+
 /**
  * The same field with arrays of its own, and their buffers, ready to be transferred.
  * @template {Image | Lattice} F
@@ -291,9 +311,11 @@ export function detached(field, options) {
   for (const name of ARRAYS) {
     const array = /** @type {NumericArray | undefined} */ (own[name]);
     if (array === undefined) continue;
-    own[name] = handOver && ownsItsBuffer(array) ? array : copied(array);
+    // Looked at again: it may have been handed over to another call in the meantime.
+    own[name] = handOver && ownsItsBuffer(array) ? viewOf(name, array) : copied(array);
     buffers.add(/** @type {NumericArray & { buffer: ArrayBuffer }} */ (own[name]).buffer);
   }
+  if (handOver) checkLengths(/** @type {F} */ (own));
   return { field: /** @type {F} */ (own), buffers: [...buffers] };
 }
 

@@ -1,10 +1,10 @@
 /** A solver that stays in the worker, from the client's side. Documented in `index.d.ts`. */
+import { handedOver } from './calls.js';
 import { controlOf } from './control.js';
 import { DevelopableError } from './errors.js';
-import { asInput, detached } from './input.js';
+import { asInput } from './input.js';
 import { makeDisposable } from './platform.js';
 import { orAborted, solve } from './solve.js';
-import { transfer } from './wire.js';
 
 /**
  * @typedef {import('./index.js').OpenSolver} OpenSolverApi
@@ -80,8 +80,7 @@ export class OpenSolver {
    * @param {import('./index.js').HandOver} [options]
    */
   async replace(input, options) {
-    const { field, buffers } = detached(asInput(input), options);
-    const sent = transfer(field, buffers);
+    const sent = handedOver(asInput(input), options);
     return this.#live().request((remote) => remote.replace(this.#id, sent));
   }
 

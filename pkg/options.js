@@ -16,6 +16,27 @@ const number = {
   take: (value) => (typeof value === 'number' && !Number.isNaN(value) ? value : undefined),
 };
 
+/** What is checked here and not in Rust alone, since what the call is about may be handed over to a worker. @type {Kind} */
+const positive = {
+  must: 'must be a finite number above zero',
+  take: (value) => (Number.isFinite(value) && Number(value) > 0 ? value : undefined),
+};
+
+/** @type {Kind} */
+const percentage = {
+  must: 'must be a whole number from 1 to 100',
+  take: (value) => (Number.isInteger(value) && Number(value) >= 1 && Number(value) <= 100 ? value : undefined),
+};
+
+/** The corners of a rectangle with an area. @type {Kind} */
+const extent = {
+  must: 'must be four numbers: left, bottom, right and top, left less than right and bottom less than top',
+  take: (value) => {
+    const sides = /** @type {number[] | undefined} */ (numbers(4, '').take(value));
+    return sides && sides[0] < sides[2] && sides[1] < sides[3] ? sides : undefined;
+  },
+};
+
 /** @type {Kind} */
 const whole = {
   must: 'must be a whole number from 0 to about 4 billion',
@@ -99,11 +120,11 @@ const threshold = {
 
 /** @type {Kind} */
 const corners = {
-  must: 'must be a list of corners [x, y]',
+  must: 'must be a list of three or more corners [x, y]',
   take: (value) => {
     const corner = numbers(2, 'two numbers');
     const list = Array.isArray(value) ? Array.from(value, corner.take) : [];
-    return list.length > 0 && !list.includes(undefined) ? list : undefined;
+    return list.length > 2 && !list.includes(undefined) ? list : undefined;
   },
 };
 
@@ -141,12 +162,11 @@ const photoCamera = {
 const resampled = { spacing: number };
 const handOver = { transfer: flag };
 const control = { signal, onAbort: choice('reject', 'keep'), onProgress: callback };
-const extent = numbers(4, 'four numbers: left, bottom, right and top');
 const lens = { fx: number, fy: number, cx: number, cy: number, width: whole, height: whole, k1: number, k2: number, p1: number, p2: number, k3: number };
 const seeing = { ...lens, depthScale: number, depth: choice('planar', 'ray'), margin: whole };
 const patching = { bend: number, fold: number, smallest: number };
-const mapping = { dots: number, map: flag, grid: either(flag, number) };
-const unrolling = { tolerance: number, maxIterations: whole };
+const mapping = { dots: positive, map: flag, grid: either(flag, positive) };
+const unrolling = { tolerance: positive, maxIterations: whole };
 
 const solver = {
   ...resampled,
@@ -254,18 +274,18 @@ export const OPTIONS = {
   },
   dewarp: { ...resampled, ...unrolling, ...mapping, ...handOver, trim: flag, deskew: flag, crop: corners, extent, camera: photoCamera },
   dewarpPage: {
-    focalLength: number,
-    fieldOfView: number,
-    film35: number,
+    focalLength: positive,
+    fieldOfView: positive,
+    film35: positive,
     page: either(choice('a4', 'letter'), numbers(2, 'width and height in millimetres')),
     ruler: anything,
     centre: numbers(2, 'two numbers: x and y in the photo'),
-    accuracy: number,
+    accuracy: positive,
     findLines: flag,
     ...mapping,
     ...handOver,
   },
-  writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: whole, dotsPerMillimetre: number, ...handOver },
+  writePhoto: { format: choice('png', 'jpeg', 'pdf'), quality: percentage, dotsPerMillimetre: positive, ...handOver },
   writeObj: { materials: text },
   writePdf: { stock },
   writeGlb: { texture: anything },

@@ -3,6 +3,7 @@ import * as direct from './direct.js';
 import { CALLS, forPictures } from './calls.js';
 import { takeCopiesFrom } from './copies.js';
 import { DevelopableError } from './errors.js';
+import { solver } from './instances.js';
 import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
 import { paintOf } from './paint.js';
@@ -36,6 +37,14 @@ export const service = {
     }
     places = { files, images, meshes, fitmesh, unroll, patterns };
     return direct.init(wasm);
+  },
+
+  /**
+   * Rejects options that no solve would take: asked before the caller's arrays are handed over.
+   * @param {import('./types.js').SolverOptions} options
+   */
+  check(options) {
+    solver.call(({ checkOptions }) => checkOptions(options));
   },
 
   /**

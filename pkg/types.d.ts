@@ -545,7 +545,10 @@ export interface Report {
   interior: number;
   /** Valid vertices touched by a stencil without being interior. */
   boundary: number;
-  /** Valid vertices that no stencil touches: left out of the solve, restored afterwards. */
+  /**
+   * Valid vertices that no stencil touches, as at corners: left out of the solve, and extrapolated from the surface
+   * beside them afterwards. On rough input they can stick out.
+   */
   omitted: number;
   /** Vertices where no Hessian was taken because of an occlusion. */
   occluded: number;

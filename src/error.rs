@@ -324,7 +324,7 @@ pub fn try_filled<T: Clone>(what: &'static str, len: usize, value: T) -> Result<
 }
 
 /// `value` itself if it is finite and above zero.
-pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64> {
+pub fn positive(name: &'static str, value: f64) -> Result<f64> {
     if value.is_finite() && value > 0.0 {
         Ok(value)
     } else {

@@ -127,7 +127,7 @@ pub use shape::{analysis, patches, rulings};
 /// How the library checks what it is given: for the bindings in `wasm/`, which do as it does.
 #[doc(hidden)]
 pub mod checks {
-    pub use crate::error::{check_count, check_shape, try_filled};
+    pub use crate::error::{check_count, check_shape, positive, try_filled};
     pub use crate::fit::input::check_confidence;
 }
 

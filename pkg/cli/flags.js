@@ -76,7 +76,7 @@ export const sections = {
     flags: {
       gap: { value: 'G', help: 'certified relative gap to stop at (default 0.01), which the paper\'s schedule has not' },
       schedule: { value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
-      'max-iterations': { value: 'N', help: 'most iterations (default 20000)' },
+      'max-iterations': { value: 'N', help: 'most iterations (default 20000); with --surface of each linearised problem (default 1000)' },
     },
   },
   heights: {

@@ -16,7 +16,7 @@ const MAX_SHOWN_ITEMS: usize = 6;
 const MAX_SHOWN_LETTERS: usize = 80;
 
 /// Decimals of a rounded number's mantissa.
-const ROUNDED_DECIMALS: usize = 3;
+const ROUNDED_DECIMALS: i32 = 3;
 
 impl Readable for f64 {
     fn readable(&self) -> String {
@@ -102,10 +102,18 @@ impl<T: Readable + ?Sized> Readable for &T {
     }
 }
 
-/// A number that was computed, to four significant digits.
+/// A number that was computed, to about four significant digits.
 pub fn rounded(value: f64) -> String {
-    let text = format!("{value:.ROUNDED_DECIMALS$e}");
-    text.parse().unwrap_or(value).readable()
+    if !PLAIN_MAGNITUDES.contains(&value.abs()) {
+        return value.readable();
+    }
+    // Not by way of its text: reading floats would cost each wasm file 15 kB.
+    let scale = 10f64.powi(ROUNDED_DECIMALS - value.abs().log10().floor() as i32);
+    match scale >= 1.0 {
+        true => (value * scale).round() / scale,
+        false => value.round(),
+    }
+    .readable()
 }
 
 /// A count with a comma before every three digits; what a `usize` of 32 bits cannot hold is "billions of".
@@ -148,7 +156,9 @@ mod tests {
             assert_eq!(value.readable(), text);
         }
         assert_eq!(rounded(2.819_865_836_443_307), "2.82");
-        assert_eq!(rounded(1.0 / 3e200), "3.333e-201");
+        assert_eq!(rounded(-0.000_123_456), "-0.0001235");
+        assert_eq!(rounded(123_456.7), "123457");
+        assert_eq!(rounded(2e-201), "2e-201");
         assert_eq!(rounded(f64::INFINITY), "infinity");
     }
 

@@ -210,6 +210,48 @@ test('arrays are copied, or handed over when asked for', async () => {
   assert.ok(out && deviation(out.data, ramp.data) < 1e-9);
 });
 
+test('arrays stay the caller\'s where options or shapes are refused', async () => {
+  /** @type {[object, RegExp][]} */
+  const refused = [
+    [{ nope: 1 }, /unknown option/],
+    [{ lambda: -1 }, /`lambda` is -1/],
+    [{ gap: 2 }, /`gap` is 2/],
+    [{ spacing: -1 }, /`spacing` is -1/],
+    [{ bridge: 99 }, /`bridge` is 99/],
+    [{ occlusionThreshold: 0 }, /`occlusionThreshold` is 0/],
+    [{ energy: 'nuclear', flatness: 0.3 }, /`flatness`/],
+    [{ schedule: 'paper', gap: 0.1 }, /`gap`/],
+  ];
+  const input = { ...ramp, data: ramp.data.slice(), mask: new Uint8Array(120).fill(1) };
+  for (const [options, message] of refused) {
+    await assert.rejects(developable.fit(input, { transfer: true, ...options }), { code: 'OPTION', message });
+    assert.deepEqual([input.data.length, input.mask.length], [120, 120], JSON.stringify(options));
+  }
+  const short = { ...input, mask: new Uint8Array(119) };
+  const shape = { code: 'SHAPE', message: /^mask: there are 119 values, and its shape of \d+ × \d+ \(rows × columns\) needs 120/ };
+  await assert.rejects(developable.fit(short, { transfer: true }), shape);
+  await assert.rejects(developable.open(short, { transfer: true }), shape);
+  assert.deepEqual([short.data.length, short.mask.length], [120, 119]);
+  const photo = { width: 8, height: 8, data: new Uint8Array(256).fill(255) };
+  const edges = { top: [[1, 1], [6, 1]], bottom: [[1, 6], [6, 6]] };
+  for (const call of [
+    ...[{ dots: 0 }, { grid: 0 }, { tolerance: 0 }, { crop: [[0, 0], [1, 1]] }, { extent: [0, 0, 0, 1] }].map((options) =>
+      () => developable.dewarp(ramp, photo, /** @type {any} */ ({ transfer: true, ...options }))),
+    ...[{ dots: -1 }, { focalLength: 0 }, { fieldOfView: -1 }, { film35: Infinity }, { accuracy: 0 }].map((options) =>
+      () => developable.dewarpPage(photo, /** @type {any} */ (edges), { transfer: true, ...options })),
+    ...[{ quality: 0 }, { quality: 101 }, { dotsPerMillimetre: 0 }].map((options) =>
+      () => developable.writePhoto(photo, { transfer: true, format: 'jpeg', ...options })),
+  ]) {
+    await assert.rejects(call(), { code: 'OPTION' });
+    assert.equal(photo.data.length, 256);
+  }
+  // Two calls cannot both have it.
+  const [first, second] = await Promise.allSettled([1, 2].map(() => developable.fit(input, { transfer: true })));
+  assert.equal(first.status, 'fulfilled');
+  assert.equal(second.status, 'rejected');
+  assert.match(second.status === 'rejected' ? second.reason.message : '', /no memory any more/);
+});
+
 test('files are read and written', async () => {
   const surface = await developable.fit(ramp);
   assert.ok(surface.image);

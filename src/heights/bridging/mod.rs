@@ -58,7 +58,7 @@ impl Bridging {
     ///
     /// # Errors
     /// [`Error::Option`] for a width out of range.
-    pub(crate) fn width(self) -> Result<usize> {
+    pub fn width(self) -> Result<usize> {
         match self {
             Bridging::Off => Ok(0),
             Bridging::UpTo(width) if (1..=WIDEST).contains(&width) => Ok(width),

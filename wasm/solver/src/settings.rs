@@ -2,6 +2,7 @@
 
 use wasm_bindgen::prelude::*;
 
+use developable::checks::positive;
 use developable::{Bridging, Energy, Normalization, Options, Schedule};
 use developable_wasm::Result;
 use developable_wasm::options::{entries, lambda, option, unknown};
@@ -81,6 +82,19 @@ impl Settings {
         })
     }
 
+    /// Whether they are right, as far as that does not depend on the input.
+    fn check(&self) -> Result<()> {
+        self.options.validate()?;
+        self.bridging.width()?;
+        if let Some(spacing) = self.spacing {
+            positive("spacing", spacing)?;
+        }
+        if let Some(threshold) = self.occlusion_threshold {
+            positive("occlusion_threshold", threshold)?;
+        }
+        Ok(())
+    }
+
     /// `OcclusionOptions` of `types.d.ts`.
     pub fn of_detection(options: &JsValue) -> Result<Settings> {
         let mut out = Settings::new(&JsValue::UNDEFINED)?;
@@ -102,6 +116,12 @@ impl Settings {
             && self.bridging == other.bridging
             && (self.occlusion_threshold.is_none() || self.normalization == other.normalization)
     }
+}
+
+/// Refuses options that no solve would take: before arrays are handed over to one.
+#[wasm_bindgen(js_name = checkOptions)]
+pub fn check_options(options: JsValue) -> Result<()> {
+    Settings::new(&options)?.check()
 }
 
 /// Whether the options start from the paper's setting, which the others then change.

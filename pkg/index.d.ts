@@ -63,8 +63,8 @@ export interface OpenFitOptions extends SolverOptions {
 
 export interface HandOver {
   /**
-   * Hand the buffers of the input, or of the photo, over to the worker instead of copying them (the caller loses them).
-   * Arrays that are only a part of their buffer are copied all the same.
+   * Hand the buffers of the input, or of the photo, over to the worker instead of copying them (the caller loses them,
+   * but not where an option or a shape is refused). Arrays that are only a part of their buffer are copied all the same.
    */
   transfer?: boolean;
 }

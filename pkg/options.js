@@ -130,7 +130,7 @@ const corners = {
 
 /** @type {Kind} */
 const several = {
-  must: 'must be a list of numbers',
+  must: 'must be a list of one or more numbers',
   take: (value) => {
     const list = Array.isArray(value) || ArrayBuffer.isView(value) ? Array.from(/** @type {ArrayLike<unknown>} */ (value)) : [];
     return list.length > 0 && list.every(Number.isFinite) ? list : undefined;

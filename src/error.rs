@@ -180,7 +180,7 @@ pub enum Error {
     /// More memory would be needed than the limit allows or the machine has.
     /// Raised before anything of that size is allocated.
     #[error(
-        "{what} needs {} cells, more than the limit of {}; use a coarser spacing or a smaller input",
+        "{what} needs {} cells, more than the limit of {}; use a coarser spacing, a lower resolution or a smaller input",
         count(*.requested), count(*.limit)
     )]
     TooLarge {

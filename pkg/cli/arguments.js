@@ -592,7 +592,7 @@ function isWord(value, ...words) {
 function choice(name, value, choices) {
   const chosen = choices.find((known) => isWord(value, known));
   if (chosen !== undefined) return chosen;
-  throw usage(`--${name} must be ${choices.join(' or ')}, but is ${show(value)}`);
+  throw usage(`--${name} must be ${choices.slice(0, -1).join(', ')} or ${choices.at(-1)}, but is ${show(value)}`);
 }
 
 /**

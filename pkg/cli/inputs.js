@@ -360,7 +360,7 @@ export async function about(path, read) {
     return await read();
   } catch (error) {
     if (error instanceof developable.DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/: readMesh reads it$/, '')}`);
+      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/^this file: |: readMesh reads it$/g, '')}`);
     }
     throw error;
   }

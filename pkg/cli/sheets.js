@@ -221,6 +221,21 @@ export async function drawn(drawing, extension) {
 }
 
 /**
+ * Refuses what is seen of a mesh if nothing says where in the photo that is: before it is fitted.
+ * @param {string} path
+ * @param {import('./inputs.js').Input} input
+ */
+function checkPlace(path, input) {
+  const { frame, camera, uvs } = /** @type {import('../types.js').Heightfield} */ (input);
+  if (frame === undefined || camera !== undefined || uvs !== undefined) return;
+  throw new Problem(
+    status.input,
+    `nothing says where in the photo the points of ${path} are: --photo-camera FILE gives the camera that took it; or take a mesh `
+      + 'with texture coordinates',
+  );
+}
+
+/**
  * @param {import('./arguments.js').DewarpTask} task
  * @param {AbortSignal} signal
  */
@@ -233,6 +248,7 @@ export async function dewarp(task, signal) {
   const seen = given && { width, height, orientation, wanted: task.crop, camera: elsewhere };
   const { surface, options } = await flattened({ ...task, photo: seen }, signal, (input) => {
     if (task.extension === '.pdf') checkUnit(input);
+    if (given !== undefined && photoCamera === undefined) checkPlace(task.input, input);
   });
   const cylinder = cylinderOf(surface);
   const photo = given ?? await textureOf(task.input, surface);

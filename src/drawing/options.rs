@@ -52,7 +52,11 @@ impl DrawingOptions {
     /// Whether all but scale and tabs can be.
     pub(super) fn check(&self) -> Result<()> {
         if let Some(marks) = self.marks.filter(|d| !(NEAREST..=MAX_SIZE).contains(d)) {
-            return Err(Error::option("marks", marks, "must be from 1 to 50000"));
+            return Err(Error::option(
+                "marks",
+                marks,
+                "must be from 1 to 50000, or 0 for none",
+            ));
         }
         for (name, value) in [("kerf", self.kerf), ("allowance", self.allowance)] {
             if !(0.0..=FARTHEST).contains(&value) {

@@ -102,10 +102,13 @@ impl<T: Readable + ?Sized> Readable for &T {
     }
 }
 
-/// A number that was computed, to about four significant digits.
+/// A number that was computed, to about four significant digits; to one if it is very large or small.
 pub fn rounded(value: f64) -> String {
     if !PLAIN_MAGNITUDES.contains(&value.abs()) {
-        return value.readable();
+        return match value.is_normal() {
+            true => format!("{value:.0e}"),
+            false => value.readable(),
+        };
     }
     // Not by way of its text: reading floats would cost each wasm file 15 kB.
     let scale = 10f64.powi(ROUNDED_DECIMALS - value.abs().log10().floor() as i32);
@@ -158,7 +161,7 @@ mod tests {
         assert_eq!(rounded(2.819_865_836_443_307), "2.82");
         assert_eq!(rounded(-0.000_123_456), "-0.0001235");
         assert_eq!(rounded(123_456.7), "123457");
-        assert_eq!(rounded(2e-201), "2e-201");
+        assert_eq!(rounded(100.0 * 1e-300), "1e-298");
         assert_eq!(rounded(f64::INFINITY), "infinity");
     }
 

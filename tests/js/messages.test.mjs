@@ -15,6 +15,8 @@ await direct.init();
 await direct.load('files', 'meshes', 'fitmesh', 'unroll', 'patterns');
 const folder = await temporaryFolder();
 await writeFile(join(folder, 'a.npy'), direct.writeNpy(image(16, 16, cylinder(16))));
+await writeFile(join(folder, 'words.txt'), 'some words');
+await writeFile(join(folder, 'p.png'), direct.writePng(image(16, 16, cylinder(16))));
 await writeFile(join(folder, 'm.obj'), direct.writeObj(lattice(12, 12, plane)));
 
 /** @type {Record<string, import('../../pkg/cli/flags.js').FlagInfo>} */
@@ -65,6 +67,9 @@ test('a flag without a value, and numbers that cannot be, are refused in plain w
     [['fit', 'a.npy', '-o', 'o.obj', '--intrinsics', '8,8,8,8,-1'], 2, /: scale of the camera \(--intrinsics or --photo-camera\) is -1, but/],
     [['fit', 'm.obj', '-o', 'o.obj', '--view', '0,0,0'], 2, /: --view is \[0, 0, 0\], but/],
     [['fit', 'm.obj', '-o', 'o.obj', '--view', '1e999,0,0'], 2, /: --view is \[Infinity, 0, 0\], but/],
+    [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--marks', '0.5'], 2, /: --marks is 0\.5, but must be from 1 to 50000, or 0 for none\n/],
+    [['fit', 'words.txt', '-o', 'o.npy'], 3, /^developable: words\.txt: a file of unknown format cannot be read; PNG/],
+    [['dewarp', 'm.obj', '--texture', 'p.png', '-o', 'o.png'], 3, /: nothing says where in the photo the points of m\.obj are: --photo-camera FILE/],
     [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--k-factor', '0.4'], 2, /: --inner-radius and --k-factor are .*: give --thickness, too\n/],
   ];
   for (const [args, status, message] of cases) {

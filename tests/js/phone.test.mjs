@@ -193,7 +193,7 @@ test('a curled page is a cylinder, found more exactly than any surface, and a de
   assert.deepEqual([forced.status, forced.report?.cylinder?.verdict], [0, 'other'], forced.stderr);
   assert.match(forced.stderr, /warning: the heights are not those of a cylinder/);
   assert.equal(wrong.status, 2);
-  assert.match(wrong.stderr, /--shape must be auto or cylinder or developable, but is "cone"/);
+  assert.match(wrong.stderr, /--shape must be auto, cylinder or developable, but is "cone"/);
   assert.match(unfitted.stderr, /--as-is takes the heights without a fit/);
 });
 

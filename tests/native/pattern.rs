@@ -454,7 +454,7 @@ fn what_no_cut_makes_flat_is_refused_with_its_place() {
     let patches = Patches::new(&rough, &PatchOptions::default()).unwrap();
     let error = pattern(&rough, &patches, &PatternOptions::default()).unwrap_err();
     assert_eq!(error.code(), "NOT_FLAT", "{error}");
-    assert!(error.to_string().contains("limit of 1.00 %"), "{error}");
+    assert!(error.to_string().contains("limit of 1 %"), "{error}");
 }
 
 /// What is cut, as pairs of the lengths on both sides, by the crease.

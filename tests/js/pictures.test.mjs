@@ -85,7 +85,7 @@ test('what cannot be drawn is an error with a code', async () => {
     [{ width: 0 }, 'OPTION', /`width`/],
     [{ width: 2 ** 31 }, 'TOO_LARGE', /picture/],
     [{ size: 3 }, 'OPTION', /size/],
-    [{ extent: [0, 0, 0, 1] }, 'EMPTY', /picture/],
+    [{ extent: [0, 0, 0, 1] }, 'OPTION', /`extent`.*left less than right/],
   ])) {
     assert.throws(() => direct.picture(input, options), { code, message });
     await assert.rejects(developable.picture(input, options), { code, message });

@@ -36,18 +36,18 @@ pub(super) struct Assembled {
     pub arrangement: Arrangement,
 }
 
-/// How long patches of a sheet are laid flat together, at most and until it hardly changes.
-pub(super) const EFFORT: StoppingCriteria = StoppingCriteria {
+/// Stopping criteria for laying the patches of a sheet flat together.
+pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-8,
     target_energy: 0.0,
     hopeless_energy: f64::INFINITY,
     max_steps: 25,
 };
 
-/// The same for patches that begin near to where they belong.
-const SETTLING: StoppingCriteria = StoppingCriteria {
+/// Stopping criteria for a sheet whose patches start near their final places.
+const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
     max_steps: 12,
-    ..EFFORT
+    ..SHEET_RELAXATION
 };
 
 /// What is wrong with a sheet.
@@ -153,10 +153,10 @@ pub(super) fn settle(
         let rough = leaves.clone().any(Leaf::is_rough);
         if rough || !are_close(net, layout, &folded) {
             let mut tied = Tied::new(net, layout, &members, &folded)?;
-            tied.relax(net, layout, SETTLING)?;
+            tied.relax(net, layout, SHEET_SETTLING)?;
             // Most lie well by now.
             if strains(net, &members).0.rms() > limit {
-                tied.relax(net, layout, EFFORT)?;
+                tied.relax(net, layout, SHEET_RELAXATION)?;
             }
         } else if folded.is_empty() {
             members.iter().for_each(|patch| net.lay_alone(*patch));

@@ -9,17 +9,17 @@ use crate::unroll::arap_mesh::{ArapMesh, BarycentricPoint, StoppingCriteria};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Sides that are no further apart, in spacings, need no joint unrolling.
-const CLOSE: f64 = 0.05;
+/// Maximum seam gap, in spacings, at which the sides of a fold count as joined, so that nothing is relaxed.
+const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 
-/// So many nodes beside the place where three patches meet are not tied: where more meet they are not
-/// where they should be.
-const LOOSE: usize = 1;
+/// Number of nodes at a seam's end that are not tied to the other side, where three patches meet: the place
+/// of a node there is inexact if more than three do.
+const UNTIED_END_NODES: usize = 1;
 
 /// Whether the sides of some folds lie on each other already.
 pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
     let mut folded = folded.iter();
-    folded.all(|seam| apart(net, layout, *seam) <= CLOSE * net.spacing)
+    folded.all(|seam| apart(net, layout, *seam) <= MAX_JOINED_GAP_SPACINGS * net.spacing)
 }
 
 /// The patches of a sheet as one mesh, tied along its folds.
@@ -76,7 +76,7 @@ impl Tied {
                 .get(k + 1)
                 .map_or(self.places.len(), |end| *end as usize);
             net.set_places(*patch, self.places[self.starts[k] as usize..end].to_vec());
-            layout.motions[*patch as usize] = Motion::NONE;
+            layout.motions[*patch as usize] = Motion::IDENTITY;
         }
         Ok(steps * self.places.len())
     }
@@ -94,9 +94,13 @@ pub(super) fn ties(
     for seam in folded {
         let seam = &net.seams[*seam];
         let last = seam.nodes.len() - 1;
-        let from = if is_triangle(seam.nodes[0]) { LOOSE } else { 0 };
+        let from = if is_triangle(seam.nodes[0]) {
+            UNTIED_END_NODES
+        } else {
+            0
+        };
         let to = match is_triangle(seam.nodes[last]) {
-            true => last.saturating_sub(LOOSE),
+            true => last.saturating_sub(UNTIED_END_NODES),
             false => last,
         };
         for node in seam.nodes.iter().take(to + 1).skip(from) {

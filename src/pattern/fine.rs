@@ -20,8 +20,8 @@ use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
 use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
 
-/// Vertices that are few enough to be cut as they are.
-const FEW: usize = 12_000;
+/// Maximum number of vertices of a surface that is cut without a coarse lattice first.
+const MAX_DIRECT_VERTICES: usize = 12_000;
 
 /// A surface and its patches on every second vertex.
 pub(super) struct Coarse {
@@ -36,7 +36,7 @@ impl Coarse {
     pub(super) fn new(surface: &Heightfield, patches: &Patches) -> Result<Option<Coarse>> {
         let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
         let fine = *surface.lattice();
-        if valid <= FEW || fine.rows() < 8 || fine.cols() < 8 {
+        if valid <= MAX_DIRECT_VERTICES || fine.rows() < 8 || fine.cols() < 8 {
             return Ok(None);
         }
         let lattice = coarse_lattice(&fine)?;
@@ -293,7 +293,7 @@ fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assem
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::{FINEST, PatternOptions, whole};
+    use crate::pattern::{DIRECT_OUTLINE_DETAIL, PatternOptions, whole};
     use crate::shape::patches::PatchOptions;
 
     #[test]
@@ -308,7 +308,13 @@ mod tests {
         let patches = Patches::new(&surface, &PatchOptions::default()).unwrap();
         let options = PatternOptions::default().max_strain(0.003);
         let coarse = Coarse::new(&surface, &patches).unwrap().unwrap();
-        let rough = whole(&coarse.surface, &coarse.patches, &options, FINEST).unwrap();
+        let rough = whole(
+            &coarse.surface,
+            &coarse.patches,
+            &options,
+            DIRECT_OUTLINE_DETAIL,
+        )
+        .unwrap();
         let parts = Parts::none(&surface, &options);
         let found = refined(&surface, &patches, &coarse, &rough, parts).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{reason}"));

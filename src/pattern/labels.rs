@@ -13,19 +13,20 @@ use rustc_hash::FxHashMap;
 
 use super::leaf::Leaf;
 
-/// Directions of a cut that are compared.
-const DIRECTIONS: usize = 16;
+/// Number of directions of a straight cut that are compared, evenly spaced over half a turn.
+const CUT_DIRECTIONS: usize = 16;
 
-/// A part of a cut patch with fewer vertices, or a smaller share of them, stays with what is beside
-/// it.
-const SCRAP: usize = 4;
-const SHARE: f64 = 0.03;
+/// Minimum number of vertices of a group on one side of a cut; a smaller one stays with its neighbour.
+const MIN_GROUP_VERTICES: usize = 4;
 
-/// The rise of an edge, over the spacing, that makes it a step.
-const STEEP: f64 = 4.0;
+/// Minimum size of a group on one side of a cut, as a share of the vertices of the part that is cut.
+const MIN_GROUP_SHARE: f64 = 0.03;
 
-/// How much the length of a cut counts beside what is left to bend in two directions.
-const LENGTH: f64 = 0.002;
+/// Minimum rise of an edge over the spacing at which the edge is a step of the surface.
+const MIN_STEP_SLOPE: f64 = 4.0;
+
+/// Weight of a cut's length in its score, beside the variance of the normals that is left on both sides.
+const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {
@@ -65,7 +66,7 @@ impl Labels {
             return Ok(None);
         }
         // Along steps, if there are any.
-        let steep = STEEP * lattice.spacing();
+        let steep = MIN_STEP_SLOPE * lattice.spacing();
         let level =
             |i: usize, k: usize| (surface.heights()[i] - surface.heights()[k]).abs() < steep;
         if let Some(parts) = self.try_cut(&lattice, part, &burden, |_| false, level) {
@@ -74,9 +75,10 @@ impl Labels {
         let samples: Vec<Sample> = (burden.iter())
             .map(|(i, square)| Sample::new(surface, *i, *square))
             .collect();
-        let mut lines: Vec<(f64, [f64; 3])> = (0..DIRECTIONS)
+        let mut lines: Vec<(f64, [f64; 3])> = (0..CUT_DIRECTIONS)
             .flat_map(|k| {
-                let (sin, cos) = (std::f64::consts::PI * k as f64 / DIRECTIONS as f64).sin_cos();
+                let (sin, cos) =
+                    (std::f64::consts::PI * k as f64 / CUT_DIRECTIONS as f64).sin_cos();
                 // Through the place of the strain, and through the middle of it all.
                 [2.0, 0.0].map(|power| {
                     let offset = median(&samples, [cos, sin], power);
@@ -118,7 +120,7 @@ impl Labels {
             numbers.extend(group.iter().map(|i| (*i, number)));
         }
         // Scraps stay with the largest group beside them.
-        let least = SCRAP.max((SHARE * burden.len() as f64) as usize);
+        let least = MIN_GROUP_VERTICES.max((MIN_GROUP_SHARE * burden.len() as f64) as usize);
         let mut order: Vec<usize> = (0..groups.len()).collect();
         order.sort_by_key(|g| Reverse(groups[*g].len()));
         let large: Vec<usize> = order
@@ -272,5 +274,5 @@ fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     });
     let total = samples.len() as f64;
     let balance = (sums[0].0 - sums[1].0).abs() / total;
-    (left[0] + left[1]) / total + LENGTH * length / total.sqrt() * (1.0 + balance)
+    (left[0] + left[1]) / total + CUT_LENGTH_WEIGHT * length / total.sqrt() * (1.0 + balance)
 }

@@ -10,11 +10,12 @@ pub(super) struct Arrangement {
     pub sheets: Vec<Vec<u32>>,
 }
 
-/// A seam whose sides are further apart in space, in spacings, is a tear.
-pub(super) const TORN: f64 = 0.5;
+/// Distance in space between the sides of a seam, in spacings, above which the seam is a tear.
+pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 
-/// A distance that the lattice cannot tell from none, in spacings.
-pub(super) const FINE: f64 = 0.25;
+/// Seam gap that the resolution of a surface cannot tell from none, in spacings of a lattice or edge lengths
+/// of a mesh.
+pub(super) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Makes folds of the seams whose sides fit within a share of their length, the longest first.
 pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
@@ -83,7 +84,7 @@ pub(super) fn beside(net: &Net, layout: &Layout, seam: usize) -> Motion {
 /// lattice can tell.
 pub(super) fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
     let most = gap * polyline_length(&net.seams[seam].sides[0]);
-    apart(net, layout, seam) <= most.max(FINE * net.spacing)
+    apart(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)
 }
 
 /// Root mean square of the distances between the sides of a seam.

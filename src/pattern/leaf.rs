@@ -6,7 +6,7 @@
 //! into each other as the surface does.
 
 use super::labels::Labels;
-use super::layout::TORN;
+use super::layout::MIN_TEAR_GAP_SPACINGS;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -16,8 +16,8 @@ use crate::shape::patches::extrapolate::extrapolated_height;
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::{UnrollOptions, unroll_mesh};
 
-/// A part with fewer vertices is not cut any more.
-pub(super) const CRUMB: usize = 24;
+/// Minimum number of vertices of a part that may be cut further.
+pub(super) const MIN_CUT_VERTICES: usize = 24;
 
 /// A part of the lattice, from an even row on, so that its rows are shifted alike.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,8 @@ impl Window {
         }
     }
 
-    const NOTHING: Window = Window {
+    /// The window without a vertex.
+    const EMPTY: Window = Window {
         top: usize::MAX,
         left: usize::MAX,
         bottom: 0,
@@ -72,7 +73,7 @@ impl Window {
 
     /// Around the vertices of each of `count` patches in this one, a cell larger.
     pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
-        let mut windows = vec![Window::NOTHING; count];
+        let mut windows = vec![Window::EMPTY; count];
         for i in self.vertices(lattice) {
             if let Some(window) = windows.get_mut(labels[i] as usize) {
                 let (row, col) = (i / lattice.cols(), i % lattice.cols());
@@ -217,7 +218,7 @@ impl Leaf {
             } else if !z.is_nan() && beside() {
                 let own = extrapolated_height(surface, of, patch, k);
                 // A step between parts of one patch is a tear, too.
-                let near = (z - own).abs() <= TORN * whole.spacing();
+                let near = (z - own).abs() <= MIN_TEAR_GAP_SPACINGS * whole.spacing();
                 let goes_on = labels.are_one(of[k], patch) && (near || own.is_nan());
                 *height = if goes_on { z } else { own };
             }
@@ -267,7 +268,7 @@ impl Leaf {
 
     /// Whether it is too small to be cut.
     pub(super) fn is_crumb(&self) -> bool {
-        self.size() < CRUMB
+        self.size() < MIN_CUT_VERTICES
     }
 
     /// Its triangles as they would lie by themselves, with the numbers of their corners. A triangle

@@ -1,7 +1,7 @@
 //! Points inside of the surface where cuts or folds end, and the angle of the surface around them.
 
 use super::labels::Labels;
-use super::net::{Net, Node, SPECK, is_triangle};
+use super::net::{FOUR_WAY_JUNCTION_RADIUS, Net, Node, is_triangle};
 use super::outline::Layout;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
@@ -11,17 +11,25 @@ use crate::math::union_find::UnionFind;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// Angles are measured within this distance, in spacings, or this share of the shortest line that ends there, ...
-const REACH: f64 = 20.0;
-const SHARE: f64 = 0.8;
+/// Maximum radius within which the angle around a point is measured, in spacings of a lattice or edge lengths
+/// of a mesh.
+pub(super) const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 
-/// ... and not at all within less, where the lattice cannot tell.
-const LEAST: f64 = 6.0;
+/// Maximum radius within which the angle around a point is measured, as a share of the shortest seam there.
+pub(super) const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
-/// Places on the ring around a point, so many times more of them beside creases, and on the way to each.
-const RING: usize = 180;
-const FINER: usize = 16;
-const WAY: usize = 12;
+/// Minimum radius at which the angle around a point is measured, in spacings of a lattice or edge lengths of a
+/// mesh: closer to the point the surface is blurred.
+pub(super) const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
+
+/// Number of evenly spaced directions of the ring around a point.
+const RING_DIRECTIONS: usize = 180;
+
+/// Number of directions of a ring that take the place of one beside a crease.
+const CREASE_REFINEMENT: usize = 16;
+
+/// Number of steps in which the path from a point to its ring is measured.
+const RADIAL_STEPS: usize = 12;
 
 /// A point inside of the surface where cuts or folds end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +83,10 @@ impl Meetings {
         // Where four patches meet, there are two nodes of three each.
         let long = |seam: usize| polyline_length(&net.seams[seam].sides[0]);
         let mut sets = UnionFind::new("pattern", nodes.len())?;
-        for seam in seams.iter().filter(|s| long(**s) <= SPECK * net.spacing) {
+        for seam in seams
+            .iter()
+            .filter(|s| long(**s) <= FOUR_WAY_JUNCTION_RADIUS * net.spacing)
+        {
             if let [Some(a), Some(b)] = ends(*seam).map(|node| of.get(&node)) {
                 sets.union(*a as u32, *b as u32);
             }
@@ -107,8 +118,9 @@ impl Meetings {
             net,
         };
         let all = found.iter().enumerate().map(|(number, found)| {
-            let reach = (REACH * net.spacing).min(SHARE * found.shortest);
-            if found.torn || found.count == 0.0 || reach < LEAST * net.spacing {
+            let reach =
+                (MAX_ANGLE_RADIUS_LENGTHS * net.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
+            if found.torn || found.count == 0.0 || reach < MIN_ANGLE_RADIUS_LENGTHS * net.spacing {
                 return None;
             }
             let place = found.sum.map(|sum| sum / found.count);
@@ -188,20 +200,22 @@ impl Around<'_> {
     /// its radius, and along both. That is exact for cones, thus where flat faces meet, and hardly depends on
     /// what is right at the place, which the lattice blurs. Nothing where a ring leaves the surface.
     fn angle(&self, place: [f64; 3], reach: f64) -> Option<f64> {
-        let even: Vec<f64> = (0..RING).map(|k| k as f64 / RING as f64).collect();
+        let even: Vec<f64> = (0..RING_DIRECTIONS)
+            .map(|k| k as f64 / RING_DIRECTIONS as f64)
+            .collect();
         let first = self.ring(place, 0.5 * reach, &even)?;
-        let mean = first.iter().map(|way| way.long).sum::<f64>() / RING as f64;
+        let mean = first.iter().map(|way| way.long).sum::<f64>() / RING_DIRECTIONS as f64;
         // As far in plan as it takes on the surface.
         let radius = 0.5 * reach * reach / mean;
         let coarse = self.ring(place, radius, &even)?;
         let finer = |k: usize| {
-            let steps = match coarse[k].creased || coarse[(k + 1) % RING].creased {
-                true => FINER,
+            let steps = match coarse[k].creased || coarse[(k + 1) % RING_DIRECTIONS].creased {
+                true => CREASE_REFINEMENT,
                 false => 1,
             };
-            (0..steps).map(move |i| (k as f64 + i as f64 / steps as f64) / RING as f64)
+            (0..steps).map(move |i| (k as f64 + i as f64 / steps as f64) / RING_DIRECTIONS as f64)
         };
-        let turns: Vec<f64> = (0..RING).flat_map(finer).collect();
+        let turns: Vec<f64> = (0..RING_DIRECTIONS).flat_map(finer).collect();
         let ring = self.ring(place, radius, &turns)?;
         let next = ring.iter().cycle().skip(1);
         let angles = ring.iter().zip(next).map(|(one, other)| {
@@ -225,13 +239,13 @@ impl Around<'_> {
                 half: (0.0, place),
                 creased: false,
             };
-            for step in 1..=WAY {
-                let away = radius * step as f64 / WAY as f64;
+            for step in 1..=RADIAL_STEPS {
+                let away = radius * step as f64 / RADIAL_STEPS as f64;
                 let [x, y] = [place[0] + away * cos, place[1] + away * sin];
                 let (z, creased) = self.height([x, y])?;
                 way.long += squared([x, y, z], way.place).sqrt();
                 (way.place, way.creased) = ([x, y, z], creased);
-                if 2 * step == WAY {
+                if 2 * step == RADIAL_STEPS {
                     way.half = (way.long, way.place);
                 }
             }

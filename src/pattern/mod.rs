@@ -290,16 +290,19 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("gap", options.gap)?;
     positive("maxStrain", options.max_strain)?;
-    drawn(surface, &whole(surface, patches, options, FINEST)?)
+    drawn(
+        surface,
+        &whole(surface, patches, options, DIRECT_OUTLINE_DETAIL)?,
+    )
 }
 
-/// What a sheet may be strained by on a coarse lattice, as shares of the limit: less where that was too
-/// much on the fine one.
-const MARGINS: [f64; 2] = [0.9, 0.7];
+/// Strain limits on a coarse lattice, as shares of the limit on the fine one, tried in this order: the next is
+/// used where sheets were strained too much on the fine lattice.
+const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
 
-/// The finest thing of outlines, in spacings, where nothing is refined: where larger loops are cut off, both sides
-/// of a joint differ.
-const FINEST: f64 = 0.4;
+/// Smallest detail of outlines, in spacings, on a lattice that is not refined: if larger loops are cut off, the
+/// two sides of a joint differ.
+const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
 
 /// Cuts and joins on a coarse lattice where there are many vertices.
 fn whole(
@@ -310,7 +313,7 @@ fn whole(
 ) -> Result<Assembled> {
     if let Some(coarse) = Coarse::new(surface, patches)? {
         finest = 1.0;
-        for margin in MARGINS {
+        for margin in COARSE_STRAIN_SHARES {
             let stricter = options.max_strain(margin * options.max_strain);
             let rough = match whole(&coarse.surface, &coarse.patches, &stricter, finest) {
                 Err(Error::NotFlat { .. }) => break,
@@ -363,7 +366,8 @@ fn direct(
         // Numbers change as parts go: from the last one on.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
-            let gone = rounds <= ROUNDS && (parts.give_away(part)? || parts.leave_out(part)?);
+            let gone =
+                rounds <= MAX_MERGE_ROUNDS && (parts.give_away(part)? || parts.leave_out(part)?);
             if !gone {
                 return Err(parts.refused(part, reason));
             }
@@ -371,5 +375,5 @@ fn direct(
     }
 }
 
-/// How often parts are cut further once they were put together.
-const ROUNDS: usize = 24;
+/// Maximum number of rounds in which parts that are too small to be cut are merged or left out.
+const MAX_MERGE_ROUNDS: usize = 24;

@@ -13,7 +13,8 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    pub(super) const NONE: Motion = Motion {
+    /// The motion that leaves every point where it is.
+    pub(super) const IDENTITY: Motion = Motion {
         turn: Point::new(1.0, 0.0),
         shift: Point::new(0.0, 0.0),
     };
@@ -39,7 +40,7 @@ impl Motion {
         let turn: Point = pairs.map(|(p, q)| (p - here).conj() * (q - there)).sum();
         let turn = match turn.norm() > 0.0 {
             true => turn / turn.norm(),
-            false => Motion::NONE.turn,
+            false => Motion::IDENTITY.turn,
         };
         Motion {
             turn,
@@ -66,14 +67,14 @@ pub(super) struct Corner {
     pub patch: u32,
 }
 
-/// Corners of one line closer together than this may cross, for they are at the end of a slit.
-const SLIT: usize = 8;
+/// Maximum number of corners between two pieces of one outline that may cross, because a slit ends there.
+const SLIT_END_CORNERS: usize = 8;
 
 impl Layout {
     /// Every patch by itself.
     pub(super) fn loose(net: &Net) -> Layout {
         Layout {
-            motions: vec![Motion::NONE; net.leaves.len()],
+            motions: vec![Motion::IDENTITY; net.leaves.len()],
             folded: vec![false; net.seams.len()],
         }
     }
@@ -180,7 +181,7 @@ impl Layout {
         crossings(&places, &edges).into_iter().any(|[a, b]| {
             let ((one, i), (other, k)) = (positions[a], positions[b]);
             let apart = i.abs_diff(k);
-            one != other || apart.min(outlines[one].len() - apart) > SLIT
+            one != other || apart.min(outlines[one].len() - apart) > SLIT_END_CORNERS
         })
     }
 }

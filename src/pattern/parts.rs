@@ -5,27 +5,27 @@ use std::collections::BTreeMap;
 
 use super::PatternOptions;
 use super::labels::Labels;
-use super::leaf::{CRUMB, Leaf, Window};
+use super::leaf::{Leaf, MIN_CUT_VERTICES, Window};
 use super::trim::{Trouble, specks};
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
 
-/// So many parts are no pattern to be built.
-const MOST: usize = 1500;
+/// Maximum number of parts of a surface: nobody puts together a pattern of more.
+const MAX_PARTS: usize = 1500;
 
-/// So many of those beside a crumb are tried.
-const CANDIDATES: usize = 3;
+/// Maximum number of neighbours that a small part is tried to be merged with.
+const MAX_MERGE_CANDIDATES: usize = 3;
 
-/// The share of the surface's vertices that may be left out.
-const LEFT_OUT: f64 = 0.02;
+/// Maximum share of the surface's vertices that may be left out.
+const MAX_OMITTED_SHARE: f64 = 0.02;
 
-/// So often specks are left out of sheets, each time of which these are laid flat anew.
-const OFTEN: usize = 8;
+/// Maximum number of times border specks are removed from sheets; each removal flattens the sheets again.
+const MAX_TRIM_ROUNDS: usize = 8;
 
-/// What cannot be cut and has no more vertices may be left out.
-const SCRAP: usize = 4 * CRUMB;
+/// Maximum number of vertices that may be left out at once, of a part that cannot be cut.
+const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
 /// A part as it would be with another one: its number, and how it would lie.
 type Enlarged = (u32, Option<Leaf>);
@@ -51,7 +51,7 @@ pub(super) struct Parts {
 
 fn most_left_out(surface: &Heightfield) -> usize {
     let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
-    (LEFT_OUT * valid as f64) as usize
+    (MAX_OMITTED_SHARE * valid as f64) as usize
 }
 
 impl Parts {
@@ -209,8 +209,9 @@ impl Parts {
             self.leaves[part as usize] = Some(leaf);
             return Ok(false);
         };
-        if self.labels.origins.len() > MOST {
-            let reason = format!("the surface would have to be cut into more than {MOST} parts");
+        if self.labels.origins.len() > MAX_PARTS {
+            let reason =
+                format!("the surface would have to be cut into more than {MAX_PARTS} parts");
             return Err(self.refused(part, reason));
         }
         let region = self.windows[part as usize];
@@ -243,7 +244,7 @@ impl Parts {
         let own = self.members(part);
         let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
         beside.sort_by_key(|(other, count)| Reverse((self.labels.are_one(*other, part), *count)));
-        beside.truncate(CANDIDATES);
+        beside.truncate(MAX_MERGE_CANDIDATES);
         for (other, _) in beside {
             if let Some((number, leaf)) = self.enlarged(other, part, &own)? {
                 self.leaves[number as usize] = leaf;
@@ -318,7 +319,7 @@ impl Parts {
     pub(super) fn specks(&self, part: u32, leaf: &Leaf, trouble: Trouble) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
         let found = || specks(lattice, &self.labels, part, leaf, trouble, self.scrap());
-        (self.trims < OFTEN).then(found).flatten()
+        (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
     /// Leaves out specks of a part; what goes on into it or is beside it stays where it lies.
@@ -340,7 +341,7 @@ impl Parts {
 
     /// So many vertices may be left out at once.
     fn scrap(&self) -> usize {
-        SCRAP.min(self.most_left_out.saturating_sub(self.left_out))
+        MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
     }
 
     fn without(&mut self, vertices: Vec<usize>) -> Result<()> {

@@ -13,8 +13,8 @@ use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::FlatTriangle;
 
-/// StoppingCriteria nothing moves.
-const EFFORT: StoppingCriteria = StoppingCriteria {
+/// Stopping criteria for folding a sheet back into space.
+const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-12,
     target_energy: 0.0,
     hopeless_energy: f64::INFINITY,
@@ -44,7 +44,7 @@ pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<R
     let ties = ties(net, patches, &starts, folded);
     let built = places.clone();
     let joint = ArapMesh::new(places.len(), pieces, ties)?;
-    joint.minimise_in_space(&mut places, EFFORT)?;
+    joint.minimise_in_space(&mut places, REFOLDING_RELAXATION)?;
     let strain = joint.strain_in_space(&places);
     register(&mut places, &built);
     let away = places.iter().zip(&built).zip(&own);
@@ -76,7 +76,7 @@ fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
         .map(|(p, q)| (q - there) * (p - here).transpose())
         .sum();
     let mut turn = Rotation3::identity();
-    for _ in 0..TURNS {
+    for _ in 0..MAX_ROTATION_ITERATIONS {
         let columns = (0..3).map(|k| (turn.matrix().column(k).into_owned(), spread.column(k)));
         let (mut axis, mut along) = (Vector3::zeros(), 0.0);
         for (own, wanted) in columns {
@@ -94,8 +94,8 @@ fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     }
 }
 
-/// How often the turn is looked at.
-const TURNS: usize = 50;
+/// Maximum number of iterations for the rotation that registers two point sets.
+const MAX_ROTATION_ITERATIONS: usize = 50;
 
 #[cfg(test)]
 mod tests {

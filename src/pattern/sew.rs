@@ -3,34 +3,34 @@
 
 use std::collections::VecDeque;
 
-use super::assembly::{EFFORT, fault, folded};
+use super::assembly::{SHEET_RELAXATION, fault, folded};
 use super::check::{Tied, are_close, strain_along, strains};
-use super::layout::{Arrangement, FINE, apart, beside, fits, longest_first};
+use super::layout::{Arrangement, NEGLIGIBLE_GAP_LENGTHS, apart, beside, fits, longest_first};
 use super::net::Net;
 use crate::error::Result;
 use crate::math::planar::polyline_length;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
-/// The share of the limit that sheets are strained by at most where a crease is closed, unless the sheets beside it
-/// are strained more already.
-const CREASE: f64 = 0.1;
+/// Maximum strain of a sheet in which a crease is closed, as a share of the limit, unless the sheets beside the
+/// crease are strained more already.
+const CREASE_STRAIN_SHARE: f64 = 0.1;
 
-/// What the mean of a sheet's squared strains may grow by, in squares of the limit, for a length that is closed as long
-/// as the side of a square of its size: what is cheap to close is not left open for what is dear.
-const PRICE: f64 = 0.5;
+/// Growth of a sheet's mean squared strain that a closed seam is worth, in squares of the limit, for a seam as
+/// long as the side of a square of the sheet's area.
+const STRAIN_PER_CLOSED_LENGTH: f64 = 0.5;
 
-/// How many times the limit what lies right beside a cut that is closed may be strained by.
-const BESIDE: f64 = 2.0;
+/// Maximum strain right beside a closed seam, as a multiple of the limit for the sheet.
+const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 
-/// A seam that cannot be closed is halved and tried again down to so many nodes.
-const SHORTEST: usize = 12;
+/// Minimum number of nodes of the halves of a seam that is divided because it cannot be closed as a whole.
+const MIN_HALVED_SEAM_NODES: usize = 12;
 
-/// Steps for each vertex that all trials may take together.
-const WORK: usize = 800;
+/// Maximum number of relaxation steps of all trials together, for each vertex of the pattern.
+const STEP_BUDGET_PER_VERTEX: usize = 800;
 
-/// How far above the limit, in terms of the energy, a trial is given up where it hardly gets better.
-const FAR: f64 = 1.6;
+/// Energy, as a multiple of that at the strain limit, above which a trial is given up where it hardly improves.
+const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
 /// Closes seams, the longest first, and parts of those that cannot be closed as a whole.
 pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> Result<()> {
@@ -46,7 +46,7 @@ pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> 
         .flatten()
         .map(|leaf| leaf.places().len())
         .sum();
-    let mut budget = WORK * vertices;
+    let mut budget = STEP_BUDGET_PER_VERTEX * vertices;
     while let Some(seam) = pending.pop_front() {
         if budget == 0 {
             break;
@@ -55,7 +55,7 @@ pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> 
             continue;
         }
         let nodes = net.seams[seam].nodes.len();
-        if nodes < 2 * SHORTEST || !net.seams[seam].smooth {
+        if nodes < 2 * MIN_HALVED_SEAM_NODES || !net.seams[seam].smooth {
             continue;
         }
         let other = net.divide(seam, nodes / 2);
@@ -89,7 +89,7 @@ fn zip(net: &mut Net, arrangement: &mut Arrangement, limit: f64) {
             let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
             let pairs = one.iter().zip(&other);
             let near: Vec<bool> = pairs
-                .map(|(p, q)| (p - q).norm() <= FINE * net.spacing)
+                .map(|(p, q)| (p - q).norm() <= NEGLIGIBLE_GAP_LENGTHS * net.spacing)
                 .collect();
             let parts = net.divide_where(seam, &near);
             layout.folded.resize(net.seams.len(), false);
@@ -152,18 +152,21 @@ fn closed(
         true => {
             let now = strains(net, &members).0;
             let share = polyline_length(&net.seams[seam].sides[0]) / now.area.sqrt();
-            (now.rms().powi(2) + PRICE * share * limit * limit)
+            (now.rms().powi(2) + STRAIN_PER_CLOSED_LENGTH * share * limit * limit)
                 .sqrt()
                 .min(limit)
         }
         false => {
             let sheets = [a, b].map(|sheet| strains(net, &arrangement.sheets[sheet]).0.rms());
-            (CREASE * limit).max(sheets[0]).max(sheets[1]).min(limit)
+            (CREASE_STRAIN_SHARE * limit)
+                .max(sheets[0])
+                .max(sheets[1])
+                .min(limit)
         }
     };
     let until = StoppingCriteria {
-        hopeless_energy: FAR * 2.0 * most * most,
-        ..EFFORT
+        hopeless_energy: HOPELESS_STRAIN_FACTOR * 2.0 * most * most,
+        ..SHEET_RELAXATION
     };
     let joined = !are_close(net, &layout, &ties);
     if joined {
@@ -171,9 +174,9 @@ fn closed(
         let work = sheet.relax(net, &mut layout, until)?;
         *budget = budget.saturating_sub(work);
     }
-    let tight = |seam: &usize| apart(net, &layout, *seam) <= FINE * net.spacing;
+    let tight = |seam: &usize| apart(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
     // A small place that is strained much would hardly show in the whole.
-    let even = strain_along(net, seam) <= BESIDE * limit;
+    let even = strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit;
     if even && ties.iter().all(tight) && fault(net, &layout, &members, most).is_none() {
         arrangement.layout = layout;
         arrangement.sheets[a] = members;

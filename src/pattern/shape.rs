@@ -2,19 +2,19 @@
 
 use super::line::{meeting, sharpened, simplified, simplified_ring};
 use super::meeting::Meetings;
-use super::net::{BACK, Net, SPECK, is_triangle};
+use super::net::{FOUR_WAY_JUNCTION_RADIUS, HEADING_NODES, Net, is_triangle};
 use super::outline::{Corner, Layout};
 use super::simple::{Runs, without_loops};
 use super::{Fold, Run, Seam};
 use crate::math::planar::polyline_length;
 use crate::unroll::flat_triangle::Point;
 
-/// How far a plain line may be from the line, in spacings.
-const TOLERANCE: f64 = 0.02;
+/// Maximum distance between a line and its simplification, in spacings.
+const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 
-/// What the middles of a border's edges cut off its corners is no longer than this, in lengths of
-/// the longest edge.
-const SHORT: f64 = 1.1;
+/// Maximum length of the border piece that cuts off a corner, as a multiple of the longest edge there. Such a
+/// piece arises because the border joins the middles of edges.
+const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
 /// A seam, and the one of its patches that is beside it.
 pub(crate) type Side = (usize, u32);
@@ -45,7 +45,7 @@ pub(super) fn outlines(
         let away = |corner: &Point| (corner - place).norm();
         let here = corners
             .iter()
-            .filter(|(corner, _)| away(corner) <= SPECK * net.spacing);
+            .filter(|(corner, _)| away(corner) <= FOUR_WAY_JUNCTION_RADIUS * net.spacing);
         let here = here.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
         here.map(|(_, meeting)| *meeting)
     };
@@ -84,7 +84,10 @@ pub(super) fn folds(
         let nodes = &net.seams[number].nodes;
         let last = points.len() - 1;
         if nodes[0] != nodes[last] {
-            for (end, back) in [(0, BACK.min(last)), (last, last.saturating_sub(BACK))] {
+            for (end, back) in [
+                (0, HEADING_NODES.min(last)),
+                (last, last.saturating_sub(HEADING_NODES)),
+            ] {
                 if !is_triangle(nodes[end]) {
                     points[end] = reached(points[end], points[back], outlines, net.spacing);
                 }
@@ -93,10 +96,15 @@ pub(super) fn folds(
         Fold {
             seam: seam(number),
             ends: [nodes[0], nodes[last]].map(|node| meetings.at(node)),
-            points: pairs(&simplified(&points, TOLERANCE * net.spacing)),
+            points: pairs(&simplified(
+                &points,
+                SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing,
+            )),
         }
     };
-    let long = |number: &usize| polyline_length(&net.seams[*number].sides[0]) > SPECK * net.spacing;
+    let long = |number: &usize| {
+        polyline_length(&net.seams[*number].sides[0]) > FOUR_WAY_JUNCTION_RADIUS * net.spacing
+    };
     (0..net.seams.len())
         .filter(|number| own(number) && long(number))
         .map(fold)
@@ -122,7 +130,7 @@ fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Poin
 
 /// A closed line as runs along one side of one seam each, or along the border.
 fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
-    let tolerance = TOLERANCE * net.spacing;
+    let tolerance = SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing;
     let n = line.len();
     let kind = |i: usize| {
         let Corner { seam, patch, .. } = line[i % n];
@@ -192,7 +200,7 @@ fn meet(net: &Net, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: u
             }
         };
         let corners = turned(&groups[other].1, starts);
-        let back = BACK.min(corners.len() - 1);
+        let back = HEADING_NODES.min(corners.len() - 1);
         let [from, end] = [&corners[back], &corners[0]];
         let place = net.end([from.node, end.node], [from.place, end.place]);
         let (mut seam, mut border) = (runs[other].1.clone(), runs[k].1.clone());
@@ -225,7 +233,7 @@ fn places(corners: &[Corner]) -> Vec<Point> {
 fn short(corners: &[Corner]) -> f64 {
     let next = vertices(corners).skip(1);
     let edges = vertices(corners).zip(next).map(|(p, q)| (q - p).norm());
-    SHORT * edges.fold(0.0, f64::max)
+    MAX_CHAMFER_LENGTH_FACTOR * edges.fold(0.0, f64::max)
 }
 
 /// The vertices among the corners, for a border goes from one to the next.

@@ -5,12 +5,14 @@ use crate::math::planar::{line_intersection, polygon_area, polygon_perimeter};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// A loop goes if it encloses at most this, in squared spacings, and is at most so long, in spacings.
-const AREA: f64 = 6.0;
-const LENGTH: f64 = 60.0;
+/// Maximum area, in squared spacings, of a loop that is cut off a line.
+const MAX_LOOP_AREA: f64 = 6.0;
 
-/// How often lines are looked at.
-const PASSES: usize = 8;
+/// Maximum length, in spacings, of a loop that is cut off a line.
+const MAX_LOOP_LENGTH: f64 = 60.0;
+
+/// Maximum number of passes over a line in which its loops are cut off.
+const MAX_LOOP_PASSES: usize = 8;
 
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
@@ -24,7 +26,7 @@ pub(crate) fn without_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
         line.extend(own.iter().map(|place| (*place, number)));
     }
     let mut loops = 0;
-    for _ in 0..PASSES {
+    for _ in 0..MAX_LOOP_PASSES {
         let Some((next, count)) = pass(&line, spacing) else {
             break;
         };
@@ -81,7 +83,8 @@ fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, u
         });
         let [one, other] = loops;
         let (area, length, end, inner) = if one.1 < other.1 { one } else { other };
-        let small = area <= AREA * spacing * spacing && length <= LENGTH * spacing;
+        let small =
+            area <= MAX_LOOP_AREA * spacing * spacing && length <= MAX_LOOP_LENGTH * spacing;
         if small && inner.iter().all(|k| !gone[*k]) && instead[end].is_none() {
             inner.iter().for_each(|k| gone[*k] = true);
             instead[end] = Some(at);

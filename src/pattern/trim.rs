@@ -3,17 +3,14 @@
 
 use super::labels::{Labels, hanging_together};
 use super::leaf::Leaf;
-use crate::lattice::hexagonal::Lattice;
+use crate::lattice::hexagonal::{Lattice, NEIGHBOURS};
 use rustc_hash::FxHashMap;
 
-/// The share of a part's vertices that a speck has at most.
-const SHARE: f64 = 0.002;
+/// Maximum number of vertices of a speck, as a share of its part's.
+const MAX_SPECK_SHARE: f64 = 0.002;
 
-/// Those of a vertex inside a lattice.
-const NEIGHBOURS: usize = 6;
-
-/// What a part without its specks is to be strained by at most, as a share of the limit.
-const REST: f64 = 0.5;
+/// Maximum strain of a part after its specks were removed, as a share of the limit.
+const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 
 /// What the vertices that are left out are to rid a part of.
 #[derive(Debug, Clone, Copy)]
@@ -35,9 +32,11 @@ pub(super) fn specks(
     most: usize,
 ) -> Option<Vec<usize>> {
     let burden = leaf.burden(lattice);
-    let most = most.min((SHARE * burden.len() as f64) as usize);
+    let most = most.min((MAX_SPECK_SHARE * burden.len() as f64) as usize);
     let speck: FxHashMap<usize, ()> = match trouble {
-        Trouble::Strain(limit) => heaviest(&burden, REST * limit / leaf.strain().rms()),
+        Trouble::Strain(limit) => {
+            heaviest(&burden, TRIMMED_STRAIN_SHARE * limit / leaf.strain().rms())
+        }
         Trouble::Flipped => leaf.flipped(lattice),
     }
     .into_iter()
@@ -53,7 +52,7 @@ pub(super) fn specks(
     let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
     let is_outermost = |i: usize| {
         let own = lattice.around(i).filter(|k| labels.of[*k] == part);
-        own.count() < NEIGHBOURS
+        own.count() < NEIGHBOURS.len()
     };
     let specks = together(&|i| speck.contains_key(&i));
     let at_border = |group: &Vec<usize>| group.iter().any(|i| is_outermost(*i));

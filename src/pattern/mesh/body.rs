@@ -14,8 +14,8 @@ use rustc_hash::FxHashMap;
 
 pub(super) type Place = Vector3<f64>;
 
-/// A vertex nearer to a plane than this, in lengths of edges, lies on it.
-const ON: f64 = 0.1;
+/// Distance from a plane, in edge lengths, below which a vertex lies on the plane.
+const PLANE_TOLERANCE_LENGTHS: f64 = 0.1;
 
 #[derive(Debug, Clone)]
 pub(super) struct Body {
@@ -157,7 +157,7 @@ impl Body {
         for t in &members {
             for v in self.triangles[*t as usize] {
                 let height = plane.normal.dot(&(self.places[v as usize] - plane.through));
-                let on = height.abs() < ON * self.spacing;
+                let on = height.abs() < PLANE_TOLERANCE_LENGTHS * self.spacing;
                 heights.insert(v, if on { 0.0 } else { height });
             }
         }
@@ -226,8 +226,9 @@ impl Body {
     }
 }
 
-/// The angles around a vertex make up a full turn but for this, in radians, where the surface may be laid flat.
-const FULL: f64 = 0.3;
+/// Maximum difference between the angles around a vertex and a full turn, in radians, where the surface may be
+/// laid flat.
+const MAX_ANGLE_DEFECT: f64 = 0.3;
 
 impl Body {
     /// Which vertices are tips: one side of a seam through them fits at most.
@@ -239,7 +240,7 @@ impl Body {
                 turns[corners[k] as usize] += (b - a).angle(&(c - a));
             }
         }
-        let missing = |turn: &f64| (TAU - turn).abs() > FULL;
+        let missing = |turn: &f64| (TAU - turn).abs() > MAX_ANGLE_DEFECT;
         turns.iter().map(missing).collect()
     }
 

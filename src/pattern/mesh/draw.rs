@@ -200,8 +200,8 @@ fn laid_source(laid: &Laid, side: u32, end: u32) -> u32 {
     laid.source[laid.triangles[t][((side + end) % 3) as usize] as usize]
 }
 
-/// So many triangles are tried as a place to write on.
-const TRIED: usize = 200;
+/// Maximum number of triangles of a part that are compared as the place of its label.
+const MAX_LABEL_CANDIDATES: usize = 200;
 
 /// The middle of a triangle far from the border of its part.
 fn spot(body: &Body, laid: &Laid, part: u32) -> Spot {
@@ -228,7 +228,7 @@ fn spot(body: &Body, laid: &Laid, part: u32) -> Spot {
         });
         away.fold(f64::INFINITY, f64::min)
     };
-    let tried = own.iter().step_by(own.len().div_ceil(TRIED));
+    let tried = own.iter().step_by(own.len().div_ceil(MAX_LABEL_CANDIDATES));
     let best = tried
         .map(|t| (room(middle(*t)), middle(*t)))
         .max_by(|a, b| a.0.total_cmp(&b.0));

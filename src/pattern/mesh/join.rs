@@ -4,6 +4,7 @@ use super::body::Body;
 use super::lay::{Laid, Lying};
 use super::seams::Seams;
 use crate::error::Result;
+use crate::pattern::layout::NEGLIGIBLE_GAP_LENGTHS;
 use crate::pattern::outline::Motion;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
@@ -18,15 +19,15 @@ pub(super) struct Limits {
     pub until: StoppingCriteria,
 }
 
-/// While parts are cut and joined they are relaxed to such a share of the strain that is allowed.
-const ENOUGH: f64 = 0.8;
+/// Strain at which the relaxation of a part that may still be cut or joined stops, as a share of the limit.
+const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
 impl Limits {
     /// For what may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
         StoppingCriteria {
             // Of the two principal strains the energy has the sum of the squares.
-            target_energy: 2.0 * (ENOUGH * self.strain).powi(2),
+            target_energy: 2.0 * (TRIAL_STRAIN_SHARE * self.strain).powi(2),
             ..self.until
         }
     }
@@ -36,9 +37,6 @@ impl Limits {
         laid.strain <= self.strain && !laid.overlaps()
     }
 }
-
-/// A distance that triangles cannot tell from none, in lengths of edges.
-const FINE: f64 = 0.25;
 
 /// Parts laid flat together.
 #[derive(Debug, Clone)]
@@ -260,7 +258,7 @@ impl<'a> Both<'a> {
             .map(|(p, q)| (p - q).norm_sqr())
             .sum();
         let apart = (squares / one.len() as f64).sqrt();
-        let most = (limits.gap * seams.all[seam].length).max(FINE * body.spacing);
+        let most = (limits.gap * seams.all[seam].length).max(NEGLIGIBLE_GAP_LENGTHS * body.spacing);
         (apart <= most).then_some(apart)
     }
 
@@ -284,7 +282,7 @@ impl<'a> Both<'a> {
         if rough.overlaps() {
             return Ok(None);
         }
-        let laid = match rough.strain <= ENOUGH * limits.strain {
+        let laid = match rough.strain <= TRIAL_STRAIN_SHARE * limits.strain {
             true => rough,
             false => {
                 let laid = rough.relaxed(body, limits.trial())?;

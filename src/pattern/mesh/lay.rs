@@ -29,8 +29,8 @@ pub(super) struct Laid {
     pub worst: usize,
 }
 
-/// The share of triangles that may be set apart, where the border crosses itself.
-const SPECKS: f64 = 0.01;
+/// Maximum share of a part's triangles that may be removed where its border crosses itself.
+const MAX_REMOVED_SHARE: f64 = 0.01;
 
 /// Where triangles lie at first.
 pub(super) enum Lying<'a> {
@@ -40,11 +40,11 @@ pub(super) enum Lying<'a> {
     At(&'a dyn Fn(u32) -> Point),
 }
 
-/// Steps before triangles may be given up.
-const START: usize = 40;
+/// Number of relaxation steps before a part may be given up.
+const UNCONDITIONAL_STEPS: usize = 40;
 
-/// In how many steps it shows whether triangles lie flat.
-pub(super) const TRIAL: usize = 12;
+/// Number of relaxation steps after which trial cuts of a part are compared.
+pub(super) const TRIAL_STEPS: usize = 12;
 
 impl Laid {
     /// Triangles in the plane, by what is on the other side of their sides, [`NO_INDEX`] where they are cut.
@@ -119,12 +119,12 @@ impl Laid {
         let joint = ArapMesh::new(self.places.len(), whole, Vec::new())?;
         // Steps that hardly change anything say little before what is wrong at one end has come to the other.
         let start = StoppingCriteria {
-            max_steps: until.max_steps.min(START),
+            max_steps: until.max_steps.min(UNCONDITIONAL_STEPS),
             hopeless_energy: f64::INFINITY,
             ..until
         };
         let steps = joint.minimise_in_plane(&mut self.places, start)?;
-        if steps == START && until.max_steps > START {
+        if steps == UNCONDITIONAL_STEPS && until.max_steps > UNCONDITIONAL_STEPS {
             joint.minimise_in_plane(&mut self.places, until)?;
         }
         self.measure(pieces);
@@ -212,7 +212,7 @@ impl Laid {
     /// The few triangles, at places where the border crosses itself, without which it does not; none if they
     /// would be many, or that does not help.
     pub(super) fn specks(&self) -> Vec<u32> {
-        let most = (SPECKS * self.members.len() as f64).ceil() as usize;
+        let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
         let mut left = self.clone();
         let mut specks = Vec::new();
         loop {
@@ -286,7 +286,7 @@ impl Laid {
 
     /// Whether the middle of a triangle lies on another one: by how often the border runs around it.
     fn covers_itself(&self, border: &[[u32; 2]]) -> bool {
-        let step = self.triangles.len().div_ceil(PROBES);
+        let step = self.triangles.len().div_ceil(MAX_OVERLAP_PROBES);
         (self.triangles.iter().step_by(step)).any(|corners| {
             let middle = corners
                 .iter()
@@ -329,8 +329,8 @@ fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {
     FlatTriangle::from_points(corners.map(|v| body.places[v as usize].into()))
 }
 
-/// So many triangles are asked whether others lie on them.
-const PROBES: usize = 60;
+/// Maximum number of triangles whose middles are tested for lying on another triangle.
+const MAX_OVERLAP_PROBES: usize = 60;
 
 /// The corner opposite a side, where that goes from 0 to 1.
 fn third(piece: &FlatTriangle, side: usize) -> Point {

@@ -7,14 +7,9 @@ use super::body::Body;
 use super::join::Joined;
 use super::seams::{Seam, Seams};
 use crate::pattern::Meeting;
-
-/// Angles are measured within this distance, in lengths of edges, or this share of the shortest line that
-/// ends there, ...
-const REACH: f64 = 20.0;
-const SHARE: f64 = 0.8;
-
-/// ... and not at all within less, where smooth lines may be drawn otherwise, but for lines of one edge.
-const LEAST: f64 = 6.0;
+use crate::pattern::meeting::{
+    ANGLE_RADIUS_SHARE, MAX_ANGLE_RADIUS_LENGTHS, MIN_ANGLE_RADIUS_LENGTHS,
+};
 
 /// All of them, by the body's vertices.
 pub(super) struct Meetings {
@@ -71,8 +66,9 @@ impl Meetings {
         }
         let around = Around::new(body);
         let meeting = |(vertex, found): (u32, Found)| {
-            let reach = (REACH * body.spacing).min(SHARE * found.shortest);
-            let short = found.most > 1 && reach < LEAST * body.spacing;
+            let reach =
+                (MAX_ANGLE_RADIUS_LENGTHS * body.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
+            let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
             // A line that only passes by parts pieces that have no end there.
             if short || found.edges != found.cuts {
                 return None;

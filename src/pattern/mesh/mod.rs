@@ -22,7 +22,7 @@ use crate::unroll::arap_mesh::StoppingCriteria;
 use body::{Body, Place, Plane};
 use draw::drawn;
 use join::{Limits, joined};
-use lay::{Laid, TRIAL};
+use lay::{Laid, TRIAL_STEPS};
 use seams::Seams;
 
 /// A mesh cut into sheets.
@@ -39,11 +39,12 @@ pub struct MeshPattern {
     pub creases: Vec<Crease>,
 }
 
-/// More parts than these are no pattern that somebody puts together.
-const MOST_PARTS: u32 = 500;
+/// Maximum number of parts of a mesh: nobody puts together a pattern of more.
+const MAX_PARTS: u32 = 500;
 
-/// Strain above this multiple of the limit is given up where steps hardly change it.
-const FAR: f64 = 2.5;
+/// Energy, as a multiple of that at the strain limit, above which a relaxation is given up where it hardly
+/// improves.
+const HOPELESS_STRAIN_FACTOR: f64 = 2.5;
 
 /// Cuts a mesh into sheets, that with the largest patch first: closed, overhanging or in parts.
 ///
@@ -77,7 +78,7 @@ pub fn pattern_mesh(
         tolerance: positive("tolerance", options.unrolling.tolerance)?,
         target_energy: 0.0,
         // Of the two principal strains the energy has the sum of the squares.
-        hopeless_energy: FAR * 2.0 * strain * strain,
+        hopeless_energy: HOPELESS_STRAIN_FACTOR * 2.0 * strain * strain,
         max_steps: options.unrolling.max_iterations,
     };
     let limits = Limits { gap, strain, until };
@@ -132,13 +133,13 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
         for plane in body.planes(&laid.members, worst) {
             let mut trial = alone.clone();
             let parts = trial.cut(0, &plane)?;
-            if parts.len() < 2 || body.count - 1 + trial.count > MOST_PARTS {
+            if parts.len() < 2 || body.count - 1 + trial.count > MAX_PARTS {
                 continue;
             }
             let mut energy = 0.0;
             for part in &parts {
                 let short = StoppingCriteria {
-                    max_steps: TRIAL,
+                    max_steps: TRIAL_STEPS,
                     ..limits.until
                 };
                 let laid = Laid::whole(&trial, trial.members(*part), short)?;
@@ -153,7 +154,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
             return Err(Error::Unsupported {
                 format: "pattern",
                 reason: format!(
-                    "the mesh around ({x}, {y}, {z}) cannot be laid flat within {MOST_PARTS} parts; smooth it more \
+                    "the mesh around ({x}, {y}, {z}) cannot be laid flat within {MAX_PARTS} parts; smooth it more \
                      (a smaller lambda), take larger patches or allow more strain"
                 ),
             });

@@ -57,7 +57,7 @@ impl Seams {
                 // Between patches a line is a crease unless it is quite smooth.
                 let bend = match is_one(body, sides[0]) {
                     true => bend,
-                    false => SMOOTH * bend,
+                    false => MIN_PATCH_BEND_SHARE * bend,
                 };
                 for (run, sharp) in stretches(&folds, bend) {
                     seams.add(Seam {
@@ -114,23 +114,27 @@ fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     a == b
 }
 
-/// The angle of a stretch between patches that is no crease, as a share of what is one.
-const SMOOTH: f64 = 0.25;
+/// Minimum angle of a crease between two patches, as a share of the angle that makes a crease inside of one.
+const MIN_PATCH_BEND_SHARE: f64 = 0.25;
 
-/// So many edges on either side say whether a line is a crease, and a stretch of it has as many.
-const BESIDE: usize = 2;
+/// Number of edges on either side over which the angle of a line is averaged, and minimum number of edges of a
+/// crease.
+const CREASE_WINDOW_EDGES: usize = 2;
 
 /// Where a line of edges, given by their lengths and angles, is a crease, and where it is none.
 fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
     let is_sharp = |k: usize| {
-        let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(folds.len());
+        let near =
+            k.saturating_sub(CREASE_WINDOW_EDGES)..(k + CREASE_WINDOW_EDGES + 1).min(folds.len());
         mean(&folds[near]).abs() > bend
     };
     let mut found: Vec<(Range<usize>, bool)> = Vec::new();
     for k in 0..folds.len() {
         let sharp = is_sharp(k);
         match found.last_mut() {
-            Some((run, before)) if *before == sharp || run.len() <= BESIDE => run.end = k + 1,
+            Some((run, before)) if *before == sharp || run.len() <= CREASE_WINDOW_EDGES => {
+                run.end = k + 1
+            }
             _ => found.push((k..k + 1, sharp)),
         }
     }

@@ -9,8 +9,8 @@ use crate::shape::patches::NO_PATCH;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// So many nodes from its end tell where a seam is heading.
-pub(in crate::pattern) const BACK: usize = 6;
+/// Number of nodes from a seam's end over which its direction there is measured.
+pub(in crate::pattern) const HEADING_NODES: usize = 6;
 
 fn is_vertex((p, q): &Node) -> bool {
     p == q
@@ -109,7 +109,10 @@ impl Net {
         let mut ends = FxHashMap::default();
         for seam in self.seams.iter().filter(|seam| seam.nodes.len() > 1) {
             let last = seam.nodes.len() - 1;
-            for (end, back) in [(0, BACK.min(last)), (last, last.saturating_sub(BACK))] {
+            for (end, back) in [
+                (0, HEADING_NODES.min(last)),
+                (last, last.saturating_sub(HEADING_NODES)),
+            ] {
                 let node = seam.nodes[end];
                 let [one, other] = seam.patches.map(|patch| middle(node, patch));
                 let (Some(one), Some(other)) = (one, other) else {
@@ -153,9 +156,9 @@ fn is_open(surface: &Heightfield, mesh: &Triangulation, from: u32, to: u32) -> b
     let place = (from.0 as isize, from.1 as isize);
     let target = (to.0 as isize, to.1 as isize);
     // The next direction clockwise of W, E, NW, NE, SW, SE.
-    const CLOCKWISE: [usize; 6] = [2, 5, 3, 1, 0, 4];
+    const NEXT_CLOCKWISE: [usize; 6] = [2, 5, 3, 1, 0, 4];
     let towards = (0..6).find(|k| NEIGHBOURS[*k].step(place.0, place.1) == target);
     let Some(towards) = towards else { return true };
-    let (row, col) = NEIGHBOURS[CLOCKWISE[towards]].step(place.0, place.1);
+    let (row, col) = NEIGHBOURS[NEXT_CLOCKWISE[towards]].step(place.0, place.1);
     !lattice.contains(row, col) || surface.height(row as usize, col as usize).is_nan()
 }

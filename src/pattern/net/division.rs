@@ -1,13 +1,14 @@
 //! Seams divided where only a part of them can be joined, and put together again.
 
-use super::{Net, SHORT, Seam};
-use crate::pattern::layout::FINE;
+use super::{MIN_SEAM_PART_NODES, Net, Seam};
+use crate::pattern::layout::NEGLIGIBLE_GAP_LENGTHS;
 use crate::unroll::flat_triangle::Point;
 
-/// Least share of a seam's length that is joined where the whole of it cannot be: of a crease, and of
-/// a cut through what was one patch.
-const PART_OF_CREASE: f64 = 0.5;
-const PART_OF_CUT: f64 = 0.2;
+/// Minimum share of a crease's length that is joined where the whole crease cannot be.
+const MIN_JOINED_CREASE_SHARE: f64 = 0.5;
+
+/// Minimum share of the length of a cut inside of a patch that is joined where the whole cut cannot be.
+const MIN_JOINED_CUT_SHARE: f64 = 0.2;
 
 impl Net {
     /// Divides seams that cannot be joined as a whole, if by `gap` (see
@@ -19,11 +20,16 @@ impl Net {
             }
             let seam = &self.seams[number];
             let least = if seam.smooth {
-                PART_OF_CUT
+                MIN_JOINED_CUT_SHARE
             } else {
-                PART_OF_CREASE
+                MIN_JOINED_CREASE_SHARE
             };
-            let ends = divided(&seam.sides, gap, FINE * self.spacing, least);
+            let ends = divided(
+                &seam.sides,
+                gap,
+                NEGLIGIBLE_GAP_LENGTHS * self.spacing,
+                least,
+            );
             for at in ends[1..ends.len() - 1].iter().rev() {
                 self.cut_off(number, *at);
             }
@@ -53,7 +59,10 @@ impl Net {
             }
         }
         // What is short is of the kind before it, or after it.
-        while let Some(k) = runs.iter().position(|(count, _)| *count < SHORT) {
+        while let Some(k) = runs
+            .iter()
+            .position(|(count, _)| *count < MIN_SEAM_PART_NODES)
+        {
             if runs.len() == 1 {
                 break;
             }
@@ -204,10 +213,10 @@ fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usiz
     if length < least * lengths[last] {
         return whole;
     }
-    if from < SHORT {
+    if from < MIN_SEAM_PART_NODES {
         from = 0;
     }
-    if last - to < SHORT {
+    if last - to < MIN_SEAM_PART_NODES {
         to = last;
     }
     let mut ends = vec![0, from, to, last];

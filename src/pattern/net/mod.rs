@@ -8,7 +8,7 @@ mod border;
 mod division;
 mod places;
 
-pub(super) use border::BACK;
+pub(super) use border::HEADING_NODES;
 
 use super::labels::Labels;
 use super::leaf::Leaf;
@@ -24,11 +24,11 @@ use rustc_hash::FxHashMap;
 /// number and that of no vertex. All in the numbers of the whole surface's mesh.
 pub(super) type Node = crate::shape::patches::crease::CreaseNode;
 
-/// Where four patches meet, there are two nodes of three each, this far apart at most, in spacings.
-pub(super) const SPECK: f64 = 3.0;
+/// Maximum distance, in spacings, between two nodes of three patches each that are one place where four meet.
+pub(super) const FOUR_WAY_JUNCTION_RADIUS: f64 = 3.0;
 
-/// No part of a seam has fewer nodes.
-const SHORT: usize = 4;
+/// Minimum number of nodes of each part of a divided seam.
+const MIN_SEAM_PART_NODES: usize = 4;
 
 /// A crease or a part of it, as either patch has it.
 pub(super) struct Seam {
@@ -169,7 +169,7 @@ impl Net {
 
     /// Whether its sides are apart in space: at a step of the surface.
     pub(super) fn is_torn(&self, seam: usize) -> bool {
-        self.seams[seam].apart > super::layout::TORN * self.spacing
+        self.seams[seam].apart > super::layout::MIN_TEAR_GAP_SPACINGS * self.spacing
     }
 
     /// The seams that an edge's node is on.

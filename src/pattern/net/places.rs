@@ -6,13 +6,12 @@ use crate::shape::patches::crease::smooth_polyline;
 use crate::unroll::arap_mesh::BarycentricPoint;
 use crate::unroll::flat_triangle::Point;
 
-/// Share of an edge or a triangle that is left to each side at least, so that no two nodes are at
-/// one place.
-const LEAST: f64 = 0.01;
+/// Minimum share of an edge or a triangle on each side of a node, so that no two nodes coincide.
+const MIN_NODE_SHARE: f64 = 0.01;
 
-/// How often a cut through a patch is smoothed; it is the zigzag between the vertices on either side. That of a
-/// lattice of twice the spacing, if it was decided there, takes four times as often.
-const CUT_SMOOTHING: f64 = 4.0;
+/// Number of smoothing passes over a cut inside of a patch, which zigzags between the vertices on either side.
+/// A cut decided on a lattice of twice the spacing takes four times as many.
+const CUT_SMOOTHING_PASSES: f64 = 4.0;
 
 impl Net {
     /// Where a node is in plan.
@@ -62,7 +61,7 @@ impl Net {
         let mut line: Vec<[f64; 2]> = places.map(|place| [place.re, place.im]).collect();
         let coarse = (self.decided / self.spacing).max(1.0);
         let times = if smooth {
-            CUT_SMOOTHING * coarse.powi(2)
+            CUT_SMOOTHING_PASSES * coarse.powi(2)
         } else {
             1.0
         };
@@ -142,7 +141,10 @@ impl Net {
         let there = self.vertex_height(q, first) - self.mesh.positions()[q as usize][2];
         let share = here / (here - there);
         let share = if share.is_finite() { share } else { 0.5 };
-        (share.clamp(LEAST, 1.0 - LEAST), there - here)
+        (
+            share.clamp(MIN_NODE_SHARE, 1.0 - MIN_NODE_SHARE),
+            there - here,
+        )
     }
 
     /// Shares of a triangle's corners in the point where its three patches meet; its middle where
@@ -157,7 +159,7 @@ impl Net {
         let ([a, b, c], [d, e, f]) = (difference(0, 1), difference(1, 2));
         let shares = [b * f - c * e, c * d - a * f, a * e - b * d];
         let shares = shares.map(|share| share / shares.iter().sum::<f64>());
-        match shares.iter().all(|share| *share >= LEAST) {
+        match shares.iter().all(|share| *share >= MIN_NODE_SHARE) {
             true => shares,
             false => [1.0 / 3.0; 3],
         }

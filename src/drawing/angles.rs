@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::curve::Curve;
 use super::draft::Lines;
-use super::{FLATNESS, place_at};
+use super::{FLATTENING_TOLERANCE_MM, place_at};
 use crate::pattern::{Meeting, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
@@ -114,9 +114,9 @@ fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) ->
     let mut next = (1..=count).map(|i| (k + i) % count);
     let next = next.find(|i| !is_within(outline[*i].0)).unwrap_or(k);
     let reach = scale * meeting.reach;
-    let mut back = outline[k].1.points(FLATNESS);
+    let mut back = outline[k].1.points(FLATTENING_TOLERANCE_MM);
     back.reverse();
-    let [back, on] = [back, outline[next].1.points(FLATNESS)].map(|points| {
+    let [back, on] = [back, outline[next].1.points(FLATTENING_TOLERANCE_MM)].map(|points| {
         let [from, to] = [0.5, 1.0].map(|share| place_at(&points, share * reach).0);
         Point::new(to[0] - from[0], to[1] - from[1])
     });

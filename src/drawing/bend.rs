@@ -13,9 +13,11 @@ use crate::math::planar::{nearest_on_segment, polyline_length};
 use crate::pattern::{Direction, Fold, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
-/// How far a fold may be from the straight line between its ends, in spacings, and its ends from the outline.
-const STRAIGHT: f64 = 0.5;
-const NEAR: f64 = 1.0;
+/// Maximum distance of a fold from the straight line between its ends, in spacings, for a bend allowance.
+const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
+
+/// Maximum distance of a fold's ends from the outline, in spacings, for a bend allowance.
+const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
 
 /// How metal is bent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,7 +135,10 @@ impl Bend {
             Point::new(x, y)
         };
         let off = |p: &Point| (p - near(*p, ends)).norm();
-        if !points.iter().all(|p| off(p) <= STRAIGHT * sheet.spacing) {
+        if !points
+            .iter()
+            .all(|p| off(p) <= MAX_FOLD_BOW_SPACINGS * sheet.spacing)
+        {
             return Err("is curved, and a bend allowance needs straight ones");
         }
         if fold.ends.iter().flatten().next().is_some() {
@@ -154,8 +159,9 @@ impl Bend {
         let (Some(from), Some(to)) = (nearest(ends[0]), nearest(ends[1])) else {
             return Err("is on no outline");
         };
-        let far =
-            |(_, _, p): (usize, usize, Point), end: Point| (p - end).norm() > NEAR * sheet.spacing;
+        let far = |(_, _, p): (usize, usize, Point), end: Point| {
+            (p - end).norm() > MAX_FOLD_END_GAP_SPACINGS * sheet.spacing
+        };
         if from.0 != to.0 || far(from, ends[0]) || far(to, ends[1]) {
             return Err(
                 "does not part its sheet in two, and a bend allowance needs folds from edge to edge",

@@ -139,8 +139,11 @@ impl Curve {
     }
 }
 
-/// How many straight lines the length of a piece is measured by.
-const MEASURE: usize = 32;
+/// Minimum angle, in radians, by which a polyline turns at a corner; where it turns by less, it is a bend.
+pub(super) const POLYLINE_CORNER_ANGLE: f64 = 0.3;
+
+/// Number of straight lines by which the length of a curve's piece is measured.
+const LENGTH_STEPS: usize = 32;
 
 impl Piece {
     fn of(controls: [[f64; 2]; 4]) -> Self {
@@ -191,12 +194,12 @@ impl Piece {
         let mut sum = 0.0;
         let mut last = self.at(0.0);
         let step = |i: usize| {
-            let place = self.at(i as f64 / MEASURE as f64);
+            let place = self.at(i as f64 / LENGTH_STEPS as f64);
             sum += distance(last, place);
             last = place;
             sum
         };
-        (1..=MEASURE).map(step).collect()
+        (1..=LENGTH_STEPS).map(step).collect()
     }
 
     /// The parameter at which it has a length.
@@ -210,7 +213,7 @@ impl Piece {
         } else {
             0.0
         };
-        ((i as f64 + share) / MEASURE as f64).clamp(0.0, 1.0)
+        ((i as f64 + share) / LENGTH_STEPS as f64).clamp(0.0, 1.0)
     }
 
     /// Its two parts at a parameter (de Casteljau).

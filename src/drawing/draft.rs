@@ -10,7 +10,7 @@ use super::offset::outwards;
 use super::pack::Place;
 use super::smooth::smoothed;
 use super::tabs::{Tab, tabbed};
-use super::{DrawingOptions, DrawnSheet, FLATNESS, Line};
+use super::{DrawingOptions, DrawnSheet, FLATTENING_TOLERANCE_MM, Line};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::{Run, Sheet};
 
@@ -102,7 +102,7 @@ impl DrawnSheet {
         };
         let walls: Vec<[[f64; 2]; 2]> = (curves.iter())
             .flat_map(|curve| {
-                let points = curve.points(FLATNESS);
+                let points = curve.points(FLATTENING_TOLERANCE_MM);
                 let pairs: Vec<_> = points.windows(2).map(|p| [p[0], p[1]]).collect();
                 pairs
             })
@@ -120,7 +120,7 @@ impl DrawnSheet {
         }
         for (run, curve) in lines.outlines.iter().flatten() {
             if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
-                labels.push(Label::seam(letter, &curve.points(FLATNESS)));
+                labels.push(Label::seam(letter, &curve.points(FLATTENING_TOLERANCE_MM)));
             }
         }
         labels.extend(lines.folds.iter().map(Label::fold));
@@ -149,21 +149,21 @@ impl DrawnSheet {
             leaders,
             labels,
         };
-        Ok(sheet.moved(&Place::NONE))
+        Ok(sheet.moved(&Place::IDENTITY))
     }
 
     /// This sheet at a place.
     pub(super) fn moved(mut self, place: &Place) -> Self {
         for line in self.folds.iter_mut().chain(&mut self.tabs) {
             line.curve = line.curve.mapped(|p| place.of(p));
-            line.points = line.curve.points(FLATNESS);
+            line.points = line.curve.points(FLATTENING_TOLERANCE_MM);
         }
         let others = [&mut self.edges, &mut self.marks, &mut self.leaders];
         for curve in self.curves.iter_mut().chain(others.into_iter().flatten()) {
             *curve = curve.mapped(|p| place.of(p));
         }
         let ring = |curve: &Curve| {
-            let mut points = curve.points(FLATNESS);
+            let mut points = curve.points(FLATTENING_TOLERANCE_MM);
             // The last point is joined to the first.
             points.pop();
             points

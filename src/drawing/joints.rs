@@ -15,24 +15,26 @@ use super::draft::Lines;
 use super::smooth::crossed;
 use crate::pattern::Sheet;
 
-/// A difference that is none, as a share of the length.
-const EVEN: f64 = 1e-4;
+/// Difference between the two sides of a joint, as a share of their length, below which they are equally long.
+const LENGTH_TOLERANCE: f64 = 1e-4;
 
-/// How far corners and lines may be moved, as a share of the longest line there, beyond the tolerance.
-const STRETCH: f64 = 0.01;
+/// Maximum distance that a side and its corners are moved beyond the tolerance, as a share of the side's length.
+const MAX_SHIFT_SHARE: f64 = 0.01;
 
-/// Most sweeps over all joints, each of which is made even by itself in turn (Kaczmarz).
-const SWEEPS: usize = 400;
+/// Maximum number of sweeps over all joints, in each of which one joint after the other is made even (Kaczmarz).
+const MAX_KACZMARZ_SWEEPS: usize = 400;
 
-/// How often lengths are measured again, since they are not linear in what is moved.
-const ROUNDS: usize = 4;
+/// Maximum number of times the lengths of joints are linearised again.
+const MAX_LENGTH_ROUNDS: usize = 4;
 
-/// How often lines that would cross are moved less far, and by what share.
-const TRIALS: usize = 16;
-const LESS: f64 = 0.6;
+/// Maximum number of trials in which sides that would cross others are moved less far.
+const MAX_BACKTRACKING_TRIALS: usize = 16;
 
-/// In how many parts of a piece of a line the nearest place is looked for.
-const PLACES: usize = 16;
+/// Factor by which the limit of a side's shift is reduced after a trial in which the side crosses another.
+const BACKTRACKING_FACTOR: f64 = 0.6;
+
+/// Number of parts of a piece of a curve among which the point nearest to a fold's end is looked for.
+const NEAREST_POINT_PARTS: usize = 16;
 
 /// A line of an outline.
 struct Side {
@@ -54,7 +56,7 @@ impl Side {
             curve: curve.clone(),
             length,
             bow: 0.0,
-            most: cells + STRETCH * length,
+            most: cells + MAX_SHIFT_SHARE * length,
         };
         let away = |(p, s): ([f64; 2], f64)| {
             let [x, y] = side.off(p, s);
@@ -113,7 +115,7 @@ pub(super) fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &Drawin
     }
     let before: Vec<Curve> = outlines.sides.iter().map(|s| s.curve.clone()).collect();
     let usual = outlines.crossing(&before);
-    for _ in 0..TRIALS {
+    for _ in 0..MAX_BACKTRACKING_TRIALS {
         let after = outlines.evened();
         let mut wrong = outlines.crossing(&after);
         wrong.retain(|number| !usual.contains(number));
@@ -209,10 +211,10 @@ impl Outlines {
     fn hold(&mut self, lines: &[usize]) {
         for number in lines {
             for corner in self.sides[*number].corners {
-                self.limits[2 * corner] *= LESS;
-                self.limits[2 * corner + 1] *= LESS;
+                self.limits[2 * corner] *= BACKTRACKING_FACTOR;
+                self.limits[2 * corner + 1] *= BACKTRACKING_FACTOR;
             }
-            self.limits[2 * self.corners + number] *= LESS;
+            self.limits[2 * self.corners + number] *= BACKTRACKING_FACTOR;
         }
     }
 
@@ -222,25 +224,28 @@ impl Outlines {
             self.joints.iter().map(|joint| self.row(joint)).collect();
         let mut x = vec![0.0; self.limits.len()];
         let mut curves: Vec<Curve> = self.sides.iter().map(|s| s.curve.clone()).collect();
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_LENGTH_ROUNDS {
             let lengths: Vec<f64> = curves.iter().map(Curve::length).collect();
             let long = |side: &Vec<usize>| side.iter().map(|number| lengths[*number]).sum::<f64>();
             let both: Vec<[f64; 2]> = (self.joints.iter())
                 .map(|[one, other]| [long(one), long(other)])
                 .collect();
-            if both.iter().all(|[a, b]| (a - b).abs() <= EVEN * a.max(*b)) {
+            if both
+                .iter()
+                .all(|[a, b]| (a - b).abs() <= LENGTH_TOLERANCE * a.max(*b))
+            {
                 break;
             }
             // What the difference would be with nothing moved if it were linear.
             let rests: Vec<f64> = (rows.iter().zip(&both))
                 .map(|(row, [a, b])| a - b - product(row, &x))
                 .collect();
-            for _ in 0..SWEEPS {
+            for _ in 0..MAX_KACZMARZ_SWEEPS {
                 let mut done = true;
                 for ((row, rest), [a, b]) in rows.iter().zip(&rests).zip(&both) {
                     let square: f64 = row.iter().map(|(_, w)| w * w).sum();
                     let difference = rest + product(row, &x);
-                    if square == 0.0 || difference.abs() <= 0.1 * EVEN * a.max(*b) {
+                    if square == 0.0 || difference.abs() <= 0.1 * LENGTH_TOLERANCE * a.max(*b) {
                         continue;
                     }
                     done = false;
@@ -293,8 +298,8 @@ fn way(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] 
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };
     let (mut nearest, mut found) = (0.5 * cell, [0.0; 2]);
     for (old, new) in pieces(before).into_iter().zip(pieces(after)) {
-        for k in 0..PLACES {
-            let at = |i: f64| (k as f64 + i) / PLACES as f64;
+        for k in 0..NEAREST_POINT_PARTS {
+            let at = |i: f64| (k as f64 + i) / NEAREST_POINT_PARTS as f64;
             let ends = [old.at(at(0.0)), old.at(at(1.0))];
             let place = nearest_on_segment(end, ends);
             if distance(place, end) <= nearest {

@@ -1,14 +1,18 @@
 //! What is written on sheets, and where.
 
 use super::tabs::Tab;
-use super::{DrawnSheet, FLATNESS, Line, place_at};
+use super::{DrawnSheet, FLATTENING_TOLERANCE_MM, Line, place_at};
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::Direction;
 
-/// Sizes of text, in millimetres.
-const SMALL: f64 = 3.0;
-const LARGEST: f64 = 12.0;
-const SMALLEST: f64 = 1.5;
+/// Size of texts beside sheets and maximum size of those along lines, in millimetres.
+const NOTE_SIZE_MM: f64 = 3.0;
+
+/// Maximum size of texts, in millimetres.
+const MAX_TEXT_SIZE_MM: f64 = 12.0;
+
+/// Minimum size of texts, in millimetres.
+const MIN_TEXT_SIZE_MM: f64 = 1.5;
 
 /// A text on a sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,21 +56,21 @@ impl Label {
             kind: LabelKind::Patch,
             text: (patch + 1).to_string(),
             place,
-            size: (0.8 * room).clamp(SMALLEST, LARGEST),
+            size: (0.8 * room).clamp(MIN_TEXT_SIZE_MM, MAX_TEXT_SIZE_MM),
             turn: 0.0,
         }
     }
 
     /// Whether there is no room for the number of a patch on it.
     pub(super) fn is_cramped(room: f64) -> bool {
-        0.8 * room < SMALLEST
+        0.8 * room < MIN_TEXT_SIZE_MM
     }
 
     /// The number of a patch beside its sheet.
     pub(super) fn outside(self, place: [f64; 2]) -> Self {
         Label {
             place,
-            size: SMALL,
+            size: NOTE_SIZE_MM,
             ..self
         }
     }
@@ -75,7 +79,7 @@ impl Label {
     pub(super) fn is_beside(&self, sheet: &DrawnSheet) -> bool {
         self.kind == LabelKind::Patch
             && (sheet.leaders.iter().flat_map(|line| line.controls().last()))
-                .any(|end| distance(*end, self.place) < 1.5 * SMALL)
+                .any(|end| distance(*end, self.place) < 1.5 * NOTE_SIZE_MM)
     }
 
     /// The box that it takes, about.
@@ -106,7 +110,7 @@ impl Label {
         let label = Label::beside(
             LabelKind::Seam,
             letter.into(),
-            &tab.base.points(FLATNESS),
+            &tab.base.points(FLATTENING_TOLERANCE_MM),
             0.0,
         );
         let size = label.size.min(0.7 * tab.depth);
@@ -121,8 +125,8 @@ impl Label {
         Label {
             kind: LabelKind::Sheet,
             text: name.into(),
-            place: [0.5 * (min[0] + max[0]), max[1] + SMALL],
-            size: SMALL,
+            place: [0.5 * (min[0] + max[0]), max[1] + NOTE_SIZE_MM],
+            size: NOTE_SIZE_MM,
             turn: 0.0,
         }
     }
@@ -134,7 +138,7 @@ impl Label {
             kind: LabelKind::Sheet,
             text: text.into(),
             place,
-            size: SMALL,
+            size: NOTE_SIZE_MM,
             turn: 0.0,
         }
     }
@@ -142,7 +146,7 @@ impl Label {
     /// So many of its sizes to the left of the middle of a line, along it.
     fn beside(kind: LabelKind, text: String, points: &[[f64; 2]], away: f64) -> Self {
         let long = polyline_length(points);
-        let size = (0.2 * long).clamp(SMALLEST, SMALL);
+        let size = (0.2 * long).clamp(MIN_TEXT_SIZE_MM, NOTE_SIZE_MM);
         let (place, along) = place_at(points, 0.5 * long);
         let [x, y] = along;
         let mut label = Label {

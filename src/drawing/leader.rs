@@ -4,12 +4,14 @@ use super::curve::Curve;
 use super::label::Label;
 use crate::math::planar::{distance, nearest_on_segment};
 
-/// Directions that are looked in.
-const DIRECTIONS: u32 = 24;
+/// Number of directions in which a leader is tried, evenly spaced over a full turn.
+const LEADER_DIRECTIONS: u32 = 24;
 
-/// How far beyond the edge the line and the middle of the number are, in millimetres.
-const LINE: f64 = 3.0;
-const TEXT: f64 = 6.0;
+/// Distance of a leader's end from the sheet's edge, in millimetres.
+const LEADER_END_DISTANCE_MM: f64 = 3.0;
+
+/// Distance of the middle of a leader's number from the sheet's edge, in millimetres.
+const LEADER_TEXT_DISTANCE_MM: f64 = 6.0;
 
 /// Puts a label beside the sheet, where its line leaves that soonest and meets nothing else; nothing where there is
 /// no such place.
@@ -19,8 +21,9 @@ pub(super) fn led(
     others: &[Label],
 ) -> Option<(Label, Curve)> {
     let from = label.place;
-    let ways = (0..DIRECTIONS).filter_map(|k| {
-        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
+    let ways = (0..LEADER_DIRECTIONS).filter_map(|k| {
+        let (sin, cos) =
+            (std::f64::consts::TAU * f64::from(k) / f64::from(LEADER_DIRECTIONS)).sin_cos();
         let at = |d: f64| [from[0] + d * cos, from[1] + d * sin];
         let mut hits: Vec<f64> = walls
             .iter()
@@ -29,17 +32,19 @@ pub(super) fn led(
         hits.sort_by(f64::total_cmp);
         let edge = *hits.first()?;
         // An odd number of edges is passed on the way out, and the next one is far.
-        let next = hits.get(1).is_none_or(|next| *next > edge + 2.0 * TEXT);
-        let place = at(edge + TEXT);
+        let next = hits
+            .get(1)
+            .is_none_or(|next| *next > edge + 2.0 * LEADER_TEXT_DISTANCE_MM);
+        let place = at(edge + LEADER_TEXT_DISTANCE_MM);
         let free = walls.iter().all(|[p, q]| {
             let middle = [0, 1].map(|k| 0.5 * (p[k] + q[k]));
-            distance(middle, place) > TEXT.min(4.0) + 0.5 * distance(*p, *q)
+            distance(middle, place) > LEADER_TEXT_DISTANCE_MM.min(4.0) + 0.5 * distance(*p, *q)
                 || from_wall(place, [*p, *q]) > 3.0
         });
         let apart = others
             .iter()
             .all(|other| distance(other.place, place) > 5.0);
-        (next && free && apart).then(|| (edge, place, at(edge + LINE)))
+        (next && free && apart).then(|| (edge, place, at(edge + LEADER_END_DISTANCE_MM)))
     });
     let (_, place, end) = ways.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((label.clone().outside(place), Curve::through(&[from, end])))

@@ -4,18 +4,21 @@ use crate::math::planar::polyline_length;
 use std::collections::BTreeMap;
 
 use super::draft::Lines;
-use super::{Curve, FLATNESS, place_at};
+use super::{Curve, FLATTENING_TOLERANCE_MM, place_at};
 use crate::pattern::Run;
 
 /// Length of a mark, in millimetres.
-const LONG: f64 = 3.0;
+const MARK_LENGTH_MM: f64 = 3.0;
 
 /// How many marks each seam has, by its crease: none where one of its sides is not a single line.
 pub(super) fn counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
     let mut sides: BTreeMap<usize, Vec<(Option<u32>, f64)>> = BTreeMap::new();
     for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
         if let Some(seam) = run.seam {
-            let side = (run.patch, polyline_length(&curve.points(FLATNESS)));
+            let side = (
+                run.patch,
+                polyline_length(&curve.points(FLATTENING_TOLERANCE_MM)),
+            );
             sides.entry(seam.crease).or_default().push(side);
         }
     }
@@ -39,13 +42,16 @@ pub(super) fn marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usize>) -
         .and_then(|seam| counts.get(&seam.crease))
         .copied()
         .unwrap_or(0);
-    let points = curve.points(FLATNESS);
+    let points = curve.points(FLATTENING_TOLERANCE_MM);
     let whole = polyline_length(&points);
     (1..=count)
         .map(|i| {
             let (place, [x, y]) = place_at(&points, whole * i as f64 / (count + 1) as f64);
             // The sheet is to the left.
-            Curve::through(&[place, [place[0] - LONG * y, place[1] + LONG * x]])
+            Curve::through(&[
+                place,
+                [place[0] - MARK_LENGTH_MM * y, place[1] + MARK_LENGTH_MM * x],
+            ])
         })
         .collect()
 }

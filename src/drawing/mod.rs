@@ -59,13 +59,13 @@ pub(crate) use smooth::smooth;
 use totals::summary;
 pub use totals::{Totals, WorstJoint};
 
-/// Room around sheets, in millimetres.
-pub(crate) const MARGIN: f64 = 10.0;
+/// Width of the empty margin around sheets, in millimetres.
+pub(crate) const SHEET_MARGIN_MM: f64 = 10.0;
 
-/// How near to curves the points are that are given for them, in millimetres.
-const FLATNESS: f64 = 0.02;
+/// Maximum distance between a curve and the polyline that is given for it, in millimetres.
+const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 
-/// Longest side of a drawing, in millimetres.
+/// Maximum side of a drawing, in millimetres.
 pub const MAX_SIZE: f64 = 50_000.0;
 
 /// A drawing, its lower left corner at `0, 0`; `x` to the right, `y` up, in millimetres.
@@ -267,7 +267,7 @@ impl Line {
 
     /// The same with another course.
     fn along(self, curve: Curve) -> Self {
-        let points = curve.points(FLATNESS);
+        let points = curve.points(FLATTENING_TOLERANCE_MM);
         Line {
             length: polyline_length(&points),
             points,

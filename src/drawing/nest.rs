@@ -7,14 +7,14 @@ use super::draft::bounds;
 use super::pack::Place;
 use super::{DrawnSheet, Label};
 
-/// Cells along the shorter side of a page.
-const CELLS: f64 = 150.0;
+/// Number of raster cells along the shorter side of a page.
+const PAGE_CELLS: f64 = 150.0;
 
-/// And along the longer one at most.
-const MOST: f64 = 5000.0;
+/// Maximum number of raster cells along the longer side of a page.
+const MAX_PAGE_CELLS: f64 = 5000.0;
 
-/// Room between sheets, in millimetres.
-const APART: f64 = 3.0;
+/// Minimum distance between nested sheets, in millimetres.
+const NESTING_GAP_MM: f64 = 3.0;
 
 /// A sheet's closed lines, boxes of text beside it, and the width and height of the name above it.
 pub(super) struct Shape {
@@ -64,7 +64,7 @@ impl Nested {
 /// Lays shapes on pages of a size, the largest first. Nothing for those that are too large for a page.
 pub(super) fn nested(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
     let [short, long] = [page[0].min(page[1]), page[0].max(page[1])];
-    let cell = (short / CELLS).max(long / MOST);
+    let cell = (short / PAGE_CELLS).max(long / MAX_PAGE_CELLS);
     let [columns, rows] = page.map(|side| cells_along(side, cell));
     let options: Vec<Vec<(Place, Mask)>> = (shapes.iter())
         .map(|shape| turned(shape, cell, page))
@@ -83,7 +83,7 @@ pub(super) fn nested(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
         if fitting.is_empty() {
             continue;
         }
-        let reach = (APART / cell).ceil() as usize;
+        let reach = (NESTING_GAP_MM / cell).ceil() as usize;
         let grown: Vec<Mask> = fitting.iter().map(|(_, mask)| mask.grown(reach)).collect();
         // The lowest place on the first page that has one.
         let spot = |page: &Mask| {
@@ -325,7 +325,7 @@ mod tests {
             );
             for q in &placed[1] {
                 assert!(
-                    (p[0] - q[0]).hypot(p[1] - q[1]) >= 0.9 * APART,
+                    (p[0] - q[0]).hypot(p[1] - q[1]) >= 0.9 * NESTING_GAP_MM,
                     "{p:?} {q:?}"
                 );
             }

@@ -1,34 +1,33 @@
 //! Outlines moved outwards, for what a beam burns away and for hems.
 
-use super::curve::Curve;
+use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::smooth::smooth;
 use crate::math::planar::polygon_area;
 use crate::pattern::without_loops;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// How near to the moved line its curves are, in millimetres, and the finest thing that they follow.
-const TOLERANCE: f64 = 0.02;
-const FINE: f64 = 1.0;
+/// Maximum distance between an offset line and the curves fitted to it, in millimetres.
+const OFFSET_TOLERANCE_MM: f64 = 0.02;
 
-/// How near to curves the points are that are moved.
-const NEAR: f64 = 0.005;
+/// Smallest detail of an offset line that the curves fitted to it follow, in millimetres.
+const OFFSET_DETAIL_MM: f64 = 1.0;
 
-/// A line that turns by less at a point, in radians, is a bend there; by more, a corner.
-const BEND: f64 = 0.3;
+/// Maximum distance between a curve and the polyline that is offset in its place, in millimetres.
+const OFFSET_FLATTENING_TOLERANCE_MM: f64 = 0.005;
 
-/// A corner reaches no further than so many times the distance.
-const SPIKE: f64 = 2.0;
+/// Maximum distance of an offset corner from the corner itself, as a multiple of the offset.
+const MAX_MITRE_FACTOR: f64 = 2.0;
 
-/// Loops that moved lines make are cut off up to this size, in distances: as long as slits may be.
-const LOOP: f64 = 8.0;
+/// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset: that of slits.
+const MAX_LOOP_FACTOR: f64 = 8.0;
 
 /// The closed lines around a sheet, moved outwards by a distance. Where they run into themselves, as in a slit that
 /// is narrower, they are joined. Nothing where they would still cross.
 pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
-        let mut ring: Vec<Point> = (curve.points(NEAR).into_iter())
+        let mut ring: Vec<Point> = (curve.points(OFFSET_FLATTENING_TOLERANCE_MM).into_iter())
             .map(|[x, y]| Point::new(x, y))
             .collect();
         // Without its last point, which is the first, and what is as good as one point.
@@ -41,7 +40,10 @@ pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
         }
         let raw = beside(&ring, distance);
         let closed: Vec<Point> = raw.iter().chain(raw.first()).copied().collect();
-        let (runs, _) = without_loops(vec![(None, closed)], LOOP * distance.max(FINE));
+        let (runs, _) = without_loops(
+            vec![(None, closed)],
+            MAX_LOOP_FACTOR * distance.max(OFFSET_DETAIL_MM),
+        );
         let clean: Vec<Point> = (runs.into_iter())
             .flat_map(|(_, mut points)| {
                 points.pop();
@@ -60,8 +62,8 @@ pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
         let closed = ring.iter().chain(ring.first());
         smooth(
             &closed.map(|p| [p.re, p.im]).collect::<Vec<_>>(),
-            TOLERANCE,
-            FINE,
+            OFFSET_TOLERANCE_MM,
+            OFFSET_DETAIL_MM,
         )
     };
     Some(moved.into_iter().map(curve).collect())
@@ -79,7 +81,7 @@ fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
         // Where both sides meet, seen from the corner.
         let half = (0.5 * turn).cos();
         let tip = (u + v) / (u + v).norm() * Point::new(0.0, -distance / half);
-        if turn.abs() < BEND || (turn > 0.0 && 1.0 <= SPIKE * half) {
+        if turn.abs() < POLYLINE_CORNER_ANGLE || (turn > 0.0 && 1.0 <= MAX_MITRE_FACTOR * half) {
             out.push(here + tip);
         } else {
             out.extend([p, q]);

@@ -42,16 +42,19 @@ impl Default for DrawingOptions {
     }
 }
 
-/// Marks are no nearer to each other, in millimetres.
-const NEAREST: f64 = 1.0;
+/// Minimum distance between marks, in millimetres.
+const MIN_MARK_DISTANCE_MM: f64 = 1.0;
 
-/// Nothing is cut further out, in millimetres.
-const FARTHEST: f64 = 1000.0;
+/// Maximum kerf or allowance, in millimetres.
+const MAX_OFFSET_MM: f64 = 1000.0;
 
 impl DrawingOptions {
     /// Whether all but scale and tabs can be.
     pub(super) fn check(&self) -> Result<()> {
-        if let Some(marks) = self.marks.filter(|d| !(NEAREST..=MAX_SIZE).contains(d)) {
+        if let Some(marks) = self
+            .marks
+            .filter(|d| !(MIN_MARK_DISTANCE_MM..=MAX_SIZE).contains(d))
+        {
             return Err(Error::option(
                 "marks",
                 marks,
@@ -59,7 +62,7 @@ impl DrawingOptions {
             ));
         }
         for (name, value) in [("kerf", self.kerf), ("allowance", self.allowance)] {
-            if !(0.0..=FARTHEST).contains(&value) {
+            if !(0.0..=MAX_OFFSET_MM).contains(&value) {
                 return Err(Error::option(name, value, "must be from 0 to 1000"));
             }
         }

@@ -1,7 +1,7 @@
 //! Sheets turned and laid beside each other: boxes in rows, the tallest first. (Shelves are not the
 //! least area, but near it for few sheets, and everybody sees what comes where.)
 
-use super::MARGIN;
+use super::SHEET_MARGIN_MM;
 
 /// A turn and a shift, and the box that comes of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,11 +11,12 @@ pub(super) struct Place {
     size: [f64; 2],
 }
 
-/// A turn must save this share of the box's area, for what is upright is better known again.
-const WORTH: f64 = 0.03;
+/// Minimum share of a bounding box's area that a turn must save: an upright sheet is easier to recognise.
+const MIN_TURN_AREA_SAVING: f64 = 0.03;
 
 impl Place {
-    pub(super) const NONE: Place = Place {
+    /// The place that leaves every point where it is.
+    pub(super) const IDENTITY: Place = Place {
         turn: [1.0, 0.0],
         shift: [0.0; 2],
         size: [0.0; 2],
@@ -90,7 +91,7 @@ impl Place {
                 }
             }
         }
-        match area(&best) < (1.0 - WORTH) * area(&upright) {
+        match area(&best) < (1.0 - MIN_TURN_AREA_SAVING) * area(&upright) {
             true => best,
             false => upright,
         }
@@ -113,7 +114,7 @@ pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])>
 pub(super) fn packed(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|a, b| boxes[*b].size[1].total_cmp(&boxes[*a].size[1]));
-    let padded = |place: &Place| place.size.map(|side| side + MARGIN);
+    let padded = |place: &Place| place.size.map(|side| side + SHEET_MARGIN_MM);
     let area: f64 = boxes.iter().map(|b| padded(b)[0] * padded(b)[1]).sum();
     let widest = boxes.iter().map(|b| padded(b)[0]).fold(0.0, f64::max);
     let limit = widest.max(1.1 * area.sqrt());
@@ -125,17 +126,17 @@ pub(super) fn packed(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
         if x > 0.0 && x + w > limit {
             (x, y, row) = (0.0, y + row, 0.0);
         }
-        out[i].shift[0] += x + MARGIN;
+        out[i].shift[0] += x + SHEET_MARGIN_MM;
         out[i].shift[1] -= y + h;
         row = row.max(h);
         x += w;
         width = width.max(x);
     }
-    let height = y + row + MARGIN;
+    let height = y + row + SHEET_MARGIN_MM;
     for place in &mut out {
         place.shift[1] += height;
     }
-    (out, [width + MARGIN, height])
+    (out, [width + SHEET_MARGIN_MM, height])
 }
 
 /// Corners of the convex hull, counter-clockwise (Andrew 1979).
@@ -201,15 +202,19 @@ mod tests {
         let (places, [width, height]) = packed(&boxes);
         for (i, a) in places.iter().enumerate() {
             let [x, y] = a.shift;
-            assert!(x >= MARGIN && y >= MARGIN - 1e-9);
+            assert!(x >= SHEET_MARGIN_MM && y >= SHEET_MARGIN_MM - 1e-9);
             assert!(
-                x + a.size[0] <= width - MARGIN + 1e-9 && y + a.size[1] <= height - MARGIN + 1e-9
+                x + a.size[0] <= width - SHEET_MARGIN_MM + 1e-9
+                    && y + a.size[1] <= height - SHEET_MARGIN_MM + 1e-9
             );
             for b in &places[..i] {
                 let apart = |k: usize| {
                     (a.shift[k] - b.shift[k] - b.size[k]).max(b.shift[k] - a.shift[k] - a.size[k])
                 };
-                assert!(apart(0).max(apart(1)) >= MARGIN - 1e-9, "{a:?} {b:?}");
+                assert!(
+                    apart(0).max(apart(1)) >= SHEET_MARGIN_MM - 1e-9,
+                    "{a:?} {b:?}"
+                );
             }
         }
     }

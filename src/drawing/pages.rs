@@ -5,18 +5,20 @@ use super::pack::{Place, packed};
 use super::{Drawing, DrawnSheet, MAX_SIZE};
 use crate::error::{Error, Result, positive};
 
-/// Most pages that a drawing takes.
+/// Maximum number of pages of a drawing.
 pub const MAX_PAGES: usize = 400;
 
-/// What a printer leaves blank on each side at most, and how far neighbouring pages overlap, in millimetres.
-const BLANK: f64 = 10.0;
-const OVERLAP: f64 = 10.0;
+/// Width of the margin of paper that a printer may leave blank, in millimetres.
+const PAPER_MARGIN_MM: f64 = 10.0;
 
-/// Room along the edges of a plate or a roll.
-const EDGE: f64 = 5.0;
+/// Width by which neighbouring pages of a sheet overlap, in millimetres.
+const PAGE_OVERLAP_MM: f64 = 10.0;
 
-/// Room between pages as they are drawn beside each other.
-const BETWEEN: f64 = 20.0;
+/// Width of the empty margin of a plate or a roll, in millimetres.
+const STOCK_MARGIN_MM: f64 = 5.0;
+
+/// Distance between pages drawn beside each other, in millimetres.
+const PAGE_GAP_MM: f64 = 20.0;
 
 /// What a pattern is made from: sizes in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,9 +53,12 @@ impl Stock {
                 side("stock", width)?;
                 let long = |sheet: &DrawnSheet| {
                     let [low, high] = sheet.bounds;
-                    (high[0] - low[0]).hypot(high[1] - low[1]) + 2.0 * EDGE
+                    (high[0] - low[0]).hypot(high[1] - low[1]) + 2.0 * STOCK_MARGIN_MM
                 };
-                Ok([width, sheets.iter().map(long).sum::<f64>() + 2.0 * EDGE])
+                Ok([
+                    width,
+                    sheets.iter().map(long).sum::<f64>() + 2.0 * STOCK_MARGIN_MM,
+                ])
             }
         }
     }
@@ -64,7 +69,11 @@ impl Stock {
     }
 
     fn blank(self) -> f64 {
-        if self.is_paper() { BLANK } else { EDGE }
+        if self.is_paper() {
+            PAPER_MARGIN_MM
+        } else {
+            STOCK_MARGIN_MM
+        }
     }
 }
 
@@ -165,7 +174,7 @@ fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
     if let (Some(first), false) = (large.first(), stock.is_paper()) {
         return Err(no_room(&sheets[*first], &shapes[*first], part));
     }
-    let mut places = vec![Place::NONE; sheets.len()];
+    let mut places = vec![Place::IDENTITY; sheets.len()];
     let mut pages = Pages {
         paper,
         blank,
@@ -204,17 +213,17 @@ fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
         pages.paper[1] = part[1] + 2.0 * blank;
     }
     let columns = (count as f64).sqrt().ceil().max(1.0) as usize;
-    let step = pages.paper.map(|side| side + BETWEEN);
+    let step = pages.paper.map(|side| side + PAGE_GAP_MM);
     let left = if size[0] > 0.0 {
-        size[0] + BETWEEN
+        size[0] + PAGE_GAP_MM
     } else {
         0.0
     };
     if count > 0 {
         let rows = count.div_ceil(columns);
         size = [
-            left + columns as f64 * step[0] - BETWEEN,
-            size[1].max(rows as f64 * step[1] - BETWEEN),
+            left + columns as f64 * step[0] - PAGE_GAP_MM,
+            size[1].max(rows as f64 * step[1] - PAGE_GAP_MM),
         ];
     }
     let corner = |page: usize| {
@@ -294,7 +303,7 @@ fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
 
 /// How far pages reach that overlap.
 fn covered(count: usize, side: f64) -> f64 {
-    count as f64 * (side - OVERLAP) + OVERLAP
+    count as f64 * (side - PAGE_OVERLAP_MM) + PAGE_OVERLAP_MM
 }
 
 /// All pages there could be over a place of a size, which is in their middle.
@@ -308,7 +317,7 @@ struct Grid {
 impl Grid {
     fn new(sides: [f64; 2], part: [f64; 2]) -> Self {
         let [columns, rows] = [0, 1].map(|k| {
-            let steps = (sides[k] - OVERLAP) / (part[k] - OVERLAP);
+            let steps = (sides[k] - PAGE_OVERLAP_MM) / (part[k] - PAGE_OVERLAP_MM);
             (steps - 1e-9).ceil().max(1.0) as usize
         });
         let corner =
@@ -340,7 +349,7 @@ impl Grid {
 
     fn page_corner(&self, column: usize, row: usize) -> [f64; 2] {
         let place = [column, self.rows - 1 - row];
-        [0, 1].map(|k| self.corner[k] + place[k] as f64 * (self.part[k] - OVERLAP))
+        [0, 1].map(|k| self.corner[k] + place[k] as f64 * (self.part[k] - PAGE_OVERLAP_MM))
     }
 
     fn page(&self, column: usize, row: usize) -> Page {
@@ -361,8 +370,9 @@ impl Grid {
 
     fn marks(&self) -> Vec<[f64; 2]> {
         let along = |k: usize, count: usize| {
-            (0..=count)
-                .map(move |i| self.corner[k] + 0.5 * OVERLAP + i as f64 * (self.part[k] - OVERLAP))
+            (0..=count).map(move |i| {
+                self.corner[k] + 0.5 * PAGE_OVERLAP_MM + i as f64 * (self.part[k] - PAGE_OVERLAP_MM)
+            })
         };
         along(1, self.rows)
             .flat_map(|y| along(0, self.columns).map(move |x| [x, y]))

@@ -7,27 +7,30 @@ use crate::pattern::Sheet;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Distance of the points that curves are fitted to, in spacings.
-const STEP: f64 = 0.25;
+/// Distance between the points that curves are fitted to, in spacings.
+const SAMPLE_DISTANCE_SPACINGS: f64 = 0.25;
 
-/// A corner turns by so much at least, in radians, between what is up to `ARM` spacings before and after it, ...
-const TURN: f64 = 0.44;
-const ARM: f64 = 4.0;
+/// Minimum angle of a corner, in radians, between the line's directions over one arm before and after it.
+const CORNER_ANGLE: f64 = 0.44;
 
-/// ... and by this share of it within half of that, where a bend turns by half as much.
-const SHARP: f64 = 0.62;
+/// Length of line before and after a corner, in spacings, over which its angle is measured.
+const CORNER_ARM_SPACINGS: f64 = 4.0;
 
-/// A line that is shorter, in spacings, stays as it is.
-const SHORT: f64 = 3.0;
+/// Minimum share of a corner's angle that is left with arms of half the length; a smooth bend keeps half of it.
+const CORNER_CONCENTRATION: f64 = 0.62;
 
-/// Spans of splines are no shorter than this, in spacings.
-const SPAN: f64 = 1.5;
+/// Minimum length of a line that is smoothed, in spacings.
+const MIN_SMOOTHED_LENGTH_SPACINGS: f64 = 3.0;
 
-/// What is nearer on average than this, in spacings, is as good as exact.
-const EXACT: f64 = 0.03;
+/// Minimum length of a spline's span, in spacings.
+const MIN_SPAN_SPACINGS: f64 = 1.5;
 
-/// Where smooth lines cross, they have to be nearer to what was found: within these shares of the tolerance.
-const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.0];
+/// Root mean square distance from the points, in spacings, at which a fit counts as exact.
+const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
+
+/// Tolerances of a smooth line, as shares of the tolerance that was asked for, tried in this order: the next is used
+/// where the line crosses another or itself.
+const TOLERANCE_SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.0];
 
 /// The lines of a sheet.
 pub(super) struct Smooth {
@@ -51,9 +54,9 @@ pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
         let wrong = crossed(&curves, spacing);
         let mut changed = false;
         for run in wrong {
-            if levels[run] + 1 < SHARES.len() {
+            if levels[run] + 1 < TOLERANCE_SHARES.len() {
                 levels[run] += 1;
-                let tolerance = SHARES[levels[run]] * tolerance;
+                let tolerance = TOLERANCE_SHARES[levels[run]] * tolerance;
                 curves[run] = smooth(runs[run], tolerance * spacing, spacing);
                 changed = true;
             }
@@ -148,11 +151,11 @@ struct Sample {
 
 /// One line, smooth within a tolerance; a closed one has its first point again at the end.
 pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
-    if tolerance <= 0.0 || polyline_length(points) < SHORT * spacing {
+    if tolerance <= 0.0 || polyline_length(points) < MIN_SMOOTHED_LENGTH_SPACINGS * spacing {
         return Curve::through(points);
     }
     let closed = points.len() > 3 && points[0] == points[points.len() - 1];
-    let mut line = samples(points, STEP * spacing);
+    let mut line = samples(points, SAMPLE_DISTANCE_SPACINGS * spacing);
     let mut corners = corners(&line, closed, spacing);
     if closed {
         let Some(first) = corners.first().copied() else {
@@ -223,7 +226,13 @@ pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve
 
 fn section(line: &[Sample], closed: bool, tolerance: f64, spacing: f64) -> Option<Curve> {
     let points: Vec<(f64, Point)> = line.iter().map(|s| (s.along, s.place)).collect();
-    fitted(&points, closed, tolerance, EXACT * spacing, SPAN * spacing)
+    fitted(
+        &points,
+        closed,
+        tolerance,
+        NEGLIGIBLE_RESIDUAL_SPACINGS * spacing,
+        MIN_SPAN_SPACINGS * spacing,
+    )
 }
 
 fn samples(points: &[[f64; 2]], step: f64) -> Vec<Sample> {
@@ -287,21 +296,30 @@ fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
     };
     let end = |i: usize| {
         !closed
-            && (line[i].along < 0.5 * SHORT * spacing
-                || whole - line[i].along < 0.5 * SHORT * spacing)
+            && (line[i].along < 0.5 * MIN_SMOOTHED_LENGTH_SPACINGS * spacing
+                || whole - line[i].along < 0.5 * MIN_SMOOTHED_LENGTH_SPACINGS * spacing)
     };
     let turns: Vec<f64> = (0..last)
-        .map(|i| if end(i) { 0.0 } else { turn(i, ARM * spacing) })
+        .map(|i| {
+            if end(i) {
+                0.0
+            } else {
+                turn(i, CORNER_ARM_SPACINGS * spacing)
+            }
+        })
         .collect();
     let apart = |i: usize, k: usize| {
         let d = (line[i].along - line[k].along).abs();
         if closed { d.min(whole - d) } else { d }
     };
-    let mut order: Vec<usize> = (0..last).filter(|i| turns[*i] > TURN).collect();
+    let mut order: Vec<usize> = (0..last).filter(|i| turns[*i] > CORNER_ANGLE).collect();
     order.sort_by(|a, b| turns[*b].total_cmp(&turns[*a]));
     let mut found: Vec<usize> = Vec::new();
     for i in order {
-        if found.iter().any(|k| apart(i, *k) < 0.75 * ARM * spacing) {
+        if found
+            .iter()
+            .any(|k| apart(i, *k) < 0.75 * CORNER_ARM_SPACINGS * spacing)
+        {
             continue;
         }
         // The line was given through its corners.
@@ -309,7 +327,7 @@ fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
         let corner = near
             .max_by(|a, b| turns[*a].total_cmp(&turns[*b]))
             .unwrap_or(i);
-        if turn(corner, 0.5 * ARM * spacing) > SHARP * turns[i] {
+        if turn(corner, 0.5 * CORNER_ARM_SPACINGS * spacing) > CORNER_CONCENTRATION * turns[i] {
             found.push(corner);
         }
     }

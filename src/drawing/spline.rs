@@ -12,11 +12,11 @@ pub(super) struct Fit {
     pub rms: f64,
 }
 
-/// How often each point's place along the curve is looked for again.
-const ROUNDS: usize = 3;
+/// Number of times the nearest parameter of each point is looked for again in a fit.
+const REPARAMETRISATION_PASSES: usize = 3;
 
-/// So many times better, and twice the spans are worth it although fewer are near enough.
-const WORTH: f64 = 3.0;
+/// Minimum factor by which more spans must reduce the root mean square distance to be used.
+const MIN_IMPROVEMENT_FACTOR: f64 = 3.0;
 
 /// The smoothest curve near points, whose distance along the line is given with them. It begins and ends with
 /// the first and the last one; a closed line has its first point again at the end. Nothing where spans would
@@ -40,7 +40,7 @@ pub(super) fn fitted(
     while spans <= most {
         let next = Spline::fit(points, closed, spans);
         if let (Some(fit), Some(next)) = (&found, &next) {
-            let better = next.most <= tolerance && next.rms < fit.rms / WORTH;
+            let better = next.most <= tolerance && next.rms < fit.rms / MIN_IMPROVEMENT_FACTOR;
             let enough = fit.rms <= exact || !better;
             if fit.most <= tolerance && enough {
                 break;
@@ -108,7 +108,7 @@ impl Spline {
         let scale = spans as f64 / long;
         let mut at: Vec<f64> = points.iter().map(|(s, _)| scale * (s - first.0)).collect();
         let mut spline = Spline::least_squares(points, &at, closed, spans)?;
-        for _ in 0..ROUNDS {
+        for _ in 0..REPARAMETRISATION_PASSES {
             for (u, (_, point)) in at.iter_mut().zip(points) {
                 *u = spline.nearer(*u, *point);
             }

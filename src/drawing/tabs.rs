@@ -1,7 +1,7 @@
 //! Tabs to glue along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
 
-use super::FLATNESS;
-use super::curve::Curve;
+use super::FLATTENING_TOLERANCE_MM;
+use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use crate::math::planar::{distance, polyline_length, segments_intersect};
 use crate::pattern::{Run, Seam};
 
@@ -14,23 +14,20 @@ pub(super) struct Tab {
     pub middle: [f64; 2],
 }
 
-/// The base of a tab turns by no more, in radians.
-const BEND: f64 = 0.3;
+/// Maximum angle, in radians, by which the base of a tab turns in all.
+const MAX_TAB_BEND: f64 = 0.3;
 
-/// A line that turns by more at a point has a corner there.
-const CORNER: f64 = 0.3;
+/// Minimum length of a tab's base, in millimetres.
+const MIN_TAB_LENGTH_MM: f64 = 2.0;
 
-/// Tabs are no shorter than this, in millimetres.
-const SHORTEST: f64 = 2.0;
+/// Maximum inset of a tab's ends, which are cut at 45°, as a share of the tab's base.
+const MAX_TAB_INSET_SHARE: f64 = 0.3;
 
-/// The ends of a tab are cut at 45°, but by no more than this share of its base.
-const INSET: f64 = 0.3;
+/// Maximum depth of a tab, as a multiple of the length of its base.
+const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
 
-/// A tab is at most so many times as deep as its base is long.
-const SLENDER: f64 = 1.5;
-
-/// How often a tab that does not fit is made half as deep.
-const HALVINGS: usize = 2;
+/// Maximum number of times the depth of a tab that does not fit is halved.
+const MAX_TAB_HALVINGS: usize = 2;
 
 /// An outline's runs, and the course of each in millimetres.
 type Outline<'a> = Vec<(&'a Run, Curve)>;
@@ -56,7 +53,12 @@ pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve
     let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
     if depth.is_some() {
         for piece in pieces.iter().flatten().flatten() {
-            walls.extend(piece.points(FLATNESS).windows(2).map(|p| [p[0], p[1]]));
+            walls.extend(
+                piece
+                    .points(FLATTENING_TOLERANCE_MM)
+                    .windows(2)
+                    .map(|p| [p[0], p[1]]),
+            );
         }
     }
     let mut cuts = Vec::new();
@@ -68,9 +70,9 @@ pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve
                 continue;
             };
             for base in bases {
-                let points = base.points(FLATNESS);
-                let tab =
-                    (0..=HALVINGS).find_map(|k| flap(&points, depth / f64::from(1 << k), &walls));
+                let points = base.points(FLATTENING_TOLERANCE_MM);
+                let tab = (0..=MAX_TAB_HALVINGS)
+                    .find_map(|k| flap(&points, depth / f64::from(1 << k), &walls));
                 let Some((depth, flap)) = tab else {
                     cut.append(&base);
                     continue;
@@ -93,7 +95,7 @@ pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve
 
 /// A line in pieces that turn by little each, of no less than the shortest length where they are to be had.
 fn bases(curve: &Curve) -> Vec<Curve> {
-    let points = curve.points(FLATNESS);
+    let points = curve.points(FLATTENING_TOLERANCE_MM);
     let heading = |i: usize| {
         let [x, y] = [0, 1].map(|k| points[i + 1][k] - points[i][k]);
         y.atan2(x)
@@ -106,8 +108,9 @@ fn bases(curve: &Curve) -> Vec<Curve> {
         let turn = heading(i) - heading(i - 1);
         let turn = turn.sin().atan2(turn.cos());
         turned += turn;
-        let room = gone - ends[ends.len() - 1] >= SHORTEST && whole - gone >= SHORTEST;
-        if turn.abs() > CORNER || (turned.abs() > BEND && room) {
+        let room =
+            gone - ends[ends.len() - 1] >= MIN_TAB_LENGTH_MM && whole - gone >= MIN_TAB_LENGTH_MM;
+        if turn.abs() > POLYLINE_CORNER_ANGLE || (turned.abs() > MAX_TAB_BEND && room) {
             ends.push(gone);
             turned = 0.0;
         }
@@ -120,10 +123,10 @@ fn bases(curve: &Curve) -> Vec<Curve> {
 fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, [[f64; 2]; 2])> {
     let (from, to) = (base[0], base[base.len() - 1]);
     let long = distance(from, to);
-    if long * SLENDER < depth || long == 0.0 {
+    if long * MAX_TAB_DEPTH_SHARE < depth || long == 0.0 {
         return None;
     }
-    let inset = depth.min(INSET * long);
+    let inset = depth.min(MAX_TAB_INSET_SHARE * long);
     let along = [0, 1].map(|k| (to[k] - from[k]) / long);
     let beside = |s: f64| {
         [

@@ -8,8 +8,9 @@ use super::angles::{WorstAngle, angles};
 use super::draft::Lines;
 use crate::pattern::{Direction, Missing, Sheet};
 
-/// Shorter joints are not compared, in sides of a square as large as all sheets.
-const LEAST: f64 = 0.1;
+/// Minimum length of a joint whose sides are compared, as a share of the side of a square with the area of all
+/// sheets.
+const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 
 /// What a drawing comes to, lengths in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,7 +146,7 @@ pub(super) fn summary(
     };
     let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
     let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
-    let least = LEAST * scale * area.sqrt();
+    let least = MIN_COMPARED_JOINT_SHARE * scale * area.sqrt();
     let counts = |joint: &&Joint| !joint.torn && joint.sides[0].min(joint.sides[1]) >= least;
     let worst = joints.iter().filter(counts);
     let worst = worst.max_by(|a, b| a.mismatch().total_cmp(&b.mismatch()));

@@ -2,13 +2,56 @@
 
 use std::collections::BTreeMap;
 
-use super::{Joint, Step};
+use crate::drawing::letters;
 use crate::pattern::Sheet;
+
+/// How sheets are put together.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Assembly {
+    /// Sheet by sheet: first the one with the largest patch, then always the one with the longest seams to those
+    /// that are there.
+    pub steps: Vec<Step>,
+}
+
+/// One sheet and what it is joined to.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Step {
+    /// The sheet's number, from 0; its name has the next one.
+    pub sheet: usize,
+    /// The seams that are closed when it is there, the longest first.
+    pub joints: Vec<Joint>,
+}
+
+/// A seam between sheets, or of a sheet with itself.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Joint {
+    /// Its letters on the drawing.
+    pub name: String,
+    /// The sheet that was there before; that of the step for a seam of its own.
+    pub to: usize,
+    /// Its length, in the surface's units.
+    pub length: f64,
+}
+
+impl Assembly {
+    /// The order in which sheets are joined. Costs `O(sheets² + runs)`.
+    pub fn new(sheets: &[Sheet]) -> Self {
+        Assembly {
+            steps: ordered(sheets, &letters(sheets)),
+        }
+    }
+}
 
 /// A seam: its length and the sheets on either side.
 type Seams = BTreeMap<usize, Vec<(usize, f64)>>;
 
-pub(super) fn ordered(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
+fn ordered(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
     let mut seams: Seams = BTreeMap::new();
     for (number, sheet) in sheets.iter().enumerate() {
         for run in sheet.outlines.iter().flatten() {

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use super::curve::Curve;
-use super::draft::Lines;
-use super::{FLATTENING_TOLERANCE_MM, place_at};
+use super::line::{FLATTENING_TOLERANCE_MM, place_at};
+use super::lines::Lines;
 use crate::pattern::{Meeting, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 

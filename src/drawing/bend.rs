@@ -7,10 +7,10 @@
 //! surface is the upper side of the sheet: outside at a mountain, inside at a valley. So what lies within S of
 //! the fold on either side is brought within BA/2 of it, and what is beyond follows.
 
-use super::DrawingOptions;
-use crate::error::{Error, Result, positive};
+use super::options::DrawingOptions;
+use crate::error::{Error, Result};
 use crate::math::planar::{nearest_on_segment, polyline_length};
-use crate::pattern::{Direction, Fold, Run, Sheet};
+use crate::pattern::{Fold, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
 /// Maximum distance of a fold from the straight line between its ends, in spacings, for a bend allowance.
@@ -18,71 +18,6 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 
 /// Maximum distance of a fold's ends from the outline, in spacings, for a bend allowance.
 const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
-
-/// How metal is bent.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Bending {
-    /// Of the sheet, in millimetres.
-    pub thickness: f64,
-    /// Inner radius of all bends, in millimetres. Default: the thickness.
-    pub radius: f64,
-    /// Where the neutral line is, from the inside of a bend, as a share of the thickness: from 0 to 1, mostly 0.33
-    /// to 0.5. Default 0.44.
-    pub k_factor: f64,
-}
-
-impl Bending {
-    /// Metal of a thickness in millimetres.
-    pub fn new(thickness: f64) -> Self {
-        Bending {
-            thickness,
-            radius: thickness,
-            k_factor: 0.44,
-        }
-    }
-
-    /// The same with another inner radius.
-    pub fn radius(self, radius: f64) -> Self {
-        Bending { radius, ..self }
-    }
-
-    /// The same with another K-factor.
-    pub fn k_factor(self, k_factor: f64) -> Self {
-        Bending { k_factor, ..self }
-    }
-
-    pub(super) fn check(&self) -> Result<()> {
-        positive("thickness", self.thickness)?;
-        if !(self.radius >= 0.0 && self.radius.is_finite()) {
-            return Err(Error::option(
-                "innerRadius",
-                self.radius,
-                "must be 0 or more",
-            ));
-        }
-        match (0.0..=1.0).contains(&self.k_factor) {
-            true => Ok(()),
-            false => Err(Error::option(
-                "kFactor",
-                self.k_factor,
-                "must be from 0 to 1",
-            )),
-        }
-    }
-
-    /// How far before the crease a bend begins, and half of its length, in millimetres.
-    fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
-        let outside = match direction {
-            Direction::Mountain => self.thickness,
-            Direction::Valley => 0.0,
-        };
-        [
-            (self.radius + outside) * (0.5 * angle).tan(),
-            0.5 * angle * (self.radius + self.k_factor * self.thickness),
-        ]
-    }
-}
 
 /// A sheet with what its bends take, or an error for folds that are no straight lines from edge to edge.
 pub(super) fn bent(number: usize, sheet: &Sheet, options: &DrawingOptions) -> Result<Sheet> {

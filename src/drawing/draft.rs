@@ -3,16 +3,18 @@
 use std::collections::BTreeMap;
 
 use super::curve::Curve;
-use super::joints::evened;
 use super::label::Label;
 use super::leader::led;
+use super::line::{FLATTENING_TOLERANCE_MM, Line};
+use super::lines::Lines;
+use super::marks::seam_marks;
 use super::offset::outwards;
+use super::options::DrawingOptions;
 use super::pack::Place;
-use super::smooth::smoothed;
+use super::sheet::DrawnSheet;
 use super::tabs::{Tab, tabbed};
-use super::{DrawingOptions, DrawnSheet, FLATTENING_TOLERANCE_MM, Line};
 use crate::error::{Error, Result, rounded};
-use crate::pattern::{Run, Sheet};
+use crate::pattern::Sheet;
 
 /// Letters for the creases that are cut, in their order.
 pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
@@ -38,44 +40,6 @@ pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
 pub(super) struct Named {
     pub letters: BTreeMap<usize, String>,
     pub marks: BTreeMap<usize, usize>,
-}
-
-/// The lines of a sheet, smooth and in millimetres.
-pub(super) struct Lines<'a> {
-    pub outlines: Vec<Vec<(&'a Run, Curve)>>,
-    pub folds: Vec<Line>,
-}
-
-impl<'a> Lines<'a> {
-    /// Those of all sheets, both sides of joints equally long.
-    pub(super) fn all(sheets: &'a [Sheet], options: &DrawingOptions) -> Vec<Lines<'a>> {
-        let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
-        // Where metal is bent, what lies across a fold is drawn as much shorter as it grows there.
-        if options.bending.is_none() {
-            evened(sheets, &mut lines, options);
-        }
-        lines
-    }
-
-    fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
-        let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
-        let smooth = smoothed(sheet, options.smoothing);
-        let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {
-            outline.iter().zip(curves.iter().map(scaled)).collect()
-        };
-        let folds = sheet.folds.iter().zip(&smooth.folds);
-        Lines {
-            outlines: sheet
-                .outlines
-                .iter()
-                .zip(&smooth.outlines)
-                .map(runs)
-                .collect(),
-            folds: folds
-                .map(|(fold, curve)| Line::new(fold.seam, scaled(curve)))
-                .collect(),
-        }
-    }
 }
 
 impl DrawnSheet {
@@ -144,50 +108,11 @@ impl DrawnSheet {
                 Vec::new()
             },
             marks: (lines.outlines.iter().flatten())
-                .flat_map(|(run, curve)| super::marks::marks(run, curve, marks))
+                .flat_map(|(run, curve)| seam_marks(run, curve, marks))
                 .collect(),
             leaders,
             labels,
         };
         Ok(sheet.moved(&Place::IDENTITY))
     }
-
-    /// This sheet at a place.
-    pub(super) fn moved(mut self, place: &Place) -> Self {
-        for line in self.folds.iter_mut().chain(&mut self.tabs) {
-            line.curve = line.curve.mapped(|p| place.of(p));
-            line.points = line.curve.points(FLATTENING_TOLERANCE_MM);
-        }
-        let others = [&mut self.edges, &mut self.marks, &mut self.leaders];
-        for curve in self.curves.iter_mut().chain(others.into_iter().flatten()) {
-            *curve = curve.mapped(|p| place.of(p));
-        }
-        let ring = |curve: &Curve| {
-            let mut points = curve.points(FLATTENING_TOLERANCE_MM);
-            // The last point is joined to the first.
-            points.pop();
-            points
-        };
-        self.cuts = self.curves.iter().map(ring).collect();
-        for label in &mut self.labels {
-            label.place = place.of(label.place);
-            label.turn_by(place.degrees());
-        }
-        self.bounds = bounds(self.cuts.iter().flatten());
-        // Its name stays above it.
-        self.labels.retain(|label| !label.is_sheet());
-        self.labels.push(Label::sheet(&self.name, self.bounds));
-        self
-    }
-}
-
-/// The lower left and upper right corner of a box around points.
-pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
-    let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    points.fold(empty, |[low, high], p| {
-        [
-            [0, 1].map(|k| low[k].min(p[k])),
-            [0, 1].map(|k| high[k].max(p[k])),
-        ]
-    })
 }

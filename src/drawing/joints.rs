@@ -9,9 +9,9 @@ use crate::math::planar::{distance, nearest_on_segment};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::DrawingOptions;
 use super::curve::{Curve, Piece};
-use super::draft::Lines;
+use super::lines::Lines;
+use super::options::DrawingOptions;
 use super::smooth::crossed;
 use crate::pattern::Sheet;
 
@@ -103,9 +103,19 @@ impl Side {
     }
 }
 
+/// The smooth lines of all sheets in millimetres, with both sides of each joint equally long.
+pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -> Vec<Lines<'a>> {
+    let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
+    // Where metal is bent, what lies across a fold is drawn as much shorter as it grows there.
+    if options.bending.is_none() {
+        evened(sheets, &mut lines, options);
+    }
+    lines
+}
+
 /// Makes both sides of joints equally long, as far as lines may be moved; not where lines are to stay as they were
 /// found.
-pub(super) fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
+fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
     if options.smoothing == 0.0 {
         return;
     }
@@ -361,7 +371,7 @@ mod tests {
     fn drawn(one: Sheet, other: Sheet) -> ([f64; 2], [Vec<[f64; 2]>; 2]) {
         let sheets = [one, other];
         let options = DrawingOptions::default();
-        let lines = Lines::all(&sheets, &options);
+        let lines = matched_lines(&sheets, &options);
         let sides = [0, 1].map(|k| lines[k].outlines[0][0].1.clone());
         let totals = Drawing::new(&sheets, &options).unwrap().summary;
         let [a, b] = totals.worst_joint.unwrap().lengths;
@@ -417,7 +427,7 @@ mod tests {
         let mut hole = sheet(1, vec![vec![run(Some(0), 1, ring(20.2, -1.0))]]);
         hole.outlines.insert(0, vec![run(None, 1, ring(40.0, 1.0))]);
         let sheets = [disc, hole];
-        let lines = Lines::all(&sheets, &DrawingOptions::default());
+        let lines = matched_lines(&sheets, &DrawingOptions::default());
         let long = [&lines[0].outlines[0][0].1, &lines[1].outlines[1][0].1].map(Curve::length);
         for long in long {
             assert!((long / (2.0 * PI * 20.1) - 1.0).abs() < 5e-4, "{long}");

@@ -1,7 +1,8 @@
 //! What is written on sheets, and where.
 
+use super::curve::Curve;
+use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
 use super::tabs::Tab;
-use super::{DrawnSheet, FLATTENING_TOLERANCE_MM, Line, place_at};
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::Direction;
 
@@ -76,9 +77,9 @@ impl Label {
     }
 
     /// Whether a leader from its sheet ends at it.
-    pub(super) fn is_beside(&self, sheet: &DrawnSheet) -> bool {
+    pub(super) fn is_beside(&self, leaders: &[Curve]) -> bool {
         self.kind == LabelKind::Patch
-            && (sheet.leaders.iter().flat_map(|line| line.controls().last()))
+            && (leaders.iter().flat_map(|line| line.controls().last()))
                 .any(|end| distance(*end, self.place) < 1.5 * NOTE_SIZE_MM)
     }
 

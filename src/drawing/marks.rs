@@ -3,8 +3,9 @@
 use crate::math::planar::polyline_length;
 use std::collections::BTreeMap;
 
-use super::draft::Lines;
-use super::{Curve, FLATTENING_TOLERANCE_MM, place_at};
+use super::curve::Curve;
+use super::line::{FLATTENING_TOLERANCE_MM, place_at};
+use super::lines::Lines;
 use crate::pattern::Run;
 
 /// Length of a mark, in millimetres.
@@ -36,7 +37,7 @@ pub(super) fn counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usiz
 
 /// The marks of one side of a seam, inwards from the line, at equal shares of its length: the same on the other
 /// side, which runs the other way.
-pub(super) fn marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usize>) -> Vec<Curve> {
+pub(super) fn seam_marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usize>) -> Vec<Curve> {
     let count = run
         .seam
         .and_then(|seam| counts.get(&seam.crease))

@@ -3,9 +3,9 @@
 //! Shapes are bits on a grid, so that whether one fits takes a few machine words for each of its rows. What a
 //! sheet covers is marked by every cell that it touches, so nothing comes to lie on anything else.
 
-use super::draft::bounds;
+use super::label::Label;
 use super::pack::Place;
-use super::{DrawnSheet, Label};
+use super::sheet::{DrawnSheet, bounds};
 
 /// Number of raster cells along the shorter side of a page.
 const PAGE_CELLS: f64 = 150.0;
@@ -25,7 +25,7 @@ pub(super) struct Shape {
 impl Shape {
     pub(super) fn new(sheet: &DrawnSheet) -> Self {
         // Numbers beside it are as good as a part of it.
-        let outside = |label: &&Label| label.is_beside(sheet);
+        let outside = |label: &&Label| label.is_beside(&sheet.leaders);
         let beside = sheet.labels.iter().filter(outside).map(Label::corners);
         Shape {
             lines: sheet.cuts.iter().cloned().chain(beside).collect(),

@@ -1,6 +1,6 @@
 //! How a pattern is drawn.
 
-use super::{Bending, MAX_SIZE};
+use super::bending::Bending;
 use crate::error::{Error, Result};
 
 /// How a pattern is drawn.
@@ -41,6 +41,9 @@ impl Default for DrawingOptions {
         }
     }
 }
+
+/// Maximum side of a drawing, in millimetres.
+pub const MAX_SIZE: f64 = 50_000.0;
 
 /// Minimum distance between marks, in millimetres.
 const MIN_MARK_DISTANCE_MM: f64 = 1.0;

@@ -1,7 +1,8 @@
 //! Sheets turned and laid beside each other: boxes in rows, the tallest first. (Shelves are not the
 //! least area, but near it for few sheets, and everybody sees what comes where.)
 
-use super::SHEET_MARGIN_MM;
+/// Width of the empty margin around sheets, in millimetres.
+const SHEET_MARGIN_MM: f64 = 10.0;
 
 /// A turn and a shift, and the box that comes of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

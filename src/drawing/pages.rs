@@ -1,8 +1,9 @@
 //! A drawing on the sheets of paper or of a material that it is made from.
 
 use super::nest::{Shape, nested};
+use super::options::MAX_SIZE;
 use super::pack::{Place, packed};
-use super::{Drawing, DrawnSheet, MAX_SIZE};
+use super::sheet::DrawnSheet;
 use crate::error::{Error, Result, positive};
 
 /// Maximum number of pages of a drawing.
@@ -107,57 +108,19 @@ pub struct Pages {
     pub marks: Vec<[f64; 2]>,
 }
 
-impl Drawing {
-    /// The same sheets laid out on pages, as few as were found to do: each whole on one page, turned if it fits
-    /// better so, and sheets of paper that are too large for one over several, to be put together.
-    ///
-    /// Sheets are nested by their outlines, not as boxes: the largest first, each on the first page that has room,
-    /// three millimetres apart at least.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] for more than [`MAX_PAGES`] pages, and for a sheet that does not fit on a plate
-    /// or a roll; [`Error::Option`] for sizes that are not positive and finite.
-    pub fn onto(self, stock: Stock) -> Result<Drawing> {
-        let Arranged {
-            places,
-            pages,
-            size,
-        } = arranged(&self.sheets, stock)?;
-        if pages.pages.len() > MAX_PAGES {
-            return Err(Error::Unsupported {
-                format: "pattern",
-                reason: format!(
-                    "it takes {} pages of this size, more than the limit of {MAX_PAGES}; \
-                     choose a smaller scale, larger paper or one large page",
-                    pages.pages.len()
-                ),
-            });
-        }
-        Ok(Drawing {
-            width: size[0],
-            height: size[1],
-            sheets: (self.sheets.into_iter().zip(&places))
-                .map(|(sheet, place)| sheet.moved(place))
-                .collect(),
-            pages: Some(pages),
-            summary: self.summary,
-        })
-    }
-}
-
 /// How many pages of paper sheets take.
 pub(super) fn count(sheets: &[DrawnSheet], stock: Stock) -> usize {
     arranged(sheets, stock).map_or(0, |found| found.pages.pages.len())
 }
 
 /// Where sheets go, the pages, and the size of it all.
-struct Arranged {
-    places: Vec<Place>,
-    pages: Pages,
-    size: [f64; 2],
+pub(super) struct Arranged {
+    pub places: Vec<Place>,
+    pub pages: Pages,
+    pub size: [f64; 2],
 }
 
-fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
+pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
     let paper = stock.size(sheets)?;
     let blank = stock.blank();
     let mut part = paper.map(|side| side - 2.0 * blank);

@@ -1,7 +1,7 @@
 //! Tabs to glue along cut creases: trapezoids outside of the sheet, a comb of short ones along a curve.
 
-use super::FLATTENING_TOLERANCE_MM;
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
+use super::line::FLATTENING_TOLERANCE_MM;
 use crate::math::planar::{distance, polyline_length, segments_intersect};
 use crate::pattern::{Run, Seam};
 

@@ -3,9 +3,9 @@
 use crate::math::planar::{distance, polyline_length};
 use std::collections::BTreeMap;
 
-use super::DrawnSheet;
 use super::angles::{WorstAngle, angles};
-use super::draft::Lines;
+use super::lines::Lines;
+use super::sheet::DrawnSheet;
 use crate::pattern::{Direction, Missing, Sheet};
 
 /// Minimum length of a joint whose sides are compared, as a share of the side of a square with the area of all

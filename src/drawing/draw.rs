@@ -1,0 +1,185 @@
+//! Sheets drawn beside each other.
+
+use super::bend::bent;
+use super::draft::{Named, letters};
+use super::joints::matched_lines;
+use super::marks::counts;
+use super::nest::Shape;
+use super::options::{DrawingOptions, MAX_SIZE};
+use super::pack::{Place, packed};
+use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arranged, count};
+use super::sheet::DrawnSheet;
+use super::totals::{Totals, summary};
+use crate::error::{Error, Result, positive};
+use crate::pattern::{Missing, Sheet};
+
+/// A drawing, its lower left corner at `0, 0`; `x` to the right, `y` up, in millimetres.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Drawing {
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+    /// The sheets, in their order; none lies on another.
+    pub sheets: Vec<DrawnSheet>,
+    /// The pages that they lie on, if there are any ([`Drawing::onto`]).
+    pub pages: Option<Pages>,
+    /// What it comes to.
+    pub summary: Totals,
+}
+
+impl Drawing {
+    /// Draws sheets beside each other: in rows, the tallest first, ten millimetres apart.
+    ///
+    /// Cut creases have letters, the same on both sides; patches their number, counted from 1;
+    /// folds an M or a V and their angle. Both sides of what is cut and joined are drawn equally long: what strain is
+    /// left shows along borders, and their lines are moved by as little as it takes, within
+    /// [`DrawingOptions::smoothing`] and a hundredth of their length. Where that is not enough or lines would cross,
+    /// [`Totals::mismatch`] tells. Metal that is bent, and lines without smoothing, are drawn as they are.
+    ///
+    /// Costs `O(points)` without tabs; each tab is compared with its whole sheet.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] without a sheet, [`Error::Option`] for lengths that are negative or not finite, or if the
+    /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for a kerf or an allowance at which an outline
+    /// would cross itself, or for folds that are not straight from edge to edge where metal is bent.
+    pub fn new(sheets: &[Sheet], options: &DrawingOptions) -> Result<Self> {
+        let scale = positive("scale", options.scale)?;
+        let tabs = options.tabs.map(|t| positive("tabs", t)).transpose()?;
+        if sheets.is_empty() {
+            return Err(Error::Empty { what: "pattern" });
+        }
+        options.check()?;
+        let letters = letters(sheets);
+        let options = DrawingOptions { tabs, ..*options };
+        let sheets: &[Sheet] = &(sheets.iter().enumerate())
+            .map(|(number, sheet)| bent(number, sheet, &options))
+            .collect::<Result<Vec<_>>>()?;
+        let lines = matched_lines(sheets, &options);
+        let marks = options.marks.map(|distance| counts(&lines, distance));
+        let named = Named {
+            letters,
+            marks: marks.unwrap_or_default(),
+        };
+        let drawn: Vec<DrawnSheet> = (sheets.iter().zip(&lines).enumerate())
+            .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
+            .collect::<Result<_>>()?;
+        let boxes: Vec<Place> = (drawn.iter())
+            .map(|sheet| Place::around(&Shape::new(sheet).lines))
+            .collect();
+        let (places, [width, height]) = packed(&boxes);
+        if !(width <= MAX_SIZE && height <= MAX_SIZE) {
+            return Err(Error::option(
+                "scale",
+                scale,
+                "must not make the pattern larger than 50 metres",
+            ));
+        }
+        let drawn: Vec<DrawnSheet> = (drawn.into_iter().zip(&places))
+            .map(|(sheet, place)| sheet.moved(place))
+            .collect();
+        let mut summary = summary(&drawn, sheets, &lines, scale);
+        summary.a4 = count(&drawn, Stock::A4);
+        summary.letter = count(&drawn, Stock::Letter);
+        Ok(Drawing {
+            width,
+            height,
+            sheets: drawn,
+            pages: None,
+            summary,
+        })
+    }
+
+    /// The same sheets laid out on pages, as few as were found to do: each whole on one page, turned if it fits
+    /// better so, and sheets of paper that are too large for one over several, to be put together.
+    ///
+    /// Sheets are nested by their outlines, not as boxes: the largest first, each on the first page that has room,
+    /// three millimetres apart at least.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for more than [`MAX_PAGES`] pages, and for a sheet that does not fit on a plate
+    /// or a roll; [`Error::Option`] for sizes that are not positive and finite.
+    pub fn onto(self, stock: Stock) -> Result<Drawing> {
+        let Arranged {
+            places,
+            pages,
+            size,
+        } = arranged(&self.sheets, stock)?;
+        if pages.pages.len() > MAX_PAGES {
+            return Err(Error::Unsupported {
+                format: "pattern",
+                reason: format!(
+                    "it takes {} pages of this size, more than the limit of {MAX_PAGES}; \
+                     choose a smaller scale, larger paper or one large page",
+                    pages.pages.len()
+                ),
+            });
+        }
+        Ok(Drawing {
+            width: size[0],
+            height: size[1],
+            sheets: (self.sheets.into_iter().zip(&places))
+                .map(|(sheet, place)| sheet.moved(place))
+                .collect(),
+            pages: Some(pages),
+            summary: self.summary,
+        })
+    }
+
+    /// The same with what of the surface is on no sheet
+    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)), `scale` being that of the drawing.
+    pub fn missing(mut self, missing: &Missing, scale: f64) -> Self {
+        let mut missing = *missing;
+        missing.area *= scale * scale;
+        missing.step_area *= scale * scale;
+        self.summary.missing = Some(missing);
+        self
+    }
+
+    /// Whether it is one that can be written: what comes from elsewhere need not be.
+    #[cfg(feature = "patterns")]
+    pub(crate) fn check(&self) -> Result<()> {
+        let size = |value: f64| (0.0..=MAX_SIZE).contains(&value);
+        let near = |p: &[f64; 2]| p.iter().all(|v| v.abs() <= 2.0 * MAX_SIZE);
+        let lines = |sheet: &DrawnSheet| {
+            let folds = sheet.folds.iter().chain(&sheet.tabs);
+            let points = sheet.cuts.iter().chain(folds.map(|line| &line.points));
+            let places = sheet.labels.iter().map(|label| label.place);
+            let others = [&sheet.edges, &sheet.marks, &sheet.leaders];
+            let courses = sheet
+                .folds
+                .iter()
+                .chain(&sheet.tabs)
+                .map(|line| &line.curve);
+            points.flatten().chain(&sheet.bounds).all(near)
+                && (sheet
+                    .curves
+                    .iter()
+                    .chain(others.into_iter().flatten())
+                    .chain(courses))
+                .all(|curve| curve.is_whole() && curve.controls().iter().all(near))
+                && sheet
+                    .labels
+                    .iter()
+                    .all(|l| size(l.size) && l.turn.is_finite())
+                && places.into_iter().all(|place| near(&place))
+        };
+        let pages = self.pages.iter().all(|pages| {
+            let corners = pages.pages.iter().map(|page| &page.corner);
+            let sides = pages.paper.iter().chain(&pages.part);
+            pages.pages.len() <= MAX_PAGES
+                && corners.chain(&pages.marks).all(near)
+                && sides.chain([&pages.blank]).all(|side| size(*side))
+        });
+        let whole = size(self.width) && size(self.height);
+        match whole && pages && self.sheets.iter().all(lines) {
+            true => Ok(()),
+            false => Err(Error::Unsupported {
+                format: "drawing",
+                reason: "its coordinates must be finite, and within 50 metres".into(),
+            }),
+        }
+    }
+}

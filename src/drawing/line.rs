@@ -1,0 +1,69 @@
+//! Lines to fold along, and places on polylines.
+
+use super::curve::Curve;
+use crate::math::planar::{distance, polyline_length};
+use crate::pattern::{Direction, Seam};
+
+/// Maximum distance between a curve and the polyline that is given for it, in millimetres.
+pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
+
+/// A line to fold along.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Line {
+    /// The crease, by its place in [`Patches::creases`](crate::shape::patches::Patches::creases).
+    pub crease: usize,
+    /// Which way, seen from above.
+    pub direction: Direction,
+    /// By how much, in degrees: 0 is flat.
+    pub angle: f64,
+    /// Its length in millimetres.
+    pub length: f64,
+    /// Its course, within a fiftieth of a millimetre of [`Line::curve`].
+    pub points: Vec<[f64; 2]>,
+    /// Its course.
+    pub curve: Curve,
+}
+
+impl Line {
+    pub(super) fn new(seam: Seam, curve: Curve) -> Self {
+        let line = Line {
+            crease: seam.crease,
+            direction: seam.direction,
+            angle: seam.angle.to_degrees(),
+            length: 0.0,
+            points: Vec::new(),
+            curve: Curve::of(Vec::new()),
+        };
+        line.along(curve)
+    }
+
+    /// The same with another course.
+    pub(super) fn along(self, curve: Curve) -> Self {
+        let points = curve.points(FLATTENING_TOLERANCE_MM);
+        Line {
+            length: polyline_length(&points),
+            points,
+            curve,
+            ..self
+        }
+    }
+}
+
+/// The place so far along a line, and where it heads there.
+pub(super) fn place_at(points: &[[f64; 2]], along: f64) -> ([f64; 2], [f64; 2]) {
+    let (mut rest, mut place, mut heading) = (along, points[0], [1.0, 0.0]);
+    for piece in points.windows(2) {
+        let step = distance(piece[0], piece[1]);
+        if step > 0.0 {
+            heading = [0, 1].map(|k| (piece[1][k] - piece[0][k]) / step);
+            place = [0, 1].map(|k| piece[0][k] + heading[k] * rest.min(step));
+        }
+        if rest <= step {
+            break;
+        }
+        rest -= step;
+    }
+    (place, heading)
+}

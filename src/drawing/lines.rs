@@ -1,0 +1,35 @@
+//! The lines of a sheet, smooth and in millimetres, before they have a place.
+
+use super::curve::Curve;
+use super::line::Line;
+use super::options::DrawingOptions;
+use super::smooth::smoothed;
+use crate::pattern::{Run, Sheet};
+
+/// The lines of a sheet, smooth and in millimetres.
+pub(super) struct Lines<'a> {
+    pub outlines: Vec<Vec<(&'a Run, Curve)>>,
+    pub folds: Vec<Line>,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
+        let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
+        let smooth = smoothed(sheet, options.smoothing);
+        let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {
+            outline.iter().zip(curves.iter().map(scaled)).collect()
+        };
+        let folds = sheet.folds.iter().zip(&smooth.folds);
+        Lines {
+            outlines: sheet
+                .outlines
+                .iter()
+                .zip(&smooth.outlines)
+                .map(runs)
+                .collect(),
+            folds: folds
+                .map(|(fold, curve)| Line::new(fold.seam, scaled(curve)))
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Sheets as they are drawn.
+
+use super::curve::Curve;
+use super::label::Label;
+use super::line::{FLATTENING_TOLERANCE_MM, Line};
+use super::pack::Place;
+
+/// A sheet as it is drawn: turned so that its box is small, if that is worth it, never mirrored.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct DrawnSheet {
+    /// `Sheet 1` and so on.
+    pub name: String,
+    /// Its patches.
+    pub patches: Vec<u32>,
+    /// Its lower left and upper right corner.
+    pub bounds: [[f64; 2]; 2],
+    /// Closed lines, the last point joined to the first; around tabs, too. Points within a fiftieth of a
+    /// millimetre of [`DrawnSheet::curves`].
+    pub cuts: Vec<Vec<[f64; 2]>>,
+    /// The same lines as curves.
+    pub curves: Vec<Curve>,
+    /// Where it is folded.
+    pub folds: Vec<Line>,
+    /// Where tabs are folded.
+    pub tabs: Vec<Line>,
+    /// The edges of the surface, where there is an allowance around them: where it is sewn or bent over.
+    pub edges: Vec<Curve>,
+    /// Short lines along seams, which lie on each other when these are joined.
+    pub marks: Vec<Curve>,
+    /// From places that are too small to write on to what is written beside the sheet.
+    pub leaders: Vec<Curve>,
+    /// What is written on it, or beside it.
+    pub labels: Vec<Label>,
+}
+
+impl DrawnSheet {
+    /// This sheet at a place.
+    pub(super) fn moved(mut self, place: &Place) -> Self {
+        for line in self.folds.iter_mut().chain(&mut self.tabs) {
+            line.curve = line.curve.mapped(|p| place.of(p));
+            line.points = line.curve.points(FLATTENING_TOLERANCE_MM);
+        }
+        let others = [&mut self.edges, &mut self.marks, &mut self.leaders];
+        for curve in self.curves.iter_mut().chain(others.into_iter().flatten()) {
+            *curve = curve.mapped(|p| place.of(p));
+        }
+        let ring = |curve: &Curve| {
+            let mut points = curve.points(FLATTENING_TOLERANCE_MM);
+            // The last point is joined to the first.
+            points.pop();
+            points
+        };
+        self.cuts = self.curves.iter().map(ring).collect();
+        for label in &mut self.labels {
+            label.place = place.of(label.place);
+            label.turn_by(place.degrees());
+        }
+        self.bounds = bounds(self.cuts.iter().flatten());
+        // Its name stays above it.
+        self.labels.retain(|label| !label.is_sheet());
+        self.labels.push(Label::sheet(&self.name, self.bounds));
+        self
+    }
+}
+
+/// The lower left and upper right corner of a box around points.
+pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
+    let empty = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    points.fold(empty, |[low, high], p| {
+        [
+            [0, 1].map(|k| low[k].min(p[k])),
+            [0, 1].map(|k| high[k].max(p[k])),
+        ]
+    })
+}

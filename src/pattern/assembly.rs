@@ -1,26 +1,26 @@
 //! Parts joined to sheets, each of which is checked as it is drawn.
 
-use super::check::{Tied, are_close, crossing, strains};
+use super::check::{Tied, are_close, strains};
 use super::faces::faces;
+use super::fault::{Fault, SHEET_RELAXATION, fault, folded};
 use super::layout::{Arrangement, apart, arranged};
-use super::leaf::{Leaf, Strain};
+use super::leaf::Leaf;
 use super::meeting::Meetings;
 use super::net::Net;
+use super::options::PatternOptions;
 use super::outline::Layout;
 use super::parts::Parts;
 use super::refold::refolded;
 use super::sew::sewn;
-use super::shape::{folds, lines, outlines};
+use super::shape::{folds, outlines};
+use super::sheets::{Direction, Missing, Pattern, Seam, Sheet};
 use super::spots::spots;
-use super::trim::Trouble;
-use super::{Direction, Missing, Pattern, PatternOptions, Seam, Sheet};
-use crate::error::{Result, rounded};
+use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::math::planar::polyline_length;
 use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
-use crate::unroll::flat_triangle::Point;
 
 pub(super) enum Assembly {
     Whole(Box<Assembled>),
@@ -36,52 +36,11 @@ pub(super) struct Assembled {
     pub arrangement: Arrangement,
 }
 
-/// Stopping criteria for laying the patches of a sheet flat together.
-pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
-    tolerance: 1e-8,
-    target_energy: 0.0,
-    hopeless_energy: f64::INFINITY,
-    max_steps: 25,
-};
-
 /// Stopping criteria for a sheet whose patches start near their final places.
 const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
     max_steps: 12,
     ..SHEET_RELAXATION
 };
-
-/// What is wrong with a sheet.
-pub(super) enum Fault {
-    /// How much, and the parts that are strained more than they may be.
-    Strain(f64, Vec<u32>),
-    /// Parts with triangles upside down.
-    Flipped(Vec<u32>),
-    /// Where.
-    Crossing(Point),
-}
-
-impl Fault {
-    /// The parts that are in trouble, and which that is.
-    fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
-        match self {
-            Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
-            Fault::Flipped(parts) => Some((parts, Trouble::Flipped)),
-            Fault::Crossing(_) => None,
-        }
-    }
-
-    fn reason(&self, limit: f64) -> String {
-        match self {
-            Fault::Strain(strain, _) => format!(
-                "its strain would be {} %, more than the limit of {} %",
-                rounded(100.0 * strain),
-                rounded(100.0 * limit)
-            ),
-            Fault::Flipped(_) => "triangles of it would lie upside down".into(),
-            Fault::Crossing(_) => "its outline would cross itself".into(),
-        }
-    }
-}
 
 /// Joins parts as far as their sides fit, they are not strained by it, and outlines stay simple.
 pub(super) fn assembled(
@@ -208,39 +167,6 @@ fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>
     }
     groups.retain(|group| !group.is_empty());
     Ok(groups)
-}
-
-pub(super) fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> {
-    let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
-    (0..net.seams.len()).filter(own).collect()
-}
-
-/// What is wrong with a sheet, if anything is.
-pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
-    let (sum, all) = strains(net, members);
-    // Some of them at once, so that few joint unrollings are needed.
-    let those = |wrong: &dyn Fn(&Strain) -> bool| -> Vec<u32> {
-        let mut found: Vec<&(u32, Strain)> = all.iter().filter(|(_, s)| wrong(s)).collect();
-        found.sort_by(|a, b| b.1.rms().total_cmp(&a.1.rms()));
-        found.truncate(found.len().div_ceil(3));
-        found.into_iter().map(|(patch, _)| *patch).collect()
-    };
-    if sum.rms() > limit {
-        return Some(Fault::Strain(sum.rms(), those(&|s| s.rms() > limit)));
-    }
-    if sum.flipped > 0 {
-        return Some(Fault::Flipped(those(&|s| s.flipped > 0)));
-    }
-    let lines: Vec<Vec<Point>> = (lines(net, layout, members).0.into_iter())
-        .map(|runs| {
-            let points = runs.into_iter().flat_map(|(_, mut points)| {
-                points.pop();
-                points
-            });
-            points.collect()
-        })
-        .collect();
-    crossing(&lines).map(Fault::Crossing)
 }
 
 /// The folds that are to be cut: for an outline that crosses itself the nearest one, or else of those of

@@ -293,7 +293,8 @@ fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assem
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::{DIRECT_OUTLINE_DETAIL, PatternOptions, whole};
+    use crate::pattern::PatternOptions;
+    use crate::pattern::heightfield::{DIRECT_OUTLINE_DETAIL, whole};
     use crate::shape::patches::PatchOptions;
 
     #[test]

@@ -1,6 +1,6 @@
 //! Patches laid beside each other, as many as fit.
 
-use super::net::Net;
+use super::net::{NEGLIGIBLE_GAP_LENGTHS, Net};
 use super::outline::{Layout, Motion};
 use crate::math::planar::polyline_length;
 
@@ -9,13 +9,6 @@ pub(super) struct Arrangement {
     /// The patches of each sheet, ascending.
     pub sheets: Vec<Vec<u32>>,
 }
-
-/// Distance in space between the sides of a seam, in spacings, above which the seam is a tear.
-pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
-
-/// Seam gap that the resolution of a surface cannot tell from none, in spacings of a lattice or edge lengths
-/// of a mesh.
-pub(super) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Makes folds of the seams whose sides fit within a share of their length, the longest first.
 pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {

@@ -6,7 +6,6 @@
 //! into each other as the surface does.
 
 use super::labels::Labels;
-use super::layout::MIN_TEAR_GAP_SPACINGS;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -15,6 +14,9 @@ use crate::scene::view::Frame;
 use crate::shape::patches::extrapolate::extrapolated_height;
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::{UnrollOptions, unroll_mesh};
+
+/// Distance in space between the sides of a seam, in spacings, above which the seam is a tear.
+pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 
 /// Minimum number of vertices of a part that may be cut further.
 pub(super) const MIN_CUT_VERTICES: usize = 24;

@@ -3,9 +3,9 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use super::PatternOptions;
 use super::labels::Labels;
 use super::leaf::{Leaf, MIN_CUT_VERTICES, Window};
+use super::options::PatternOptions;
 use super::trim::{Trouble, specks};
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;

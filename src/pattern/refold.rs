@@ -6,9 +6,9 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::Refolding;
 use super::check::ties;
 use super::net::Net;
+use super::sheets::Refolding;
 use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::FlatTriangle;

@@ -3,10 +3,10 @@
 
 use std::collections::VecDeque;
 
-use super::assembly::{SHEET_RELAXATION, fault, folded};
 use super::check::{Tied, are_close, strain_along, strains};
-use super::layout::{Arrangement, NEGLIGIBLE_GAP_LENGTHS, apart, beside, fits, longest_first};
-use super::net::Net;
+use super::fault::{SHEET_RELAXATION, fault, folded};
+use super::layout::{Arrangement, apart, beside, fits, longest_first};
+use super::net::{NEGLIGIBLE_GAP_LENGTHS, Net};
 use crate::error::Result;
 use crate::math::planar::polyline_length;
 use crate::unroll::arap_mesh::StoppingCriteria;

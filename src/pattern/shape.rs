@@ -4,8 +4,8 @@ use super::line::{meeting, sharpened, simplified, simplified_ring};
 use super::meeting::Meetings;
 use super::net::{FOUR_WAY_JUNCTION_RADIUS, HEADING_NODES, Net, is_triangle};
 use super::outline::{Corner, Layout};
-use super::simple::{Runs, without_loops};
-use super::{Fold, Run, Seam};
+use super::sheets::{Fold, Run, Seam};
+use super::simple::{Runs, Side, without_loops};
 use crate::math::planar::polyline_length;
 use crate::unroll::flat_triangle::Point;
 
@@ -15,9 +15,6 @@ const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 /// Maximum length of the border piece that cuts off a corner, as a multiple of the longest edge there. Such a
 /// piece arises because the border joins the middles of edges.
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
-
-/// A seam, and the one of its patches that is beside it.
-pub(crate) type Side = (usize, u32);
 
 /// The closed lines around a sheet, and how many small loops were cut off them.
 pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {

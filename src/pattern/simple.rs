@@ -1,6 +1,5 @@
 //! Closed lines without the small loops in which they cross themselves.
 
-use super::shape::Side;
 use crate::math::planar::{line_intersection, polygon_area, polygon_perimeter};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
@@ -14,6 +13,10 @@ const MAX_LOOP_LENGTH: f64 = 60.0;
 /// Maximum number of passes over a line in which its loops are cut off.
 const MAX_LOOP_PASSES: usize = 8;
 
+/// A seam, and the one of its patches that is beside it.
+pub(crate) type Side = (usize, u32);
+
+/// Consecutive pieces of a closed line, each with the side that it follows; `None` for the border.
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
 /// A closed line of runs, each of which begins where the one before ends, with its small loops cut off

@@ -2,9 +2,9 @@
 
 use std::collections::VecDeque;
 
-use super::Spot;
 use super::net::Net;
 use super::outline::Layout;
+use super::sheets::Spot;
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::NO_PATCH;
 

@@ -1,6 +1,5 @@
 //! Sheets as they are drawn: their outlines, folds and places to write on.
 
-use super::MeshPattern;
 use super::body::Body;
 use super::join::Joined;
 use super::lay::Laid;
@@ -12,6 +11,20 @@ use crate::pattern::{Direction, Faces, Fold, Run, Seam, Sheet, Spot};
 use crate::scene::half_edges::half_edge_ends;
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
+
+/// A mesh cut into sheets.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MeshPattern {
+    /// The sheets, that with the largest patch first. They are seen from outside, which is the side that the
+    /// mesh's triangles face.
+    pub sheets: Vec<Sheet>,
+    /// The patches of the sheets, that with the largest area first: those that were given, each connected
+    /// piece by itself, or what they were cut into.
+    pub patches: Vec<Patch>,
+    /// The creases between them, cuts through what was one patch among them.
+    pub creases: Vec<Crease>,
+}
 
 pub(super) fn drawn(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<MeshPattern> {
     let creases = seams.all.iter().map(|seam| Crease {

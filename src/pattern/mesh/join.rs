@@ -4,7 +4,7 @@ use super::body::Body;
 use super::lay::{Laid, Lying};
 use super::seams::Seams;
 use crate::error::Result;
-use crate::pattern::layout::NEGLIGIBLE_GAP_LENGTHS;
+use crate::pattern::net::NEGLIGIBLE_GAP_LENGTHS;
 use crate::pattern::outline::Motion;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;

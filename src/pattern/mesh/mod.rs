@@ -13,31 +13,18 @@ mod seams;
 
 use std::collections::BTreeMap;
 
-use super::{PatternOptions, Sheet};
+use super::options::PatternOptions;
 use crate::error::{Error, Result, check_count, positive, rounded};
 use crate::fit::mesh::topology::Topology;
 use crate::scene::mesh::Mesh;
-use crate::shape::patches::{Crease, MeshPatches, Patch};
+use crate::shape::patches::MeshPatches;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use body::{Body, Place, Plane};
+pub use draw::MeshPattern;
 use draw::drawn;
 use join::{Limits, joined};
 use lay::{Laid, TRIAL_STEPS};
 use seams::Seams;
-
-/// A mesh cut into sheets.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct MeshPattern {
-    /// The sheets, that with the largest patch first. They are seen from outside, which is the side that the
-    /// mesh's triangles face.
-    pub sheets: Vec<Sheet>,
-    /// The patches of the sheets, that with the largest area first: those that were given, each connected
-    /// piece by itself, or what they were cut into.
-    pub patches: Vec<Patch>,
-    /// The creases between them, cuts through what was one patch among them.
-    pub creases: Vec<Crease>,
-}
 
 /// Maximum number of parts of a mesh: nobody puts together a pattern of more.
 const MAX_PARTS: u32 = 500;

@@ -1,7 +1,6 @@
 //! Seams divided where only a part of them can be joined, and put together again.
 
-use super::{MIN_SEAM_PART_NODES, Net, Seam};
-use crate::pattern::layout::NEGLIGIBLE_GAP_LENGTHS;
+use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Net, Seam};
 use crate::unroll::flat_triangle::Point;
 
 /// Minimum share of a crease's length that is joined where the whole crease cannot be.
@@ -12,7 +11,7 @@ const MIN_JOINED_CUT_SHARE: f64 = 0.2;
 
 impl Net {
     /// Divides seams that cannot be joined as a whole, if by `gap` (see
-    /// [`PatternOptions`](super::PatternOptions)) a good part of them can.
+    /// [`PatternOptions`](crate::pattern::PatternOptions)) a good part of them can.
     pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {
         for number in 0..self.seams.len() {
             if self.is_torn(number) {

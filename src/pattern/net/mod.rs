@@ -11,7 +11,7 @@ mod places;
 pub(super) use border::HEADING_NODES;
 
 use super::labels::Labels;
-use super::leaf::Leaf;
+use super::leaf::{Leaf, MIN_TEAR_GAP_SPACINGS};
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
@@ -26,6 +26,10 @@ pub(super) type Node = crate::shape::patches::crease::CreaseNode;
 
 /// Maximum distance, in spacings, between two nodes of three patches each that are one place where four meet.
 pub(super) const FOUR_WAY_JUNCTION_RADIUS: f64 = 3.0;
+
+/// Seam gap that the resolution of a surface cannot tell from none, in spacings of a lattice or edge lengths
+/// of a mesh.
+pub(in crate::pattern) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Minimum number of nodes of each part of a divided seam.
 const MIN_SEAM_PART_NODES: usize = 4;
@@ -169,7 +173,7 @@ impl Net {
 
     /// Whether its sides are apart in space: at a step of the surface.
     pub(super) fn is_torn(&self, seam: usize) -> bool {
-        self.seams[seam].apart > super::layout::MIN_TEAR_GAP_SPACINGS * self.spacing
+        self.seams[seam].apart > MIN_TEAR_GAP_SPACINGS * self.spacing
     }
 
     /// The seams that an edge's node is on.

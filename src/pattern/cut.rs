@@ -1,0 +1,224 @@
+//! Cuts through parts that cannot be laid flat in one piece.
+
+use std::cmp::Reverse;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::labels::{Labels, hanging_together};
+use super::leaf::Leaf;
+use crate::error::Result;
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::Lattice;
+use crate::math::statistics::weighted_median;
+use rustc_hash::FxHashMap;
+
+/// Number of directions of a straight cut that are compared, evenly spaced over half a turn.
+const CUT_DIRECTIONS: usize = 16;
+
+/// Minimum number of vertices of a group on one side of a cut; a smaller one stays with its neighbour.
+const MIN_GROUP_VERTICES: usize = 4;
+
+/// Minimum size of a group on one side of a cut, as a share of the vertices of the part that is cut.
+const MIN_GROUP_SHARE: f64 = 0.03;
+
+/// Minimum rise of an edge over the spacing at which the edge is a step of the surface.
+const MIN_STEP_SLOPE: f64 = 4.0;
+
+/// Weight of a cut's length in its score, beside the variance of the normals that is left on both sides.
+const CUT_LENGTH_WEIGHT: f64 = 0.002;
+
+impl Labels {
+    /// Cuts a part in two or more, along a straight line seen from above, through where it is
+    /// strained most, and in that direction which leaves the least to bend in two directions.
+    /// Returns the numbers of what it was cut into, the first of them its own, or nothing where it
+    /// is too small.
+    pub(super) fn cut(
+        &mut self,
+        surface: &Heightfield,
+        part: u32,
+        leaf: &Leaf,
+    ) -> Result<Option<Vec<u32>>> {
+        let lattice = *surface.lattice();
+        let burden = leaf.burden(&lattice);
+        if leaf.is_crumb() {
+            return Ok(None);
+        }
+        // Along steps, if there are any.
+        let steep = MIN_STEP_SLOPE * lattice.spacing();
+        let level =
+            |i: usize, k: usize| (surface.heights()[i] - surface.heights()[k]).abs() < steep;
+        if let Some(parts) = self.try_cut(&lattice, part, &burden, |_| false, level) {
+            return Ok(Some(parts));
+        }
+        let samples: Vec<Sample> = (burden.iter())
+            .map(|(i, square)| Sample::new(surface, *i, *square))
+            .collect();
+        let mut lines: Vec<(f64, [f64; 3])> = (0..CUT_DIRECTIONS)
+            .flat_map(|k| {
+                let (sin, cos) =
+                    (std::f64::consts::PI * k as f64 / CUT_DIRECTIONS as f64).sin_cos();
+                // Through the place of the strain, and through the middle of it all.
+                [2.0, 0.0].map(|power| {
+                    let offset = median(&samples, [cos, sin], power);
+                    let line = [cos, sin, -offset];
+                    (score(&samples, line, lattice.spacing()), line)
+                })
+            })
+            .collect();
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, [a, b, c]) in lines {
+            let beyond = |i: usize| {
+                let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+                a * x + b * y + c > 0.0
+            };
+            let cut = self.try_cut(&lattice, part, &burden, beyond, |_, _| true);
+            if cut.is_some() {
+                return Ok(cut);
+            }
+        }
+        Ok(None)
+    }
+
+    /// Cuts a part in what hangs together on either side and by edges that are `joined`.
+    fn try_cut(
+        &mut self,
+        lattice: &Lattice,
+        part: u32,
+        burden: &[(usize, f64)],
+        beyond: impl Fn(usize) -> bool,
+        joined: impl Fn(usize, usize) -> bool,
+    ) -> Option<Vec<u32>> {
+        let first = self.origins.len() as u32;
+        let members = || burden.iter().map(|(i, _)| *i);
+        let side: FxHashMap<usize, bool> = members().map(|i| (i, beyond(i))).collect();
+        let same = |i: usize, k: usize| side[&i] == side[&k] && joined(i, k);
+        let groups = hanging_together(lattice, members(), same);
+        let mut numbers = FxHashMap::with_capacity_and_hasher(burden.len(), Default::default());
+        for (number, group) in groups.iter().enumerate() {
+            numbers.extend(group.iter().map(|i| (*i, number)));
+        }
+        // Scraps stay with the largest group beside them.
+        let least = MIN_GROUP_VERTICES.max((MIN_GROUP_SHARE * burden.len() as f64) as usize);
+        let mut order: Vec<usize> = (0..groups.len()).collect();
+        order.sort_by_key(|g| Reverse(groups[*g].len()));
+        let large: Vec<usize> = order
+            .into_iter()
+            .filter(|g| groups[*g].len() >= least)
+            .collect();
+        if large.len() < 2 {
+            return None;
+        }
+        let mut named = FxHashMap::default();
+        for (k, group) in large.iter().enumerate() {
+            let number = if k == 0 { part } else { first + k as u32 - 1 };
+            named.insert(*group, number);
+        }
+        let mut pending: Vec<usize> = (0..groups.len())
+            .filter(|g| !named.contains_key(g))
+            .collect();
+        while !pending.is_empty() {
+            let before = pending.len();
+            pending.retain(|group| {
+                let beside = groups[*group].iter().flat_map(|i| lattice.around(*i));
+                let found = beside
+                    .filter_map(|k| named.get(numbers.get(&k)?))
+                    .min()
+                    .copied();
+                if let Some(number) = found {
+                    named.insert(*group, number);
+                }
+                found.is_none()
+            });
+            if pending.len() == before {
+                break;
+            }
+        }
+        for (group, members) in groups.iter().enumerate() {
+            for i in members {
+                self.of[*i] = named.get(&group).copied().unwrap_or(part);
+            }
+        }
+        let origin = self.origins[part as usize];
+        let count = large.len() as u32;
+        self.origins.extend((1..count).map(|_| origin));
+        Some(
+            std::iter::once(part)
+                .chain(first..first + count - 1)
+                .collect(),
+        )
+    }
+}
+
+/// A vertex: where it is, its normal, and how much it is strained.
+struct Sample {
+    place: [f64; 2],
+    normal: Vector3<f64>,
+    square: f64,
+}
+
+impl Sample {
+    fn new(surface: &Heightfield, i: usize, square: f64) -> Sample {
+        let lattice = surface.lattice();
+        let (row, col) = (i / lattice.cols(), i % lattice.cols());
+        let here = lattice.position(row, col);
+        // The plane through the neighbours there are, by least squares.
+        let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (r, c) in lattice.neighbours(row, col).into_iter().flatten() {
+            let rise = surface.height(r, c) - surface.heights()[i];
+            if rise.is_nan() {
+                continue;
+            }
+            let there = lattice.position(r, c);
+            let [x, y] = [0, 1].map(|k| there[k] - here[k]);
+            xx += x * x;
+            xy += x * y;
+            yy += y * y;
+            xz += x * rise;
+            yz += y * rise;
+        }
+        let determinant = xx * yy - xy * xy;
+        let gradient = match determinant > 0.0 {
+            true => [(yy * xz - xy * yz), (xx * yz - xy * xz)].map(|v| v / determinant),
+            false => [0.0; 2],
+        };
+        Sample {
+            place: here,
+            normal: Vector3::new(-gradient[0], -gradient[1], 1.0).normalize(),
+            square,
+        }
+    }
+}
+
+/// The median along a direction, each vertex counting by a power of its strain.
+fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
+    let mut along: Vec<(f64, f64)> = (samples.iter())
+        .map(|s| (x * s.place[0] + y * s.place[1], s.square.powf(power)))
+        .collect();
+    weighted_median(&mut along).unwrap_or(0.0)
+}
+
+/// What both sides of a line have left to bend in two directions: the least variance of their
+/// normals, which is 0 for planes, cylinders and cones (Julius, Kraevoy and Sheffer 2005, *D-Charts*),
+/// times their numbers; and the length of the cut.
+fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
+    let mut sums = [(0.0, Vector3::zeros(), Matrix3::zeros()); 2];
+    let mut length = 0.0;
+    for sample in samples {
+        let away = a * sample.place[0] + b * sample.place[1] + c;
+        let (count, sum, squares) = &mut sums[usize::from(away > 0.0)];
+        *count += 1.0;
+        *sum += sample.normal;
+        *squares += sample.normal * sample.normal.transpose();
+        length += f64::from(away.abs() < 0.5 * spacing);
+    }
+    let left = sums.map(|(count, sum, squares)| {
+        if count == 0.0 {
+            return 0.0;
+        }
+        let variance = squares - sum * sum.transpose() / count;
+        variance.symmetric_eigenvalues().min().max(0.0)
+    });
+    let total = samples.len() as f64;
+    let balance = (sums[0].0 - sums[1].0).abs() / total;
+    (left[0] + left[1]) / total + CUT_LENGTH_WEIGHT * length / total.sqrt() * (1.0 + balance)
+}

@@ -1,0 +1,86 @@
+//! What keeps a sheet from being one: strain, triangles upside down, an outline that crosses itself.
+
+use super::check::{crossing, strains};
+use super::leaf::Strain;
+use super::net::Net;
+use super::outline::Layout;
+use super::shape::lines;
+use super::trim::Trouble;
+use crate::error::rounded;
+use crate::unroll::arap_mesh::StoppingCriteria;
+use crate::unroll::flat_triangle::Point;
+
+/// Stopping criteria for laying the patches of a sheet flat together.
+pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
+    tolerance: 1e-8,
+    target_energy: 0.0,
+    hopeless_energy: f64::INFINITY,
+    max_steps: 25,
+};
+
+/// What is wrong with a sheet.
+pub(super) enum Fault {
+    /// How much, and the parts that are strained more than they may be.
+    Strain(f64, Vec<u32>),
+    /// Parts with triangles upside down.
+    Flipped(Vec<u32>),
+    /// Where.
+    Crossing(Point),
+}
+
+impl Fault {
+    /// The parts that are in trouble, and which that is.
+    pub(super) fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
+        match self {
+            Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
+            Fault::Flipped(parts) => Some((parts, Trouble::Flipped)),
+            Fault::Crossing(_) => None,
+        }
+    }
+
+    pub(super) fn reason(&self, limit: f64) -> String {
+        match self {
+            Fault::Strain(strain, _) => format!(
+                "its strain would be {} %, more than the limit of {} %",
+                rounded(100.0 * strain),
+                rounded(100.0 * limit)
+            ),
+            Fault::Flipped(_) => "triangles of it would lie upside down".into(),
+            Fault::Crossing(_) => "its outline would cross itself".into(),
+        }
+    }
+}
+
+/// The folds of a sheet, by the numbers of their seams.
+pub(super) fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> {
+    let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
+    (0..net.seams.len()).filter(own).collect()
+}
+
+/// What is wrong with a sheet, if anything is.
+pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
+    let (sum, all) = strains(net, members);
+    // Some of them at once, so that few joint unrollings are needed.
+    let those = |wrong: &dyn Fn(&Strain) -> bool| -> Vec<u32> {
+        let mut found: Vec<&(u32, Strain)> = all.iter().filter(|(_, s)| wrong(s)).collect();
+        found.sort_by(|a, b| b.1.rms().total_cmp(&a.1.rms()));
+        found.truncate(found.len().div_ceil(3));
+        found.into_iter().map(|(patch, _)| *patch).collect()
+    };
+    if sum.rms() > limit {
+        return Some(Fault::Strain(sum.rms(), those(&|s| s.rms() > limit)));
+    }
+    if sum.flipped > 0 {
+        return Some(Fault::Flipped(those(&|s| s.flipped > 0)));
+    }
+    let lines: Vec<Vec<Point>> = (lines(net, layout, members).0.into_iter())
+        .map(|runs| {
+            let points = runs.into_iter().flat_map(|(_, mut points)| {
+                points.pop();
+                points
+            });
+            points.collect()
+        })
+        .collect();
+    crossing(&lines).map(Fault::Crossing)
+}

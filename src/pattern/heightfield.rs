@@ -1,0 +1,126 @@
+//! Patterns of heightfields.
+
+use super::assembly::{Assembled, Assembly, assembled, drawn};
+use super::fine::{Coarse, refined};
+use super::options::PatternOptions;
+use super::parts::Parts;
+use super::sheets::Pattern;
+use crate::error::{Error, Result, positive};
+use crate::heights::heightfield::Heightfield;
+use crate::shape::patches::Patches;
+
+/// Strain limits on a coarse lattice, as shares of the limit on the fine one, tried in this order: the next is
+/// used where sheets were strained too much on the fine lattice.
+const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
+
+/// Smallest detail of outlines, in spacings, on a lattice that is not refined: if larger loops are cut off, the
+/// two sides of a joint differ.
+pub(super) const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
+
+/// Maximum number of rounds in which parts that are too small to be cut are merged or left out.
+const MAX_MERGE_ROUNDS: usize = 24;
+
+/// Cuts a surface into sheets, that with the largest patch first.
+///
+/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]: what
+/// cannot be laid flat so is cut. A patch that is strained by more is cut in two where it is strained
+/// most, as often as it takes, and its parts are joined again as far as their sides fit, so that a cone is
+/// slit and a dome gets darts. Where a crease's sides fit along a part of it only, it is opened along the
+/// rest. Then cuts are closed again, whole or in part, where strain and outlines allow it. What is too small to be
+/// cut and lies flat with nothing beside it is left out, a fiftieth of the vertices at most
+/// ([`Pattern::missing`]).
+///
+/// Surfaces of more than twelve thousand vertices are cut on the lattice of twice the spacing, and so on;
+/// on their own lattice that costs one unrolling. What is cut there costs an unrolling of each part, two
+/// or three for what is cut again, and up to 800 steps of `O(vertices)` for closing cuts.
+///
+/// # Errors
+/// [`Error::Shape`] or [`Error::Mismatch`] if the
+/// patches are those of another surface,
+/// [`Error::Option`] for a gap or a strain that is not positive and finite,
+/// [`Error::NotFlat`] for what no cut makes flat, and what
+/// [`unroll`](crate::unroll::unroll) has to say.
+pub fn pattern(
+    surface: &Heightfield,
+    patches: &Patches,
+    options: &PatternOptions,
+) -> Result<Pattern> {
+    patches.check_of(surface)?;
+    positive("gap", options.gap)?;
+    positive("maxStrain", options.max_strain)?;
+    drawn(
+        surface,
+        &whole(surface, patches, options, DIRECT_OUTLINE_DETAIL)?,
+    )
+}
+
+/// Cuts and joins on a coarse lattice where there are many vertices.
+pub(super) fn whole(
+    surface: &Heightfield,
+    patches: &Patches,
+    options: &PatternOptions,
+    mut finest: f64,
+) -> Result<Assembled> {
+    if let Some(coarse) = Coarse::new(surface, patches)? {
+        finest = 1.0;
+        for margin in COARSE_STRAIN_SHARES {
+            let stricter = options.max_strain(margin * options.max_strain);
+            let rough = match whole(&coarse.surface, &coarse.patches, &stricter, finest) {
+                Err(Error::NotFlat { .. }) => break,
+                other => other?,
+            };
+            let parts = Parts::none(surface, options);
+            if let Ok(found) = refined(surface, patches, &coarse, &rough, parts)? {
+                return Ok(found);
+            }
+        }
+    }
+    loop {
+        match direct(surface, patches, options, finest) {
+            Err(Error::NotFlat { .. }) if finest < 1.0 => finest = 1.0,
+            other => return other,
+        }
+    }
+}
+
+/// Cuts and joins until every sheet is as it should be.
+fn direct(
+    surface: &Heightfield,
+    patches: &Patches,
+    options: &PatternOptions,
+    finest: f64,
+) -> Result<Assembled> {
+    let mut parts = Parts::new(surface, patches, options)?;
+    parts.finest = finest;
+    parts.cut_strained()?;
+    parts.give_away_crumbs()?;
+    // What is not as it should be is cut further; what is too small goes to what is beside it, or is
+    // left out.
+    let mut rounds = 0;
+    loop {
+        let faults = match assembled(parts, patches, options)? {
+            Assembly::Whole(whole) => return Ok(*whole),
+            Assembly::Cut(again, faults) => {
+                parts = *again;
+                faults
+            }
+        };
+        rounds += 1;
+        let mut small = Vec::new();
+        for (part, reason) in faults {
+            if !parts.cut(part)? {
+                small.push((part, reason));
+            }
+        }
+        parts.cut_strained()?;
+        // Numbers change as parts go: from the last one on.
+        small.sort_unstable();
+        for (part, reason) in small.into_iter().rev() {
+            let gone =
+                rounds <= MAX_MERGE_ROUNDS && (parts.give_away(part)? || parts.leave_out(part)?);
+            if !gone {
+                return Err(parts.refused(part, reason));
+            }
+        }
+    }
+}

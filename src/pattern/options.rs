@@ -1,0 +1,54 @@
+//! Options of a pattern.
+
+use crate::unroll::UnrollOptions;
+
+/// What may stay together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct PatternOptions {
+    /// How far the two sides of a fold may be from each other on the flat sheet (root of the mean
+    /// square), as a share of the fold's length; a quarter of the lattice's spacing is always
+    /// allowed. Default 0.005.
+    pub gap: f64,
+    /// The most strain that a sheet may be laid flat with (root of the mean square over its area).
+    /// Default 0.01.
+    pub max_strain: f64,
+    /// How patches are laid flat.
+    pub unrolling: UnrollOptions,
+    /// Whether sheets are folded back to see how near they come to the surface; that takes about as long
+    /// as laying them flat. Default `false`.
+    pub refold: bool,
+}
+
+impl Default for PatternOptions {
+    fn default() -> Self {
+        PatternOptions {
+            gap: 0.005,
+            max_strain: 0.01,
+            unrolling: UnrollOptions::default(),
+            refold: false,
+        }
+    }
+}
+
+impl PatternOptions {
+    /// These options with another gap.
+    pub fn gap(self, gap: f64) -> Self {
+        PatternOptions { gap, ..self }
+    }
+
+    /// These options with another limit of the strain.
+    pub fn max_strain(self, max_strain: f64) -> Self {
+        PatternOptions { max_strain, ..self }
+    }
+
+    /// These options with sheets folded back.
+    pub fn refold(self, refold: bool) -> Self {
+        PatternOptions { refold, ..self }
+    }
+
+    /// These options with another way to lay patches flat.
+    pub fn unrolling(self, unrolling: UnrollOptions) -> Self {
+        PatternOptions { unrolling, ..self }
+    }
+}

@@ -3,7 +3,7 @@
 use crate::pattern::Faces;
 use rustc_hash::FxHashMap;
 
-/// A place on the surface, and whether it is seen from above there, as far as its own triangle goes.
+/// A point on the surface, and whether the triangle there faces up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spot {
     pub at: [f64; 3],
@@ -15,7 +15,7 @@ pub(crate) fn faces_up([a, b, c]: [[f64; 3]; 3]) -> bool {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > 0.0
 }
 
-/// The triangles of a flat sheet, in squares as wide as the longest of their edges.
+/// The triangles of a flat sheet, binned by squares as wide as the longest of their edges.
 pub(crate) struct Built<'a> {
     faces: &'a Faces,
     width: f64,
@@ -50,8 +50,8 @@ impl<'a> Built<'a> {
         (column, row)
     }
 
-    /// As the triangle has it that the place is in, or that goes on to it from the least far; nothing if there is
-    /// none nearby. Cost: that of a few triangles.
+    /// The point on the surface for a point on the flat sheet, by the triangle that contains it, or else the
+    /// nearest one extended; `None` if no triangle is near. Costs a few triangles.
     pub(crate) fn at(&self, place: [f64; 2]) -> Option<Spot> {
         let (column, row) = self.square(place);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |k| (column + i, row + k)));
@@ -71,7 +71,7 @@ impl<'a> Built<'a> {
         })
     }
 
-    /// Of the corners of a triangle in a place; nothing for a triangle without an area.
+    /// Barycentric coordinates of a point in a triangle; `None` for a triangle without an area.
     fn shares(&self, corners: [u32; 3], place: [f64; 2]) -> Option<[f64; 3]> {
         let [a, b, c] = corners.map(|v| self.faces.flat[v as usize]);
         let area = |[a, b, c]: [[f64; 2]; 3]| {

@@ -5,24 +5,24 @@ use std::collections::BTreeMap;
 use crate::drawing::letters;
 use crate::pattern::Sheet;
 
-/// How sheets are put together.
+/// The order in which sheets are put together.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Assembly {
-    /// Sheet by sheet: first the one with the largest patch, then always the one with the longest seams to those
-    /// that are there.
+    /// One step for each sheet: first the one with the largest patch, then always the one with the longest
+    /// seams to those already in place.
     pub steps: Vec<Step>,
 }
 
-/// One sheet and what it is joined to.
+/// One sheet, and the seams that join it to those before it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Step {
-    /// The sheet's number, from 0; its name has the next one.
+    /// Number of the sheet, from 0; its name counts from 1.
     pub sheet: usize,
-    /// The seams that are closed when it is there, the longest first.
+    /// Seams that are closed with this sheet, the longest first.
     pub joints: Vec<Joint>,
 }
 
@@ -31,16 +31,17 @@ pub struct Step {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Joint {
-    /// Its letters on the drawing.
+    /// Letters of the seam on the drawing.
     pub name: String,
-    /// The sheet that was there before; that of the step for a seam of its own.
+    /// Number of the sheet already in place that the seam leads to; the step's own for a seam of the sheet
+    /// with itself.
     pub to: usize,
-    /// Its length, in the surface's units.
+    /// Length of the seam, in the surface's units.
     pub length: f64,
 }
 
 impl Assembly {
-    /// The order in which sheets are joined. Costs `O(sheets² + runs)`.
+    /// Finds the order in which sheets are joined. Costs `O(sheets² + runs)`.
     pub fn new(sheets: &[Sheet]) -> Self {
         Assembly {
             steps: ordered(sheets, &letters(sheets)),
@@ -48,7 +49,7 @@ impl Assembly {
     }
 }
 
-/// A seam: its length and the sheets on either side.
+/// For each crease the sheets on either side, with the length of the seam there.
 type Seams = BTreeMap<usize, Vec<(usize, f64)>>;
 
 fn ordered(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
@@ -84,7 +85,7 @@ fn ordered(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
     steps
 }
 
-/// The seams of a sheet with those that are there and with itself, the longest first.
+/// Seams of a sheet with those already in place and with itself, the longest first.
 fn joints(
     seams: &Seams,
     letters: &BTreeMap<usize, String>,

@@ -4,19 +4,19 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::pattern::Faces;
 
-/// A turn, then a shift.
+/// A rigid motion in space: a rotation, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Pose {
-    /// A unit quaternion: x, y, z, w.
+    /// Rotation as a unit quaternion: x, y, z, w.
     pub turn: [f64; 4],
-    /// What comes after it.
+    /// Translation after the rotation.
     pub shift: [f64; 3],
 }
 
 impl Pose {
     /// The pose that brings a flat sheet nearest to the built one, by the sum of the squared distances of its
-    /// vertices, `middle` of the sheet being the origin that it turns about.
+    /// vertices; `middle` of the sheet is the origin of the rotation.
     pub fn of(faces: &Faces, middle: [f64; 2]) -> Pose {
         let count = faces.built.len().max(1) as f64;
         let flat = |p: &[f64; 2]| Vector3::new(p[0] - middle[0], p[1] - middle[1], 0.0);
@@ -39,12 +39,12 @@ impl Pose {
         }
     }
 
-    /// A place after it.
+    /// The image of a point under the pose.
     pub fn of_place(&self, place: [f64; 3]) -> [f64; 3] {
         (self.rotation() * Vector3::from(place) + Vector3::from(self.shift)).into()
     }
 
-    /// The place that comes to one.
+    /// The point whose image under the pose is given.
     pub fn back(&self, place: [f64; 3]) -> [f64; 3] {
         let moved = Vector3::from(place) - Vector3::from(self.shift);
         self.rotation().inverse_transform_vector(&moved).into()
@@ -56,8 +56,8 @@ impl Pose {
     }
 }
 
-/// The rotation with the largest inner product with a matrix. What is flat has nothing across its plane, which the
-/// product of the two other axes stands for.
+/// The rotation with the largest inner product with a matrix (Procrustes). A flat sheet has no third axis,
+/// for which the cross product of the two others stands.
 fn nearest(matrix: Matrix3<f64>) -> Rotation3<f64> {
     let [a, b] = [matrix.column(0).into_owned(), matrix.column(1).into_owned()];
     let normal = a.cross(&b);

@@ -10,19 +10,19 @@ use super::lines::Lines;
 use crate::pattern::{Meeting, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
-/// The point where the angles of the pieces differ most from that of the surface, in degrees.
+/// The point where the angles of the cut pieces differ most from the angle of the surface, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct WorstAngle {
-    /// Where it is on the surface, in its units.
+    /// Position of the point on the surface, in the surface's units.
     pub place: [f64; 3],
     /// One of the creases that are cut there, whose letter is on the drawing ([`Label`](super::Label)): the lowest one, if any.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,
-    /// What the angles of the pieces around it come to.
+    /// Sum of the angles of the cut pieces around the point.
     pub flat: f64,
-    /// The angle of the surface around it: 360° where that could be laid flat in one piece.
+    /// Angle of the surface around the point: 360° where the surface could be laid flat in one piece.
     pub surface: f64,
 }
 
@@ -32,16 +32,18 @@ impl WorstAngle {
     }
 }
 
-/// What the pieces around a point come to.
+/// Sum of the angles of the pieces around a point, as far as they were found.
 struct Around {
     meeting: Meeting,
-    /// Ends of cuts that were seen: each has two sides.
+    /// Number of ends of cuts that were found at the point: each cut has two sides, so it is twice their
+    /// number when all were.
     ends: usize,
     angle: f64,
     crease: Option<usize>,
 }
 
-/// All points where cuts or folds end inside of the surface, as far as they can be measured.
+/// Angles of the cut pieces around all points inside of the surface where cuts or folds end, where they can
+/// be measured.
 pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<WorstAngle> {
     let mut all: BTreeMap<usize, Around> = BTreeMap::new();
     let mut add = |meeting: &Meeting, ends: usize, angle: f64, crease: Option<usize>| {
@@ -97,7 +99,7 @@ pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<W
     compared.collect()
 }
 
-/// Whether a run only joins two nodes of one point.
+/// Whether a run begins and ends at one point, so that it only joins two nodes of it.
 fn is_within(run: &Run) -> bool {
     match run.ends {
         [Some(from), Some(to)] => {
@@ -107,8 +109,8 @@ fn is_within(run: &Run) -> bool {
     }
 }
 
-/// The angle of a sheet between the end of one of its runs and what goes on from there, at the distance at
-/// which that of the surface was measured.
+/// Angle of a sheet between the end of a run and the run after it, measured at the distance at which the
+/// angle of the surface was.
 fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) -> f64 {
     let count = outline.len();
     let mut next = (1..=count).map(|i| (k + i) % count);

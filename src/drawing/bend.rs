@@ -19,7 +19,7 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 /// Maximum distance of a fold's ends from the outline, in spacings, for a bend allowance.
 const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
 
-/// A sheet with what its bends take, or an error for folds that are no straight lines from edge to edge.
+/// Applies the bend allowance to a sheet; an error for folds that are no straight lines from edge to edge.
 pub(super) fn bent(number: usize, sheet: &Sheet, options: &DrawingOptions) -> Result<Sheet> {
     let mut out = sheet.clone();
     let Some(bending) = options.bending else {
@@ -43,18 +43,18 @@ pub(super) fn bent(number: usize, sheet: &Sheet, options: &DrawingOptions) -> Re
     Ok(out)
 }
 
-/// A fold across a sheet.
+/// The bend of a sheet along one fold.
 struct Bend {
-    /// Its ends; the outline that they are on, without its bend.
+    /// The fold's ends. `outline` is the number of the outline that they lie on.
     ends: [Point; 2],
     outline: usize,
-    /// What that outline is on either side of it.
+    /// The outline on either side of the fold.
     sides: [Vec<Corner>; 2],
     setback: f64,
     half: f64,
 }
 
-/// A point of an outline, and the run that the piece from it on belongs to.
+/// A point of an outline, and the number of the run that the piece after it belongs to.
 type Corner = (Point, usize);
 
 impl Bend {
@@ -127,7 +127,7 @@ impl Bend {
         }
     }
 
-    /// From the fold towards one of its sides.
+    /// Unit vector across the fold, towards one of its sides.
     fn normal(&self, side: usize) -> Point {
         // The sheet lies to the left of its outline, so that which begins at the fold's first end is to its right.
         let along = (self.ends[1] - self.ends[0]) / (self.ends[1] - self.ends[0]).norm();
@@ -138,13 +138,13 @@ impl Bend {
         (self.normal(side).conj() * (place - self.ends[0])).re
     }
 
-    /// Whether a part of a side's outline is beyond the bend.
+    /// Whether a side's outline reaches beyond the bend.
     fn is_wide(&self, side: usize) -> bool {
         let away = |corner: &Corner| self.away(side, corner.0);
         self.sides[side].iter().map(away).fold(0.0, f64::max) > self.setback
     }
 
-    /// A place beside the fold after it was bent.
+    /// Position of a point of the sheet after the bend allowance was applied.
     fn moved(&self, side: usize, place: Point, is_beside: bool) -> Point {
         let away = self.away(side, place);
         let by = match is_beside && away < self.setback && self.setback > 0.0 {
@@ -154,7 +154,7 @@ impl Bend {
         place + self.normal(side) * by
     }
 
-    /// Moves all of a sheet but the fold itself.
+    /// Moves everything on a sheet but the fold itself.
     fn apply(&self, sheet: &mut Sheet, own: usize) {
         let arcs = [0, 1].map(|side| self.arc(side));
         let area =
@@ -197,7 +197,8 @@ impl Bend {
         }
     }
 
-    /// A side's outline after it was bent. Only what goes on from the fold's ends is within the bend.
+    /// A side's outline after the bend allowance was applied. Only the pieces next to the fold's ends are
+    /// within the bend.
     fn arc(&self, side: usize) -> Vec<Corner> {
         let corners = &self.sides[side];
         let beyond = |(place, _): &Corner| self.away(side, *place) >= self.setback;
@@ -262,7 +263,7 @@ fn rebuild(outline: &mut [Run], corners: &[Corner]) {
     }
 }
 
-/// Whether a closed line goes around a place.
+/// Whether a point is inside of a closed line.
 fn is_inside(line: &[Point], place: Point) -> bool {
     let next = line.iter().cycle().skip(1);
     let crossed = line.iter().zip(next).filter(|(p, q)| {

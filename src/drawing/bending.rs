@@ -3,16 +3,16 @@
 use crate::error::{Error, Result, positive};
 use crate::pattern::Direction;
 
-/// How metal is bent.
+/// Thickness of metal, and radius and neutral line of its bends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Bending {
-    /// Of the sheet, in millimetres.
+    /// Thickness of the metal, in millimetres.
     pub thickness: f64,
     /// Inner radius of all bends, in millimetres. Default: the thickness.
     pub radius: f64,
-    /// Where the neutral line is, from the inside of a bend, as a share of the thickness: from 0 to 1, mostly 0.33
-    /// to 0.5. Default 0.44.
+    /// K-factor: distance of the neutral line from the inside of a bend, as a share of the thickness; from 0
+    /// to 1, mostly 0.33 to 0.5. Default 0.44.
     pub k_factor: f64,
 }
 
@@ -26,12 +26,12 @@ impl Bending {
         }
     }
 
-    /// The same with another inner radius.
+    /// This bending with another inner radius.
     pub fn radius(self, radius: f64) -> Self {
         Bending { radius, ..self }
     }
 
-    /// The same with another K-factor.
+    /// This bending with another K-factor.
     pub fn k_factor(self, k_factor: f64) -> Self {
         Bending { k_factor, ..self }
     }
@@ -55,7 +55,7 @@ impl Bending {
         }
     }
 
-    /// How far before the crease a bend begins, and half of its length, in millimetres.
+    /// Setback of a bend before the crease, and half of the bend allowance, in millimetres.
     pub(super) fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
         let outside = match direction {
             Direction::Mountain => self.thickness,

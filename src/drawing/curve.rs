@@ -15,7 +15,7 @@ pub struct Curve(Vec<[f64; 2]>);
 /// A piece of a [`Curve`], with its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Piece {
-    /// A straight one.
+    /// A straight line.
     Line([[f64; 2]; 2]),
     /// A cubic Bézier curve.
     Bezier([[f64; 2]; 4]),
@@ -31,12 +31,12 @@ impl Curve {
         curve
     }
 
-    /// A curve by its control points.
+    /// A curve with given control points.
     pub(super) fn of(controls: Vec<[f64; 2]>) -> Self {
         Curve(controls)
     }
 
-    /// The control points.
+    /// The curve's control points.
     pub fn controls(&self) -> &[[f64; 2]] {
         &self.0
     }
@@ -47,7 +47,7 @@ impl Curve {
         self.0.len() % 3 == 1
     }
 
-    /// Its pieces, one after the other.
+    /// The curve's pieces, one after the other.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
         let starts = (0..self.0.len().saturating_sub(1)).step_by(3);
         starts.filter_map(|i| Some(Piece::of(self.0.get(i..i + 4)?.try_into().ok()?)))
@@ -61,7 +61,7 @@ impl Curve {
         self.0.push(to);
     }
 
-    /// Goes on with another curve, which begins where this one ends.
+    /// Appends a curve that begins where this one ends.
     pub(super) fn append(&mut self, next: &Curve) {
         let from = usize::from(!self.0.is_empty());
         self.0.extend(next.0.iter().skip(from));
@@ -71,8 +71,7 @@ impl Curve {
         Curve(self.0.iter().map(|p| f(*p)).collect())
     }
 
-    /// Points on it, the first and the last among them, so that straight lines between them are as near to it as
-    /// the tolerance.
+    /// Points on the curve, the first and the last among them, that form a polyline within a tolerance of it.
     pub fn points(&self, tolerance: f64) -> Vec<[f64; 2]> {
         let mut points: Vec<[f64; 2]> = self.0.iter().take(1).copied().collect();
         for piece in self.pieces() {
@@ -83,13 +82,13 @@ impl Curve {
         points
     }
 
-    /// Its length.
+    /// Length of the curve.
     pub(super) fn length(&self) -> f64 {
         self.pieces().map(|piece| piece.length()).sum()
     }
 
-    /// Its control points, each with the share of the length that lies before it; the inner ones of a piece are
-    /// at its thirds.
+    /// The control points, each with the share of the curve's length that lies before it; the inner ones of a
+    /// piece are at its thirds.
     pub(super) fn placed(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
         let whole = self.length().max(f64::MIN_POSITIVE);
         let mut before = 0.0;
@@ -102,7 +101,7 @@ impl Curve {
         self.0.iter().copied().zip(shares)
     }
 
-    /// The parts of it between places, which are shares of its length, ascending.
+    /// The parts of the curve between positions, which are ascending shares of its length.
     pub(super) fn split(&self, shares: &[f64]) -> Vec<Curve> {
         let pieces: Vec<Piece> = self.pieces().collect();
         let lengths: Vec<f64> = pieces.iter().map(Piece::length).collect();
@@ -158,7 +157,7 @@ impl Piece {
         }
     }
 
-    /// The place at a parameter from 0 to 1.
+    /// The point at a parameter from 0 to 1.
     pub fn at(&self, t: f64) -> [f64; 2] {
         let s = 1.0 - t;
         match self {
@@ -168,7 +167,7 @@ impl Piece {
         }
     }
 
-    /// How many straight lines are as near to it as a tolerance.
+    /// Number of straight lines that approximate the piece within a tolerance.
     fn steps(&self, tolerance: f64) -> usize {
         let Piece::Bezier([a, b, c, d]) = self else {
             return 1;
@@ -189,7 +188,7 @@ impl Piece {
         }
     }
 
-    /// The length up to each of so many equal steps of the parameter.
+    /// Lengths of the piece up to the end of each of [`LENGTH_STEPS`] equal steps of the parameter.
     fn lengths(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let mut last = self.at(0.0);
@@ -202,7 +201,7 @@ impl Piece {
         (1..=LENGTH_STEPS).map(step).collect()
     }
 
-    /// The parameter at which it has a length.
+    /// The parameter up to which the piece has a given length.
     fn parameter(&self, length: f64) -> f64 {
         let lengths = self.lengths();
         let i = lengths.partition_point(|sum| *sum < length);
@@ -216,7 +215,7 @@ impl Piece {
         ((i as f64 + share) / LENGTH_STEPS as f64).clamp(0.0, 1.0)
     }
 
-    /// Its two parts at a parameter (de Casteljau).
+    /// The piece's two parts at a parameter (de Casteljau).
     fn cut(&self, t: f64) -> (Piece, Piece) {
         let mix = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (1.0 - t) * p[k] + t * q[k]);
         match *self {

@@ -16,7 +16,7 @@ use super::tabs::{Tab, tabbed};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
 
-/// Letters for the creases that are cut, in their order.
+/// Letters of the cut creases, in the order of their numbers.
 pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
     let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();
@@ -36,7 +36,7 @@ pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     names.map(|(n, crease)| (crease, name(n))).collect()
 }
 
-/// What is the same for all sheets: letters of seams, and how many marks each has.
+/// Names that all sheets share: letters of seams, and the number of marks on each.
 pub(super) struct Named {
     pub letters: BTreeMap<usize, String>,
     pub marks: BTreeMap<usize, usize>,

@@ -18,15 +18,15 @@ use crate::pattern::{Missing, Sheet};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Drawing {
-    /// Width.
+    /// Width of the drawing, in millimetres.
     pub width: f64,
-    /// Height.
+    /// Height of the drawing, in millimetres.
     pub height: f64,
     /// The sheets, in their order; none lies on another.
     pub sheets: Vec<DrawnSheet>,
-    /// The pages that they lie on, if there are any ([`Drawing::onto`]).
+    /// The pages that the sheets lie on, if there are any ([`Drawing::onto`]).
     pub pages: Option<Pages>,
-    /// What it comes to.
+    /// Numbers and lengths that the drawing comes to.
     pub summary: Totals,
 }
 
@@ -92,8 +92,8 @@ impl Drawing {
         })
     }
 
-    /// The same sheets laid out on pages, as few as were found to do: each whole on one page, turned if it fits
-    /// better so, and sheets of paper that are too large for one over several, to be put together.
+    /// Lays the same sheets out on pages, as few as were found to do: each whole on one page, turned if it
+    /// fits better so, and sheets of paper that are too large for one over several, to be put together.
     ///
     /// Sheets are nested by their outlines, not as boxes: the largest first, each on the first page that has room,
     /// three millimetres apart at least.
@@ -128,8 +128,8 @@ impl Drawing {
         })
     }
 
-    /// The same with what of the surface is on no sheet
-    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)), `scale` being that of the drawing.
+    /// This drawing with what of the surface is on no sheet
+    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)); `scale` is that of the drawing.
     pub fn missing(mut self, missing: &Missing, scale: f64) -> Self {
         let mut missing = *missing;
         missing.area *= scale * scale;
@@ -138,7 +138,7 @@ impl Drawing {
         self
     }
 
-    /// Whether it is one that can be written: what comes from elsewhere need not be.
+    /// Checks that a drawing can be written; one that was read from elsewhere may not be.
     #[cfg(feature = "patterns")]
     pub(crate) fn check(&self) -> Result<()> {
         let size = |value: f64| (0.0..=MAX_SIZE).contains(&value);

@@ -36,15 +36,16 @@ const BACKTRACKING_FACTOR: f64 = 0.6;
 /// Number of parts of a piece of a curve among which the point nearest to a fold's end is looked for.
 const NEAREST_POINT_PARTS: usize = 16;
 
-/// A line of an outline.
+/// A run of an outline: a curve between two corners.
 struct Side {
-    /// The corners where it begins and ends.
+    /// Numbers of the corners where the curve begins and ends.
     corners: [usize; 2],
     curve: Curve,
     length: f64,
-    /// How far it is from its chord at most, both at the same share of their lengths.
+    /// Largest distance of the curve from its chord, each point being compared with that at the same share of
+    /// the chord's length.
     bow: f64,
-    /// How far it may be moved.
+    /// Maximum distance that the curve may be moved.
     most: f64,
 }
 
@@ -71,14 +72,14 @@ impl Side {
         [controls[0], controls[controls.len() - 1]]
     }
 
-    /// How far a place of it is from its chord.
+    /// Offset of a point of the curve from the point of the chord at the same share of the length.
     fn off(&self, p: [f64; 2], share: f64) -> [f64; 2] {
         let [from, to] = self.chord();
         [0, 1].map(|k| p[k] - from[k] - share * (to[k] - from[k]))
     }
 
-    /// By how much its length grows with the way of its last corner, the first one's being the opposite of it, and
-    /// with its bow.
+    /// Derivatives of the curve's length by the position of its last corner, of which that by the first one
+    /// is the negative, and by its bow.
     fn slopes(&self) -> ([f64; 2], f64) {
         let [from, to] = self.chord();
         let along = [0, 1].map(|k| (to[k] - from[k]) / self.length);
@@ -89,7 +90,7 @@ impl Side {
         }
     }
 
-    /// The line with its ends and its bow moved.
+    /// The curve with its ends moved and its bow increased.
     fn moved(&self, [from, to]: [[f64; 2]; 2], bow: f64) -> Curve {
         let swell = if self.bow > 0.0 { bow / self.bow } else { 0.0 };
         Curve::of(
@@ -113,8 +114,8 @@ pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -
     lines
 }
 
-/// Makes both sides of joints equally long, as far as lines may be moved; not where lines are to stay as they were
-/// found.
+/// Makes both sides of joints equally long, as far as the limits of their shifts allow; changes nothing
+/// without smoothing.
 fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
     if options.smoothing == 0.0 {
         return;
@@ -149,20 +150,20 @@ fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
     }
 }
 
-/// The lines of one sheet.
+/// The sides of one sheet, as a range of their numbers.
 struct Own {
     sides: Range<usize>,
-    /// The lattice's spacing as it is drawn.
+    /// Spacing of the lattice in the drawing, in millimetres.
     cell: f64,
 }
 
-/// The lines of all outlines, and the two lists of them that make up each joint.
+/// The sides of all sheets, and for each joint the numbers of the sides that make up either half of it.
 struct Outlines {
     sides: Vec<Side>,
     joints: Vec<[Vec<usize>; 2]>,
     sheets: Vec<Own>,
     corners: usize,
-    /// How far each thing may be moved: corners to the right and up, then lines.
+    /// Maximum shift of each unknown: two coordinates for each corner, then the bow of each side.
     limits: Vec<f64>,
 }
 
@@ -208,7 +209,7 @@ impl Outlines {
         }
     }
 
-    /// The lines that cross others of their sheet.
+    /// The sides that cross others of their sheet.
     fn crossing(&self, curves: &[Curve]) -> Vec<usize> {
         let wrong = self.sheets.iter().flat_map(|Own { sides, cell }| {
             let wrong = crossed(&curves[sides.clone()], *cell);
@@ -217,7 +218,7 @@ impl Outlines {
         wrong.collect()
     }
 
-    /// Lets lines be moved less far.
+    /// Reduces the maximum shift of some sides and of their corners.
     fn hold(&mut self, lines: &[usize]) {
         for number in lines {
             for corner in self.sides[*number].corners {
@@ -228,7 +229,7 @@ impl Outlines {
         }
     }
 
-    /// The lines, each joint's as nearly alike as the limits allow.
+    /// All sides, moved so that those of each joint are as nearly equally long as the limits allow.
     fn evened(&self) -> Vec<Curve> {
         let rows: Vec<Vec<(usize, f64)>> =
             self.joints.iter().map(|joint| self.row(joint)).collect();
@@ -276,7 +277,7 @@ impl Outlines {
         curves
     }
 
-    /// By how much the first side of a joint grows more than the second with each thing that is moved.
+    /// Derivatives of the difference between the lengths of a joint's halves by each unknown.
     fn row(&self, joint: &[Vec<usize>; 2]) -> Vec<(usize, f64)> {
         let mut row: BTreeMap<usize, f64> = BTreeMap::new();
         for (own, sign) in joint.iter().zip([1.0, -1.0]) {
@@ -302,7 +303,7 @@ fn product(row: &[(usize, f64)], x: &[f64]) -> f64 {
     row.iter().map(|(i, w)| w * x[*i]).sum()
 }
 
-/// How far what ends on lines, or within half a cell of them, goes with them.
+/// Shift of a fold's end with the outline that it lies on, or within half a cell of.
 fn way(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] {
     let pieces =
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };

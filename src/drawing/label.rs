@@ -15,20 +15,20 @@ const MAX_TEXT_SIZE_MM: f64 = 12.0;
 /// Minimum size of texts, in millimetres.
 const MIN_TEXT_SIZE_MM: f64 = 1.5;
 
-/// A text on a sheet.
+/// A text on a sheet or beside it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Label {
-    /// What it is about.
+    /// What the text is about.
     pub kind: LabelKind,
     /// The text.
     pub text: String,
-    /// Its middle.
+    /// Middle of the text, in millimetres.
     pub place: [f64; 2],
     /// Size of the font, in millimetres.
     pub size: f64,
-    /// Degrees by which it is turned, counter-clockwise.
+    /// Angle of the text, in degrees counter-clockwise.
     pub turn: f64,
 }
 
@@ -62,12 +62,12 @@ impl Label {
         }
     }
 
-    /// Whether there is no room for the number of a patch on it.
+    /// Whether a patch has no room for its number.
     pub(super) fn is_cramped(room: f64) -> bool {
         0.8 * room < MIN_TEXT_SIZE_MM
     }
 
-    /// The number of a patch beside its sheet.
+    /// This label moved beside its sheet.
     pub(super) fn outside(self, place: [f64; 2]) -> Self {
         Label {
             place,
@@ -76,14 +76,14 @@ impl Label {
         }
     }
 
-    /// Whether a leader from its sheet ends at it.
+    /// Whether one of the leaders ends at this label, so that it stands beside its sheet.
     pub(super) fn is_beside(&self, leaders: &[Curve]) -> bool {
         self.kind == LabelKind::Patch
             && (leaders.iter().flat_map(|line| line.controls().last()))
                 .any(|end| distance(*end, self.place) < 1.5 * NOTE_SIZE_MM)
     }
 
-    /// The box that it takes, about.
+    /// Approximate bounding box of the text, as four corners.
     pub(super) fn corners(&self) -> Vec<[f64; 2]> {
         let half = [
             0.3 * self.size * self.text.chars().count() as f64,
@@ -93,7 +93,7 @@ impl Label {
         vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
     }
 
-    /// Beside the middle of a run, on its left.
+    /// The letter of a cut crease, to the left of the middle of its line.
     pub(super) fn seam(letter: &str, points: &[[f64; 2]]) -> Self {
         Label::beside(LabelKind::Seam, letter.into(), points, 1.0)
     }
@@ -132,7 +132,7 @@ impl Label {
         }
     }
 
-    /// A small text of no sheet, such as a page's name.
+    /// A small text that belongs to no sheet, such as a page's name.
     #[cfg(feature = "patterns")]
     pub(crate) fn note(text: &str, place: [f64; 2]) -> Self {
         Label {
@@ -144,7 +144,7 @@ impl Label {
         }
     }
 
-    /// So many of its sizes to the left of the middle of a line, along it.
+    /// A text along a line, to the left of the line's middle by a multiple of the text's size.
     fn beside(kind: LabelKind, text: String, points: &[[f64; 2]], away: f64) -> Self {
         let long = polyline_length(points);
         let size = (0.2 * long).clamp(MIN_TEXT_SIZE_MM, NOTE_SIZE_MM);
@@ -161,7 +161,7 @@ impl Label {
         label
     }
 
-    /// About how wide a name above a sheet is, and how high with the room around it.
+    /// Approximate width of a sheet's name, and its height with the room around it.
     pub(super) fn extent(&self) -> [f64; 2] {
         let letters = self.text.chars().count() as f64;
         [0.6 * self.size * letters, 2.0 * self.size]
@@ -171,7 +171,7 @@ impl Label {
         self.kind == LabelKind::Sheet
     }
 
-    /// Turns it with its sheet, and by half a turn more where it would be upside down.
+    /// Turns the label with its sheet, by half a turn more where the text would be upside down.
     pub(super) fn turn_by(&mut self, degrees: f64) {
         let turned = (self.turn + degrees).rem_euclid(180.0);
         // To the right or up.

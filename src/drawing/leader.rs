@@ -13,8 +13,8 @@ const LEADER_END_DISTANCE_MM: f64 = 3.0;
 /// Distance of the middle of a leader's number from the sheet's edge, in millimetres.
 const LEADER_TEXT_DISTANCE_MM: f64 = 6.0;
 
-/// Puts a label beside the sheet, where its line leaves that soonest and meets nothing else; nothing where there is
-/// no such place.
+/// Moves a label beside the sheet, in the direction in which a leader leaves the sheet soonest and meets
+/// nothing else. Returns the label and its leader; `None` where there is no such direction.
 pub(super) fn led(
     label: &Label,
     walls: &[[[f64; 2]; 2]],
@@ -50,7 +50,7 @@ pub(super) fn led(
     Some((label.clone().outside(place), Curve::through(&[from, end])))
 }
 
-/// How far along a ray it meets a straight line.
+/// Distance along a ray to its intersection with a line segment.
 fn hit(from: [f64; 2], [x, y]: [f64; 2], [p, q]: [[f64; 2]; 2]) -> Option<f64> {
     let side = |r: [f64; 2]| x * (r[1] - from[1]) - y * (r[0] - from[0]);
     let (a, b) = (side(p), side(q));

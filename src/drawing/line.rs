@@ -14,15 +14,15 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 pub struct Line {
     /// The crease, by its place in [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
-    /// Which way, seen from above.
+    /// Whether the line is a mountain or a valley fold, seen from above.
     pub direction: Direction,
-    /// By how much, in degrees: 0 is flat.
+    /// Fold angle in degrees: 0 is flat.
     pub angle: f64,
-    /// Its length in millimetres.
+    /// Length of the line in millimetres.
     pub length: f64,
-    /// Its course, within a fiftieth of a millimetre of [`Line::curve`].
+    /// The line as a polyline, within a fiftieth of a millimetre of [`Line::curve`].
     pub points: Vec<[f64; 2]>,
-    /// Its course.
+    /// The line as a curve.
     pub curve: Curve,
 }
 
@@ -39,7 +39,7 @@ impl Line {
         line.along(curve)
     }
 
-    /// The same with another course.
+    /// This line along another curve.
     pub(super) fn along(self, curve: Curve) -> Self {
         let points = curve.points(FLATTENING_TOLERANCE_MM);
         Line {
@@ -51,7 +51,7 @@ impl Line {
     }
 }
 
-/// The place so far along a line, and where it heads there.
+/// The point at a length along a polyline, and the direction of the polyline there.
 pub(super) fn place_at(points: &[[f64; 2]], along: f64) -> ([f64; 2], [f64; 2]) {
     let (mut rest, mut place, mut heading) = (along, points[0], [1.0, 0.0]);
     for piece in points.windows(2) {

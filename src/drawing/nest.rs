@@ -16,7 +16,7 @@ const MAX_PAGE_CELLS: f64 = 5000.0;
 /// Minimum distance between nested sheets, in millimetres.
 const NESTING_GAP_MM: f64 = 3.0;
 
-/// A sheet's closed lines, boxes of text beside it, and the width and height of the name above it.
+/// The closed lines of a sheet and of texts beside it, and width and height of the name above it.
 pub(super) struct Shape {
     pub lines: Vec<Vec<[f64; 2]>>,
     pub name: [f64; 2],
@@ -33,13 +33,13 @@ impl Shape {
         }
     }
 
-    /// The box around it at a place, without its name.
+    /// Bounding box of the shape at a place, without its name.
     pub(super) fn bounds(&self, place: &Place) -> [[f64; 2]; 2] {
         let points = self.lines.iter().flatten().map(|p| place.of(*p));
         bounds(points.collect::<Vec<_>>().iter())
     }
 
-    /// Where its name goes, as the corners of a box.
+    /// Corners of the box for the name above a bounding box.
     fn above(&self, [low, high]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
         let middle = 0.5 * (low[0] + high[0]);
         let [left, right] = [-0.5, 0.5].map(|k| middle + k * self.name[0]);
@@ -48,20 +48,20 @@ impl Shape {
     }
 }
 
-/// Where a shape goes: its page, and how it is moved, seen from the page's lower left corner.
+/// The page of a shape, and its place from the page's lower left corner.
 pub(super) struct Nested {
     pub page: usize,
     pub place: Place,
 }
 
 impl Nested {
-    /// The upper end of its shape, from the page's lower edge.
+    /// Height of the shape's upper end above the page's lower edge.
     pub(super) fn top(&self, shape: &Shape) -> f64 {
         shape.bounds(&self.place)[1][1] + shape.name[1]
     }
 }
 
-/// Lays shapes on pages of a size, the largest first. Nothing for those that are too large for a page.
+/// Lays shapes on pages of one size, the largest first; `None` for a shape that is larger than a page.
 pub(super) fn nested(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
     let [short, long] = [page[0].min(page[1]), page[0].max(page[1])];
     let cell = (short / PAGE_CELLS).max(long / MAX_PAGE_CELLS);
@@ -120,8 +120,8 @@ fn cells_along(side: f64, cell: f64) -> usize {
     ((side / cell + 1e-9) as usize).max(1)
 }
 
-/// A shape turned those of four ways in which it fits on a page, its lower left corner at the origin, and the
-/// cells that it touches.
+/// The orientations of a shape, out of four, in which it fits on a page, each with the cells that it touches;
+/// its lower left corner is at the origin.
 fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
     let least = Place::around(&shape.lines);
     (0..4)
@@ -150,7 +150,7 @@ fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
         .collect()
 }
 
-/// Cells that are taken, row by row.
+/// A raster of occupied cells, 64 to a machine word, row by row.
 struct Mask {
     columns: usize,
     rows: Vec<Vec<u64>>,
@@ -175,7 +175,7 @@ impl Mask {
         word.is_some_and(|word| word >> (x % 64) & 1 == 1)
     }
 
-    /// Marks what closed lines enclose, by the even-odd rule, and every cell that they touch.
+    /// Marks the cells inside of closed lines, by the even-odd rule, and those that the lines touch.
     fn fill(&mut self, lines: &[Vec<[f64; 2]>]) {
         let edges = || {
             lines.iter().flat_map(|line| {
@@ -208,7 +208,7 @@ impl Mask {
         }
     }
 
-    /// The same with so many cells around each, whose origin is that far to the lower left.
+    /// The mask dilated by a square of cells; its origin moves by `reach` to the lower left.
     fn grown(&self, reach: usize) -> Mask {
         let mut out = Mask::empty(self.columns + 2 * reach, self.rows.len() + 2 * reach);
         for y in 0..self.rows.len() {
@@ -223,7 +223,8 @@ impl Mask {
         out
     }
 
-    /// The lowest place, and of those the one most to the left, where a shape keeps its distance from what is there.
+    /// The lowest free position of a shape, the leftmost of equals, at which the dilated shape meets no
+    /// occupied cell.
     fn room(&self, shape: &Mask, grown: &Mask, reach: usize) -> Option<[usize; 2]> {
         let last = [
             self.columns.checked_sub(shape.columns)?,
@@ -239,7 +240,7 @@ impl Mask {
         None
     }
 
-    /// Whether a grown shape has cells that are taken, its origin so far to the lower left of a place.
+    /// Whether a dilated shape at a position meets an occupied cell.
     fn meets(&self, grown: &Mask, x: usize, y: usize, reach: usize) -> bool {
         grown.rows.iter().enumerate().any(|(k, row)| {
             let Some(own) = (y + k)
@@ -264,7 +265,7 @@ impl Mask {
     }
 }
 
-/// The 64 bits of a row from a place on, which may lie before its first one.
+/// 64 bits of a row from a position on, which may be negative.
 fn bits(row: &[u64], from: i64) -> u64 {
     let word = |n: i64| {
         usize::try_from(n)

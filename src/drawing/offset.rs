@@ -22,8 +22,8 @@ const MAX_MITRE_FACTOR: f64 = 2.0;
 /// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset: that of slits.
 const MAX_LOOP_FACTOR: f64 = 8.0;
 
-/// The closed lines around a sheet, moved outwards by a distance. Where they run into themselves, as in a slit that
-/// is narrower, they are joined. Nothing where they would still cross.
+/// Moves the closed lines around a sheet outwards by a distance. Where they run into themselves, as in a slit
+/// that is narrower, they are joined. `None` where they would still cross.
 pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
@@ -69,7 +69,7 @@ pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     Some(moved.into_iter().map(curve).collect())
 }
 
-/// A closed line moved to its right, corner by corner.
+/// A closed polyline moved to its right, corner by corner.
 fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
     let n = ring.len();
     let mut out = Vec::with_capacity(n);

@@ -3,7 +3,7 @@
 use super::bending::Bending;
 use crate::error::{Error, Result};
 
-/// How a pattern is drawn.
+/// Options of a drawing: its scale, and what is added to sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct DrawingOptions {
@@ -17,14 +17,15 @@ pub struct DrawingOptions {
     /// Width of the line that a laser or a saw burns away, in millimetres: lines are cut half of it further out.
     /// Default 0.
     pub kerf: f64,
-    /// What is left outside of all edges to be sewn or bent over, in millimetres: lines are cut so much further out.
-    /// Default 0.
+    /// Width of the strip left outside of all edges to be sewn or bent over, in millimetres: lines are cut so
+    /// much further out. Default 0.
     pub allowance: f64,
-    /// How thick metal is and how it is bent: what folds take is added to sheets or taken from them. They have to be
-    /// straight and go from edge to edge. Default: no thickness.
+    /// Thickness of metal and how it is bent: the bend allowance is added to sheets or taken from them. Folds
+    /// have to be straight and go from edge to edge. Default: no thickness.
     pub bending: Option<Bending>,
-    /// How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they
-    /// are. Sides of joints are moved as far again to become equally long. Default 0.5.
+    /// Maximum distance of smooth lines from those that were found on the lattice, in spacings; 0 takes these
+    /// as they are. The two sides of joints are moved by up to as much again to become equally long. Default
+    /// 0.5.
     pub smoothing: f64,
 }
 
@@ -52,7 +53,7 @@ const MIN_MARK_DISTANCE_MM: f64 = 1.0;
 const MAX_OFFSET_MM: f64 = 1000.0;
 
 impl DrawingOptions {
-    /// Whether all but scale and tabs can be.
+    /// Checks all options but scale and tabs.
     pub(super) fn check(&self) -> Result<()> {
         if let Some(marks) = self
             .marks

@@ -4,7 +4,7 @@
 /// Width of the empty margin around sheets, in millimetres.
 const SHEET_MARGIN_MM: f64 = 10.0;
 
-/// A turn and a shift, and the box that comes of it.
+/// A rotation followed by a translation, and the size of the resulting bounding box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     turn: [f64; 2],
@@ -28,7 +28,7 @@ impl Place {
         [cos * x - sin * y + dx, sin * x + cos * y + dy]
     }
 
-    /// The same, then so many quarter turns about the origin.
+    /// This place followed by a number of quarter turns about the origin.
     pub(super) fn quarters(&self, count: usize) -> Place {
         let turned = |[x, y]: [f64; 2]| match count % 4 {
             0 => [x, y],
@@ -59,8 +59,8 @@ impl Place {
         self.turn[1].atan2(self.turn[0]).to_degrees()
     }
 
-    /// The turn with the smallest box, its corner at the origin: one of the convex hull's edges is
-    /// level then.
+    /// The rotation with the smallest bounding box, whose corner is moved to the origin: one edge of the
+    /// convex hull is level then.
     pub(super) fn around(lines: &[Vec<[f64; 2]>]) -> Place {
         let hull = hull(lines.iter().flatten().copied().collect());
         let boxed = |turn: [f64; 2]| {
@@ -99,8 +99,8 @@ impl Place {
     }
 }
 
-/// How sheets of closed lines in millimetres lie beside each other: of each the cosine and sine of its turn, and the
-/// shift after it.
+/// Lays sheets of closed lines in millimetres beside each other. Returns the cosine and sine of each sheet's
+/// rotation, and the translation after it.
 #[cfg(feature = "patterns")]
 pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])> {
     let boxes: Vec<Place> = sheets.iter().map(|lines| Place::around(lines)).collect();
@@ -111,7 +111,7 @@ pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])>
         .collect()
 }
 
-/// Where boxes go, and how large the whole is.
+/// Lays bounding boxes in rows. Returns their places, and width and height of the whole.
 pub(super) fn packed(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|a, b| boxes[*b].size[1].total_cmp(&boxes[*a].size[1]));

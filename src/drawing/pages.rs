@@ -27,16 +27,16 @@ const PAGE_GAP_MM: f64 = 20.0;
 pub enum Stock {
     /// Paper of 210 × 297 mm, of whose edges a printer leaves ten millimetres blank.
     A4,
-    /// Paper of 8½ × 11 inches likewise.
+    /// Paper of 8½ × 11 inches, of whose edges a printer leaves ten millimetres blank.
     Letter,
-    /// Plates or sheets of a width and a height.
+    /// Plates or sheets of a material, by their width and height.
     Plate([f64; 2]),
-    /// A roll of a width.
+    /// A roll of a material, by its width.
     Roll(f64),
 }
 
 impl Stock {
-    /// Its sides, the shorter one first for paper; a roll is as long as it takes.
+    /// Width and height of the stock, the shorter side first for paper; a roll is as long as its sheets need.
     fn size(self, sheets: &[DrawnSheet]) -> Result<[f64; 2]> {
         let side = |name, value| match positive(name, value)? <= MAX_SIZE {
             true => Ok(()),
@@ -64,7 +64,7 @@ impl Stock {
         }
     }
 
-    /// Whether what is too large may be put together from several pages.
+    /// Whether the stock is paper, so that large sheets may be put together from several pages.
     fn is_paper(self) -> bool {
         matches!(self, Stock::A4 | Stock::Letter)
     }
@@ -78,15 +78,15 @@ impl Stock {
     }
 }
 
-/// One page: a part of the drawing.
+/// One page of a drawing, which shows a part of it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Page {
-    /// A number where it has whole sheets. Of pages that are to be put together the column's letter and the
-    /// row's number, from the upper left: `A1`.
+    /// Name of the page: its number if it holds whole sheets; column letter and row number from the upper
+    /// left, such as `A1`, if it has to be put together with others.
     pub name: String,
-    /// Lower left corner of the part, in the drawing's millimetres.
+    /// Lower left corner of the part that the page shows, in the drawing's millimetres.
     pub corner: [f64; 2],
 }
 
@@ -95,25 +95,25 @@ pub struct Page {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Pages {
-    /// Width and height of the paper.
+    /// Width and height of the paper, in millimetres.
     pub paper: [f64; 2],
-    /// Where the drawing's part begins on the paper, from its left and lower edge.
+    /// Distance of the drawing's part from the paper's left and lower edge, in millimetres.
     pub blank: f64,
-    /// Width and height of the part on each page.
+    /// Width and height of the drawing's part on each page, in millimetres.
     pub part: [f64; 2],
-    /// The pages.
+    /// The pages, each with its name and corner.
     pub pages: Vec<Page>,
-    /// Places of the drawing that lie in the middle of where pages overlap, and at their corners:
-    /// with a mark at each, on every page that shows it, the pages can be laid on each other.
+    /// Alignment marks, in the drawing's millimetres: the middles of the strips in which pages overlap, and
+    /// their corners. With a mark at each, on every page that shows it, the pages can be laid on each other.
     pub marks: Vec<[f64; 2]>,
 }
 
-/// How many pages of paper sheets take.
+/// Number of pages of paper that sheets take.
 pub(super) fn count(sheets: &[DrawnSheet], stock: Stock) -> usize {
     arranged(sheets, stock).map_or(0, |found| found.pages.pages.len())
 }
 
-/// Where sheets go, the pages, and the size of it all.
+/// Sheets arranged on pages: the place of each sheet, the pages, and width and height of the whole drawing.
 pub(super) struct Arranged {
     pub places: Vec<Place>,
     pub pages: Pages,
@@ -215,7 +215,8 @@ pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> 
     })
 }
 
-/// Lays large shapes beside each other and pages over them; how these are laid, and how large it is.
+/// Lays shapes that are larger than a page beside each other and covers them with overlapping pages. Returns
+/// the place of each shape, and width and height of the whole.
 fn spread(shapes: &[Shape], large: &[usize], pages: &mut Pages) -> (Vec<Place>, [f64; 2]) {
     let least: Vec<Place> = large
         .iter()
@@ -264,12 +265,12 @@ fn no_room(sheet: &DrawnSheet, shape: &Shape, part: [f64; 2]) -> Error {
     }
 }
 
-/// How far pages reach that overlap.
+/// Length that a number of overlapping pages covers.
 fn covered(count: usize, side: f64) -> f64 {
     count as f64 * (side - PAGE_OVERLAP_MM) + PAGE_OVERLAP_MM
 }
 
-/// All pages there could be over a place of a size, which is in their middle.
+/// Columns and rows of overlapping pages, centred over a rectangle.
 struct Grid {
     columns: usize,
     rows: usize,
@@ -297,7 +298,7 @@ impl Grid {
         [(0, self.columns), (1, self.rows)].map(|(k, count)| covered(count, self.part[k]))
     }
 
-    /// Column and row, from the upper left, of each page that shows a part of a box.
+    /// Column and row, from the upper left, of each page that overlaps a box.
     fn pages(&self, boxes: &[[[f64; 2]; 2]]) -> impl Iterator<Item = (usize, usize)> {
         let all = (0..self.rows).flat_map(|row| (0..self.columns).map(move |column| (column, row)));
         all.filter(|(column, row)| {

@@ -5,38 +5,38 @@ use super::label::Label;
 use super::line::{FLATTENING_TOLERANCE_MM, Line};
 use super::pack::Place;
 
-/// A sheet as it is drawn: turned so that its box is small, if that is worth it, never mirrored.
+/// A sheet of a drawing, turned to the smallest bounding box if that saves enough, never mirrored.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct DrawnSheet {
-    /// `Sheet 1` and so on.
+    /// Name of the sheet: `Sheet 1` and so on.
     pub name: String,
-    /// Its patches.
+    /// Numbers of the sheet's patches.
     pub patches: Vec<u32>,
-    /// Its lower left and upper right corner.
+    /// Lower left and upper right corner of the sheet.
     pub bounds: [[f64; 2]; 2],
-    /// Closed lines, the last point joined to the first; around tabs, too. Points within a fiftieth of a
-    /// millimetre of [`DrawnSheet::curves`].
+    /// Cut lines: closed polylines, the last point joined to the first, around tabs, too. Points lie within a
+    /// fiftieth of a millimetre of [`DrawnSheet::curves`].
     pub cuts: Vec<Vec<[f64; 2]>>,
-    /// The same lines as curves.
+    /// The cut lines as curves.
     pub curves: Vec<Curve>,
-    /// Where it is folded.
+    /// Lines along which the sheet is folded.
     pub folds: Vec<Line>,
-    /// Where tabs are folded.
+    /// Lines along which tabs are folded.
     pub tabs: Vec<Line>,
-    /// The edges of the surface, where there is an allowance around them: where it is sewn or bent over.
+    /// Edges of the surface inside of an allowance: lines along which the sheet is sewn or bent over.
     pub edges: Vec<Curve>,
     /// Short lines along seams, which lie on each other when these are joined.
     pub marks: Vec<Curve>,
-    /// From places that are too small to write on to what is written beside the sheet.
+    /// Leader lines from patches without room for their number to the number beside the sheet.
     pub leaders: Vec<Curve>,
-    /// What is written on it, or beside it.
+    /// Texts on the sheet and beside it.
     pub labels: Vec<Label>,
 }
 
 impl DrawnSheet {
-    /// This sheet at a place.
+    /// This sheet moved to a place.
     pub(super) fn moved(mut self, place: &Place) -> Self {
         for line in self.folds.iter_mut().chain(&mut self.tabs) {
             line.curve = line.curve.mapped(|p| place.of(p));

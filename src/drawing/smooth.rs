@@ -32,9 +32,9 @@ const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
 /// where the line crosses another or itself.
 const TOLERANCE_SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.0];
 
-/// The lines of a sheet.
+/// The smooth outlines and folds of a sheet.
 pub(super) struct Smooth {
-    /// Of each outline its runs.
+    /// The runs of each outline, as curves.
     pub outlines: Vec<Vec<Curve>>,
     pub folds: Vec<Curve>,
 }
@@ -81,7 +81,7 @@ pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
     Smooth { outlines, folds }
 }
 
-/// The runs that cross each other or themselves.
+/// The numbers of curves that cross each other or themselves.
 pub(super) fn crossed(curves: &[Curve], spacing: f64) -> Vec<usize> {
     let (mut places, mut edges, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (owner, curve) in curves.iter().enumerate() {
@@ -116,7 +116,7 @@ pub(super) fn crossed(curves: &[Curve], spacing: f64) -> Vec<usize> {
     wrong
 }
 
-/// A fold whose ends lie on the smooth outline where they lay near the line that it was.
+/// A fold whose ends are moved onto the smooth outline where they are near it.
 fn reaching(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
     let mut out = points.to_vec();
     let last = out.len() - 1;
@@ -141,7 +141,8 @@ fn reaching(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64
     out
 }
 
-/// A place on a line: how far along it is, where, and whether the line was given through it.
+/// A point on a line, its distance along the line, and whether it is one of the points that the line was
+/// given by.
 #[derive(Clone, Copy)]
 struct Sample {
     along: f64,
@@ -149,7 +150,7 @@ struct Sample {
     given: bool,
 }
 
-/// One line, smooth within a tolerance; a closed one has its first point again at the end.
+/// A smooth curve within a tolerance of a polyline; a closed polyline repeats its first point at the end.
 pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
     if tolerance <= 0.0 || polyline_length(points) < MIN_SMOOTHED_LENGTH_SPACINGS * spacing {
         return Curve::through(points);
@@ -268,7 +269,7 @@ fn samples(points: &[[f64; 2]], step: f64) -> Vec<Sample> {
     out
 }
 
-/// A closed line from another of its samples on.
+/// A closed line that begins at another of its samples.
 fn rotated(line: &[Sample], first: usize) -> Vec<Sample> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -283,7 +284,7 @@ fn rotated(line: &[Sample], first: usize) -> Vec<Sample> {
         .collect()
 }
 
-/// The samples at corners, ascending, without the ends of a line that is not closed.
+/// Indices of the samples at corners, ascending, without the ends of an open line.
 fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -336,8 +337,8 @@ fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
     found
 }
 
-/// Where a line heads from one of its samples over a distance, backwards if that is negative: by the line of
-/// least squares through what lies there.
+/// Direction of a line from one of its samples over an arm's length, backwards if that is negative: that of
+/// the least-squares line through the samples there.
 fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -368,7 +369,7 @@ fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
     (count > 2.0 && spread > 0.0).then(|| (sp - p1 * (s1 / count)) * arm.signum())
 }
 
-/// Two places on the line of least squares through samples.
+/// Two points on the least-squares line through samples.
 fn axis(line: &[Sample]) -> [Point; 2] {
     let count = line.len() as f64;
     let middle = line.iter().map(|s| s.place).sum::<Point>() / count;
@@ -381,7 +382,7 @@ fn axis(line: &[Sample]) -> [Point; 2] {
     [middle, middle + along / along.norm().max(f64::MIN_POSITIVE)]
 }
 
-/// Where two straight lines meet, unless they are nearly parallel.
+/// Intersection of two straight lines; `None` where they are nearly parallel.
 fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
     let (u, v) = (q - p, s - r);
     let cross = (u.conj() * v).im;

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::curve::Curve;
 use crate::unroll::flat_triangle::Point;
 
-/// A curve and how far the points are from it: at most, and root of the mean square.
+/// A curve with the maximum and the root mean square distance of the points that it was fitted to.
 pub(super) struct Fit {
     pub curve: Curve,
     pub most: f64,
@@ -18,9 +18,9 @@ const REPARAMETRISATION_PASSES: usize = 3;
 /// Minimum factor by which more spans must reduce the root mean square distance to be used.
 const MIN_IMPROVEMENT_FACTOR: f64 = 3.0;
 
-/// The smoothest curve near points, whose distance along the line is given with them. It begins and ends with
-/// the first and the last one; a closed line has its first point again at the end. Nothing where spans would
-/// have to be shorter than `shortest`.
+/// The spline of fewest spans near points, each given with its distance along the line. It begins and ends
+/// with the first and the last point; a closed line repeats its first point at the end. `None` where spans
+/// would have to be shorter than `shortest`.
 ///
 /// Points that are nearer to it on average than `exact` are as good as on it. Splines that are twice
 /// continuously differentiable have no kinks between their spans, and least squares take noise out that
@@ -83,7 +83,7 @@ struct Spline {
     spans: usize,
 }
 
-/// The weights of a span's four control points, and their derivatives.
+/// Weights of a span's four control points, and the derivatives of these weights.
 fn weights(t: f64) -> ([f64; 4], [f64; 4]) {
     let s = 1.0 - t;
     let b = [
@@ -121,7 +121,7 @@ impl Spline {
         Some(Fit::new(spline.beziers(), away))
     }
 
-    /// The span of a parameter, and where in it.
+    /// Number of the span at a parameter, and the parameter within that span.
     fn span(&self, u: f64) -> (usize, f64) {
         let span = (u.max(0.0) as usize).min(self.spans - 1);
         (span, (u - span as f64).clamp(0.0, 1.0))
@@ -134,7 +134,7 @@ impl Spline {
         (sum(b), sum(d))
     }
 
-    /// A step of Gauss and Newton towards the parameter of the nearest place.
+    /// One Gauss-Newton step towards the parameter of the point nearest to a given one.
     fn nearer(&self, u: f64, point: Point) -> f64 {
         let (place, slope) = self.at(u);
         let square = slope.norm_sqr();

@@ -5,10 +5,10 @@ use super::line::FLATTENING_TOLERANCE_MM;
 use crate::math::planar::{distance, polyline_length, segments_intersect};
 use crate::pattern::{Run, Seam};
 
-/// A tab and what it is folded along.
+/// A tab, and the line that it is folded along.
 pub(super) struct Tab {
     pub seam: Seam,
-    /// Along the crease, as the outline runs.
+    /// Fold line of the tab, in the direction of the outline.
     pub base: Curve,
     pub depth: f64,
     pub middle: [f64; 2],
@@ -29,10 +29,10 @@ const MAX_TAB_DEPTH_SHARE: f64 = 1.5;
 /// Maximum number of times the depth of a tab that does not fit is halved.
 const MAX_TAB_HALVINGS: usize = 2;
 
-/// An outline's runs, and the course of each in millimetres.
+/// The runs of an outline, each with its curve in millimetres.
 type Outline<'a> = Vec<(&'a Run, Curve)>;
 
-/// The lines to cut, with tabs where there is room for them, and these.
+/// The cut lines with tabs where there is room for them, and the tabs.
 pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
     // Of the two sides of a crease that of the patch with the lower number has the tabs. Those of a step are not
@@ -93,7 +93,8 @@ pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve
     (cuts, tabs)
 }
 
-/// A line in pieces that turn by little each, of no less than the shortest length where they are to be had.
+/// Fold lines of tabs along a curve: pieces that turn by little each, and are no shorter than a tab has to be
+/// where that is possible.
 fn bases(curve: &Curve) -> Vec<Curve> {
     let points = curve.points(FLATTENING_TOLERANCE_MM);
     let heading = |i: usize| {
@@ -143,7 +144,7 @@ fn flap(base: &[[f64; 2]], depth: f64, walls: &[[[f64; 2]; 2]]) -> Option<(f64, 
     free.then_some((depth, corners))
 }
 
-/// Whether two lines cross or touch elsewhere than at common ends.
+/// Whether two line segments cross, or touch elsewhere than at common ends.
 fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     let same = |p: [f64; 2], q: [f64; 2]| distance(p, q) < 1e-6;
     if [a, b].iter().any(|p| same(*p, c) || same(*p, d)) {

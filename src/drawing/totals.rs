@@ -12,7 +12,7 @@ use crate::pattern::{Direction, Missing, Sheet};
 /// sheets.
 const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 
-/// What a drawing comes to, lengths in millimetres.
+/// Numbers and lengths that a drawing comes to; lengths in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -23,29 +23,29 @@ const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 pub struct Totals {
     /// Number of sheets.
     pub sheets: usize,
-    /// Creases that are cut, at least in part.
+    /// Number of creases that are cut, at least in part.
     pub seams: usize,
-    /// Cuts through what was one patch, because it cannot be laid flat in one piece.
+    /// Number of cuts inside of a patch, made because the patch cannot be laid flat in one piece.
     pub slits: usize,
-    /// Length of the creases that are cut, as far as they are, each counted once.
+    /// Length of the cut creases, as far as they are cut, each counted once.
     pub seam_length: f64,
-    /// Length of the slits likewise.
+    /// Length of the slits, each counted once.
     pub slit_length: f64,
-    /// The most that both sides of one of these differ in length, as a share of it; lines shorter than
-    /// a tenth of the side of a square as large as all sheets do not count, nor do the sides of steps, which
-    /// are not joined.
+    /// Largest difference between the lengths of a joint's two sides, as a share of the longer one. Joints
+    /// shorter than a tenth of the side of a square with the area of all sheets do not count, nor do the
+    /// sides of steps, which are not joined.
     pub mismatch: f64,
-    /// Which one that is, if any counts.
+    /// The joint with the largest mismatch, if any counts.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub worst_joint: Option<WorstJoint>,
-    /// Points inside of the surface where cuts or folds end and angles were compared: those of the pieces
-    /// around each, within four fifths of the shortest of these lines and twenty cells at most, with that of the surface
-    /// around it.
+    /// Number of points inside of the surface where cuts or folds end and whose angles were compared: those
+    /// of the cut pieces with that of the surface, within four fifths of the shortest line that ends there
+    /// and twenty spacings at most.
     pub points: usize,
-    /// Where these differ most, if any was compared.
+    /// The point with the largest difference of angles, if any was compared.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub worst_angle: Option<WorstAngle>,
-    /// Creases that are folds.
+    /// Number of creases that are folds.
     pub folds: usize,
     /// Number of tabs.
     pub tabs: usize,
@@ -53,43 +53,43 @@ pub struct Totals {
     pub cut_length: f64,
     /// Length of all mountain folds, without those of tabs.
     pub mountain_length: f64,
-    /// Length of all valley folds likewise.
+    /// Length of all valley folds, without those of tabs.
     pub valley_length: f64,
     /// Area of the sheets without tabs, in square millimetres.
     pub area: f64,
     /// Largest strain of a sheet (root of the mean square): 0 for what can be unrolled.
     pub strain: f64,
-    /// Most that the two sides of a fold are apart (root of the mean square).
+    /// Largest distance between the two sides of a fold (root of the mean square).
     pub gap: f64,
-    /// Small loops in which outlines crossed themselves, and which were cut off.
+    /// Number of small loops in which outlines crossed themselves, and which were cut off.
     pub loops: usize,
-    /// How far sheets that were folded back are from the surface at most (root of the mean square), if
-    /// that was asked for ([`PatternOptions::refold`](crate::pattern::PatternOptions::refold)).
+    /// Largest distance of a sheet that was folded back from the surface (root of the mean square), if that
+    /// was asked for ([`PatternOptions::refold`](crate::pattern::PatternOptions::refold)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub refolding: Option<f64>,
-    /// What of the surface is on no sheet, if that is known
-    /// ([`Drawing::missing`](super::Drawing::missing)); areas in square millimetres.
+    /// What of the surface is on no sheet, if that is known ([`Drawing::missing`](super::Drawing::missing));
+    /// areas in square millimetres.
     pub missing: Option<Missing>,
-    /// Pages it takes of A4.
+    /// Number of A4 pages that the drawing takes.
     pub a4: usize,
-    /// Pages it takes of Letter.
+    /// Number of Letter pages that the drawing takes.
     pub letter: usize,
 }
 
-/// The cut whose sides differ most in length.
+/// The joint whose two sides differ most in length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct WorstJoint {
-    /// Its crease, whose letter is on both sides of it ([`Label`](super::Label)).
+    /// Number of the joint's crease, whose letter is on both sides of it ([`Label`](super::Label)).
     pub crease: usize,
-    /// The patches on either side.
+    /// The patches on either side of the joint.
     pub patches: [u32; 2],
-    /// How long either side is, in millimetres.
+    /// Lengths of the joint's two sides, in millimetres.
     pub lengths: [f64; 2],
 }
 
-/// A line that is cut: how long it is on either patch.
+/// A crease that is cut, with its length on either patch.
 struct Joint {
     crease: usize,
     patches: [u32; 2],
@@ -99,7 +99,7 @@ struct Joint {
 }
 
 impl Joint {
-    /// How much its sides differ, as a share of the longer one.
+    /// Difference between the lengths of the joint's sides, as a share of the longer one.
     fn mismatch(&self) -> f64 {
         let [a, b] = self.sides;
         (a - b).abs() / a.max(b)

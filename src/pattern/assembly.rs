@@ -22,9 +22,12 @@ use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
 
+/// Result of joining parts: sheets, or parts that have to be cut further.
 pub(super) enum Assembly {
+    /// All parts are on valid sheets.
     Whole(Box<Assembled>),
-    /// The parts, the numbers of those that cannot be sheets as they are, and why; none if specks were left out.
+    /// The parts, the numbers of those that cannot be sheets as they are, and why; no numbers if border
+    /// specks were removed.
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
@@ -42,7 +45,7 @@ const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
     ..SHEET_RELAXATION
 };
 
-/// Joins parts as far as their sides fit, they are not strained by it, and outlines stay simple.
+/// Joins parts as far as their sides fit, the strain limit allows it and outlines stay simple.
 pub(super) fn assembled(
     parts: Parts,
     patches: &Patches,
@@ -85,16 +88,16 @@ pub(super) fn assembled(
     Ok(Assembly::Cut(Box::new(parts), wrong))
 }
 
-/// What became of sheets that were laid flat.
+/// Result of laying sheets flat.
 pub(super) enum Settled {
-    /// Folds of those that were not as they should be are open; the patches that are not even so, and why.
+    /// Folds of invalid sheets were opened; the patches that are invalid even so, and why.
     Opened(Vec<(u32, String)>),
-    /// They would be as they should be without these vertices of a part.
+    /// The sheet would be valid if these vertices of the part were removed.
     Specks(u32, Vec<usize>),
 }
 
-/// Lays the patches of each sheet flat together, and opens folds of those that are not as they should
-/// be for another reason than specks.
+/// Lays the patches of each sheet flat together, and opens folds of invalid sheets unless removing a few
+/// border vertices would make them valid.
 pub(super) fn settle(
     parts: &Parts,
     net: &mut Net,
@@ -142,7 +145,7 @@ pub(super) fn settle(
     Ok(Settled::Opened(wrong))
 }
 
-/// The few vertices of one of its parts that a sheet has its fault from.
+/// The few vertices of one part whose removal would make a sheet valid.
 fn specks(parts: &Parts, net: &Net, fault: &Fault) -> Option<(u32, Vec<usize>)> {
     let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
     troubled.iter().find_map(|part| {
@@ -151,7 +154,7 @@ fn specks(parts: &Parts, net: &Net, fault: &Fault) -> Option<(u32, Vec<usize>)> 
     })
 }
 
-/// What folds hold together.
+/// Groups of a sheet's patches that are connected by folds.
 fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
     let mut sets = UnionFind::new("pattern", members.len())?;
     let place = |patch: u32| members.binary_search(&patch).ok();
@@ -169,8 +172,8 @@ fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>
     Ok(groups)
 }
 
-/// The folds that are to be cut: for an outline that crosses itself the nearest one, or else of those of
-/// strained patches those whose sides pull apart most.
+/// The folds to open: the one nearest to where an outline crosses itself, or else, for each of the strained
+/// patches, the one whose sides are furthest apart.
 fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usize> {
     match fault {
         Fault::Crossing(place) => {
@@ -202,7 +205,7 @@ fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usi
     }
 }
 
-/// The sheets, drawn.
+/// The pattern with outlines, folds and numbers of all sheets.
 pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
     let Assembled {
         parts,
@@ -259,7 +262,7 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
     })
 }
 
-/// What is left out, and what is at steps.
+/// Vertices and area of the surface that were left out, and its steps.
 fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));

@@ -16,7 +16,7 @@ const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 /// of a node there is inexact if more than three do.
 const UNTIED_END_NODES: usize = 1;
 
-/// Whether the sides of some folds lie on each other already.
+/// Whether the sides of folds lie on each other already, so that nothing has to be relaxed.
 pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
     let mut folded = folded.iter();
     folded.all(|seam| apart(net, layout, *seam) <= MAX_JOINED_GAP_SPACINGS * net.spacing)
@@ -25,7 +25,7 @@ pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
 /// The patches of a sheet as one mesh, tied along its folds.
 pub(super) struct Tied {
     patches: Vec<u32>,
-    /// The number of the first vertex of each patch.
+    /// Number of the first vertex of each patch.
     starts: Vec<u32>,
     joint: ArapMesh,
     places: Vec<Point>,
@@ -61,8 +61,8 @@ impl Tied {
         })
     }
 
-    /// Lays the patches to where they fit best; their motions are none then. Returns what it took:
-    /// steps times vertices.
+    /// Relaxes the sheet from where its patches lie, and resets their motions. Returns the cost: steps times
+    /// vertices.
     pub(super) fn relax(
         &mut self,
         net: &mut Net,
@@ -82,8 +82,8 @@ impl Tied {
     }
 }
 
-/// The pairs of places along some folds that are one, `starts` being the number of each patch's first
-/// vertex.
+/// Pairs of points, as means of vertices, that folds tie to each other; `starts` holds the number of each
+/// patch's first vertex.
 pub(super) fn ties(
     net: &Net,
     patches: &[u32],
@@ -117,7 +117,7 @@ pub(super) fn ties(
     ties
 }
 
-/// The strain right beside a seam, on both of its sides.
+/// Strain of the triangles beside a seam, on both of its sides.
 pub(super) fn strain_along(net: &Net, seam: usize) -> f64 {
     let seam = &net.seams[seam];
     let sides = seam.patches.iter().filter_map(|patch| {
@@ -132,7 +132,7 @@ pub(super) fn strain_along(net: &Net, seam: usize) -> f64 {
     sides.fold(Strain::default(), Strain::with).rms()
 }
 
-/// The strain of a sheet, and that of each of its patches.
+/// Strain of a sheet, and strain of each of its patches.
 pub(super) fn strains(net: &Net, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
     let leaf = |patch: &u32| net.leaves[*patch as usize].as_ref();
     let of = |patch: &u32| Some((*patch, leaf(patch)?.strain()));
@@ -143,7 +143,7 @@ pub(super) fn strains(net: &Net, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>
     (sum, all)
 }
 
-/// The first place where lines cross each other or themselves; each is closed.
+/// The first point where closed lines cross each other or themselves.
 pub(super) fn crossing(lines: &[Vec<Point>]) -> Option<Point> {
     let (mut places, mut edges) = (Vec::new(), Vec::new());
     for line in lines {

@@ -28,10 +28,9 @@ const MIN_STEP_SLOPE: f64 = 4.0;
 const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
 impl Labels {
-    /// Cuts a part in two or more, along a straight line seen from above, through where it is
-    /// strained most, and in that direction which leaves the least to bend in two directions.
-    /// Returns the numbers of what it was cut into, the first of them its own, or nothing where it
-    /// is too small.
+    /// Cuts a part in two or more, along a straight line seen from above, through where it is strained most,
+    /// and in the direction that leaves least to bend in two directions. Returns the numbers of the pieces,
+    /// the first of them its own, or `None` where the part is too small.
     pub(super) fn cut(
         &mut self,
         surface: &Heightfield,
@@ -79,7 +78,8 @@ impl Labels {
         Ok(None)
     }
 
-    /// Cuts a part in what hangs together on either side and by edges that are `joined`.
+    /// Cuts a part into the connected pieces on either side of a line, by edges for which `joined` holds;
+    /// `None` if fewer than two are large enough.
     fn try_cut(
         &mut self,
         lattice: &Lattice,
@@ -149,7 +149,7 @@ impl Labels {
     }
 }
 
-/// A vertex: where it is, its normal, and how much it is strained.
+/// A vertex of a part: its position, its normal and its squared strain.
 struct Sample {
     place: [f64; 2],
     normal: Vector3<f64>,
@@ -189,7 +189,7 @@ impl Sample {
     }
 }
 
-/// The median along a direction, each vertex counting by a power of its strain.
+/// Median of the vertices' positions along a direction, each weighted by a power of its strain.
 fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
     let mut along: Vec<(f64, f64)> = (samples.iter())
         .map(|s| (x * s.place[0] + y * s.place[1], s.square.powf(power)))
@@ -197,9 +197,9 @@ fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
     weighted_median(&mut along).unwrap_or(0.0)
 }
 
-/// What both sides of a line have left to bend in two directions: the least variance of their
-/// normals, which is 0 for planes, cylinders and cones (Julius, Kraevoy and Sheffer 2005, *D-Charts*),
-/// times their numbers; and the length of the cut.
+/// Score of a straight cut, lower is better: for both sides the least variance of the normals, which is 0 for
+/// planes, cylinders and cones (Julius, Kraevoy and Sheffer 2005, *D-Charts*), times their numbers; and the
+/// length of the cut.
 fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     let mut sums = [(0.0, Vector3::zeros(), Matrix3::zeros()); 2];
     let mut length = 0.0;

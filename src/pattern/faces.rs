@@ -4,16 +4,16 @@ use super::net::Net;
 use super::outline::Layout;
 use crate::heights::heightfield::Heightfield;
 
-/// The surface that a sheet is made of. Each triangle of the lattice belongs to the patch that most of it lies
-/// in, so that sheets meet along creases without a gap.
+/// The triangles of a sheet, built and flat. Each triangle of the lattice belongs to the patch that most of
+/// it lies in, so that sheets meet along creases without a gap.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Faces {
-    /// Where each vertex is on the surface.
+    /// Position of each vertex on the surface.
     pub built: Vec<[f64; 3]>,
-    /// Where it lies on the flat sheet.
+    /// Position of each vertex on the flat sheet.
     pub flat: Vec<[f64; 2]>,
-    /// Three vertices each, counter-clockwise.
+    /// Vertices of each triangle, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
 }
 

@@ -18,18 +18,18 @@ pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
     max_steps: 25,
 };
 
-/// What is wrong with a sheet.
+/// The reason why a sheet is invalid.
 pub(super) enum Fault {
-    /// How much, and the parts that are strained more than they may be.
+    /// The sheet's strain, and the parts that are strained by more than the limit.
     Strain(f64, Vec<u32>),
     /// Parts with triangles upside down.
     Flipped(Vec<u32>),
-    /// Where.
+    /// A point where the outline crosses itself.
     Crossing(Point),
 }
 
 impl Fault {
-    /// The parts that are in trouble, and which that is.
+    /// The parts that the fault is in, and what removing vertices of them has to cure.
     pub(super) fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
         match self {
             Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
@@ -57,7 +57,7 @@ pub(super) fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> 
     (0..net.seams.len()).filter(own).collect()
 }
 
-/// What is wrong with a sheet, if anything is.
+/// The first fault of a sheet, if it has one.
 pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
     let (sum, all) = strains(net, members);
     // Some of them at once, so that few joint unrollings are needed.

@@ -23,16 +23,17 @@ use crate::shape::patches::{NO_PATCH, Patches};
 /// Maximum number of vertices of a surface that is cut without a coarse lattice first.
 const MAX_DIRECT_VERTICES: usize = 12_000;
 
-/// A surface and its patches on every second vertex.
+/// A surface and its patches on every second vertex of a lattice.
 pub(super) struct Coarse {
     pub surface: Heightfield,
     pub patches: Patches,
-    /// What number each patch has on the fine lattice.
+    /// Number on the fine lattice of each patch.
     order: Vec<usize>,
 }
 
 impl Coarse {
-    /// `None` where there are few vertices, or too few would be left.
+    /// The surface on the lattice of twice the spacing; `None` where there are few vertices, or too few would
+    /// be left.
     pub(super) fn new(surface: &Heightfield, patches: &Patches) -> Result<Option<Coarse>> {
         let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
         let fine = *surface.lattice();
@@ -62,14 +63,14 @@ impl Coarse {
     }
 }
 
-/// The fine vertex that a coarse one lies on, both by their indices.
+/// Index of the fine vertex at a coarse one.
 fn on_fine(coarse: &Lattice, fine: &Lattice, i: usize) -> Option<usize> {
     let (row, col) = fine_vertex(i / coarse.cols(), i % coarse.cols());
     fine.contains(row, col)
         .then(|| fine.index(row as usize, col as usize))
 }
 
-/// The one or two coarse vertices around a fine one, by their indices.
+/// Indices of the one or two coarse vertices at or beside a fine one.
 fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = usize> {
     let inside = |(row, col): &(isize, isize)| coarse.contains(*row, *col);
     let found: Vec<usize> = (parents(row, col).iter().filter(|vertex| inside(vertex)))
@@ -78,8 +79,8 @@ fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = u
     found.into_iter()
 }
 
-/// The sheets of the coarse lattice on the fine one. What of them is no sheet there is told, with the
-/// reason.
+/// Lays the sheets of a coarse lattice flat on the fine one. The inner error tells which part of them is no
+/// sheet there.
 pub(super) fn refined(
     surface: &Heightfield,
     patches: &Patches,
@@ -164,7 +165,7 @@ pub(super) fn refined(
     }
 }
 
-/// The new number of each part, from the old ones in their new order.
+/// The new number of each part, from the old numbers in their new order.
 fn inverse(order: &[usize]) -> Vec<u32> {
     let mut numbers = vec![0; order.len()];
     for (number, old) in order.iter().enumerate() {
@@ -173,8 +174,8 @@ fn inverse(order: &[usize]) -> Vec<u32> {
     numbers
 }
 
-/// The part of each vertex of the fine lattice, and the patch of each part. What no part of the coarse
-/// lattice reaches becomes parts of its own; what was left out there stays out.
+/// The part of each vertex of the fine lattice, and the patch of each part. Regions that no coarse part
+/// reaches become parts of their own; vertices left out on the coarse lattice stay so.
 fn carried(
     surface: &Heightfield,
     patches: &Patches,
@@ -252,7 +253,7 @@ fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<Leaf>>
     )
 }
 
-/// Folds creases where they are folded on the coarse lattice.
+/// Folds the seams of the fine lattice whose creases are folds on the coarse one.
 fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assembled) {
     // The nodes between each two parts, and whether they are folds.
     let mut nodes: BTreeMap<[usize; 2], Vec<([f64; 2], bool)>> = BTreeMap::new();

@@ -54,7 +54,7 @@ pub fn pattern(
     )
 }
 
-/// Cuts and joins on a coarse lattice where there are many vertices.
+/// Finds the sheets of a surface, on a coarse lattice first where there are many vertices.
 pub(super) fn whole(
     surface: &Heightfield,
     patches: &Patches,
@@ -83,7 +83,7 @@ pub(super) fn whole(
     }
 }
 
-/// Cuts and joins until every sheet is as it should be.
+/// Cuts and joins parts on one lattice until every sheet is valid.
 fn direct(
     surface: &Heightfield,
     patches: &Patches,

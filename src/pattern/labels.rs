@@ -4,11 +4,12 @@
 use crate::lattice::hexagonal::Lattice;
 use rustc_hash::FxHashMap;
 
+/// The part of each vertex of a lattice, and the patch that each part was cut from.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {
-    /// The part of each vertex of the lattice.
+    /// Number of the part of each vertex.
     pub of: Vec<u32>,
-    /// The patch that each part is of.
+    /// Number of the patch that each part was cut from.
     pub origins: Vec<u32>,
 }
 
@@ -20,14 +21,14 @@ impl Labels {
         }
     }
 
-    /// Whether two parts are of one patch, so that the surface is smooth from one to the other.
+    /// Whether two parts were cut from one patch, so that the surface is smooth across their border.
     pub(super) fn are_one(&self, a: u32, b: u32) -> bool {
         let origin = |part: u32| self.origins.get(part as usize);
         a == b || (origin(a).is_some() && origin(a) == origin(b))
     }
 }
 
-/// Groups of vertices that hang together by edges between them that are `joined`.
+/// Connected groups of vertices, by the edges between them for which `joined` holds.
 pub(super) fn hanging_together(
     lattice: &Lattice,
     vertices: impl Iterator<Item = usize>,

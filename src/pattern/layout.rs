@@ -4,13 +4,15 @@ use super::net::{NEGLIGIBLE_GAP_LENGTHS, Net};
 use super::outline::{Layout, Motion};
 use crate::math::planar::polyline_length;
 
+/// Positions of all patches, and the sheets that they are on.
 pub(super) struct Arrangement {
     pub layout: Layout,
-    /// The patches of each sheet, ascending.
+    /// Numbers of the patches of each sheet, ascending.
     pub sheets: Vec<Vec<u32>>,
 }
 
-/// Makes folds of the seams whose sides fit within a share of their length, the longest first.
+/// Lays patches beside each other, and makes folds of the seams whose sides fit within `gap` times their
+/// length, the longest first.
 pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
     let mut layout = Layout::loose(net);
     // The sheet of each patch, and the patches of each sheet.
@@ -55,7 +57,7 @@ pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
     Arrangement { layout, sheets }
 }
 
-/// The seams that may be joined, by their length.
+/// The seams that may be joined, the longest first.
 pub(super) fn longest_first(net: &Net) -> Vec<usize> {
     let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
     let whole = |seam: &usize| {
@@ -67,20 +69,20 @@ pub(super) fn longest_first(net: &Net) -> Vec<usize> {
     order
 }
 
-/// What brings the second side of a seam to its first.
+/// The motion that brings the second side of a seam to its first.
 pub(super) fn beside(net: &Net, layout: &Layout, seam: usize) -> Motion {
     let [there, here] = [0, 1].map(|side| layout.side(net, seam, side));
     Motion::between(&here, &there)
 }
 
-/// Whether the sides of a seam lie on each other but for a share of its length, or as nearly as the
-/// lattice can tell.
+/// Whether the sides of a seam lie on each other within `gap` times its length, or within the lattice's
+/// resolution.
 pub(super) fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
     let most = gap * polyline_length(&net.seams[seam].sides[0]);
     apart(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)
 }
 
-/// Root mean square of the distances between the sides of a seam.
+/// Seam gap: root mean square of the distances between the sides of a seam.
 pub(super) fn apart(net: &Net, layout: &Layout, seam: usize) -> f64 {
     let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
     let squares: f64 = one

@@ -21,7 +21,7 @@ pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 /// Minimum number of vertices of a part that may be cut further.
 pub(super) const MIN_CUT_VERTICES: usize = 24;
 
-/// A part of the lattice, from an even row on, so that its rows are shifted alike.
+/// A rectangle of the lattice that begins at an even row, so that its rows are shifted alike.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     top: usize,
@@ -31,7 +31,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The whole lattice.
+    /// The window of the whole lattice.
     pub(super) fn whole(lattice: &Lattice) -> Window {
         Window {
             top: 0,
@@ -62,7 +62,7 @@ impl Window {
         }
     }
 
-    /// The lattice's indices in it.
+    /// Indices of the lattice's vertices in the window.
     pub(super) fn vertices(self, lattice: &Lattice) -> impl Iterator<Item = usize> {
         let cols = lattice.cols();
         let rows = if self.is_empty() {
@@ -73,7 +73,7 @@ impl Window {
         rows.flat_map(move |row| (self.left..=self.right).map(move |col| row * cols + col))
     }
 
-    /// Around the vertices of each of `count` patches in this one, a cell larger.
+    /// For each of `count` patches the window of its vertices, a cell larger on each side.
     pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
         let mut windows = vec![Window::EMPTY; count];
         for i in self.vertices(lattice) {
@@ -91,30 +91,31 @@ impl Window {
     }
 }
 
+/// A patch, continued a cell beyond its creases and laid flat by itself.
 pub(super) struct Leaf {
     mesh: Triangulation,
-    /// Where its vertices lie by themselves, and where they lie now.
+    /// Positions of the vertices as the patch lies by itself. `places` holds their present positions.
     alone: Vec<Point>,
     places: Vec<Point>,
-    /// Whether it has not been laid flat on this lattice yet.
+    /// Whether the patch was not laid flat on this lattice yet.
     rough: bool,
     window: Window,
-    /// Which of its vertices are the patch's own.
+    /// Whether each vertex belongs to the patch, and not to a neighbour.
     own: Vec<bool>,
 }
 
-/// What is left of stretch in a leaf.
+/// Area, squared strain and flipped triangles of a layout.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Strain {
     pub area: f64,
-    /// Area times the mean of the squared strains.
+    /// Squared strains, integrated over the area.
     pub squares: f64,
-    /// Triangles that lie upside down.
+    /// Number of triangles that lie upside down.
     pub flipped: usize,
 }
 
 impl Strain {
-    /// Root of the mean square; infinite where it is not a number, which is no layout.
+    /// Root mean square of the strain; infinite where a layout is not finite.
     pub(super) fn rms(&self) -> f64 {
         let rms = match self.area > 0.0 {
             true => (self.squares / self.area).sqrt(),
@@ -133,8 +134,8 @@ impl Strain {
 }
 
 impl Leaf {
-    /// The patch with all triangles that one of its vertices is in; `None` if there is none. What
-    /// will surely be strained by more than `limit` is laid flat carelessly.
+    /// Lays a patch flat, with all triangles that have one of its vertices; `None` if there is none. A patch
+    /// whose strain surely exceeds `limit` is laid flat with less effort.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
@@ -159,7 +160,8 @@ impl Leaf {
         }))
     }
 
-    /// The same, lying where `start` says, as far as that knows; nothing if it knows of too few.
+    /// A patch with given positions: vertices without one are placed beside those with one; `None` if too few
+    /// are given.
     pub(super) fn at(
         surface: &Heightfield,
         labels: &Labels,
@@ -188,7 +190,7 @@ impl Leaf {
         }))
     }
 
-    /// Its triangles, and which of their vertices are its own.
+    /// Triangles of a patch, and whether each of their vertices is its own.
     fn mesh(
         surface: &Heightfield,
         labels: &Labels,
@@ -236,7 +238,7 @@ impl Leaf {
         Ok(Some((mesh, own)))
     }
 
-    /// Whether it has not been laid flat on this lattice yet.
+    /// Whether the patch was not laid flat on this lattice yet.
     pub(super) fn is_rough(&self) -> bool {
         self.rough
     }
@@ -245,7 +247,7 @@ impl Leaf {
         &self.places
     }
 
-    /// Where its vertices are on the surface.
+    /// Positions of the vertices on the surface.
     pub(super) fn positions(&self) -> &[[f64; 3]] {
         self.mesh.positions()
     }
@@ -258,23 +260,23 @@ impl Leaf {
         self.places = places;
     }
 
-    /// Where its vertices lay before they were moved; `None` if they were not.
+    /// Positions of the vertices before they were moved; `None` if they were not.
     pub(super) fn moved_from(&self) -> Option<Vec<Point>> {
         (self.alone != self.places).then(|| self.alone.clone())
     }
 
-    /// Number of vertices of its own.
+    /// Number of vertices that belong to the patch.
     pub(super) fn size(&self) -> usize {
         self.own.iter().filter(|own| **own).count()
     }
 
-    /// Whether it is too small to be cut.
+    /// Whether the part is too small to be cut.
     pub(super) fn is_crumb(&self) -> bool {
         self.size() < MIN_CUT_VERTICES
     }
 
-    /// Its triangles as they would lie by themselves, with the numbers of their corners. A triangle
-    /// most of which is another patch's is left out where there are others.
+    /// Triangles of the patch in their own planes, with the numbers of their corners. Triangles that mostly
+    /// belong to another patch are left out unless all do.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
@@ -290,7 +292,7 @@ impl Leaf {
         })
     }
 
-    /// All of its triangles likewise.
+    /// All triangles of the patch in their own planes, with the numbers of their corners.
     pub(super) fn all_pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         mesh.triangles().iter().map(|corners| {
@@ -299,12 +301,12 @@ impl Leaf {
         })
     }
 
-    /// The strain where its vertices lie now.
+    /// Strain of the patch as it lies now.
     pub(super) fn strain(&self) -> Strain {
         self.strain_of(|_| true)
     }
 
-    /// That of the triangles with a corner of some kind.
+    /// Strain of the triangles with at least one of the wanted corners.
     pub(super) fn strain_of(&self, wanted: impl Fn(u32) -> bool) -> Strain {
         let mut sum = Strain::default();
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
@@ -319,8 +321,8 @@ impl Leaf {
         sum
     }
 
-    /// For each of its vertices the lattice's index in the whole, and the squared strain around it
-    /// times the area.
+    /// For each vertex of the patch its index in the whole lattice, and the squared strain of the triangles
+    /// around it times their area.
     pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
         let mut shares = vec![0.0; self.places.len()];
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
@@ -334,7 +336,7 @@ impl Leaf {
         own.map(|v| (self.index(whole, v), shares[v])).collect()
     }
 
-    /// Those of its vertices that are corners of triangles upside down, by the lattice's index in the whole.
+    /// Vertices of the patch at triangles upside down, by their index in the whole lattice.
     pub(super) fn flipped(&self, whole: &Lattice) -> Vec<usize> {
         let upside_down = |(piece, corners): &(FlatTriangle, [u32; 3])| {
             let [_, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
@@ -346,13 +348,13 @@ impl Leaf {
         own.map(|v| self.index(whole, v)).collect()
     }
 
-    /// Index in the whole lattice of one of its vertices.
+    /// Index in the whole lattice of one of the patch's vertices.
     fn index(&self, whole: &Lattice, number: usize) -> usize {
         let [row, col] = self.vertex(number);
         whole.index(row, col)
     }
 
-    /// Row and column in the whole lattice of one of its vertices.
+    /// Row and column in the whole lattice of one of the patch's vertices.
     pub(super) fn vertex(&self, number: usize) -> [usize; 2] {
         let (index, cols) = (
             self.mesh.vertices()[number] as usize,
@@ -364,7 +366,7 @@ impl Leaf {
         ]
     }
 
-    /// Which of the leaf's vertices a vertex of the whole lattice is.
+    /// Number within the patch of a vertex of the whole lattice.
     pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;
         let lattice = self.mesh.lattice();
@@ -379,22 +381,21 @@ impl Leaf {
         self.mesh.vertices().binary_search(&index).ok()
     }
 
-    /// Height of the extended patch at a row and column of the whole lattice; NaN where it does
-    /// not reach.
+    /// Height of the continued patch at a row and column of the whole lattice; NaN beyond it.
     pub(super) fn height(&self, vertex: [usize; 2]) -> f64 {
         let number = self.number(vertex);
         number.map_or(f64::NAN, |n| self.mesh.positions()[n][2])
     }
 
-    /// Its place on the plane likewise.
+    /// Position on the plane of a row and column of the whole lattice; NaN beyond the patch.
     pub(super) fn place(&self, vertex: [usize; 2]) -> Point {
         self.number(vertex)
             .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])
     }
 }
 
-/// Places for all vertices of a mesh from those that are known: beside these, triangles that are known
-/// go on as they lie. `None` if there is nothing to go on from.
+/// Positions of all vertices of a mesh from the known ones: each triangle with two known corners gives a
+/// position to the third. `None` if some vertex cannot be reached.
 fn spread(mesh: &Triangulation, mut known: Vec<Option<Point>>) -> Option<Vec<Point>> {
     let mut missing = known.iter().filter(|place| place.is_none()).count();
     while missing > 0 {

@@ -37,7 +37,8 @@ pub(super) fn simplified(points: &[Point], tolerance: f64) -> Vec<Point> {
     out.into_iter().map(|i| points[i]).collect()
 }
 
-/// The same of a closed line, whose last point is not the first.
+/// A closed line, whose last point is not the first, without the points that it does not need to stay within
+/// a tolerance.
 pub(super) fn simplified_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 4 {
         return points.to_vec();
@@ -98,7 +99,7 @@ pub(super) fn sharpened(points: &[Point], short: f64, closed: bool) -> Vec<Point
         .collect()
 }
 
-/// Where two straight lines meet, if they do.
+/// Intersection of two straight lines; `None` where they are parallel.
 pub(super) fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
     // A hundredth of a radian is as good as parallel.
     line_intersection([p, q], [r, s], 0.01)

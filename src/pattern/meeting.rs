@@ -35,27 +35,27 @@ const RADIAL_STEPS: usize = 12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Meeting {
-    /// The same wherever this point is on a sheet.
+    /// Number of the point, the same on all sheets.
     pub number: usize,
-    /// Where it is on the surface.
+    /// Position of the point on the surface.
     pub place: [f64; 3],
-    /// Sum of the angles of the surface around it, in radians: 2π where that could be laid flat in one
-    /// piece, less at the point of a cone, more in a saddle.
+    /// Sum of the angles of the surface around the point, in radians: 2π where that could be laid flat in one
+    /// piece, less at the tip of a cone, more in a saddle.
     pub angle: f64,
-    /// The distance along the surface at which that was measured: from half of it on.
+    /// Distance along the surface within which the angle was measured: from half of it on.
     pub reach: f64,
-    /// How many ends of cuts there are.
+    /// Number of ends of cuts at the point.
     pub cuts: usize,
 }
 
-/// All of them, by the nodes that they are at.
+/// All points of a heightfield where cuts or folds end, by the nodes of the net.
 pub(super) struct Meetings {
     all: Vec<Option<Meeting>>,
     of: FxHashMap<Node, usize>,
 }
 
 impl Meetings {
-    /// That of a node. Nothing at the border, at steps, and where lines are too short.
+    /// The point at a node; `None` at the border, at steps, and where lines are too short.
     pub(super) fn at(&self, node: Node) -> Option<Meeting> {
         self.of.get(&node).and_then(|number| self.all[*number])
     }
@@ -138,7 +138,7 @@ impl Meetings {
         })
     }
 
-    /// Those at the places of a sheet's corners.
+    /// The points at the corners of a sheet, with their positions on it.
     pub(super) fn corners(
         &self,
         net: &Net,
@@ -152,13 +152,13 @@ impl Meetings {
     }
 }
 
-/// What is known of a point before it is looked at.
+/// Data of a point where seams end, gathered before its angle is measured.
 #[derive(Clone)]
 struct Found {
     cuts: usize,
     torn: bool,
     shortest: f64,
-    /// Sum of the places of its nodes, and how many these are.
+    /// Sum of the positions of the point's nodes. `count` is their number.
     sum: [f64; 3],
     count: f64,
 }
@@ -175,18 +175,18 @@ impl Default for Found {
     }
 }
 
-/// The surface with its creases where patches meet.
+/// The surface around a point, with its creases where patches meet.
 struct Around<'a> {
     surface: &'a Heightfield,
     labels: &'a Labels,
     net: &'a Net,
 }
 
-/// A way along the surface: how long it is, where it ends, and whether a crease is near there.
+/// A path along the surface: its length, its end, and whether a crease is near its end.
 struct Way {
     long: f64,
     place: [f64; 3],
-    /// The same of its first half.
+    /// Length and end of the path's first half.
     half: (f64, [f64; 3]),
     creased: bool,
 }
@@ -196,9 +196,9 @@ fn squared(p: [f64; 3], q: [f64; 3]) -> f64 {
 }
 
 impl Around<'_> {
-    /// The sum of the angles around a place, by the lengths of ways from one ring around it to another of twice
-    /// its radius, and along both. That is exact for cones, thus where flat faces meet, and hardly depends on
-    /// what is right at the place, which the lattice blurs. Nothing where a ring leaves the surface.
+    /// Sum of the angles around a point, by the lengths of paths from one ring around it to another of twice
+    /// its radius, and along both rings. That is exact for cones, thus where flat faces meet, and hardly
+    /// depends on the point itself, where the lattice is blurred. `None` where a ring leaves the surface.
     fn angle(&self, place: [f64; 3], reach: f64) -> Option<f64> {
         let even: Vec<f64> = (0..RING_DIRECTIONS)
             .map(|k| k as f64 / RING_DIRECTIONS as f64)
@@ -229,7 +229,7 @@ impl Around<'_> {
         Some(angles.sum())
     }
 
-    /// The straight ways in plan to the places of a ring with a radius in plan, in some directions in turns.
+    /// Paths, straight in plan, from the centre to a ring of a radius in plan, in directions given in turns.
     fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<Way>> {
         let way = |turn: &f64| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
@@ -254,7 +254,8 @@ impl Around<'_> {
         turns.iter().map(way).collect()
     }
 
-    /// The height in a triangle, and whether two patches meet in it: there both go on to their crease.
+    /// Height of the surface in a triangle, and whether two patches meet in it: there both are continued to
+    /// their crease.
     fn height(&self, place: [f64; 2]) -> Option<(f64, bool)> {
         let lattice: &Lattice = self.surface.lattice();
         let found = lattice.locate(place);

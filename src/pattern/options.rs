@@ -2,21 +2,19 @@
 
 use crate::unroll::UnrollOptions;
 
-/// What may stay together.
+/// Options of a pattern: how well sides must fit and how much strain is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PatternOptions {
-    /// How far the two sides of a fold may be from each other on the flat sheet (root of the mean
-    /// square), as a share of the fold's length; a quarter of the lattice's spacing is always
-    /// allowed. Default 0.005.
+    /// Maximum distance between the two sides of a fold on the flat sheet (root of the mean square), as a
+    /// share of the fold's length; a quarter of the lattice's spacing is always allowed. Default 0.005.
     pub gap: f64,
-    /// The most strain that a sheet may be laid flat with (root of the mean square over its area).
-    /// Default 0.01.
+    /// Maximum strain of a sheet (root of the mean square over its area). Default 0.01.
     pub max_strain: f64,
-    /// How patches are laid flat.
+    /// Options for laying patches flat.
     pub unrolling: UnrollOptions,
-    /// Whether sheets are folded back to see how near they come to the surface; that takes about as long
-    /// as laying them flat. Default `false`.
+    /// Whether sheets are folded back, to see how near they come to the surface; that takes about as long as
+    /// laying them flat. Default `false`.
     pub refold: bool,
 }
 
@@ -42,12 +40,12 @@ impl PatternOptions {
         PatternOptions { max_strain, ..self }
     }
 
-    /// These options with sheets folded back.
+    /// These options with or without folding sheets back.
     pub fn refold(self, refold: bool) -> Self {
         PatternOptions { refold, ..self }
     }
 
-    /// These options with another way to lay patches flat.
+    /// These options with others for laying patches flat.
     pub fn unrolling(self, unrolling: UnrollOptions) -> Self {
         PatternOptions { unrolling, ..self }
     }

@@ -5,7 +5,7 @@ use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 use rustc_hash::FxHashMap;
 
-/// A turn and a shift of a patch's plane.
+/// A rigid motion in the plane: a rotation, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Motion {
     pub turn: Point,
@@ -23,7 +23,7 @@ impl Motion {
         self.turn * place + self.shift
     }
 
-    /// This one first, then another.
+    /// This motion followed by another.
     pub(super) fn then(&self, next: &Motion) -> Motion {
         Motion {
             turn: next.turn * self.turn,
@@ -31,7 +31,7 @@ impl Motion {
         }
     }
 
-    /// What brings some places nearest to others, by the sum of the squared distances.
+    /// The motion that brings points nearest to others, by the sum of the squared distances.
     pub(super) fn between(from: &[Point], to: &[Point]) -> Motion {
         let count = from.len() as f64;
         let middle = |places: &[Point]| places.iter().sum::<Point>() / count;
@@ -49,21 +49,21 @@ impl Motion {
     }
 }
 
-/// How all patches lie, and which seams are folds.
+/// The motion of each patch, and which seams are folds.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub motions: Vec<Motion>,
     pub folded: Vec<bool>,
 }
 
-/// A corner of a closed line around patches, which lie to the left of it.
+/// A corner of a closed line around patches, which lie to its left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub node: Node,
     pub place: Point,
-    /// The seam that the piece from here on belongs to.
+    /// Number of the seam that the line follows from this corner on; `None` along the border.
     pub seam: Option<usize>,
-    /// The patch beside it.
+    /// Number of the patch beside the line from this corner on.
     pub patch: u32,
 }
 
@@ -71,7 +71,7 @@ pub(super) struct Corner {
 const SLIT_END_CORNERS: usize = 8;
 
 impl Layout {
-    /// Every patch by itself.
+    /// The layout in which every patch lies by itself.
     pub(super) fn loose(net: &Net) -> Layout {
         Layout {
             motions: vec![Motion::IDENTITY; net.leaves.len()],
@@ -79,7 +79,7 @@ impl Layout {
         }
     }
 
-    /// Moves some patches.
+    /// Applies a motion to some patches.
     pub(super) fn carry(&mut self, patches: &[u32], motion: &Motion) {
         for patch in patches {
             let own = &mut self.motions[*patch as usize];
@@ -87,15 +87,14 @@ impl Layout {
         }
     }
 
-    /// Where a seam's nodes lie, by the side of one of its patches, 0 or 1.
+    /// Positions of a seam's nodes on one of its two patches, 0 or 1.
     pub(super) fn side(&self, net: &Net, seam: usize, side: usize) -> Vec<Point> {
         let motion = &self.motions[net.seams[seam].patches[side] as usize];
         let places = net.seams[seam].sides[side].iter();
         places.map(|place| motion.of(*place)).collect()
     }
 
-    /// The patches that share their copy of a node, the given one among them: those that folds at
-    /// the node lead to.
+    /// The patches that share a node with a given one through folds at the node, itself included.
     fn family(&self, net: &Net, node: Node, patch: u32) -> Vec<u32> {
         let mut family = vec![patch];
         let seams = match node {
@@ -121,7 +120,7 @@ impl Layout {
         family
     }
 
-    /// The closed lines around some patches, with the seams that are no folds among them.
+    /// The closed lines around some patches, with the open seams among them.
     pub(super) fn outlines(&self, net: &Net, patches: &[u32]) -> Vec<Vec<Corner>> {
         let mut segments = Vec::new();
         let mut starts: FxHashMap<(Node, u32), Vec<usize>> = FxHashMap::default();
@@ -165,7 +164,7 @@ impl Layout {
         outlines
     }
 
-    /// Whether some patches come to lie on each other.
+    /// Whether some patches overlap.
     pub(super) fn overlaps(&self, net: &Net, patches: &[u32]) -> bool {
         let outlines = self.outlines(net, patches);
         let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());

@@ -27,25 +27,26 @@ const MAX_TRIM_ROUNDS: usize = 8;
 /// Maximum number of vertices that may be left out at once, of a part that cannot be cut.
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
-/// A part as it would be with another one: its number, and how it would lie.
+/// Number and layout of a part that was merged with another.
 type Enlarged = (u32, Option<Leaf>);
 
+/// The parts that a surface is cut into, each laid flat by itself.
 pub(super) struct Parts {
-    /// The surface without what was left out.
+    /// The surface without the vertices that were left out.
     pub surface: Heightfield,
     pub labels: Labels,
     pub leaves: Vec<Option<Leaf>>,
     pub options: PatternOptions,
-    /// The finest thing of outlines, in spacings: smaller loops of them are cut off.
+    /// Smallest detail of outlines, in spacings: smaller loops of them are cut off.
     pub finest: f64,
-    /// Around each part.
+    /// Window of the lattice around each part.
     windows: Vec<Window>,
-    /// Those that were not looked at yet.
+    /// Numbers of the parts that were not checked yet.
     pending: Vec<u32>,
-    /// Vertices that were left out, and those that may be.
+    /// Number of vertices that were left out. `most_left_out` is the limit.
     left_out: usize,
     most_left_out: usize,
-    /// How often specks were left out of sheets.
+    /// Number of times specks were removed from sheets.
     trims: usize,
 }
 
@@ -79,7 +80,7 @@ impl Parts {
         Ok(parts)
     }
 
-    /// No parts yet of a surface, with the same options.
+    /// The parts of a surface before any is known.
     pub(super) fn none(surface: &Heightfield, options: &PatternOptions) -> Parts {
         Parts {
             surface: surface.clone(),
@@ -95,7 +96,7 @@ impl Parts {
         }
     }
 
-    /// These for given labels; what has none is left out. No part is laid flat yet.
+    /// These parts with given labels; vertices without a label are left out. No part is laid flat yet.
     pub(super) fn with_labels(mut self, surface: &Heightfield, labels: Labels) -> Result<Self> {
         let lattice = surface.lattice();
         let keep: Vec<u8> = labels
@@ -115,7 +116,7 @@ impl Parts {
         Ok(self)
     }
 
-    /// Takes the numbers of patches; `order` has for each what it was before.
+    /// Renumbers the parts as patches are numbered; `order` holds the old number of each.
     pub(super) fn renumber(&mut self, patches: &Patches, order: &[usize]) {
         let origins = order.iter().map(|old| self.labels.origins[*old]).collect();
         self.labels = Labels {
@@ -126,7 +127,7 @@ impl Parts {
         self.windows = order.iter().map(|old| self.windows[*old]).collect();
     }
 
-    /// Vertices that were left out.
+    /// Number of vertices that were left out.
     pub(super) fn left_out(&self) -> usize {
         self.left_out
     }
@@ -135,7 +136,7 @@ impl Parts {
         self.windows[part as usize]
     }
 
-    /// The same with the numbers of patches that are sorted by their areas, and these.
+    /// These parts, numbered by their areas like patches, and the patches that they are.
     pub(super) fn numbered(mut self, patches: &Patches) -> Result<(Self, Patches)> {
         if self.left_out == 0 && self.leaves.len() == patches.patches().len() {
             return Ok((self, patches.clone()));
@@ -155,7 +156,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Lays parts flat without the specks that they are strained too much by.
+    /// Lays parts flat, and removes border specks that strain them too much.
     pub(super) fn lay_flat_trimmed(&mut self, parts: &[u32]) -> Result<()> {
         self.lay_flat(parts)?;
         while let Some(part) = self.pending.pop() {
@@ -186,7 +187,7 @@ impl Parts {
         all.filter(|i| self.labels.of[*i] == part).collect()
     }
 
-    /// Cuts what is strained by more than the limit, or upside down.
+    /// Cuts parts that are strained by more than the limit, or have triangles upside down.
     pub(super) fn cut_strained(&mut self) -> Result<()> {
         while let Some(part) = self.pending.pop() {
             let leaf = self.leaves[part as usize].as_ref();
@@ -199,7 +200,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Cuts one part in two or more, unless it is too small; whether it was cut.
+    /// Cuts a part in two or more. Returns whether it was large enough.
     pub(super) fn cut(&mut self, part: u32) -> Result<bool> {
         let Some(leaf) = self.leaves[part as usize].take() else {
             return Ok(false);
@@ -225,7 +226,7 @@ impl Parts {
         Ok(true)
     }
 
-    /// Rids the pattern of what is strained too much and too small to be cut.
+    /// Merges or leaves out the parts that are strained too much and too small to be cut.
     pub(super) fn give_away_crumbs(&mut self) -> Result<()> {
         let limit = self.options.max_strain;
         for part in (0..self.leaves.len() as u32).rev() {
@@ -238,8 +239,8 @@ impl Parts {
         Ok(())
     }
 
-    /// Gives a part to one beside it that lies flat with it, one of the same patch if there is one, or else
-    /// that with the longest border; whether there is one. Numbers of parts may change.
+    /// Merges a part with a neighbour with which it lies flat, one of the same patch if there is one, or else
+    /// that with the longest common border. Returns whether there is one; numbers of parts may change.
     pub(super) fn give_away(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
@@ -255,7 +256,7 @@ impl Parts {
         Ok(false)
     }
 
-    /// Makes a part one with another, if that lies flat with it; if not, all is as it was.
+    /// Merges a part into another if both lie flat together; changes nothing otherwise.
     fn enlarged(&mut self, other: u32, part: u32, own: &[usize]) -> Result<Option<Enlarged>> {
         let before = self.windows[other as usize];
         self.windows[other as usize] = before.with(&self.windows[part as usize]);
@@ -274,8 +275,8 @@ impl Parts {
         Ok(None)
     }
 
-    /// Leaves out a part that is too small to be cut, unless too much was left out already; whether
-    /// it was. Numbers of parts may change.
+    /// Leaves out a part that is too small to be cut, unless too much was left out already. Returns whether
+    /// it was; numbers of parts may change.
     pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         if own.len() > self.scrap() {
@@ -294,8 +295,8 @@ impl Parts {
         Ok(true)
     }
 
-    /// Leaves out the few vertices at the border of a part that it is strained too much by, or that lie upside
-    /// down; whether there were any.
+    /// Leaves out the few border vertices that strain a part too much or lie upside down. Returns whether
+    /// there were any.
     fn trim(&mut self, part: u32) -> Result<bool> {
         let Some(leaf) = self.leaves[part as usize].as_ref() else {
             return Ok(false);
@@ -315,14 +316,14 @@ impl Parts {
         Ok(true)
     }
 
-    /// The few vertices that a part of a sheet has its trouble from as it lies, if they may be left out.
+    /// The few vertices whose removal would rid a part of a sheet of its fault, if they may be left out.
     pub(super) fn specks(&self, part: u32, leaf: &Leaf, trouble: Trouble) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
         let found = || specks(lattice, &self.labels, part, leaf, trouble, self.scrap());
         (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
-    /// Leaves out specks of a part; what goes on into it or is beside it stays where it lies.
+    /// Leaves out specks of a part; the part and its neighbours stay where they lie.
     pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
         self.trims += 1;
         let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
@@ -339,7 +340,7 @@ impl Parts {
         Ok(())
     }
 
-    /// So many vertices may be left out at once.
+    /// Number of vertices that may still be left out at once.
     fn scrap(&self) -> usize {
         MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
     }
@@ -356,7 +357,7 @@ impl Parts {
         Ok(())
     }
 
-    /// How many edges lead from a part to each other one.
+    /// Number of edges from a part to each of its neighbours.
     fn borders(&self, part: u32, own: &[usize]) -> BTreeMap<u32, usize> {
         let lattice = self.surface.lattice();
         let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
@@ -372,7 +373,7 @@ impl Parts {
         borders
     }
 
-    /// Forgets a part without vertices; the last one takes its number.
+    /// Removes a part without vertices; the last part takes its number.
     fn remove(&mut self, part: u32) {
         let last = self.labels.origins.len() as u32 - 1;
         if last != part {

@@ -21,7 +21,7 @@ const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
     max_steps: 80,
 };
 
-/// How near the patches of a sheet come to where they are on the surface.
+/// Folds a sheet back into space, and measures how near it comes to the surface.
 pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<Refolding> {
     let (mut pieces, mut starts) = (Vec::new(), Vec::new());
     let mut places: Vec<Vector3<f64>> = Vec::new();
@@ -64,9 +64,9 @@ pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<R
     })
 }
 
-/// Turns and shifts places that are not far off so that they are nearest to others, by the rotation
-/// that has the largest inner product with their correlation (Müller et al. 2016, *A Robust Method to
-/// Extract the Rotational Part of Deformations*).
+/// Moves points rigidly, from near by, to where they are nearest to others: by the rotation with the largest
+/// inner product with their correlation (Müller et al. 2016, *A Robust Method to Extract the Rotational Part
+/// of Deformations*).
 fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let count = places.len().max(1) as f64;
     let here = places.iter().sum::<Vector3<f64>>() / count;

@@ -32,7 +32,7 @@ const STEP_BUDGET_PER_VERTEX: usize = 800;
 /// Energy, as a multiple of that at the strain limit, above which a trial is given up where it hardly improves.
 const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
-/// Closes seams, the longest first, and parts of those that cannot be closed as a whole.
+/// Closes cuts again, the longest first, and halves of those that cannot be closed as a whole.
 pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> Result<()> {
     let open = |seam: &usize| !arrangement.layout.folded[*seam];
     let mut pending: VecDeque<usize> = longest_first(net).into_iter().filter(open).collect();
@@ -74,7 +74,7 @@ pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> 
     Ok(())
 }
 
-/// Closes what is open by less than the lattice can tell.
+/// Closes the parts of cuts whose sides are nearer than the lattice's resolution.
 fn zip(net: &mut Net, arrangement: &mut Arrangement, limit: f64) {
     for members in &arrangement.sheets {
         let inside = |seam: &usize| {
@@ -106,7 +106,7 @@ fn zip(net: &mut Net, arrangement: &mut Arrangement, limit: f64) {
     }
 }
 
-/// Closes one seam; whether its sheet then still is as it should be. If not, all is as it was.
+/// Tries to close one cut. Returns whether its sheet is still valid; if not, everything is as before.
 fn closed(
     net: &mut Net,
     arrangement: &mut Arrangement,

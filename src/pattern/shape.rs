@@ -16,7 +16,7 @@ const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 /// piece arises because the border joins the middles of edges.
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
-/// The closed lines around a sheet, and how many small loops were cut off them.
+/// The closed lines around a sheet, and the number of small loops that were cut off them.
 pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
     let mut loops = 0;
     let lines = layout.outlines(net, patches).into_iter().map(|line| {
@@ -27,7 +27,7 @@ pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, 
     (lines.collect(), loops)
 }
 
-/// The outlines of a sheet, the longest first, and how many small loops were cut off them.
+/// The outlines of a sheet, the longest first, and the number of small loops that were cut off them.
 pub(super) fn outlines(
     net: &Net,
     layout: &Layout,
@@ -108,7 +108,7 @@ pub(super) fn folds(
         .collect()
 }
 
-/// Where a line that comes from `back` and ends at `end` meets the nearest outline, if that is no
+/// Intersection of a line, from `back` beyond `end`, with the nearest outline; `end` itself if that is
 /// further than a spacing.
 fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Point {
     let pieces = outlines.iter().flatten().flat_map(|run| {
@@ -125,7 +125,7 @@ fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Poin
         .unwrap_or(end)
 }
 
-/// A closed line as runs along one side of one seam each, or along the border.
+/// A closed line divided into runs, each along one side of a seam or along the border.
 fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     let tolerance = SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing;
     let n = line.len();
@@ -182,7 +182,7 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     out
 }
 
-/// Moves the ends of a border along the seams that it lies between to where these meet its line.
+/// Extends the two seams at a border's ends to their intersections with the border's line.
 fn meet(net: &Net, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
     let count = groups.len();
     for (other, starts) in [((k + count - 1) % count, true), ((k + 1) % count, false)] {
@@ -226,14 +226,14 @@ fn places(corners: &[Corner]) -> Vec<Point> {
     corners.iter().map(|corner| corner.place).collect()
 }
 
-/// How long a piece of the border may be that stands for a corner.
+/// Maximum length of a piece of the border that cuts off a corner.
 fn short(corners: &[Corner]) -> f64 {
     let next = vertices(corners).skip(1);
     let edges = vertices(corners).zip(next).map(|(p, q)| (q - p).norm());
     MAX_CHAMFER_LENGTH_FACTOR * edges.fold(0.0, f64::max)
 }
 
-/// The vertices among the corners, for a border goes from one to the next.
+/// Positions of the lattice's vertices among the corners; a border goes from one to the next.
 fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     let own = corners
         .iter()
@@ -241,7 +241,7 @@ fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     own.map(|corner| corner.place)
 }
 
-/// The middles of a border's edges, on which there is no zigzag.
+/// Middles of a border's edges, which do not zigzag.
 fn middles(corners: &[Corner]) -> Vec<Point> {
     let next = vertices(corners).skip(1);
     vertices(corners)

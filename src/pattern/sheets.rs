@@ -4,7 +4,7 @@ use super::faces::Faces;
 use super::meeting::Meeting;
 use crate::shape::patches::Patches;
 
-/// A surface cut into sheets.
+/// A heightfield cut into sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Pattern {
@@ -13,11 +13,11 @@ pub struct Pattern {
     /// The patches of the sheets and the creases between them: those that were given, if none of
     /// them was cut, or else what they were cut into, with the cuts among the creases.
     pub patches: Patches,
-    /// What of the surface is on no sheet.
+    /// Vertices, area and steps of the surface that are on no sheet.
     pub missing: Missing,
 }
 
-/// What of a surface is on no sheet, in its units.
+/// Vertices, area and steps of a surface that are on no sheet, in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -26,14 +26,14 @@ pub struct Pattern {
 )]
 #[non_exhaustive]
 pub struct Missing {
-    /// Vertices that were left out because nothing around them lies flat with them: ragged steep
-    /// borders and torn points of them, mostly, and a fiftieth of all at most.
+    /// Number of vertices that were left out because nothing around them lies flat with them: ragged steep
+    /// borders and torn tips, mostly, and a fiftieth of all at most.
     pub vertices: usize,
-    /// The area around them.
+    /// Area around the vertices that were left out.
     pub area: f64,
-    /// Steps of the surface, whose sides are cut apart: what would stand between them is not there.
+    /// Number of steps of the surface, whose sides are cut apart: the wall between them is missing.
     pub steps: usize,
-    /// About how large these are: their lengths times how high they are.
+    /// Approximate area of the walls at steps: their lengths times their heights.
     pub step_area: f64,
 }
 
@@ -42,48 +42,49 @@ pub struct Missing {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sheet {
-    /// Its patches, ascending.
+    /// Numbers of the sheet's patches, ascending.
     pub patches: Vec<u32>,
-    /// Where it is cut: closed lines, the sheet to the left of them, so that holes run clockwise;
-    /// the longest first. Each run begins where the one before ends.
+    /// Closed lines along which the sheet is cut, the longest first. The sheet is to their left, so that
+    /// holes run clockwise; each run begins where the one before ends.
     ///
     /// Along creases they are where the patches' continuations meet, smoothed over a spacing or
     /// two; both sides of a cut have the same length but for the strain, and are drawn equally long
     /// ([`Drawing`](crate::drawing::Drawing)). Elsewhere they follow the
     /// border of the lattice's whole triangles, its zigzag taken to the middle of its edges.
     pub outlines: Vec<Vec<Run>>,
-    /// Where it is folded, by the creases' numbers.
+    /// Lines along which the sheet is folded, by the numbers of their creases.
     pub folds: Vec<Fold>,
     /// A place well inside of each patch, in the order of the patches.
     pub spots: Vec<Spot>,
-    /// The surface that it is made of.
+    /// Triangles of the sheet, built and flat.
     pub faces: Faces,
-    /// Distance of neighbours on the lattice, which says how fine these lines can be.
+    /// Spacing of the lattice, or mean edge length of the mesh: the resolution of these lines.
     pub spacing: f64,
-    /// Area of the surface that it is made of.
+    /// Area of the surface that the sheet is made of.
     pub area: f64,
-    /// What strain is left in it: root of the mean square over its area. 0 for what can be unrolled.
+    /// Strain of the sheet: root of the mean square over its area; 0 for what can be unrolled.
     pub strain: f64,
-    /// How far the sides of its folds were from each other at most (root of the mean square along
-    /// a fold); the folds lie halfway.
+    /// Largest distance between the sides of a fold (root of the mean square along it); the folds lie
+    /// halfway.
     pub gap: f64,
-    /// Small loops in which its outlines crossed themselves, and which were cut off.
+    /// Number of small loops in which outlines crossed themselves, and which were cut off.
     pub loops: usize,
-    /// How near it comes to the surface, if that was asked for ([`PatternOptions::refold`](super::PatternOptions::refold)).
+    /// Distance of the folded sheet from the surface, if that was asked for
+    /// ([`PatternOptions::refold`](super::PatternOptions::refold)).
     pub refolding: Option<Refolding>,
 }
 
-/// How near a sheet comes to the surface where it is folded along its lines and bent until nothing of
-/// it is stretched: distances of its vertices, in the surface's units.
+/// Distance of a sheet from the surface when it is folded along its lines and bent until nothing is
+/// stretched: distances of its vertices, in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Refolding {
-    /// Root of the mean square.
+    /// Root mean square of the distances.
     pub rms: f64,
-    /// The largest.
+    /// Largest of the distances.
     pub maximum: f64,
-    /// What is left of strain in it: root of the mean square.
+    /// Strain that is left in the folded sheet: root of the mean square.
     pub strain: f64,
 }
 
@@ -95,9 +96,9 @@ pub struct Run {
     pub seam: Option<Seam>,
     /// Which of the crease's two patches this is the side of; `None` for the border.
     pub patch: Option<u32>,
-    /// Where it begins and ends, if that is inside of the surface.
+    /// Points inside of the surface where the run begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
-    /// At least two; the first one again at the end where the run is a whole outline.
+    /// At least two points; the first one is repeated at the end where the run is a whole outline.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -105,15 +106,15 @@ pub struct Run {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Fold {
-    /// The crease.
+    /// The crease that is folded.
     pub seam: Seam,
-    /// Where it begins and ends, if that is inside of the surface.
+    /// Points inside of the surface where the fold begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
-    /// At least two; the first one again at the end where it is closed.
+    /// At least two points; the first one is repeated at the end where the fold is closed.
     pub points: Vec<[f64; 2]>,
 }
 
-/// What becomes of a sheet's edge or of a line on it.
+/// A crease or cut as it is on a sheet: its patches, its fold and its kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
@@ -121,12 +122,12 @@ pub struct Seam {
     pub crease: usize,
     /// The patches on either side of it, the lower number first.
     pub patches: [u32; 2],
-    /// Which way it is folded.
+    /// Whether the crease is a mountain or a valley fold.
     pub direction: Direction,
-    /// By how much, in radians: 0 is flat.
+    /// Fold angle in radians: 0 is flat.
     pub angle: f64,
-    /// Whether it is no crease of the surface but a cut through what was one patch, because that cannot
-    /// be laid flat in one piece.
+    /// Whether it is a cut inside of a patch, which cannot be laid flat in one piece, and no crease of the
+    /// surface.
     pub slit: bool,
     /// Whether the surface has a step here: its sides are apart in space, and are not joined.
     pub torn: bool,
@@ -143,18 +144,18 @@ pub struct Seam {
 pub enum Direction {
     /// A ridge: the fold points to the viewer.
     Mountain,
-    /// A groove.
+    /// A groove: the fold points away from the viewer.
     Valley,
 }
 
-/// A place to write on.
+/// A place on a sheet for the number of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Spot {
-    /// The patch.
+    /// Number of the patch.
     pub patch: u32,
-    /// The place.
+    /// Position on the sheet.
     pub place: [f64; 2],
-    /// About how far it is from the patch's border.
+    /// Approximate distance of the place from the patch's border.
     pub room: f64,
 }

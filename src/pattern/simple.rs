@@ -13,14 +13,14 @@ const MAX_LOOP_LENGTH: f64 = 60.0;
 /// Maximum number of passes over a line in which its loops are cut off.
 const MAX_LOOP_PASSES: usize = 8;
 
-/// A seam, and the one of its patches that is beside it.
+/// Number of a seam, and the patch beside it.
 pub(crate) type Side = (usize, u32);
 
 /// Consecutive pieces of a closed line, each with the side that it follows; `None` for the border.
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
-/// A closed line of runs, each of which begins where the one before ends, with its small loops cut off
-/// where they cross; and how many these were.
+/// Cuts off the small loops in which a closed line of runs crosses itself, each run beginning where the one
+/// before ends. Returns the line and the number of loops.
 pub(crate) fn without_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     // Each point with the run that the piece from it on belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();
@@ -60,7 +60,8 @@ pub(crate) fn without_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     (out, loops)
 }
 
-/// The line without the loops there are; `None` where there is none to go.
+/// One pass over a line that cuts off its small loops. Returns the line and the number of loops; `None` if
+/// there is none.
 fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, usize)> {
     let n = line.len();
     let places: Vec<Point> = line.iter().map(|(place, _)| *place).collect();

@@ -8,7 +8,7 @@ use super::sheets::Spot;
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::NO_PATCH;
 
-/// For each patch the vertex with the most steps along the lattice to another patch or the border;
+/// For each patch the vertex that is furthest from other patches and the border, by steps along the lattice;
 /// of several, that nearest to the patch's middle.
 pub(super) fn spots(
     surface: &Heightfield,

@@ -12,17 +12,17 @@ const MAX_SPECK_SHARE: f64 = 0.002;
 /// Maximum strain of a part after its specks were removed, as a share of the limit.
 const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 
-/// What the vertices that are left out are to rid a part of.
+/// The fault that removing a few vertices has to cure.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Trouble {
-    /// More strain than this limit.
+    /// Strain above this limit.
     Strain(f64),
     /// Triangles upside down.
     Flipped,
 }
 
-/// The few vertices without which a part would surely be rid of its trouble; nothing if these are more than
-/// `most`, away from its border, or all that holds it together.
+/// The few border vertices of a part whose removal would surely cure its fault; `None` if they are more than
+/// `most`, away from the border, or all that connects the part.
 pub(super) fn specks(
     lattice: &Lattice,
     labels: &Labels,
@@ -59,7 +59,7 @@ pub(super) fn specks(
     (whole && specks.iter().all(at_border)).then(|| specks.concat())
 }
 
-/// The fewest vertices without which the strain would be such a share of what it is.
+/// The fewest vertices whose removal would reduce the strain to a share of its value.
 fn heaviest(burden: &[(usize, f64)], share: f64) -> Vec<usize> {
     let mut sorted = burden.to_vec();
     sorted.sort_by(|a, b| b.1.total_cmp(&a.1));

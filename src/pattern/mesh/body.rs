@@ -17,18 +17,20 @@ pub(super) type Place = Vector3<f64>;
 /// Distance from a plane, in edge lengths, below which a vertex lies on the plane.
 const PLANE_TOLERANCE_LENGTHS: f64 = 0.1;
 
+/// A mesh whose triangles are in parts.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub places: Vec<Place>,
     pub triangles: Vec<[u32; 3]>,
-    /// The patch that each triangle was in, and its part of it.
+    /// Number of the patch that each triangle was in. `parts` holds the part that it is in now.
     pub patches: Vec<u32>,
     pub parts: Vec<u32>,
     pub count: u32,
-    /// Length of an edge, on average.
+    /// Mean length of the edges.
     pub spacing: f64,
 }
 
+/// A plane through a point, with a normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub through: Place,
@@ -36,7 +38,7 @@ pub(super) struct Plane {
 }
 
 impl Body {
-    /// Each connected piece of a patch is a part.
+    /// A mesh in which each connected piece of a patch is a part.
     pub(super) fn new(
         places: Vec<Place>,
         triangles: Vec<[u32; 3]>,
@@ -71,7 +73,7 @@ impl Body {
             .collect()
     }
 
-    /// A part by itself, as part 0.
+    /// One part as a mesh of its own, with the number 0.
     pub(super) fn alone(&self, members: &[u32]) -> Body {
         let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
         let mut places = Vec::new();
@@ -94,8 +96,8 @@ impl Body {
         }
     }
 
-    /// Makes a part of each connected piece with one label of some triangles, which leave theirs; the first
-    /// takes the number of the first triangle's, where `count` has it.
+    /// Divides triangles of a part into connected pieces of one label each. The first piece keeps the number
+    /// of the first triangle's part; returns the numbers of all.
     fn part(&mut self, members: &[u32], labels: &[u32]) -> Result<Vec<u32>> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| self.triangles[*t as usize])
@@ -125,7 +127,8 @@ impl Body {
         Ok(numbers.into_values().collect())
     }
 
-    /// Planes that may cut a part: across its main axes, through its middle and through a place.
+    /// Candidate planes for cutting a part: across its main axes, through its middle and through a given
+    /// point.
     pub(super) fn planes(&self, members: &[u32], place: Place) -> Vec<Plane> {
         let corners = |t: &u32| self.triangles[*t as usize].map(|v| self.places[v as usize]);
         let (mut sum, mut weight) = (Place::zeros(), 0.0);
@@ -150,7 +153,7 @@ impl Body {
             .collect()
     }
 
-    /// Cuts a part along a plane; its parts then, one if the plane does not meet it.
+    /// Cuts a part along a plane. Returns the numbers of its pieces; one if the plane does not meet the part.
     pub(super) fn cut(&mut self, part: u32, plane: &Plane) -> Result<Vec<u32>> {
         let members = self.members(part);
         let mut heights: FxHashMap<u32, f64> = FxHashMap::default();
@@ -191,7 +194,7 @@ impl Body {
         self.part(&members, &labels)
     }
 
-    /// Makes some triangles of a part one or more of their own; its parts then.
+    /// Makes parts of their own of some triangles of a part. Returns the numbers of all its pieces.
     pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
         let members = self.members(part);
         let mut labels = vec![0; self.triangles.len()];
@@ -199,7 +202,7 @@ impl Body {
         self.part(&members, &labels)
     }
 
-    /// Divides a triangle at the vertices on its sides, if there are any.
+    /// Divides a triangle at the new vertices on its edges.
     fn divide(&mut self, t: usize, middles: &FxHashMap<(u32, u32), u32>) {
         let corners = self.triangles[t];
         let mut ring: Vec<u32> = Vec::with_capacity(6);
@@ -231,7 +234,8 @@ impl Body {
 const MAX_ANGLE_DEFECT: f64 = 0.3;
 
 impl Body {
-    /// Which vertices are tips: one side of a seam through them fits at most.
+    /// Whether each vertex is a tip or saddle of the surface, which ends seams: two sides that meet there do
+    /// not both fit.
     pub(super) fn pointed(&self) -> Vec<bool> {
         let mut turns = vec![0.0; self.places.len()];
         for corners in &self.triangles {
@@ -244,7 +248,7 @@ impl Body {
         turns.iter().map(missing).collect()
     }
 
-    /// Numbers the parts by their areas; the new number of each.
+    /// Renumbers the parts by their areas, the largest first. Returns the new number of each.
     pub(super) fn sort(&mut self) -> Vec<u32> {
         let mut areas = vec![0.0; self.count as usize];
         for (part, corners) in self.parts.iter().zip(&self.triangles) {

@@ -16,13 +16,13 @@ use crate::unroll::flat_triangle::Point;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshPattern {
-    /// The sheets, that with the largest patch first. They are seen from outside, which is the side that the
-    /// mesh's triangles face.
+    /// The sheets, that with the largest patch first, seen from outside: the side that the mesh's triangles
+    /// face.
     pub sheets: Vec<Sheet>,
     /// The patches of the sheets, that with the largest area first: those that were given, each connected
     /// piece by itself, or what they were cut into.
     pub patches: Vec<Patch>,
-    /// The creases between them, cuts through what was one patch among them.
+    /// The creases between the patches, with the cuts inside of patches among them.
     pub creases: Vec<Crease>,
 }
 
@@ -159,7 +159,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
     }
 }
 
-/// A closed line by what is on its other side.
+/// Divides a closed line into runs, by what is on its other side.
 fn runs(body: &Body, seams: &Seams, laid: &Laid, line: &[u32]) -> Vec<(Option<usize>, Vec<u32>)> {
     let own = |side: u32| 3 * laid.members[side as usize / 3] + side % 3;
     let key = |side: u32| {
@@ -181,7 +181,7 @@ fn runs(body: &Body, seams: &Seams, laid: &Laid, line: &[u32]) -> Vec<(Option<us
     runs
 }
 
-/// The vertices of the sheet along one of its folds.
+/// Vertices of the sheet along one of its folds.
 fn along(seams: &Seams, laid: &Laid, number: usize) -> Vec<u32> {
     let seam = &seams.all[number];
     let vertex = |body_side: u32, end: u32| {
@@ -207,7 +207,7 @@ fn along(seams: &Seams, laid: &Laid, number: usize) -> Vec<u32> {
     line
 }
 
-/// The body's vertex at an end of one of its sides.
+/// The vertex of the whole mesh at an end of a sheet's half-edge.
 fn laid_source(laid: &Laid, side: u32, end: u32) -> u32 {
     let t = laid.members.binary_search(&(side / 3)).unwrap_or(0);
     laid.source[laid.triangles[t][((side + end) % 3) as usize] as usize]
@@ -216,7 +216,7 @@ fn laid_source(laid: &Laid, side: u32, end: u32) -> u32 {
 /// Maximum number of triangles of a part that are compared as the place of its label.
 const MAX_LABEL_CANDIDATES: usize = 200;
 
-/// The middle of a triangle far from the border of its part.
+/// A place for a part's number: the middle of a triangle far from the part's border.
 fn spot(body: &Body, laid: &Laid, part: u32) -> Spot {
     let is_own = |t: usize| body.parts[laid.members[t] as usize] == part;
     let own: Vec<usize> = (0..laid.members.len()).filter(|t| is_own(*t)).collect();

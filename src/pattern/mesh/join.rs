@@ -10,10 +10,10 @@ use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
-/// What joined parts have to be.
+/// Limits that a sheet of a mesh has to keep.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
-    /// How far sides may be apart, as a share of their length.
+    /// Maximum distance between the sides of a seam, as a share of its length.
     pub gap: f64,
     pub strain: f64,
     pub until: StoppingCriteria,
@@ -23,7 +23,7 @@ pub(super) struct Limits {
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
 impl Limits {
-    /// For what may still be cut or joined.
+    /// Stopping criteria for parts that may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
         StoppingCriteria {
             // Of the two principal strains the energy has the sum of the squares.
@@ -32,24 +32,24 @@ impl Limits {
         }
     }
 
-    /// Whether that may be a sheet.
+    /// Whether a layout may be a sheet.
     pub(super) fn allow(&self, laid: &Laid) -> bool {
         laid.strain <= self.strain && !laid.overlaps()
     }
 }
 
-/// Parts laid flat together.
+/// A sheet: parts laid flat together.
 #[derive(Debug, Clone)]
 pub(super) struct Joined {
     pub parts: Vec<u32>,
-    /// The seams that are whole.
+    /// Numbers of the seams that are closed.
     pub whole: Vec<usize>,
     pub laid: Laid,
-    /// How far the sides of seams were apart at most.
+    /// Largest distance between the sides of a closed seam, before they were joined.
     pub gap: f64,
 }
 
-/// Joins parts along their seams, the longest first.
+/// Joins parts to sheets along their seams, the longest first.
 pub(super) fn joined(
     body: &Body,
     seams: &Seams,
@@ -70,19 +70,19 @@ pub(super) fn joined(
     Ok(sheets.all.into_iter().flatten().collect())
 }
 
-/// The sheets so far.
+/// The sheets found so far, while parts are joined.
 struct Sheets<'a> {
     body: &'a Body,
     seams: &'a Seams,
     limits: Limits,
     all: Vec<Option<Joined>>,
-    /// Which are strained as little as may be.
+    /// Whether each sheet was relaxed completely.
     settled: Vec<bool>,
-    /// The sheet that each part is on.
+    /// Number of the sheet that each part is on.
     of: Vec<usize>,
-    /// Where each corner of the body's triangles lies, on its sheet.
+    /// Position on its sheet of each corner of the mesh's triangles.
     at: Vec<Point>,
-    /// Seams that are no cuts.
+    /// Whether each seam is closed.
     whole: Vec<bool>,
 }
 
@@ -125,7 +125,7 @@ impl<'a> Sheets<'a> {
         self.all[number] = Some(sheet);
     }
 
-    /// Joins what is on both sides of a seam, which may be one sheet already, if it fits.
+    /// Joins the two sheets at a seam, or closes it within one, if that fits.
     fn join(&mut self, seam: usize, order: &[usize]) -> Result<()> {
         let [a, b] = self.seams.all[seam]
             .parts
@@ -142,7 +142,7 @@ impl<'a> Sheets<'a> {
         Ok(())
     }
 
-    /// Sheets as one along a seam, and along all others that then fit, if nothing speaks against it.
+    /// Two sheets joined along a seam, and along all others that then fit; `None` if the result is no sheet.
     fn together(
         &self,
         seam: usize,
@@ -165,7 +165,7 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Strains a sheet as little as may be; whether it was not so before.
+    /// Relaxes a sheet completely. Returns whether it was not so before.
     fn settle(&mut self, number: usize) -> Result<bool> {
         if std::mem::replace(&mut self.settled[number], true) {
             return Ok(false);
@@ -189,7 +189,7 @@ impl<'a> Sheets<'a> {
 struct Both<'a> {
     sheets: &'a Sheets<'a>,
     numbers: [usize; 2],
-    /// Of the second one, if there are two.
+    /// Motion of the second sheet; `None` if there is only one.
     motion: Option<Motion>,
 }
 
@@ -213,14 +213,14 @@ impl<'a> Both<'a> {
         numbers.filter_map(|number| self.sheets.all[number].as_ref())
     }
 
-    /// Whether a seam that is cut is between parts of these.
+    /// Whether an open seam has both its parts on these sheets.
     fn has(&self, seam: usize) -> bool {
         let mut parts = self.sheets.seams.all[seam].parts.iter();
         let is_here = |part: &u32| self.numbers.contains(&self.sheets.of[*part as usize]);
         !self.sheets.whole[seam] && parts.all(is_here)
     }
 
-    /// Where a corner of a triangle of the body lies.
+    /// Position of a corner of the mesh's triangles.
     fn place(&self, corner: u32) -> Point {
         let part = self.sheets.body.parts[corner as usize / 3];
         let place = self.sheets.at[corner as usize];
@@ -230,7 +230,7 @@ impl<'a> Both<'a> {
         }
     }
 
-    /// The ends of the pieces along a seam, as either of its parts has them.
+    /// Ends of the edges along a seam, as they lie on either side.
     fn nodes(&self, seam: usize) -> [Vec<Point>; 2] {
         let sides = &self.sheets.seams.all[seam].sides;
         let one = sides
@@ -245,7 +245,7 @@ impl<'a> Both<'a> {
         ]
     }
 
-    /// How far the sides of a seam are apart, if that is little.
+    /// Distance between the sides of a seam, if it is small enough to be joined.
     fn fits(&self, seam: usize) -> Option<f64> {
         let Sheets {
             seams,
@@ -262,7 +262,8 @@ impl<'a> Both<'a> {
         (apart <= most).then_some(apart)
     }
 
-    /// Laid flat together along seams with how far their sides are apart, if nothing overlaps.
+    /// The sheets laid flat together along seams, each given with the distance between its sides; `None` if
+    /// that is no sheet.
     fn laid(&self, along: &[(usize, f64)]) -> Result<Option<Joined>> {
         let Sheets {
             seams,

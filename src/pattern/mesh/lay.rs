@@ -11,19 +11,19 @@ use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::overlap::crossings;
 
-/// Some of a body's triangles, flat.
+/// Triangles of a mesh, laid flat.
 #[derive(Debug, Clone)]
 pub(super) struct Laid {
-    /// Triangles of the body.
+    /// Numbers of the triangles in the whole mesh.
     pub members: Vec<u32>,
-    /// Their corners, and what is on the other side of their sides where that is not cut.
+    /// Corners of the triangles. `twins` holds the half-edge opposite each, where that is not cut.
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// The body's vertex of each.
+    /// Vertex of the whole mesh for each vertex.
     pub source: Vec<u32>,
     pub places: Vec<Point>,
     pub area: f64,
-    /// Root of the mean square over the area.
+    /// Strain: root of the mean square over the area.
     pub strain: f64,
     /// The triangle that is strained most for its size.
     pub worst: usize,
@@ -32,11 +32,11 @@ pub(super) struct Laid {
 /// Maximum share of a part's triangles that may be removed where its border crosses itself.
 const MAX_REMOVED_SHARE: f64 = 0.01;
 
-/// Where triangles lie at first.
+/// Initial positions of triangles.
 pub(super) enum Lying<'a> {
-    /// As they are, one after the other over an edge that they share.
+    /// One triangle is turned into the plane after the other, over an edge that they share.
     TurnedOver,
-    /// Where each corner of the body's triangles is said to lie.
+    /// Position of each corner of the whole mesh's triangles.
     At(&'a dyn Fn(u32) -> Point),
 }
 
@@ -47,7 +47,8 @@ const UNCONDITIONAL_STEPS: usize = 40;
 pub(super) const TRIAL_STEPS: usize = 12;
 
 impl Laid {
-    /// Triangles in the plane, by what is on the other side of their sides, [`NO_INDEX`] where they are cut.
+    /// Lays triangles into the plane, connected over their edges as `twins` says, which holds [`NO_INDEX`]
+    /// where they are cut.
     pub(super) fn new(
         body: &Body,
         members: Vec<u32>,
@@ -105,7 +106,7 @@ impl Laid {
         Ok(laid)
     }
 
-    /// Strained as little as may be, from where it lies.
+    /// This layout relaxed to the least strain from where it lies.
     pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<Laid> {
         let own = self.members.iter().map(|t| body.triangles[*t as usize]);
         let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
@@ -131,7 +132,7 @@ impl Laid {
         Ok(())
     }
 
-    /// One triangle after the other, as they are, beside those that lie already.
+    /// Turns one triangle after the other into the plane, beside those that lie there already.
     fn turn_over(&mut self, body: &Body, pieces: &[FlatTriangle]) {
         let mut lies = vec![false; self.places.len()];
         let mut seen = vec![false; pieces.len()];
@@ -193,14 +194,14 @@ impl Laid {
         };
     }
 
-    /// The sides along the border.
+    /// Half-edges along the border.
     pub(super) fn border(&self) -> impl Iterator<Item = u32> + '_ {
         let all = (0..self.twins.len() as u32).zip(&self.twins);
         all.filter(|(_, twin)| **twin == NO_INDEX)
             .map(|(side, _)| side)
     }
 
-    /// Whether its border crosses itself, or parts of it lie on each other.
+    /// Whether the border crosses itself, or triangles lie on each other.
     pub(super) fn overlaps(&self) -> bool {
         let border: Vec<[u32; 2]> = self
             .border()
@@ -209,8 +210,8 @@ impl Laid {
         !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
     }
 
-    /// The few triangles, at places where the border crosses itself, without which it does not; none if they
-    /// would be many, or that does not help.
+    /// The few triangles whose removal would keep the border from crossing itself; none if they are many or
+    /// that does not help.
     pub(super) fn specks(&self) -> Vec<u32> {
         let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
         let mut left = self.clone();
@@ -247,7 +248,7 @@ impl Laid {
         }
     }
 
-    /// Triangles turned over one after the other, and then strained as little as may be.
+    /// Triangles turned into the plane one after the other, and then relaxed.
     pub(super) fn whole(body: &Body, members: Vec<u32>, until: StoppingCriteria) -> Result<Laid> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| body.triangles[*t as usize])
@@ -255,7 +256,7 @@ impl Laid {
         Laid::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
     }
 
-    /// Goes without some of its triangles.
+    /// Removes some of the triangles.
     fn take_off(&mut self, off: &[usize]) {
         for t in off {
             for side in 3 * t..3 * t + 3 {
@@ -284,7 +285,7 @@ impl Laid {
         }
     }
 
-    /// Whether the middle of a triangle lies on another one: by how often the border runs around it.
+    /// Whether the middle of a triangle lies on another triangle, by the border's winding number around it.
     fn covers_itself(&self, border: &[[u32; 2]]) -> bool {
         let step = self.triangles.len().div_ceil(MAX_OVERLAP_PROBES);
         (self.triangles.iter().step_by(step)).any(|corners| {
@@ -303,7 +304,7 @@ impl Laid {
         })
     }
 
-    /// The closed lines around it, by sides, what lies inside of them to the left.
+    /// Closed lines of half-edges around the triangles, which lie to their left.
     pub(super) fn outlines(&self) -> Vec<Vec<u32>> {
         let mut done = vec![false; self.twins.len()];
         let mut lines = Vec::new();
@@ -332,7 +333,7 @@ fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {
 /// Maximum number of triangles whose middles are tested for lying on another triangle.
 const MAX_OVERLAP_PROBES: usize = 60;
 
-/// The corner opposite a side, where that goes from 0 to 1.
+/// Position of the corner opposite an edge that goes from 0 to 1, as a complex number.
 fn third(piece: &FlatTriangle, side: usize) -> Point {
     if !piece.exists() {
         return Point::new(0.5, 0.0);

@@ -11,24 +11,24 @@ use crate::pattern::meeting::{
     ANGLE_RADIUS_SHARE, MAX_ANGLE_RADIUS_LENGTHS, MIN_ANGLE_RADIUS_LENGTHS,
 };
 
-/// All of them, by the body's vertices.
+/// All points of a mesh where cuts or folds end, by their vertices.
 pub(super) struct Meetings {
     of: BTreeMap<u32, Meeting>,
 }
 
-/// What ends at a vertex.
+/// Data of a vertex where seams end, gathered before its angle is measured.
 #[derive(Clone)]
 struct Found {
-    /// Ends of cuts, and edges that are cut.
+    /// Number of ends of cuts. `edges` is the number of edges that are cut.
     cuts: usize,
     edges: usize,
     shortest: f64,
-    /// The most edges that a line has.
+    /// Largest number of edges of a line that ends there.
     most: usize,
 }
 
 impl Meetings {
-    /// That at a vertex. Nothing where the border is near or lines are too short.
+    /// The point at a vertex; `None` where the border is near or lines are too short.
     pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
         self.of.get(&vertex).copied()
     }
@@ -95,7 +95,7 @@ fn lines<'a>(seams: &'a Seams, whole: &'a [bool]) -> impl Iterator<Item = (&'a S
         .map(|(seam, whole)| (seam, !whole))
 }
 
-/// A closed line has none.
+/// The vertices where a line ends; none for a closed line.
 fn ends(vertices: &[u32]) -> Vec<u32> {
     let (first, last) = (vertices[0], vertices[vertices.len() - 1]);
     match first == last {
@@ -104,12 +104,12 @@ fn ends(vertices: &[u32]) -> Vec<u32> {
     }
 }
 
-/// A mesh around its vertices.
+/// Angle defects and neighbours of all vertices of a mesh.
 struct Around<'a> {
     body: &'a Body,
-    /// By how much the angles around each vertex are less than a full turn; NaN at the border.
+    /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.
     missing: Vec<f64>,
-    /// The neighbours of each vertex, from `starts` of its own to that of the next one.
+    /// Neighbours of all vertices; those of one are from its entry of `starts` to the next.
     neighbours: Vec<u32>,
     starts: Vec<usize>,
 }
@@ -148,8 +148,8 @@ impl Around<'_> {
         }
     }
 
-    /// The angle around a vertex from half of a distance to all of it: a full turn less the curvature within
-    /// each circle, on average over them. That is exact where flat faces meet. Nothing where the border is nearer.
+    /// Angle around a vertex, averaged over radii from half of `reach` to all of it: a full turn less the
+    /// curvature within each circle. That is exact where flat faces meet. `None` where the border is nearer.
     fn angle(&self, vertex: u32, reach: f64) -> Option<f64> {
         let middle = self.body.places[vertex as usize];
         let mut seen = BTreeSet::from([vertex]);

@@ -83,7 +83,7 @@ pub fn pattern_mesh(
     drawn(&body, &seams, &sheets)
 }
 
-/// Cuts until every part lies flat; these by their area.
+/// Cuts parts of a mesh until each lies flat. Returns them by their area.
 fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
     // What was found to lie flat, with its triangles then: cuts beside it divide some of them.
     let mut flat: BTreeMap<u32, Laid> = BTreeMap::new();

@@ -10,19 +10,19 @@ use crate::shape::patches::chains::chains;
 
 /// A line between two parts.
 pub(super) struct Seam {
-    /// The lower number first.
+    /// Numbers of the two parts, the lower one first.
     pub parts: [u32; 2],
     pub vertices: Vec<u32>,
-    /// The sides of either part along it, in order.
+    /// Half-edges of either part along the seam, in order.
     pub sides: Vec<[u32; 2]>,
     pub length: f64,
-    /// Whether it is a cut through what was one patch.
+    /// Whether the seam is a cut inside of a patch.
     pub smooth: bool,
-    /// By how much the surface folds along it, above 0 for a ridge.
+    /// Mean fold angle along the seam, in radians; positive for a ridge.
     pub angle: f64,
 }
 
-/// The seams of a body, and that of each side.
+/// The seams between the parts of a mesh, and the seam of each half-edge.
 pub(super) struct Seams {
     pub all: Vec<Seam>,
     of: Vec<u32>,
@@ -30,7 +30,8 @@ pub(super) struct Seams {
 }
 
 impl Seams {
-    /// A cut that runs along a crease from some place on, which bends by more than `bend`, is two seams.
+    /// Finds the seams of a mesh. A cut that follows a crease from some vertex on, where it bends by more
+    /// than `bend`, is two seams.
     pub(super) fn new(body: &Body, bend: f64) -> Seams {
         let twins = twin_half_edges(&body.triangles);
         let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
@@ -81,7 +82,8 @@ impl Seams {
         self.all.push(seam);
     }
 
-    /// What is on the other side of the sides of some triangles, among these, where no seam is cut.
+    /// The opposite of each half-edge of some triangles; [`NO_INDEX`] where that is no triangle among them,
+    /// or the seam is cut.
     pub(super) fn twins(&self, members: &[u32], is_whole: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut numbers = vec![NO_INDEX; self.twins.len() / 3];
         for (number, t) in (0..).zip(members) {
@@ -101,14 +103,14 @@ impl Seams {
         sides.map(twin).collect()
     }
 
-    /// The seam that a side of the body is on.
+    /// The seam that a half-edge is on.
     pub(super) fn of(&self, side: u32) -> Option<usize> {
         let seam = self.of[side as usize];
         (seam != NO_INDEX).then_some(seam as usize)
     }
 }
 
-/// Whether both sides of an edge were one patch.
+/// Whether the triangles on both sides of an edge were in one patch.
 fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
     a == b
@@ -121,7 +123,8 @@ const MIN_PATCH_BEND_SHARE: f64 = 0.25;
 /// crease.
 const CREASE_WINDOW_EDGES: usize = 2;
 
-/// Where a line of edges, given by their lengths and angles, is a crease, and where it is none.
+/// Divides a line of edges, given by their lengths and angles, into stretches that are a crease and stretches
+/// that are none.
 fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
     let is_sharp = |k: usize| {
         let near =
@@ -141,14 +144,14 @@ fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
     found
 }
 
-/// The mean angle by length.
+/// Mean angle of edges, weighted by their length.
 fn mean(folds: &[(f64, f64)]) -> f64 {
     let long: f64 = folds.iter().map(|(long, _)| long).sum();
     let bent: f64 = folds.iter().map(|(long, angle)| long * angle).sum();
     if long > 0.0 { bent / long } else { 0.0 }
 }
 
-/// The length of an edge, and the angle between its triangles: above 0 for a ridge.
+/// Length of an edge, and the angle between its triangles; positive for a ridge.
 fn fold(body: &Body, [one, other]: [u32; 2]) -> (f64, f64) {
     let normal = |side: u32| {
         let [a, b, c] = body.triangles[side as usize / 3].map(|v| body.places[v as usize]);

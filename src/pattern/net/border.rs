@@ -30,7 +30,7 @@ impl Net {
         }
     }
 
-    /// The line around a patch, piece by piece, with the seams that these are of.
+    /// Pieces of the line around a patch, each with the seam that it belongs to.
     pub(in crate::pattern) fn border(
         &self,
         patch: u32,
@@ -39,7 +39,7 @@ impl Net {
         pieces.map(|[from, to]| ([*from, *to], self.seam_along(*from, *to)))
     }
 
-    /// The seam that a piece between two nodes in a triangle is of.
+    /// The seam of a piece between two nodes of one triangle.
     pub(super) fn seam_between(&self, one: Node, other: Node) -> Option<usize> {
         let (one, other) = (self.seams_of(one), self.seams_of(other));
         let both = one
@@ -86,7 +86,7 @@ impl Net {
         }
     }
 
-    /// How far seams that end on the border go on to its line, which runs through the middles of its
+    /// Finds how far seams that end at the border are from its line, which runs through the middles of its
     /// edges. It is found in plan, so that it is the same on both sides of a seam.
     pub(super) fn add_ends(&mut self) {
         let (mut after, mut before) = (FxHashMap::default(), FxHashMap::default());
@@ -133,8 +133,8 @@ impl Net {
         self.ends = ends;
     }
 
-    /// Where a seam that ends on the border meets its line: from a node of a patch on its way to the last
-    /// one, as far beyond that as on the other side.
+    /// Intersection of a seam with the border's line, extended from a node of a patch through the last one,
+    /// as far beyond that as on the other side.
     pub(in crate::pattern) fn end(&self, nodes: [Node; 2], places: [Point; 2]) -> Point {
         let [[a, b], [c, d]] = nodes.map(|node| self.plan(node));
         let long = (c - a).hypot(d - b);
@@ -146,7 +146,7 @@ impl Net {
     }
 }
 
-/// Whether there is no triangle to the right of an edge of one to the left.
+/// Whether an edge, which has a triangle on its left, has none on its right.
 fn is_open(surface: &Heightfield, mesh: &Triangulation, from: u32, to: u32) -> bool {
     let lattice = surface.lattice();
     let [from, to] = [from, to].map(|v| {

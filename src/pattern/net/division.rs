@@ -11,7 +11,7 @@ const MIN_JOINED_CUT_SHARE: f64 = 0.2;
 
 impl Net {
     /// Divides seams that cannot be joined as a whole, if by `gap` (see
-    /// [`PatternOptions`](crate::pattern::PatternOptions)) a good part of them can.
+    /// [`PatternOptions`](crate::pattern::PatternOptions)) a large enough part of them can.
     pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {
         for number in 0..self.seams.len() {
             if self.is_torn(number) {
@@ -36,15 +36,15 @@ impl Net {
         self.index();
     }
 
-    /// Divides a seam before one of its inner nodes; the number of the second part.
+    /// Divides a seam at one of its inner nodes. Returns the number of the second part.
     pub(in crate::pattern) fn divide(&mut self, seam: usize, at: usize) -> usize {
         let number = self.cut_off(seam, at);
         self.index();
         number
     }
 
-    /// Divides a seam where its nodes are of two kinds; its parts, and which kind each is. No part
-    /// is short, unless all of the seam is.
+    /// Divides a seam where its nodes change between two kinds. Returns the parts and their kinds; no part is
+    /// short, unless the whole seam is.
     pub(in crate::pattern) fn divide_where(
         &mut self,
         seam: usize,
@@ -110,14 +110,14 @@ impl Net {
         number
     }
 
-    /// The seams of each crease from its beginning to its end.
+    /// Numbers of the seams of a crease, from its beginning to its end.
     pub(in crate::pattern) fn parts(&self, crease: usize) -> Vec<usize> {
         let mut parts = self.parts[crease].clone();
         parts.sort_by_key(|seam| self.seams[*seam].from);
         parts
     }
 
-    /// Makes one of neighbouring seams of a crease that are both folds or both none.
+    /// Merges neighbouring seams of a crease that are both folds or both open.
     pub(in crate::pattern) fn join_parts(&mut self, folded: &mut Vec<bool>) {
         let (mut seams, mut flags): (Vec<Seam>, Vec<bool>) = (Vec::new(), Vec::new());
         let mut old: Vec<Option<Seam>> = std::mem::take(&mut self.seams)
@@ -154,9 +154,8 @@ impl Net {
     }
 }
 
-/// The places along a seam, from its first to its last, at which it is divided into parts that are
-/// joined and parts that are not: if its sides do not fit on each other, the longest part of them that
-/// does is one, where it has the `least` share of the length.
+/// Positions along a seam, from its first to its last, at which it is divided into parts that are joined and
+/// parts that are not: the longest part whose sides fit is joined, if it has the `least` share of the length.
 fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usize> {
     let last = sides[0].len() - 1;
     let whole = vec![0, last];

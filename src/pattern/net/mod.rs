@@ -20,8 +20,8 @@ use crate::shape::patches::crease::crease_lines;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// An edge by its vertices, the lower one first; a vertex by itself, twice; a triangle by its
-/// number and that of no vertex. All in the numbers of the whole surface's mesh.
+/// A point where patches meet. An edge is given by its vertices, the lower one first; a vertex by itself,
+/// twice; a triangle by its number and an invalid vertex. All numbers are those of the whole surface's mesh.
 pub(super) type Node = crate::shape::patches::crease::CreaseNode;
 
 /// Maximum distance, in spacings, between two nodes of three patches each that are one place where four meet.
@@ -34,52 +34,55 @@ pub(in crate::pattern) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 /// Minimum number of nodes of each part of a divided seam.
 const MIN_SEAM_PART_NODES: usize = 4;
 
-/// A crease or a part of it, as either patch has it.
+/// A crease or a part of it, with its course on either patch.
 pub(super) struct Seam {
     pub patches: [u32; 2],
-    /// The crease by its number.
+    /// Number of the crease.
     pub crease: usize,
-    /// Whether it is a cut through what was one patch.
+    /// Whether the seam is a cut inside of a patch.
     pub smooth: bool,
-    /// Which of the crease's nodes is its first.
+    /// Position of the seam's first node among those of the crease.
     from: usize,
     pub nodes: Vec<Node>,
-    /// Where the nodes are on either patch's plane, smoothed along the crease.
+    /// Positions of the nodes on either patch's plane, smoothed along the crease.
     pub sides: [Vec<Point>; 2],
-    /// Above 0 for a ridge, below for a groove, seen from above.
+    /// Positive for a ridge, negative for a groove, seen from above.
     pub rise: f64,
-    /// How far the patches are from each other along it, in height: root of the mean square.
+    /// Distance between the patches along the seam, in height: root of the mean square.
     pub apart: f64,
 }
 
-/// A piece of the line around a patch, which lies to the left of it: from one node to another.
+/// A piece of the line around a patch, from one node to another; the patch is to its left.
 type Segment = [Node; 2];
 
+/// The seams between all patches, and where their nodes lie.
 pub(super) struct Net {
     pub spacing: f64,
-    /// Spacing of the lattice on which cuts were decided: loops that were small there are.
+    /// Spacing of the lattice on which cuts were decided; loops that were small there are cut off.
     pub decided: f64,
     pub leaves: Vec<Option<Leaf>>,
     pub seams: Vec<Seam>,
-    /// The seams that each crease is divided into.
+    /// Numbers of the seams that each crease is divided into.
     parts: Vec<Vec<usize>>,
-    /// The seam of each edge between two patches, and a second one where a crease is divided.
+    /// The seam of each node, and in `also` a second one where a crease is divided.
     seam_of: FxHashMap<Node, usize>,
     also: FxHashMap<Node, usize>,
-    /// The line around each patch, in no order.
+    /// Pieces of the line around each patch, in no order.
     borders: Vec<Vec<Segment>>,
     mesh: Triangulation,
     labels: Vec<u32>,
-    /// Shares of the first corner on edges, or of all three, on triangles.
+    /// Barycentric coordinates of each node: the share of the first corner for edges, of all three for
+    /// triangles.
     shares: FxHashMap<Node, [f64; 3]>,
-    /// How far seams go on beyond their last nodes, where these are on the border: in plan.
+    /// Distance in plan from the last node of a seam to the border's line, for seams that end at the border.
     ends: FxHashMap<Node, f64>,
-    /// By node and patch.
+    /// Position of each node on a patch's plane.
     on_seams: FxHashMap<(Node, u32), Point>,
 }
 
 impl Net {
-    /// Each crease is one seam. Cuts were `decided` on a lattice of that spacing, or are to be drawn as if so.
+    /// Finds the seams of a surface, one for each crease. `decided` is the spacing of the lattice on which
+    /// cuts were decided, or are to be drawn as if so.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
@@ -153,7 +156,7 @@ impl Net {
         });
     }
 
-    /// Finds the seams of all nodes again.
+    /// Indexes the seams by their nodes.
     fn index(&mut self) {
         self.seam_of.clear();
         self.also.clear();
@@ -171,12 +174,12 @@ impl Net {
         }
     }
 
-    /// Whether its sides are apart in space: at a step of the surface.
+    /// Whether the sides of a seam are apart in space, at a step of the surface.
     pub(super) fn is_torn(&self, seam: usize) -> bool {
         self.seams[seam].apart > MIN_TEAR_GAP_SPACINGS * self.spacing
     }
 
-    /// The seams that an edge's node is on.
+    /// The seams at an edge's node.
     pub(super) fn seams_of(&self, node: Node) -> [Option<usize>; 2] {
         [
             self.seam_of.get(&node).copied(),

@@ -14,7 +14,7 @@ const MIN_NODE_SHARE: f64 = 0.01;
 const CUT_SMOOTHING_PASSES: f64 = 4.0;
 
 impl Net {
-    /// Where a node is in plan.
+    /// Position of a node in plan.
     pub(in crate::pattern) fn plan(&self, (p, q): Node) -> [f64; 2] {
         let corners = match is_triangle((p, q)) {
             true => self.mesh.triangles()[p as usize],
@@ -30,7 +30,7 @@ impl Net {
         })
     }
 
-    /// Where it is on the surface: as high as its patches are there on average.
+    /// Position of a node on the surface; its height is the mean of its patches' heights there.
     pub(in crate::pattern) fn built(&self, node: Node) -> [f64; 3] {
         let [x, y] = self.plan(node);
         let seams = match is_triangle(node) {
@@ -55,7 +55,7 @@ impl Net {
         [x, y, sum / count]
     }
 
-    /// Where nodes are on a patch's plane, smoothed along their line.
+    /// Positions of nodes on a patch's plane, smoothed along their line.
     pub(super) fn line(&self, patch: u32, nodes: &[Node], smooth: bool) -> Vec<Point> {
         let places = nodes.iter().map(|node| self.raw_place(*node, patch));
         let mut line: Vec<[f64; 2]> = places.map(|place| [place.re, place.im]).collect();
@@ -71,7 +71,7 @@ impl Net {
         line.into_iter().map(|[x, y]| Point::new(x, y)).collect()
     }
 
-    /// Lays a patch elsewhere.
+    /// Sets the positions of a patch's vertices.
     pub(in crate::pattern) fn set_places(&mut self, patch: u32, places: Vec<Point>) {
         if let Some(leaf) = self.leaves[patch as usize].as_mut() {
             leaf.set_places(places);
@@ -92,7 +92,7 @@ impl Net {
         }
     }
 
-    /// Finds where a crease lies on one of its patches; its parts are smoothed as one.
+    /// Finds the course of a crease on one of its patches; its seams are smoothed as one line.
     pub(super) fn draw_side(&mut self, crease: usize, patch: u32) {
         let parts = self.parts(crease);
         let Some(first) = parts.first().map(|seam| &self.seams[*seam]) else {
@@ -115,7 +115,7 @@ impl Net {
         }
     }
 
-    /// A node of a seam as a mean of vertices of one of its leaves.
+    /// A node of a seam as a weighted mean of vertices of one of its patches.
     pub(in crate::pattern) fn mean(&self, node: Node, patch: u32) -> Option<BarycentricPoint> {
         let leaf = self.leaves[patch as usize].as_ref()?;
         let shares = self.shares.get(&node)?;
@@ -132,8 +132,8 @@ impl Net {
         Some(mean)
     }
 
-    /// Where on an edge its patches meet, from the first vertex to the second, and how much faster
-    /// that of the second one falls than the other: where there is no such place, the nearest end.
+    /// Position on an edge where its two patches meet, as a share from the first vertex to the second, and by
+    /// how much more the second patch falls than the first. The nearest end where they do not meet.
     pub(super) fn crossing(&self, (p, q): Node) -> (f64, f64) {
         let [first, second] = [p, q].map(|v| self.labels[v as usize]);
         // The first vertex's patch above the other one's.
@@ -147,8 +147,8 @@ impl Net {
         )
     }
 
-    /// Shares of a triangle's corners in the point where its three patches meet; its middle where
-    /// they do not.
+    /// Barycentric coordinates of the point of a triangle where its three patches meet; the middle where they
+    /// do not.
     pub(super) fn meeting(&self, triangle: u32) -> [f64; 3] {
         let corners = self.mesh.triangles()[triangle as usize];
         let heights = corners.map(|own| {
@@ -189,7 +189,7 @@ impl Net {
         first * self.vertex_height(node.0, patch) + second * self.vertex_height(node.1, patch)
     }
 
-    /// Where a node is on a patch's plane, before smoothing.
+    /// Position of a node on a patch's plane, before smoothing.
     pub(super) fn raw_place(&self, node: Node, patch: u32) -> Point {
         let (p, q) = node;
         if p == q {
@@ -203,7 +203,7 @@ impl Net {
         self.vertex_place(p, patch) * shares[0] + self.vertex_place(q, patch) * shares[1]
     }
 
-    /// Where a node is on a patch's plane.
+    /// Position of a node on a patch's plane.
     pub(in crate::pattern) fn place(&self, node: Node, patch: u32) -> Point {
         match self.on_seams.get(&(node, patch)) {
             Some(place) => *place,

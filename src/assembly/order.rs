@@ -44,7 +44,7 @@ impl Assembly {
     /// Finds the order in which sheets are joined. Costs `O(sheets² + runs)`.
     pub fn new(sheets: &[Sheet]) -> Self {
         Assembly {
-            steps: ordered(sheets, &letters(sheets)),
+            steps: assembly_steps(sheets, &letters(sheets)),
         }
     }
 }
@@ -52,7 +52,7 @@ impl Assembly {
 /// For each crease the sheets on either side, with the length of the seam there.
 type Seams = BTreeMap<usize, Vec<(usize, f64)>>;
 
-fn ordered(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
+fn assembly_steps(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<Step> {
     let mut seams: Seams = BTreeMap::new();
     for (number, sheet) in sheets.iter().enumerate() {
         for run in sheet.outlines.iter().flatten() {

@@ -20,7 +20,11 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
 
 /// Applies the bend allowance to a sheet; an error for folds that are no straight lines from edge to edge.
-pub(super) fn bent(number: usize, sheet: &Sheet, options: &DrawingOptions) -> Result<Sheet> {
+pub(super) fn apply_bend_allowance(
+    number: usize,
+    sheet: &Sheet,
+    options: &DrawingOptions,
+) -> Result<Sheet> {
     let mut out = sheet.clone();
     let Some(bending) = options.bending else {
         return Ok(out);

@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 
 use super::curve::Curve;
 use super::label::Label;
-use super::leader::led;
+use super::leader::place_leader;
 use super::line::{FLATTENING_TOLERANCE_MM, Line};
 use super::lines::Lines;
 use super::marks::seam_marks;
-use super::offset::outwards;
+use super::offset::offset_outwards;
 use super::options::DrawingOptions;
 use super::pack::Place;
 use super::sheet::DrawnSheet;
-use super::tabs::{Tab, tabbed};
+use super::tabs::{Tab, add_tabs};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
 
@@ -51,11 +51,11 @@ impl DrawnSheet {
         Named { letters, marks }: &Named,
     ) -> Result<Self> {
         let scale = options.scale;
-        let (plain, flaps) = tabbed(&lines.outlines, options.tabs);
+        let (plain, flaps) = add_tabs(&lines.outlines, options.tabs);
         let out = options.allowance + 0.5 * options.kerf;
         let name = format!("Sheet {}", number + 1);
         let curves = match out > 0.0 {
-            true => outwards(&plain, out).ok_or_else(|| Error::Unsupported {
+            true => offset_outwards(&plain, out).ok_or_else(|| Error::Unsupported {
                 format: "pattern",
                 reason: format!(
                     "the outline of {name} would cross itself {} mm further out; choose a smaller kerf and allowance",
@@ -76,7 +76,7 @@ impl DrawnSheet {
             let (place, room) = (spot.place.map(|v| scale * v), scale * spot.room);
             let label = Label::patch(spot.patch, place, room);
             let outside = match Label::is_cramped(room) {
-                true => led(&label, &walls, &labels),
+                true => place_leader(&label, &walls, &labels),
                 false => None,
             };
             leaders.extend(outside.iter().map(|(_, line)| line.clone()));

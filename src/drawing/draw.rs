@@ -1,13 +1,13 @@
 //! Sheets drawn beside each other.
 
-use super::bend::bent;
+use super::bend::apply_bend_allowance;
 use super::draft::{Named, letters};
 use super::joints::matched_lines;
-use super::marks::counts;
+use super::marks::mark_counts;
 use super::nest::Shape;
 use super::options::{DrawingOptions, MAX_SIZE};
-use super::pack::{Place, packed};
-use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arranged, count};
+use super::pack::{Place, pack_rows};
+use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_count};
 use super::sheet::DrawnSheet;
 use super::totals::{Totals, summary};
 use crate::error::{Error, Result, positive};
@@ -55,10 +55,10 @@ impl Drawing {
         let letters = letters(sheets);
         let options = DrawingOptions { tabs, ..*options };
         let sheets: &[Sheet] = &(sheets.iter().enumerate())
-            .map(|(number, sheet)| bent(number, sheet, &options))
+            .map(|(number, sheet)| apply_bend_allowance(number, sheet, &options))
             .collect::<Result<Vec<_>>>()?;
         let lines = matched_lines(sheets, &options);
-        let marks = options.marks.map(|distance| counts(&lines, distance));
+        let marks = options.marks.map(|distance| mark_counts(&lines, distance));
         let named = Named {
             letters,
             marks: marks.unwrap_or_default(),
@@ -69,7 +69,7 @@ impl Drawing {
         let boxes: Vec<Place> = (drawn.iter())
             .map(|sheet| Place::around(&Shape::new(sheet).lines))
             .collect();
-        let (places, [width, height]) = packed(&boxes);
+        let (places, [width, height]) = pack_rows(&boxes);
         if !(width <= MAX_SIZE && height <= MAX_SIZE) {
             return Err(Error::option(
                 "scale",
@@ -81,8 +81,8 @@ impl Drawing {
             .map(|(sheet, place)| sheet.moved(place))
             .collect();
         let mut summary = summary(&drawn, sheets, &lines, scale);
-        summary.a4 = count(&drawn, Stock::A4);
-        summary.letter = count(&drawn, Stock::Letter);
+        summary.a4 = page_count(&drawn, Stock::A4);
+        summary.letter = page_count(&drawn, Stock::Letter);
         Ok(Drawing {
             width,
             height,
@@ -106,7 +106,7 @@ impl Drawing {
             places,
             pages,
             size,
-        } = arranged(&self.sheets, stock)?;
+        } = arrange_on_pages(&self.sheets, stock)?;
         if pages.pages.len() > MAX_PAGES {
             return Err(Error::Unsupported {
                 format: "pattern",

@@ -12,7 +12,7 @@ use std::ops::Range;
 use super::curve::{Curve, Piece};
 use super::lines::Lines;
 use super::options::DrawingOptions;
-use super::smooth::crossed;
+use super::smooth::crossing_curves;
 use crate::pattern::Sheet;
 
 /// Difference between the two sides of a joint, as a share of their length, below which they are equally long.
@@ -109,14 +109,14 @@ pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -
     let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
     // Where metal is bent, what lies across a fold is drawn as much shorter as it grows there.
     if options.bending.is_none() {
-        evened(sheets, &mut lines, options);
+        equalise_joints(sheets, &mut lines, options);
     }
     lines
 }
 
 /// Makes both sides of joints equally long, as far as the limits of their shifts allow; changes nothing
 /// without smoothing.
-fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
+fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
     if options.smoothing == 0.0 {
         return;
     }
@@ -127,7 +127,7 @@ fn evened(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingOptions) {
     let before: Vec<Curve> = outlines.sides.iter().map(|s| s.curve.clone()).collect();
     let usual = outlines.crossing(&before);
     for _ in 0..MAX_BACKTRACKING_TRIALS {
-        let after = outlines.evened();
+        let after = outlines.equalise_joints();
         let mut wrong = outlines.crossing(&after);
         wrong.retain(|number| !usual.contains(number));
         if !wrong.is_empty() {
@@ -212,7 +212,7 @@ impl Outlines {
     /// The sides that cross others of their sheet.
     fn crossing(&self, curves: &[Curve]) -> Vec<usize> {
         let wrong = self.sheets.iter().flat_map(|Own { sides, cell }| {
-            let wrong = crossed(&curves[sides.clone()], *cell);
+            let wrong = crossing_curves(&curves[sides.clone()], *cell);
             wrong.into_iter().map(|number| sides.start + number)
         });
         wrong.collect()
@@ -230,7 +230,7 @@ impl Outlines {
     }
 
     /// All sides, moved so that those of each joint are as nearly equally long as the limits allow.
-    fn evened(&self) -> Vec<Curve> {
+    fn equalise_joints(&self) -> Vec<Curve> {
         let rows: Vec<Vec<(usize, f64)>> =
             self.joints.iter().map(|joint| self.row(joint)).collect();
         let mut x = vec![0.0; self.limits.len()];

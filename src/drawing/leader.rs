@@ -15,7 +15,7 @@ const LEADER_TEXT_DISTANCE_MM: f64 = 6.0;
 
 /// Moves a label beside the sheet, in the direction in which a leader leaves the sheet soonest and meets
 /// nothing else. Returns the label and its leader; `None` where there is no such direction.
-pub(super) fn led(
+pub(super) fn place_leader(
     label: &Label,
     walls: &[[[f64; 2]; 2]],
     others: &[Label],

@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::line::Line;
 use super::options::DrawingOptions;
-use super::smooth::smoothed;
+use super::smooth::smooth_lines;
 use crate::pattern::{Run, Sheet};
 
 /// The outlines and folds of a sheet, smooth and in millimetres.
@@ -15,7 +15,7 @@ pub(super) struct Lines<'a> {
 impl<'a> Lines<'a> {
     pub(super) fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
         let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
-        let smooth = smoothed(sheet, options.smoothing);
+        let smooth = smooth_lines(sheet, options.smoothing);
         let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {
             outline.iter().zip(curves.iter().map(scaled)).collect()
         };

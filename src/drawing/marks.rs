@@ -12,7 +12,7 @@ use crate::pattern::Run;
 const MARK_LENGTH_MM: f64 = 3.0;
 
 /// Number of marks on each seam, by its crease: 0 where one of its sides is not a single run.
-pub(super) fn counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
+pub(super) fn mark_counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
     let mut sides: BTreeMap<usize, Vec<(Option<u32>, f64)>> = BTreeMap::new();
     for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
         if let Some(seam) = run.seam {

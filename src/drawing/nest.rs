@@ -62,7 +62,7 @@ impl Nested {
 }
 
 /// Lays shapes on pages of one size, the largest first; `None` for a shape that is larger than a page.
-pub(super) fn nested(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
+pub(super) fn nest_shapes(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested>> {
     let [short, long] = [page[0].min(page[1]), page[0].max(page[1])];
     let cell = (short / PAGE_CELLS).max(long / MAX_PAGE_CELLS);
     let [columns, rows] = page.map(|side| cells_along(side, cell));
@@ -303,7 +303,7 @@ mod tests {
             [50.0, 180.0],
             [0.0, 180.0],
         ];
-        let found = nested(&[shape(&angle), shape(&angle)], [190.0, 277.0]);
+        let found = nest_shapes(&[shape(&angle), shape(&angle)], [190.0, 277.0]);
         let pages: Vec<usize> = found.iter().flatten().map(|n| n.page).collect();
         assert_eq!(pages, [0, 0]);
         // They do not touch: no point of one is nearer to the other's than the distance.
@@ -337,7 +337,7 @@ mod tests {
     fn what_is_too_large_has_no_place() {
         let square = |side: f64| shape(&[[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]);
         let shapes = [square(100.0), square(200.0), square(100.0), square(100.0)];
-        let found = nested(&shapes, [190.0, 277.0]);
+        let found = nest_shapes(&shapes, [190.0, 277.0]);
         assert!(found[1].is_none());
         let pages: Vec<usize> = found.iter().flatten().map(|n| n.page).collect();
         assert_eq!(pages, [0, 0, 1]);

@@ -3,7 +3,7 @@
 use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
 use super::smooth::smooth;
 use crate::math::planar::polygon_area;
-use crate::pattern::without_loops;
+use crate::pattern::remove_loops;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
@@ -24,7 +24,7 @@ const MAX_LOOP_FACTOR: f64 = 8.0;
 
 /// Moves the closed lines around a sheet outwards by a distance. Where they run into themselves, as in a slit
 /// that is narrower, they are joined. `None` where they would still cross.
-pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
+pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
         let mut ring: Vec<Point> = (curve.points(OFFSET_FLATTENING_TOLERANCE_MM).into_iter())
@@ -40,7 +40,7 @@ pub(super) fn outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
         }
         let raw = beside(&ring, distance);
         let closed: Vec<Point> = raw.iter().chain(raw.first()).copied().collect();
-        let (runs, _) = without_loops(
+        let (runs, _) = remove_loops(
             vec![(None, closed)],
             MAX_LOOP_FACTOR * distance.max(OFFSET_DETAIL_MM),
         );
@@ -127,7 +127,7 @@ mod tests {
             Curve::through(&hole),
             Curve::through(&small),
         ];
-        let found = outwards(&all, 2.0).unwrap();
+        let found = offset_outwards(&all, 2.0).unwrap();
         // The smallest hole has been filled.
         assert_eq!(found.len(), 2);
         for (curve, [low, high]) in found.iter().zip([[-2.0, 42.0], [12.0, 28.0]]) {
@@ -155,12 +155,12 @@ mod tests {
             [0.0, 40.0],
             [0.0, 0.0],
         ];
-        let found = outwards(&[Curve::through(&line)], 2.0).unwrap();
+        let found = offset_outwards(&[Curve::through(&line)], 2.0).unwrap();
         assert_eq!(found.len(), 1);
         let around = polyline_length(&found[0].points(0.01));
         assert!((around - 4.0 * 44.0).abs() < 2.0, "{around}");
         // A beam's width leaves most of it.
-        let found = outwards(&[Curve::through(&line)], 0.1).unwrap();
+        let found = offset_outwards(&[Curve::through(&line)], 0.1).unwrap();
         let around = polyline_length(&found[0].points(0.01));
         assert!(
             (around - (4.0 * 40.2 + 2.0 * 16.0 - 1.0)).abs() < 4.0,

@@ -104,7 +104,7 @@ impl Place {
 #[cfg(feature = "patterns")]
 pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])> {
     let boxes: Vec<Place> = sheets.iter().map(|lines| Place::around(lines)).collect();
-    let (places, _) = packed(&boxes);
+    let (places, _) = pack_rows(&boxes);
     places
         .iter()
         .map(|place| (place.turn, place.shift))
@@ -112,7 +112,7 @@ pub(crate) fn beside(sheets: &[Vec<Vec<[f64; 2]>>]) -> Vec<([f64; 2], [f64; 2])>
 }
 
 /// Lays bounding boxes in rows. Returns their places, and width and height of the whole.
-pub(super) fn packed(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
+pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|a, b| boxes[*b].size[1].total_cmp(&boxes[*a].size[1]));
     let padded = |place: &Place| place.size.map(|side| side + SHEET_MARGIN_MM);
@@ -200,7 +200,7 @@ mod tests {
         ];
         let boxes =
             sides.map(|[w, h]| Place::around(&[vec![[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]]));
-        let (places, [width, height]) = packed(&boxes);
+        let (places, [width, height]) = pack_rows(&boxes);
         for (i, a) in places.iter().enumerate() {
             let [x, y] = a.shift;
             assert!(x >= SHEET_MARGIN_MM && y >= SHEET_MARGIN_MM - 1e-9);

@@ -1,8 +1,8 @@
 //! A drawing on the sheets of paper or of a material that it is made from.
 
-use super::nest::{Shape, nested};
+use super::nest::{Shape, nest_shapes};
 use super::options::MAX_SIZE;
-use super::pack::{Place, packed};
+use super::pack::{Place, pack_rows};
 use super::sheet::DrawnSheet;
 use crate::error::{Error, Result, positive};
 
@@ -109,8 +109,8 @@ pub struct Pages {
 }
 
 /// Number of pages of paper that sheets take.
-pub(super) fn count(sheets: &[DrawnSheet], stock: Stock) -> usize {
-    arranged(sheets, stock).map_or(0, |found| found.pages.pages.len())
+pub(super) fn page_count(sheets: &[DrawnSheet], stock: Stock) -> usize {
+    arrange_on_pages(sheets, stock).map_or(0, |found| found.pages.pages.len())
 }
 
 /// Sheets arranged on pages: the place of each sheet, the pages, and width and height of the whole drawing.
@@ -120,7 +120,7 @@ pub(super) struct Arranged {
     pub size: [f64; 2],
 }
 
-pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
+pub(super) fn arrange_on_pages(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> {
     let paper = stock.size(sheets)?;
     let blank = stock.blank();
     let mut part = paper.map(|side| side - 2.0 * blank);
@@ -132,7 +132,7 @@ pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> 
         ));
     }
     let shapes: Vec<Shape> = sheets.iter().map(Shape::new).collect();
-    let mut found = nested(&shapes, part);
+    let mut found = nest_shapes(&shapes, part);
     let large: Vec<usize> = (0..sheets.len()).filter(|i| found[*i].is_none()).collect();
     if let (Some(first), false) = (large.first(), stock.is_paper()) {
         return Err(no_room(&sheets[*first], &shapes[*first], part));
@@ -147,7 +147,7 @@ pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> 
     };
     let mut size = [0.0; 2];
     if !large.is_empty() {
-        let (own, whole) = spread(&shapes, &large, &mut pages);
+        let (own, whole) = cover_with_pages(&shapes, &large, &mut pages);
         for (i, place) in large.iter().zip(own) {
             places[*i] = place;
         }
@@ -155,7 +155,7 @@ pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> 
         if pages.part != part {
             // All pages lie the same way, and a shape that fits on one does so either way.
             part = pages.part;
-            found = nested(&shapes, part);
+            found = nest_shapes(&shapes, part);
         }
     }
     // Whole sheets, on pages in rows beside the others.
@@ -217,12 +217,16 @@ pub(super) fn arranged(sheets: &[DrawnSheet], stock: Stock) -> Result<Arranged> 
 
 /// Lays shapes that are larger than a page beside each other and covers them with overlapping pages. Returns
 /// the place of each shape, and width and height of the whole.
-fn spread(shapes: &[Shape], large: &[usize], pages: &mut Pages) -> (Vec<Place>, [f64; 2]) {
+fn cover_with_pages(
+    shapes: &[Shape],
+    large: &[usize],
+    pages: &mut Pages,
+) -> (Vec<Place>, [f64; 2]) {
     let least: Vec<Place> = large
         .iter()
         .map(|i| Place::around(&shapes[*i].lines))
         .collect();
-    let (places, whole) = packed(&least);
+    let (places, whole) = pack_rows(&least);
     let boxes: Vec<[[f64; 2]; 2]> = (large.iter().zip(&places))
         .map(|(i, place)| shapes[*i].bounds(place))
         .collect();

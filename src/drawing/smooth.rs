@@ -1,7 +1,7 @@
 //! Lines as they were found on the lattice, made smooth: straight pieces and curves between corners.
 
 use super::curve::Curve;
-use super::spline::fitted;
+use super::spline::fit_spline;
 use crate::math::planar::{distance, nearest_on_segment, polyline_length};
 use crate::pattern::Sheet;
 use crate::unroll::flat_triangle::Point;
@@ -41,7 +41,7 @@ pub(super) struct Smooth {
 
 /// Makes the lines of a sheet smooth, within a tolerance in spacings of the lattice. Ends of runs stay where they
 /// are, so that both sides of a seam keep theirs. Outlines do not cross where they did not before.
-pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
+pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
     let spacing = sheet.spacing;
     let runs: Vec<&[[f64; 2]]> = (sheet.outlines.iter().flatten())
         .map(|run| &run.points[..])
@@ -51,7 +51,7 @@ pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
         .map(|run| smooth(run, tolerance * spacing, spacing))
         .collect();
     loop {
-        let wrong = crossed(&curves, spacing);
+        let wrong = crossing_curves(&curves, spacing);
         let mut changed = false;
         for run in wrong {
             if levels[run] + 1 < TOLERANCE_SHARES.len() {
@@ -68,7 +68,7 @@ pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
     let folds = (sheet.folds.iter())
         .map(|fold| {
             smooth(
-                &reaching(&fold.points, &curves, tolerance * spacing),
+                &extend_fold(&fold.points, &curves, tolerance * spacing),
                 tolerance * spacing,
                 spacing,
             )
@@ -82,7 +82,7 @@ pub(super) fn smoothed(sheet: &Sheet, tolerance: f64) -> Smooth {
 }
 
 /// The numbers of curves that cross each other or themselves.
-pub(super) fn crossed(curves: &[Curve], spacing: f64) -> Vec<usize> {
+pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
     let (mut places, mut edges, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (owner, curve) in curves.iter().enumerate() {
         for p in curve.points(0.02 * spacing).windows(2) {
@@ -117,7 +117,7 @@ pub(super) fn crossed(curves: &[Curve], spacing: f64) -> Vec<usize> {
 }
 
 /// A fold whose ends are moved onto the smooth outline where they are near it.
-fn reaching(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
+fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
     let mut out = points.to_vec();
     let last = out.len() - 1;
     if out[0] == out[last] {
@@ -227,7 +227,7 @@ pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve
 
 fn section(line: &[Sample], closed: bool, tolerance: f64, spacing: f64) -> Option<Curve> {
     let points: Vec<(f64, Point)> = line.iter().map(|s| (s.along, s.place)).collect();
-    fitted(
+    fit_spline(
         &points,
         closed,
         tolerance,

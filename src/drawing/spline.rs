@@ -25,7 +25,7 @@ const MIN_IMPROVEMENT_FACTOR: f64 = 3.0;
 /// Points that are nearer to it on average than `exact` are as good as on it. Splines that are twice
 /// continuously differentiable have no kinks between their spans, and least squares take noise out that
 /// an interpolation would follow.
-pub(super) fn fitted(
+pub(super) fn fit_spline(
     points: &[(f64, Point)],
     closed: bool,
     tolerance: f64,
@@ -254,7 +254,7 @@ mod tests {
 
     #[test]
     fn waves_are_taken_out_of_an_arc() {
-        let curve = fitted(&wavy(1.5), false, 0.5, 0.03, 1.5).unwrap();
+        let curve = fit_spline(&wavy(1.5), false, 0.5, 0.03, 1.5).unwrap();
         assert!(curve.pieces().count() <= 2, "{curve:?}");
         let away = |p: &[f64; 2]| (p[0].hypot(p[1]) - 40.0).abs();
         let worst = curve.points(0.01).iter().map(away).fold(0.0, f64::max);
@@ -264,7 +264,7 @@ mod tests {
     #[test]
     fn a_closed_line_has_no_kink() {
         let circle = wavy(std::f64::consts::TAU);
-        let curve = fitted(&circle, true, 0.5, 0.03, 1.5).unwrap();
+        let curve = fit_spline(&circle, true, 0.5, 0.03, 1.5).unwrap();
         let c = curve.controls();
         assert_eq!(c[0], c[c.len() - 1]);
         let away = |p: &[f64; 2]| (p[0].hypot(p[1]) - 40.0).abs();
@@ -284,10 +284,10 @@ mod tests {
             let x = 0.25 * f64::from(i);
             Point::new(x, 3.0 * (0.2 * x).sin())
         }));
-        let curve = fitted(&wave, false, 0.1, 0.03, 1.5).unwrap();
+        let curve = fit_spline(&wave, false, 0.1, 0.03, 1.5).unwrap();
         for [x, y] in curve.points(0.01) {
             assert!((y - 3.0 * (0.2 * x).sin()).abs() < 0.15, "{x} {y}");
         }
-        assert!(fitted(&wave, false, 1e-9, 0.0, 20.0).is_none());
+        assert!(fit_spline(&wave, false, 1e-9, 0.0, 20.0).is_none());
     }
 }

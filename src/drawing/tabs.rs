@@ -33,7 +33,7 @@ const MAX_TAB_HALVINGS: usize = 2;
 type Outline<'a> = Vec<(&'a Run, Curve)>;
 
 /// The cut lines with tabs where there is room for them, and the tabs.
-pub(super) fn tabbed(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
+pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
     // Of the two sides of a crease that of the patch with the lower number has the tabs. Those of a step are not
     // glued to each other.

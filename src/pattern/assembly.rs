@@ -2,19 +2,19 @@
 
 use super::check::{Tied, are_close, strains};
 use super::faces::faces;
-use super::fault::{Fault, SHEET_RELAXATION, fault, folded};
-use super::layout::{Arrangement, apart, arranged};
-use super::leaf::Leaf;
+use super::fault::{Fault, SHEET_RELAXATION, fault, folds_of};
+use super::flat_patch::FlatPatch;
+use super::layout::{Arrangement, arrange_patches, seam_gap};
 use super::meeting::Meetings;
-use super::net::Net;
 use super::options::PatternOptions;
 use super::outline::Layout;
 use super::parts::Parts;
-use super::refold::refolded;
-use super::sew::sewn;
+use super::refold::refold_sheet;
+use super::seam_graph::SeamGraph;
+use super::sew::close_cuts;
 use super::shape::{folds, outlines};
 use super::sheets::{Direction, Missing, Pattern, Seam, Sheet};
-use super::spots::spots;
+use super::spots::label_spots;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::math::planar::polyline_length;
@@ -35,7 +35,7 @@ pub(super) enum Assembly {
 pub(super) struct Assembled {
     pub parts: Parts,
     pub patches: Patches,
-    pub net: Net,
+    pub net: SeamGraph,
     pub arrangement: Arrangement,
 }
 
@@ -46,7 +46,7 @@ const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
 };
 
 /// Joins parts as far as their sides fit, the strain limit allows it and outlines stay simple.
-pub(super) fn assembled(
+pub(super) fn assemble_sheets(
     parts: Parts,
     patches: &Patches,
     options: &PatternOptions,
@@ -54,18 +54,18 @@ pub(super) fn assembled(
     let (mut parts, patches) = parts.numbered(patches)?;
     let leaves = std::mem::take(&mut parts.leaves);
     let decided = parts.finest * parts.surface.lattice().spacing();
-    let mut net = Net::new(&parts.surface, &parts.labels, leaves, decided)?;
+    let mut net = SeamGraph::new(&parts.surface, &parts.labels, leaves, decided)?;
     net.divide_by_fit(options.gap);
     // What is wrong with a part by itself needs no joint unrolling to be seen.
     let limit = options.max_strain;
     let loose = Layout::loose(&net);
-    let by_itself = |leaf: &Option<Leaf>| leaf.as_ref().is_some_and(|leaf| !leaf.is_rough());
+    let by_itself = |leaf: &Option<FlatPatch>| leaf.as_ref().is_some_and(|leaf| !leaf.is_rough());
     let alone = (0..net.leaves.len() as u32).filter(|part| by_itself(&net.leaves[*part as usize]));
     let mut wrong: Vec<(u32, String)> = alone
         .filter_map(|part| Some((part, fault(&net, &loose, &[part], limit)?.reason(limit))))
         .collect();
     if wrong.is_empty() {
-        let mut arrangement = arranged(&net, options.gap);
+        let mut arrangement = arrange_patches(&net, options.gap);
         match settle(&parts, &mut net, &mut arrangement)? {
             Settled::Opened(found) => wrong = found,
             Settled::Specks(part, specks) => {
@@ -75,7 +75,7 @@ pub(super) fn assembled(
             }
         }
         if wrong.is_empty() {
-            sewn(&mut net, &mut arrangement, limit)?;
+            close_cuts(&mut net, &mut arrangement, limit)?;
             return Ok(Assembly::Whole(Box::new(Assembled {
                 parts,
                 patches,
@@ -100,7 +100,7 @@ pub(super) enum Settled {
 /// border vertices would make them valid.
 pub(super) fn settle(
     parts: &Parts,
-    net: &mut Net,
+    net: &mut SeamGraph,
     arrangement: &mut Arrangement,
 ) -> Result<Settled> {
     let limit = parts.options.max_strain;
@@ -108,11 +108,11 @@ pub(super) fn settle(
     let layout = &mut arrangement.layout;
     let mut wrong = Vec::new();
     while let Some(members) = pending.pop() {
-        let folded = folded(net, layout, &members);
+        let folded = folds_of(net, layout, &members);
         let leaves = members
             .iter()
             .filter_map(|p| net.leaves[*p as usize].as_ref());
-        let rough = leaves.clone().any(Leaf::is_rough);
+        let rough = leaves.clone().any(FlatPatch::is_rough);
         if rough || !are_close(net, layout, &folded) {
             let mut tied = Tied::new(net, layout, &members, &folded)?;
             tied.relax(net, layout, SHEET_SETTLING)?;
@@ -124,13 +124,15 @@ pub(super) fn settle(
             members.iter().for_each(|patch| net.lay_alone(*patch));
         }
         let fault = fault(net, layout, &members, limit);
-        let specks = fault.as_ref().and_then(|fault| specks(parts, net, fault));
+        let specks = fault
+            .as_ref()
+            .and_then(|fault| removable_vertices(parts, net, fault));
         if let Some((part, specks)) = specks {
             return Ok(Settled::Specks(part, specks));
         }
         match fault {
             Some(fault) if !folded.is_empty() => {
-                for seam in worst(net, layout, &folded, &fault) {
+                for seam in folds_to_open(net, layout, &folded, &fault) {
                     layout.folded[seam] = false;
                 }
                 pending.extend(connected(net, layout, &members)?);
@@ -146,19 +148,19 @@ pub(super) fn settle(
 }
 
 /// The few vertices of one part whose removal would make a sheet valid.
-fn specks(parts: &Parts, net: &Net, fault: &Fault) -> Option<(u32, Vec<usize>)> {
+fn removable_vertices(parts: &Parts, net: &SeamGraph, fault: &Fault) -> Option<(u32, Vec<usize>)> {
     let (troubled, trouble) = fault.troubled(parts.options.max_strain)?;
     troubled.iter().find_map(|part| {
         let leaf = net.leaves[*part as usize].as_ref()?;
-        Some((*part, parts.specks(*part, leaf, trouble)?))
+        Some((*part, parts.removable_vertices(*part, leaf, trouble)?))
     })
 }
 
 /// Groups of a sheet's patches that are connected by folds.
-fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
+fn connected(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
     let mut sets = UnionFind::new("pattern", members.len())?;
     let place = |patch: u32| members.binary_search(&patch).ok();
-    for seam in folded(net, layout, members) {
+    for seam in folds_of(net, layout, members) {
         let [one, other] = net.seams[seam].patches.map(place);
         if let (Some(one), Some(other)) = (one, other) {
             sets.union(one as u32, other as u32);
@@ -174,7 +176,7 @@ fn connected(net: &Net, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>
 
 /// The folds to open: the one nearest to where an outline crosses itself, or else, for each of the strained
 /// patches, the one whose sides are furthest apart.
-fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usize> {
+fn folds_to_open(net: &SeamGraph, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usize> {
     match fault {
         Fault::Crossing(place) => {
             let away = |seam: &usize| {
@@ -191,7 +193,7 @@ fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usi
                 let beside =
                     |seam: &usize| patch.is_none_or(|p| net.seams[*seam].patches.contains(p));
                 let own = folded.iter().copied().filter(beside);
-                let pull = |seam: &usize| apart(net, layout, *seam);
+                let pull = |seam: &usize| seam_gap(net, layout, *seam);
                 own.max_by(|a, b| pull(a).total_cmp(&pull(b)))
             };
             let mut seams: Vec<usize> = patches.iter().filter_map(|p| largest(Some(p))).collect();
@@ -206,7 +208,7 @@ fn worst(net: &Net, layout: &Layout, folded: &[usize], fault: &Fault) -> Vec<usi
 }
 
 /// The pattern with outlines, folds and numbers of all sheets.
-pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
+pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
     let Assembled {
         parts,
         patches,
@@ -214,7 +216,7 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
         arrangement,
     } = whole;
     let layout = &arrangement.layout;
-    let places = spots(&parts.surface, patches.labels(), net, layout);
+    let places = label_spots(&parts.surface, patches.labels(), net, layout);
     let seam = |number: usize| {
         let seam = &net.seams[number];
         Seam {
@@ -234,8 +236,8 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
         let (outlines, loops) = outlines(net, layout, members, &meetings, seam);
         let own = |patch: &u32| patches.patches()[*patch as usize].area;
         let (strain, _) = strains(net, members);
-        let folded = folded(net, layout, members);
-        let gaps = folded.iter().map(|seam| apart(net, layout, *seam));
+        let folded = folds_of(net, layout, members);
+        let gaps = folded.iter().map(|seam| seam_gap(net, layout, *seam));
         Ok(Sheet {
             folds: folds(net, layout, members, &outlines, &meetings, seam),
             outlines,
@@ -248,7 +250,7 @@ pub(super) fn drawn(surface: &Heightfield, whole: &Assembled) -> Result<Pattern>
             patches: members.clone(),
             loops,
             refolding: match parts.options.refold {
-                true => Some(refolded(net, members, &folded)?),
+                true => Some(refold_sheet(net, members, &folded)?),
                 false => None,
             },
         })

@@ -1,9 +1,9 @@
 //! What a sheet has to be: joined without strain, and within a simple outline.
 
-use super::layout::apart;
-use super::leaf::Strain;
-use super::net::{Net, is_triangle};
+use super::flat_patch::Strain;
+use super::layout::seam_gap;
 use super::outline::{Layout, Motion};
+use super::seam_graph::{SeamGraph, is_triangle};
 use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, BarycentricPoint, StoppingCriteria};
 use crate::unroll::flat_triangle::Point;
@@ -17,9 +17,9 @@ const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 const UNTIED_END_NODES: usize = 1;
 
 /// Whether the sides of folds lie on each other already, so that nothing has to be relaxed.
-pub(super) fn are_close(net: &Net, layout: &Layout, folded: &[usize]) -> bool {
+pub(super) fn are_close(net: &SeamGraph, layout: &Layout, folded: &[usize]) -> bool {
     let mut folded = folded.iter();
-    folded.all(|seam| apart(net, layout, *seam) <= MAX_JOINED_GAP_SPACINGS * net.spacing)
+    folded.all(|seam| seam_gap(net, layout, *seam) <= MAX_JOINED_GAP_SPACINGS * net.spacing)
 }
 
 /// The patches of a sheet as one mesh, tied along its folds.
@@ -33,7 +33,7 @@ pub(super) struct Tied {
 
 impl Tied {
     pub(super) fn new(
-        net: &Net,
+        net: &SeamGraph,
         layout: &Layout,
         patches: &[u32],
         folded: &[usize],
@@ -65,7 +65,7 @@ impl Tied {
     /// vertices.
     pub(super) fn relax(
         &mut self,
-        net: &mut Net,
+        net: &mut SeamGraph,
         layout: &mut Layout,
         until: StoppingCriteria,
     ) -> Result<usize> {
@@ -85,7 +85,7 @@ impl Tied {
 /// Pairs of points, as means of vertices, that folds tie to each other; `starts` holds the number of each
 /// patch's first vertex.
 pub(super) fn ties(
-    net: &Net,
+    net: &SeamGraph,
     patches: &[u32],
     starts: &[u32],
     folded: &[usize],
@@ -118,7 +118,7 @@ pub(super) fn ties(
 }
 
 /// Strain of the triangles beside a seam, on both of its sides.
-pub(super) fn strain_along(net: &Net, seam: usize) -> f64 {
+pub(super) fn strain_along(net: &SeamGraph, seam: usize) -> f64 {
     let seam = &net.seams[seam];
     let sides = seam.patches.iter().filter_map(|patch| {
         let leaf = net.leaves[*patch as usize].as_ref()?;
@@ -133,7 +133,7 @@ pub(super) fn strain_along(net: &Net, seam: usize) -> f64 {
 }
 
 /// Strain of a sheet, and strain of each of its patches.
-pub(super) fn strains(net: &Net, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
+pub(super) fn strains(net: &SeamGraph, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
     let leaf = |patch: &u32| net.leaves[*patch as usize].as_ref();
     let of = |patch: &u32| Some((*patch, leaf(patch)?.strain()));
     let all: Vec<(u32, Strain)> = patches.iter().filter_map(of).collect();

@@ -4,8 +4,8 @@ use std::cmp::Reverse;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::labels::{Labels, hanging_together};
-use super::leaf::Leaf;
+use super::flat_patch::FlatPatch;
+use super::labels::{Labels, connected_groups};
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -35,7 +35,7 @@ impl Labels {
         &mut self,
         surface: &Heightfield,
         part: u32,
-        leaf: &Leaf,
+        leaf: &FlatPatch,
     ) -> Result<Option<Vec<u32>>> {
         let lattice = *surface.lattice();
         let burden = leaf.burden(&lattice);
@@ -92,7 +92,7 @@ impl Labels {
         let members = || burden.iter().map(|(i, _)| *i);
         let side: FxHashMap<usize, bool> = members().map(|i| (i, beyond(i))).collect();
         let same = |i: usize, k: usize| side[&i] == side[&k] && joined(i, k);
-        let groups = hanging_together(lattice, members(), same);
+        let groups = connected_groups(lattice, members(), same);
         let mut numbers = FxHashMap::with_capacity_and_hasher(burden.len(), Default::default());
         for (number, group) in groups.iter().enumerate() {
             numbers.extend(group.iter().map(|i| (*i, number)));

@@ -1,7 +1,7 @@
 //! The triangles of a sheet, as it is built and as it lies flat.
 
-use super::net::Net;
 use super::outline::Layout;
+use super::seam_graph::SeamGraph;
 use crate::heights::heightfield::Heightfield;
 
 /// The triangles of a sheet, built and flat. Each triangle of the lattice belongs to the patch that most of
@@ -17,7 +17,12 @@ pub struct Faces {
     pub triangles: Vec<[u32; 3]>,
 }
 
-pub(super) fn faces(surface: &Heightfield, net: &Net, layout: &Layout, patches: &[u32]) -> Faces {
+pub(super) fn faces(
+    surface: &Heightfield,
+    net: &SeamGraph,
+    layout: &Layout,
+    patches: &[u32],
+) -> Faces {
     let mut faces = Faces::default();
     let lattice = surface.lattice();
     for patch in patches {

@@ -1,9 +1,9 @@
 //! What keeps a sheet from being one: strain, triangles upside down, an outline that crosses itself.
 
 use super::check::{crossing, strains};
-use super::leaf::Strain;
-use super::net::Net;
+use super::flat_patch::Strain;
 use super::outline::Layout;
+use super::seam_graph::SeamGraph;
 use super::shape::lines;
 use super::trim::Trouble;
 use crate::error::rounded;
@@ -52,13 +52,18 @@ impl Fault {
 }
 
 /// The folds of a sheet, by the numbers of their seams.
-pub(super) fn folded(net: &Net, layout: &Layout, members: &[u32]) -> Vec<usize> {
+pub(super) fn folds_of(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Vec<usize> {
     let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
     (0..net.seams.len()).filter(own).collect()
 }
 
 /// The first fault of a sheet, if it has one.
-pub(super) fn fault(net: &Net, layout: &Layout, members: &[u32], limit: f64) -> Option<Fault> {
+pub(super) fn fault(
+    net: &SeamGraph,
+    layout: &Layout,
+    members: &[u32],
+    limit: f64,
+) -> Option<Fault> {
     let (sum, all) = strains(net, members);
     // Some of them at once, so that few joint unrollings are needed.
     let those = |wrong: &dyn Fn(&Strain) -> bool| -> Vec<u32> {

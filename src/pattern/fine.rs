@@ -8,12 +8,12 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use super::assembly::{Assembled, Settled, settle};
+use super::flat_patch::FlatPatch;
 use super::labels::Labels;
 use super::layout::Arrangement;
-use super::leaf::Leaf;
-use super::net::Net;
 use super::outline::Layout;
 use super::parts::Parts;
+use super::seam_graph::SeamGraph;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::coarsening::{coarse_lattice, fine_vertex, parents};
@@ -81,14 +81,14 @@ fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = u
 
 /// Lays the sheets of a coarse lattice flat on the fine one. The inner error tells which part of them is no
 /// sheet there.
-pub(super) fn refined(
+pub(super) fn refine_sheets(
     surface: &Heightfield,
     patches: &Patches,
     coarse: &Coarse,
     rough: &Assembled,
     parts: Parts,
 ) -> Result<std::result::Result<Assembled, String>> {
-    let (labels, origins) = carried(surface, patches, coarse, rough)?;
+    let (labels, origins) = transfer_labels(surface, patches, coarse, rough)?;
     let mut parts = parts.with_labels(
         surface,
         Labels {
@@ -138,7 +138,7 @@ pub(super) fn refined(
         sheets.retain(|members| !members.is_empty());
         let leaves = std::mem::take(&mut parts.leaves);
         let decided = rough.net.decided;
-        let mut net = Net::new(&parts.surface, &parts.labels, leaves, decided)?;
+        let mut net = SeamGraph::new(&parts.surface, &parts.labels, leaves, decided)?;
         let mut layout = Layout::loose(&net);
         fold_alike(&mut net, &mut layout, &before, rough);
         let mut arrangement = Arrangement {
@@ -176,7 +176,7 @@ fn inverse(order: &[usize]) -> Vec<u32> {
 
 /// The part of each vertex of the fine lattice, and the patch of each part. Regions that no coarse part
 /// reaches become parts of their own; vertices left out on the coarse lattice stay so.
-fn carried(
+fn transfer_labels(
     surface: &Heightfield,
     patches: &Patches,
     coarse: &Coarse,
@@ -231,7 +231,7 @@ fn carried(
 }
 
 /// A part of the fine lattice, lying where it lies on the coarse one.
-fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<Leaf>> {
+fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPatch>> {
     let Some(leaf) = rough.net.leaves[part].as_ref() else {
         return Ok(None);
     };
@@ -244,7 +244,7 @@ fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<Leaf>>
         });
         Some(motion.of(0.5 * (one? + other?)))
     };
-    Leaf::at(
+    FlatPatch::at(
         &parts.surface,
         &parts.labels,
         part as u32,
@@ -254,7 +254,7 @@ fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<Leaf>>
 }
 
 /// Folds the seams of the fine lattice whose creases are folds on the coarse one.
-fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assembled) {
+fn fold_alike(net: &mut SeamGraph, layout: &mut Layout, order: &[usize], rough: &Assembled) {
     // The nodes between each two parts, and whether they are folds.
     let mut nodes: BTreeMap<[usize; 2], Vec<([f64; 2], bool)>> = BTreeMap::new();
     for (number, seam) in rough.net.seams.iter().enumerate() {
@@ -295,7 +295,7 @@ fn fold_alike(net: &mut Net, layout: &mut Layout, order: &[usize], rough: &Assem
 mod tests {
     use super::*;
     use crate::pattern::PatternOptions;
-    use crate::pattern::heightfield::{DIRECT_OUTLINE_DETAIL, whole};
+    use crate::pattern::heightfield::{DIRECT_OUTLINE_DETAIL, find_sheets};
     use crate::shape::patches::PatchOptions;
 
     #[test]
@@ -310,7 +310,7 @@ mod tests {
         let patches = Patches::new(&surface, &PatchOptions::default()).unwrap();
         let options = PatternOptions::default().max_strain(0.003);
         let coarse = Coarse::new(&surface, &patches).unwrap().unwrap();
-        let rough = whole(
+        let rough = find_sheets(
             &coarse.surface,
             &coarse.patches,
             &options,
@@ -318,7 +318,7 @@ mod tests {
         )
         .unwrap();
         let parts = Parts::none(&surface, &options);
-        let found = refined(&surface, &patches, &coarse, &rough, parts).unwrap();
+        let found = refine_sheets(&surface, &patches, &coarse, &rough, parts).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{reason}"));
         assert_eq!(found.arrangement.sheets, [[0, 1]]);
         let out = found.parts.left_out();

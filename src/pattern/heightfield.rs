@@ -1,7 +1,7 @@
 //! Patterns of heightfields.
 
-use super::assembly::{Assembled, Assembly, assembled, drawn};
-use super::fine::{Coarse, refined};
+use super::assembly::{Assembled, Assembly, assemble_sheets, draw_sheets};
+use super::fine::{Coarse, refine_sheets};
 use super::options::PatternOptions;
 use super::parts::Parts;
 use super::sheets::Pattern;
@@ -48,14 +48,14 @@ pub fn pattern(
     patches.check_of(surface)?;
     positive("gap", options.gap)?;
     positive("maxStrain", options.max_strain)?;
-    drawn(
+    draw_sheets(
         surface,
-        &whole(surface, patches, options, DIRECT_OUTLINE_DETAIL)?,
+        &find_sheets(surface, patches, options, DIRECT_OUTLINE_DETAIL)?,
     )
 }
 
 /// Finds the sheets of a surface, on a coarse lattice first where there are many vertices.
-pub(super) fn whole(
+pub(super) fn find_sheets(
     surface: &Heightfield,
     patches: &Patches,
     options: &PatternOptions,
@@ -65,18 +65,18 @@ pub(super) fn whole(
         finest = 1.0;
         for margin in COARSE_STRAIN_SHARES {
             let stricter = options.max_strain(margin * options.max_strain);
-            let rough = match whole(&coarse.surface, &coarse.patches, &stricter, finest) {
+            let rough = match find_sheets(&coarse.surface, &coarse.patches, &stricter, finest) {
                 Err(Error::NotFlat { .. }) => break,
                 other => other?,
             };
             let parts = Parts::none(surface, options);
-            if let Ok(found) = refined(surface, patches, &coarse, &rough, parts)? {
+            if let Ok(found) = refine_sheets(surface, patches, &coarse, &rough, parts)? {
                 return Ok(found);
             }
         }
     }
     loop {
-        match direct(surface, patches, options, finest) {
+        match cut_and_join(surface, patches, options, finest) {
             Err(Error::NotFlat { .. }) if finest < 1.0 => finest = 1.0,
             other => return other,
         }
@@ -84,7 +84,7 @@ pub(super) fn whole(
 }
 
 /// Cuts and joins parts on one lattice until every sheet is valid.
-fn direct(
+fn cut_and_join(
     surface: &Heightfield,
     patches: &Patches,
     options: &PatternOptions,
@@ -98,7 +98,7 @@ fn direct(
     // left out.
     let mut rounds = 0;
     loop {
-        let faults = match assembled(parts, patches, options)? {
+        let faults = match assemble_sheets(parts, patches, options)? {
             Assembly::Whole(whole) => return Ok(*whole),
             Assembly::Cut(again, faults) => {
                 parts = *again;

@@ -29,7 +29,7 @@ impl Labels {
 }
 
 /// Connected groups of vertices, by the edges between them for which `joined` holds.
-pub(super) fn hanging_together(
+pub(super) fn connected_groups(
     lattice: &Lattice,
     vertices: impl Iterator<Item = usize>,
     joined: impl Fn(usize, usize) -> bool,

@@ -1,7 +1,7 @@
 //! Patches laid beside each other, as many as fit.
 
-use super::net::{NEGLIGIBLE_GAP_LENGTHS, Net};
 use super::outline::{Layout, Motion};
+use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::math::planar::polyline_length;
 
 /// Positions of all patches, and the sheets that they are on.
@@ -13,7 +13,7 @@ pub(super) struct Arrangement {
 
 /// Lays patches beside each other, and makes folds of the seams whose sides fit within `gap` times their
 /// length, the longest first.
-pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
+pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     let mut layout = Layout::loose(net);
     // The sheet of each patch, and the patches of each sheet.
     let mut of: Vec<usize> = (0..net.leaves.len()).collect();
@@ -26,7 +26,7 @@ pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
         if a == b || sheets[a].is_empty() || sheets[b].is_empty() {
             continue;
         }
-        let motion = beside(net, &layout, *seam);
+        let motion = motion_to_join(net, &layout, *seam);
         let mut trial = layout.clone();
         trial.carry(&sheets[b], &motion);
         if !fits(net, &trial, *seam, gap) {
@@ -58,7 +58,7 @@ pub(super) fn arranged(net: &Net, gap: f64) -> Arrangement {
 }
 
 /// The seams that may be joined, the longest first.
-pub(super) fn longest_first(net: &Net) -> Vec<usize> {
+pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
     let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
     let whole = |seam: &usize| {
         let nodes = net.seams[*seam].nodes.len();
@@ -70,20 +70,20 @@ pub(super) fn longest_first(net: &Net) -> Vec<usize> {
 }
 
 /// The motion that brings the second side of a seam to its first.
-pub(super) fn beside(net: &Net, layout: &Layout, seam: usize) -> Motion {
+pub(super) fn motion_to_join(net: &SeamGraph, layout: &Layout, seam: usize) -> Motion {
     let [there, here] = [0, 1].map(|side| layout.side(net, seam, side));
     Motion::between(&here, &there)
 }
 
 /// Whether the sides of a seam lie on each other within `gap` times its length, or within the lattice's
 /// resolution.
-pub(super) fn fits(net: &Net, layout: &Layout, seam: usize, gap: f64) -> bool {
+pub(super) fn fits(net: &SeamGraph, layout: &Layout, seam: usize, gap: f64) -> bool {
     let most = gap * polyline_length(&net.seams[seam].sides[0]);
-    apart(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)
+    seam_gap(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)
 }
 
 /// Seam gap: root mean square of the distances between the sides of a seam.
-pub(super) fn apart(net: &Net, layout: &Layout, seam: usize) -> f64 {
+pub(super) fn seam_gap(net: &SeamGraph, layout: &Layout, seam: usize) -> f64 {
     let [one, other] = [0, 1].map(|side| layout.side(net, seam, side));
     let squares: f64 = one
         .iter()

@@ -5,7 +5,7 @@ use crate::unroll::flat_triangle::Point;
 
 /// A line without the points that it does not need to stay within a tolerance (Douglas and Peucker
 /// 1973).
-pub(super) fn simplified(points: &[Point], tolerance: f64) -> Vec<Point> {
+pub(super) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
     }
@@ -39,7 +39,7 @@ pub(super) fn simplified(points: &[Point], tolerance: f64) -> Vec<Point> {
 
 /// A closed line, whose last point is not the first, without the points that it does not need to stay within
 /// a tolerance.
-pub(super) fn simplified_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
+pub(super) fn simplify_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 4 {
         return points.to_vec();
     }
@@ -58,9 +58,9 @@ pub(super) fn simplified_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
         .copied()
         .collect();
     let opposite = (farthest(points[first]) + points.len() - first) % points.len();
-    let second = simplified(&ring[opposite..], tolerance);
+    let second = simplify_polyline(&ring[opposite..], tolerance);
     ring.truncate(opposite + 1);
-    let mut out = simplified(&ring, tolerance);
+    let mut out = simplify_polyline(&ring, tolerance);
     out.extend(&second[1..]);
     out.pop();
     out
@@ -69,7 +69,7 @@ pub(super) fn simplified_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
 /// Restores corners that were cut: a piece shorter than `short` between two of three times that
 /// gives way to the point where these meet, if that is near. `closed` lines go on from their last
 /// point to the first.
-pub(super) fn sharpened(points: &[Point], short: f64, closed: bool) -> Vec<Point> {
+pub(super) fn restore_corners(points: &[Point], short: f64, closed: bool) -> Vec<Point> {
     let n = points.len();
     let mut out = points.to_vec();
     if n < 4 {
@@ -120,7 +120,7 @@ mod tests {
             .chain((1..10).map(|i| at(9.0, f64::from(i))))
             .collect();
         assert_eq!(
-            simplified(&line, 0.01),
+            simplify_polyline(&line, 0.01),
             [at(0.0, 0.0), line[9], at(9.0, 9.0)]
         );
     }
@@ -133,9 +133,9 @@ mod tests {
             let along = (corners[(i + 1) % 4] - corner) / 8.0;
             ring.extend((0..8).map(|k| corner + along * (f64::from(k) + 0.5)));
         }
-        let plain = simplified_ring(&ring, 0.01);
+        let plain = simplify_ring(&ring, 0.01);
         assert_eq!(plain.len(), 8);
-        let mut found = sharpened(&plain, 1.0, true);
+        let mut found = restore_corners(&plain, 1.0, true);
         found.sort_by(|p, q| (p.re, p.im).partial_cmp(&(q.re, q.im)).unwrap());
         let expected = [corners[0], corners[3], corners[1], corners[2]];
         assert_eq!(found.len(), 4);

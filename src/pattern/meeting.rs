@@ -1,8 +1,8 @@
 //! Points inside of the surface where cuts or folds end, and the angle of the surface around them.
 
 use super::labels::Labels;
-use super::net::{FOUR_WAY_JUNCTION_RADIUS, Net, Node, is_triangle};
 use super::outline::Layout;
+use super::seam_graph::{FOUR_WAY_JUNCTION_RADIUS, Node, SeamGraph, is_triangle};
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -63,7 +63,7 @@ impl Meetings {
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
-        net: &Net,
+        net: &SeamGraph,
         layout: &Layout,
     ) -> Result<Meetings> {
         let ends = |seam: usize| {
@@ -141,7 +141,7 @@ impl Meetings {
     /// The points at the corners of a sheet, with their positions on it.
     pub(super) fn corners(
         &self,
-        net: &Net,
+        net: &SeamGraph,
         layout: &Layout,
         patches: &[u32],
     ) -> Vec<(Point, Meeting)> {
@@ -179,7 +179,7 @@ impl Default for Found {
 struct Around<'a> {
     surface: &'a Heightfield,
     labels: &'a Labels,
-    net: &'a Net,
+    net: &'a SeamGraph,
 }
 
 /// A path along the surface: its length, its end, and whether a crease is near its end.

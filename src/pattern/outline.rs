@@ -1,6 +1,6 @@
 //! Where patches lie on a sheet, and the lines around them all.
 
-use super::net::{Net, Node, is_triangle};
+use super::seam_graph::{Node, SeamGraph, is_triangle};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 use rustc_hash::FxHashMap;
@@ -72,7 +72,7 @@ const SLIT_END_CORNERS: usize = 8;
 
 impl Layout {
     /// The layout in which every patch lies by itself.
-    pub(super) fn loose(net: &Net) -> Layout {
+    pub(super) fn loose(net: &SeamGraph) -> Layout {
         Layout {
             motions: vec![Motion::IDENTITY; net.leaves.len()],
             folded: vec![false; net.seams.len()],
@@ -88,14 +88,14 @@ impl Layout {
     }
 
     /// Positions of a seam's nodes on one of its two patches, 0 or 1.
-    pub(super) fn side(&self, net: &Net, seam: usize, side: usize) -> Vec<Point> {
+    pub(super) fn side(&self, net: &SeamGraph, seam: usize, side: usize) -> Vec<Point> {
         let motion = &self.motions[net.seams[seam].patches[side] as usize];
         let places = net.seams[seam].sides[side].iter();
         places.map(|place| motion.of(*place)).collect()
     }
 
     /// The patches that share a node with a given one through folds at the node, itself included.
-    fn family(&self, net: &Net, node: Node, patch: u32) -> Vec<u32> {
+    fn family(&self, net: &SeamGraph, node: Node, patch: u32) -> Vec<u32> {
         let mut family = vec![patch];
         let seams = match node {
             (p, q) if p == q => return family,
@@ -121,7 +121,7 @@ impl Layout {
     }
 
     /// The closed lines around some patches, with the open seams among them.
-    pub(super) fn outlines(&self, net: &Net, patches: &[u32]) -> Vec<Vec<Corner>> {
+    pub(super) fn outlines(&self, net: &SeamGraph, patches: &[u32]) -> Vec<Vec<Corner>> {
         let mut segments = Vec::new();
         let mut starts: FxHashMap<(Node, u32), Vec<usize>> = FxHashMap::default();
         for patch in patches {
@@ -165,7 +165,7 @@ impl Layout {
     }
 
     /// Whether some patches overlap.
-    pub(super) fn overlaps(&self, net: &Net, patches: &[u32]) -> bool {
+    pub(super) fn overlaps(&self, net: &SeamGraph, patches: &[u32]) -> bool {
         let outlines = self.outlines(net, patches);
         let (mut places, mut edges, mut positions) = (Vec::new(), Vec::new(), Vec::new());
         for (number, line) in outlines.iter().enumerate() {

@@ -3,10 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use super::flat_patch::{FlatPatch, MIN_CUT_VERTICES};
 use super::labels::Labels;
-use super::leaf::{Leaf, MIN_CUT_VERTICES, Window};
 use super::options::PatternOptions;
-use super::trim::{Trouble, specks};
+use super::trim::{Trouble, removable_vertices};
+use super::window::Window;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -28,14 +29,14 @@ const MAX_TRIM_ROUNDS: usize = 8;
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
 /// Number and layout of a part that was merged with another.
-type Enlarged = (u32, Option<Leaf>);
+type Enlarged = (u32, Option<FlatPatch>);
 
 /// The parts that a surface is cut into, each laid flat by itself.
 pub(super) struct Parts {
     /// The surface without the vertices that were left out.
     pub surface: Heightfield,
     pub labels: Labels,
-    pub leaves: Vec<Option<Leaf>>,
+    pub leaves: Vec<Option<FlatPatch>>,
     pub options: PatternOptions,
     /// Smallest detail of outlines, in spacings: smaller loops of them are cut off.
     pub finest: f64,
@@ -170,8 +171,8 @@ impl Parts {
         leaf.is_some_and(|leaf| leaf.strain().rms() > self.options.max_strain)
     }
 
-    pub(super) fn leaf(&self, part: &u32) -> Result<Option<Leaf>> {
-        Leaf::new(
+    pub(super) fn leaf(&self, part: &u32) -> Result<Option<FlatPatch>> {
+        FlatPatch::new(
             &self.surface,
             &self.labels,
             *part,
@@ -306,7 +307,7 @@ impl Parts {
             false => Trouble::Flipped,
         };
         let lattice = self.surface.lattice();
-        let own = specks(lattice, &self.labels, part, leaf, trouble, self.scrap());
+        let own = removable_vertices(lattice, &self.labels, part, leaf, trouble, self.scrap());
         let Some(own) = own else {
             return Ok(false);
         };
@@ -317,9 +318,14 @@ impl Parts {
     }
 
     /// The few vertices whose removal would rid a part of a sheet of its fault, if they may be left out.
-    pub(super) fn specks(&self, part: u32, leaf: &Leaf, trouble: Trouble) -> Option<Vec<usize>> {
+    pub(super) fn removable_vertices(
+        &self,
+        part: u32,
+        leaf: &FlatPatch,
+        trouble: Trouble,
+    ) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
-        let found = || specks(lattice, &self.labels, part, leaf, trouble, self.scrap());
+        let found = || removable_vertices(lattice, &self.labels, part, leaf, trouble, self.scrap());
         (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
@@ -334,7 +340,7 @@ impl Parts {
                 continue;
             };
             let place = |vertex| Some(before.place(vertex)).filter(|place| !place.re.is_nan());
-            let leaf = Leaf::at(&self.surface, &self.labels, part, self.window(part), place)?;
+            let leaf = FlatPatch::at(&self.surface, &self.labels, part, self.window(part), place)?;
             self.leaves[part as usize] = leaf;
         }
         Ok(())

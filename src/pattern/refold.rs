@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::check::ties;
-use super::net::Net;
+use super::seam_graph::SeamGraph;
 use super::sheets::Refolding;
 use crate::error::Result;
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
@@ -22,7 +22,11 @@ const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
 };
 
 /// Folds a sheet back into space, and measures how near it comes to the surface.
-pub(super) fn refolded(net: &Net, patches: &[u32], folded: &[usize]) -> Result<Refolding> {
+pub(super) fn refold_sheet(
+    net: &SeamGraph,
+    patches: &[u32],
+    folded: &[usize],
+) -> Result<Refolding> {
     let (mut pieces, mut starts) = (Vec::new(), Vec::new());
     let mut places: Vec<Vector3<f64>> = Vec::new();
     let mut own = Vec::new();

@@ -4,9 +4,9 @@
 use std::collections::VecDeque;
 
 use super::check::{Tied, are_close, strain_along, strains};
-use super::fault::{SHEET_RELAXATION, fault, folded};
-use super::layout::{Arrangement, apart, beside, fits, longest_first};
-use super::net::{NEGLIGIBLE_GAP_LENGTHS, Net};
+use super::fault::{SHEET_RELAXATION, fault, folds_of};
+use super::layout::{Arrangement, fits, longest_first, motion_to_join, seam_gap};
+use super::seam_graph::{NEGLIGIBLE_GAP_LENGTHS, SeamGraph};
 use crate::error::Result;
 use crate::math::planar::polyline_length;
 use crate::unroll::arap_mesh::StoppingCriteria;
@@ -33,7 +33,11 @@ const STEP_BUDGET_PER_VERTEX: usize = 800;
 const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
 /// Closes cuts again, the longest first, and halves of those that cannot be closed as a whole.
-pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> Result<()> {
+pub(super) fn close_cuts(
+    net: &mut SeamGraph,
+    arrangement: &mut Arrangement,
+    limit: f64,
+) -> Result<()> {
     let open = |seam: &usize| !arrangement.layout.folded[*seam];
     let mut pending: VecDeque<usize> = longest_first(net).into_iter().filter(open).collect();
     // Creases are cut rather than what is smooth.
@@ -51,7 +55,8 @@ pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> 
         if budget == 0 {
             break;
         }
-        if arrangement.layout.folded[seam] || closed(net, arrangement, seam, limit, &mut budget)? {
+        if arrangement.layout.folded[seam] || close_cut(net, arrangement, seam, limit, &mut budget)?
+        {
             continue;
         }
         let nodes = net.seams[seam].nodes.len();
@@ -69,13 +74,13 @@ pub(super) fn sewn(net: &mut Net, arrangement: &mut Arrangement, limit: f64) -> 
             pending.insert(place.unwrap_or(pending.len()), part);
         }
     }
-    zip(net, arrangement, limit);
+    close_narrow_gaps(net, arrangement, limit);
     net.join_parts(&mut arrangement.layout.folded);
     Ok(())
 }
 
 /// Closes the parts of cuts whose sides are nearer than the lattice's resolution.
-fn zip(net: &mut Net, arrangement: &mut Arrangement, limit: f64) {
+fn close_narrow_gaps(net: &mut SeamGraph, arrangement: &mut Arrangement, limit: f64) {
     for members in &arrangement.sheets {
         let inside = |seam: &usize| {
             let patches = net.seams[*seam].patches;
@@ -107,8 +112,8 @@ fn zip(net: &mut Net, arrangement: &mut Arrangement, limit: f64) {
 }
 
 /// Tries to close one cut. Returns whether its sheet is still valid; if not, everything is as before.
-fn closed(
-    net: &mut Net,
+fn close_cut(
+    net: &mut SeamGraph,
     arrangement: &mut Arrangement,
     seam: usize,
     limit: f64,
@@ -124,7 +129,7 @@ fn closed(
     let mut members = arrangement.sheets[a].clone();
     let mut layout = arrangement.layout.clone();
     if a != b {
-        let motion = beside(net, &layout, seam);
+        let motion = motion_to_join(net, &layout, seam);
         layout.carry(&arrangement.sheets[b], &motion);
         members.extend(&arrangement.sheets[b]);
         members.sort_unstable();
@@ -142,7 +147,7 @@ fn closed(
             layout.folded[other] = true;
         }
     }
-    let ties = folded(net, &layout, &members);
+    let ties = folds_of(net, &layout, &members);
     let before: Vec<(u32, Vec<Point>)> = (members.iter())
         .filter_map(|p| Some((*p, net.leaves[*p as usize].as_ref()?.places().to_vec())))
         .collect();
@@ -174,7 +179,8 @@ fn closed(
         let work = sheet.relax(net, &mut layout, until)?;
         *budget = budget.saturating_sub(work);
     }
-    let tight = |seam: &usize| apart(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
+    let tight =
+        |seam: &usize| seam_gap(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
     // A small place that is strained much would hardly show in the whole.
     let even = strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit;
     if even && ties.iter().all(tight) && fault(net, &layout, &members, most).is_none() {

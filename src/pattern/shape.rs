@@ -1,11 +1,11 @@
 //! From nodes to the lines that are cut and folded: grouped, straightened and plain.
 
-use super::line::{meeting, sharpened, simplified, simplified_ring};
+use super::line::{meeting, restore_corners, simplify_polyline, simplify_ring};
 use super::meeting::Meetings;
-use super::net::{FOUR_WAY_JUNCTION_RADIUS, HEADING_NODES, Net, is_triangle};
 use super::outline::{Corner, Layout};
+use super::seam_graph::{FOUR_WAY_JUNCTION_RADIUS, HEADING_NODES, SeamGraph, is_triangle};
 use super::sheets::{Fold, Run, Seam};
-use super::simple::{Runs, Side, without_loops};
+use super::simple::{Runs, Side, remove_loops};
 use crate::math::planar::polyline_length;
 use crate::unroll::flat_triangle::Point;
 
@@ -17,10 +17,10 @@ const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
 /// The closed lines around a sheet, and the number of small loops that were cut off them.
-pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
+pub(super) fn lines(net: &SeamGraph, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, usize) {
     let mut loops = 0;
     let lines = layout.outlines(net, patches).into_iter().map(|line| {
-        let (runs, count) = without_loops(runs(net, &line), net.decided);
+        let (runs, count) = remove_loops(runs(net, &line), net.decided);
         loops += count;
         runs
     });
@@ -29,7 +29,7 @@ pub(super) fn lines(net: &Net, layout: &Layout, patches: &[u32]) -> (Vec<Runs>, 
 
 /// The outlines of a sheet, the longest first, and the number of small loops that were cut off them.
 pub(super) fn outlines(
-    net: &Net,
+    net: &SeamGraph,
     layout: &Layout,
     patches: &[u32],
     meetings: &Meetings,
@@ -64,7 +64,7 @@ pub(super) fn outlines(
 
 /// The folds of a sheet, but for those that only join two nodes of what is one place.
 pub(super) fn folds(
-    net: &Net,
+    net: &SeamGraph,
     layout: &Layout,
     patches: &[u32],
     outlines: &[Vec<Run>],
@@ -86,14 +86,15 @@ pub(super) fn folds(
                 (last, last.saturating_sub(HEADING_NODES)),
             ] {
                 if !is_triangle(nodes[end]) {
-                    points[end] = reached(points[end], points[back], outlines, net.spacing);
+                    points[end] =
+                        extend_to_outline(points[end], points[back], outlines, net.spacing);
                 }
             }
         }
         Fold {
             seam: seam(number),
             ends: [nodes[0], nodes[last]].map(|node| meetings.at(node)),
-            points: pairs(&simplified(
+            points: pairs(&simplify_polyline(
                 &points,
                 SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing,
             )),
@@ -110,7 +111,7 @@ pub(super) fn folds(
 
 /// Intersection of a line, from `back` beyond `end`, with the nearest outline; `end` itself if that is
 /// further than a spacing.
-fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Point {
+fn extend_to_outline(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Point {
     let pieces = outlines.iter().flatten().flat_map(|run| {
         let points = run.points.windows(2);
         points.map(|p| [p[0], p[1]].map(|[x, y]| Point::new(x, y)))
@@ -126,7 +127,7 @@ fn reached(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Poin
 }
 
 /// A closed line divided into runs, each along one side of a seam or along the border.
-fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
+fn runs(net: &SeamGraph, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     let tolerance = SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing;
     let n = line.len();
     let kind = |i: usize| {
@@ -135,11 +136,11 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     };
     let Some(first) = (0..n).find(|i| kind(*i) != kind(*i + n - 1)) else {
         let ring = match line[0].seam {
-            Some(_) => simplified_ring(&places(line), tolerance),
+            Some(_) => simplify_ring(&places(line), tolerance),
             None => {
                 let mut border = middles(line);
                 border.extend(closing(line));
-                sharpened(&simplified_ring(&border, tolerance), short(line), true)
+                restore_corners(&simplify_ring(&border, tolerance), short(line), true)
             }
         };
         let again = ring.first().copied();
@@ -174,16 +175,16 @@ fn runs(net: &Net, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
         meet(net, &groups, &mut out, k);
     }
     for ((seam, points), (_, group)) in out.iter_mut().zip(&groups) {
-        *points = simplified(points, tolerance);
+        *points = simplify_polyline(points, tolerance);
         if seam.is_none() {
-            *points = sharpened(points, short(group), false);
+            *points = restore_corners(points, short(group), false);
         }
     }
     out
 }
 
 /// Extends the two seams at a border's ends to their intersections with the border's line.
-fn meet(net: &Net, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
+fn meet(net: &SeamGraph, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
     let count = groups.len();
     for (other, starts) in [((k + count - 1) % count, true), ((k + 1) % count, false)] {
         if groups[other].0.is_none() {

@@ -21,7 +21,7 @@ pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
 /// Cuts off the small loops in which a closed line of runs crosses itself, each run beginning where the one
 /// before ends. Returns the line and the number of loops.
-pub(crate) fn without_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
+pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     // Each point with the run that the piece from it on belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();
     for (number, (_, points)) in runs.iter().enumerate() {
@@ -118,12 +118,12 @@ mod tests {
             points.extend([at(0.0, 9.0), at(0.0, 0.0)]);
             vec![(None, points)]
         };
-        let (cleaned, loops) = without_loops(square(1.0), 1.0);
+        let (cleaned, loops) = remove_loops(square(1.0), 1.0);
         assert_eq!(loops, 1);
         let corners = &cleaned[0].1;
         assert!(corners.iter().all(|p| p.im <= 10.0), "{corners:?}");
         assert!(corners.contains(&at(5.0, 10.0)), "{corners:?}");
-        let kept = without_loops(square(3.0), 1.0);
+        let kept = remove_loops(square(3.0), 1.0);
         assert_eq!(kept, (square(3.0), 0));
     }
 }

@@ -2,18 +2,18 @@
 
 use std::collections::VecDeque;
 
-use super::net::Net;
 use super::outline::Layout;
+use super::seam_graph::SeamGraph;
 use super::sheets::Spot;
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::NO_PATCH;
 
 /// For each patch the vertex that is furthest from other patches and the border, by steps along the lattice;
 /// of several, that nearest to the patch's middle.
-pub(super) fn spots(
+pub(super) fn label_spots(
     surface: &Heightfield,
     labels: &[u32],
-    net: &Net,
+    net: &SeamGraph,
     layout: &Layout,
 ) -> Vec<Spot> {
     let lattice = surface.lattice();

@@ -1,8 +1,8 @@
 //! Specks at a border that nearly all strain of a part is in, or that lie upside down: where a surface ends
 //! in a steep point, a few vertices may be torn apart however the part is cut.
 
-use super::labels::{Labels, hanging_together};
-use super::leaf::Leaf;
+use super::flat_patch::FlatPatch;
+use super::labels::{Labels, connected_groups};
 use crate::lattice::hexagonal::{Lattice, NEIGHBOURS};
 use rustc_hash::FxHashMap;
 
@@ -23,11 +23,11 @@ pub(super) enum Trouble {
 
 /// The few border vertices of a part whose removal would surely cure its fault; `None` if they are more than
 /// `most`, away from the border, or all that connects the part.
-pub(super) fn specks(
+pub(super) fn removable_vertices(
     lattice: &Lattice,
     labels: &Labels,
     part: u32,
-    leaf: &Leaf,
+    leaf: &FlatPatch,
     trouble: Trouble,
     most: usize,
 ) -> Option<Vec<usize>> {
@@ -47,7 +47,7 @@ pub(super) fn specks(
     }
     let together = |inside: &dyn Fn(usize) -> bool| {
         let members = burden.iter().map(|(i, _)| *i).filter(|i| inside(*i));
-        hanging_together(lattice, members, |_, _| true)
+        connected_groups(lattice, members, |_, _| true)
     };
     let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
     let is_outermost = |i: usize| {

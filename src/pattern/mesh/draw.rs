@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::join::Joined;
-use super::lay::Laid;
+use super::lay::FlatPart;
 use super::meeting::Meetings;
 use super::seams::Seams;
 use crate::error::Result;
@@ -26,7 +26,7 @@ pub struct MeshPattern {
     pub creases: Vec<Crease>,
 }
 
-pub(super) fn drawn(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<MeshPattern> {
+pub(super) fn draw_sheets(body: &Body, seams: &Seams, sheets: &[Joined]) -> Result<MeshPattern> {
     let creases = seams.all.iter().map(|seam| Crease {
         patches: seam.parts,
         points: (seam.vertices.iter())
@@ -160,7 +160,12 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
 }
 
 /// Divides a closed line into runs, by what is on its other side.
-fn runs(body: &Body, seams: &Seams, laid: &Laid, line: &[u32]) -> Vec<(Option<usize>, Vec<u32>)> {
+fn runs(
+    body: &Body,
+    seams: &Seams,
+    laid: &FlatPart,
+    line: &[u32],
+) -> Vec<(Option<usize>, Vec<u32>)> {
     let own = |side: u32| 3 * laid.members[side as usize / 3] + side % 3;
     let key = |side: u32| {
         let seam = seams.of(own(side));
@@ -182,7 +187,7 @@ fn runs(body: &Body, seams: &Seams, laid: &Laid, line: &[u32]) -> Vec<(Option<us
 }
 
 /// Vertices of the sheet along one of its folds.
-fn along(seams: &Seams, laid: &Laid, number: usize) -> Vec<u32> {
+fn along(seams: &Seams, laid: &FlatPart, number: usize) -> Vec<u32> {
     let seam = &seams.all[number];
     let vertex = |body_side: u32, end: u32| {
         let t = laid.members.binary_search(&(body_side / 3)).unwrap_or(0);
@@ -208,7 +213,7 @@ fn along(seams: &Seams, laid: &Laid, number: usize) -> Vec<u32> {
 }
 
 /// The vertex of the whole mesh at an end of a sheet's half-edge.
-fn laid_source(laid: &Laid, side: u32, end: u32) -> u32 {
+fn laid_source(laid: &FlatPart, side: u32, end: u32) -> u32 {
     let t = laid.members.binary_search(&(side / 3)).unwrap_or(0);
     laid.source[laid.triangles[t][((side + end) % 3) as usize] as usize]
 }
@@ -217,7 +222,7 @@ fn laid_source(laid: &Laid, side: u32, end: u32) -> u32 {
 const MAX_LABEL_CANDIDATES: usize = 200;
 
 /// A place for a part's number: the middle of a triangle far from the part's border.
-fn spot(body: &Body, laid: &Laid, part: u32) -> Spot {
+fn spot(body: &Body, laid: &FlatPart, part: u32) -> Spot {
     let is_own = |t: usize| body.parts[laid.members[t] as usize] == part;
     let own: Vec<usize> = (0..laid.members.len()).filter(|t| is_own(*t)).collect();
     let is_edge = |side: u32| {

@@ -1,11 +1,11 @@
 //! Parts joined to sheets, as far as their sides fit and nothing comes to lie on anything else.
 
 use super::body::Body;
-use super::lay::{Laid, Lying};
+use super::lay::{FlatPart, Lying};
 use super::seams::Seams;
 use crate::error::Result;
-use crate::pattern::net::NEGLIGIBLE_GAP_LENGTHS;
 use crate::pattern::outline::Motion;
+use crate::pattern::seam_graph::NEGLIGIBLE_GAP_LENGTHS;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
@@ -33,7 +33,7 @@ impl Limits {
     }
 
     /// Whether a layout may be a sheet.
-    pub(super) fn allow(&self, laid: &Laid) -> bool {
+    pub(super) fn allow(&self, laid: &FlatPart) -> bool {
         laid.strain <= self.strain && !laid.overlaps()
     }
 }
@@ -44,16 +44,16 @@ pub(super) struct Joined {
     pub parts: Vec<u32>,
     /// Numbers of the seams that are closed.
     pub whole: Vec<usize>,
-    pub laid: Laid,
+    pub laid: FlatPart,
     /// Largest distance between the sides of a closed seam, before they were joined.
     pub gap: f64,
 }
 
 /// Joins parts to sheets along their seams, the longest first.
-pub(super) fn joined(
+pub(super) fn join_parts(
     body: &Body,
     seams: &Seams,
-    parts: Vec<Laid>,
+    parts: Vec<FlatPart>,
     limits: Limits,
 ) -> Result<Vec<Joined>> {
     let mut order: Vec<usize> = (0..seams.all.len()).collect();
@@ -87,8 +87,8 @@ struct Sheets<'a> {
 }
 
 impl<'a> Sheets<'a> {
-    fn new(body: &'a Body, seams: &'a Seams, parts: Vec<Laid>, limits: Limits) -> Self {
-        let alone = |(part, laid): (u32, Laid)| Joined {
+    fn new(body: &'a Body, seams: &'a Seams, parts: Vec<FlatPart>, limits: Limits) -> Self {
+        let alone = |(part, laid): (u32, FlatPart)| Joined {
             parts: vec![part],
             whole: Vec::new(),
             laid,
@@ -149,7 +149,7 @@ impl<'a> Sheets<'a> {
         numbers: [usize; 2],
         order: &[usize],
     ) -> Result<Option<Joined>> {
-        let both = Both::new(self, seam, numbers);
+        let both = SheetPair::new(self, seam, numbers);
         let Some(apart) = both.fits(seam) else {
             return Ok(None);
         };
@@ -186,16 +186,16 @@ impl<'a> Sheets<'a> {
 }
 
 /// One sheet, or two that are brought together along a seam.
-struct Both<'a> {
+struct SheetPair<'a> {
     sheets: &'a Sheets<'a>,
     numbers: [usize; 2],
     /// Motion of the second sheet; `None` if there is only one.
     motion: Option<Motion>,
 }
 
-impl<'a> Both<'a> {
+impl<'a> SheetPair<'a> {
     fn new(sheets: &'a Sheets<'a>, seam: usize, numbers: [usize; 2]) -> Self {
-        let mut both = Both {
+        let mut both = SheetPair {
             sheets,
             numbers,
             motion: None,
@@ -279,7 +279,7 @@ impl<'a> Both<'a> {
         members.sort_unstable();
         let start = Lying::At(&|corner| self.place(corner));
         let twins = seams.twins(&members, |seam| joined[seam]);
-        let rough = Laid::new(body, members, twins, start)?;
+        let rough = FlatPart::new(body, members, twins, start)?;
         if rough.overlaps() {
             return Ok(None);
         }

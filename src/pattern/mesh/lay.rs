@@ -13,7 +13,7 @@ use crate::unroll::overlap::crossings;
 
 /// Triangles of a mesh, laid flat.
 #[derive(Debug, Clone)]
-pub(super) struct Laid {
+pub(super) struct FlatPart {
     /// Numbers of the triangles in the whole mesh.
     pub members: Vec<u32>,
     /// Corners of the triangles. `twins` holds the half-edge opposite each, where that is not cut.
@@ -46,7 +46,7 @@ const UNCONDITIONAL_STEPS: usize = 40;
 /// Number of relaxation steps after which trial cuts of a part are compared.
 pub(super) const TRIAL_STEPS: usize = 12;
 
-impl Laid {
+impl FlatPart {
     /// Lays triangles into the plane, connected over their edges as `twins` says, which holds [`NO_INDEX`]
     /// where they are cut.
     pub(super) fn new(
@@ -54,7 +54,7 @@ impl Laid {
         members: Vec<u32>,
         twins: Vec<u32>,
         start: Lying,
-    ) -> Result<Laid> {
+    ) -> Result<FlatPart> {
         let own: Vec<[u32; 3]> = members
             .iter()
             .map(|t| body.triangles[*t as usize])
@@ -82,7 +82,7 @@ impl Laid {
             triangles[corner / 3][corner % 3] = numbers[root];
         }
         let pieces: Vec<FlatTriangle> = own.iter().map(|t| piece(body, *t)).collect();
-        let mut laid = Laid {
+        let mut laid = FlatPart {
             area: pieces.iter().map(FlatTriangle::area).sum(),
             places: vec![Point::default(); source.len()],
             members,
@@ -107,7 +107,7 @@ impl Laid {
     }
 
     /// This layout relaxed to the least strain from where it lies.
-    pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<Laid> {
+    pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<FlatPart> {
         let own = self.members.iter().map(|t| body.triangles[*t as usize]);
         let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
         self.relax(&pieces, until)?;
@@ -212,7 +212,7 @@ impl Laid {
 
     /// The few triangles whose removal would keep the border from crossing itself; none if they are many or
     /// that does not help.
-    pub(super) fn specks(&self) -> Vec<u32> {
+    pub(super) fn removable_triangles(&self) -> Vec<u32> {
         let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
         let mut left = self.clone();
         let mut specks = Vec::new();
@@ -249,11 +249,15 @@ impl Laid {
     }
 
     /// Triangles turned into the plane one after the other, and then relaxed.
-    pub(super) fn whole(body: &Body, members: Vec<u32>, until: StoppingCriteria) -> Result<Laid> {
+    pub(super) fn whole(
+        body: &Body,
+        members: Vec<u32>,
+        until: StoppingCriteria,
+    ) -> Result<FlatPart> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| body.triangles[*t as usize])
             .collect();
-        Laid::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
+        FlatPart::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
     }
 
     /// Removes some of the triangles.
@@ -383,7 +387,8 @@ mod tests {
         let count = triangles.len();
         let body = Body::new(places.collect(), triangles.clone(), vec![0; count]).unwrap();
         let all = (0..count as u32).collect();
-        let laid = Laid::new(&body, all, twin_half_edges(&triangles), Lying::TurnedOver).unwrap();
+        let laid =
+            FlatPart::new(&body, all, twin_half_edges(&triangles), Lying::TurnedOver).unwrap();
         let reach = laid
             .places
             .iter()

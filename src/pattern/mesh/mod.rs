@@ -21,9 +21,9 @@ use crate::shape::patches::MeshPatches;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use body::{Body, Place, Plane};
 pub use draw::MeshPattern;
-use draw::drawn;
-use join::{Limits, joined};
-use lay::{Laid, TRIAL_STEPS};
+use draw::draw_sheets;
+use join::{Limits, join_parts};
+use lay::{FlatPart, TRIAL_STEPS};
 use seams::Seams;
 
 /// Maximum number of parts of a mesh: nobody puts together a pattern of more.
@@ -79,18 +79,18 @@ pub fn pattern_mesh(
     )?;
     let (body, parts) = flat_parts(body, limits)?;
     let seams = Seams::new(&body, patches.bend());
-    let sheets = joined(&body, &seams, parts, limits)?;
-    drawn(&body, &seams, &sheets)
+    let sheets = join_parts(&body, &seams, parts, limits)?;
+    draw_sheets(&body, &seams, &sheets)
 }
 
 /// Cuts parts of a mesh until each lies flat. Returns them by their area.
-fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
+fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
     // What was found to lie flat, with its triangles then: cuts beside it divide some of them.
-    let mut flat: BTreeMap<u32, Laid> = BTreeMap::new();
+    let mut flat: BTreeMap<u32, FlatPart> = BTreeMap::new();
     let mut open: Vec<u32> = (0..body.count).rev().collect();
     loop {
         let Some(part) = open.pop() else {
-            let moved = |(part, laid): (&u32, &Laid)| {
+            let moved = |(part, laid): (&u32, &FlatPart)| {
                 (body.members(*part).len() != laid.members.len()).then_some(*part)
             };
             open = flat.iter().filter_map(moved).collect();
@@ -99,14 +99,14 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
             }
             continue;
         };
-        let laid = Laid::whole(&body, body.members(part), limits.trial())?;
+        let laid = FlatPart::whole(&body, body.members(part), limits.trial())?;
         if limits.allow(&laid) {
             flat.insert(part, laid);
             continue;
         }
         flat.remove(&part);
         let specks = match laid.strain <= limits.strain {
-            true => laid.specks(),
+            true => laid.removable_triangles(),
             false => Vec::new(),
         };
         if !specks.is_empty() {
@@ -129,7 +129,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
                     max_steps: TRIAL_STEPS,
                     ..limits.until
                 };
-                let laid = Laid::whole(&trial, trial.members(*part), short)?;
+                let laid = FlatPart::whole(&trial, trial.members(*part), short)?;
                 energy += laid.area * laid.strain * laid.strain;
             }
             if best.as_ref().is_none_or(|(least, ..)| energy < *least) {
@@ -149,7 +149,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Laid>)> {
         open.extend(body.cut(part, &plane)?);
     }
     let numbers = body.sort();
-    let mut parts: Vec<(u32, Laid)> = (flat.into_iter())
+    let mut parts: Vec<(u32, FlatPart)> = (flat.into_iter())
         .map(|(part, laid)| (numbers[part as usize], laid))
         .collect();
     parts.sort_by_key(|(part, _)| *part);
@@ -206,7 +206,7 @@ mod tests {
             strain: 0.01,
             until,
         };
-        let whole = Laid::whole(&body, body.members(0), until).unwrap();
+        let whole = FlatPart::whole(&body, body.members(0), until).unwrap();
         assert!(whole.strain < 1e-9 && whole.overlaps());
         let (_, parts) = flat_parts(body, limits).unwrap();
         let [disk, alone] = &parts[..] else {

@@ -1,6 +1,6 @@
 //! The lines around patches.
 
-use super::{Net, Node, Segment, is_triangle};
+use super::{Node, SeamGraph, Segment, is_triangle};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::NEIGHBOURS;
 use crate::pattern::line::meeting;
@@ -16,7 +16,7 @@ fn is_vertex((p, q): &Node) -> bool {
     p == q
 }
 
-impl Net {
+impl SeamGraph {
     /// The seam that a piece of a patch's line is of, by its ends; `None` on the border.
     pub(super) fn seam_along(&self, from: Node, to: Node) -> Option<usize> {
         if is_vertex(&from) || is_vertex(&to) {

@@ -10,8 +10,8 @@ mod places;
 
 pub(super) use border::HEADING_NODES;
 
+use super::flat_patch::{FlatPatch, MIN_TEAR_GAP_SPACINGS};
 use super::labels::Labels;
-use super::leaf::{Leaf, MIN_TEAR_GAP_SPACINGS};
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::scene::triangulation::Triangulation;
@@ -56,11 +56,11 @@ pub(super) struct Seam {
 type Segment = [Node; 2];
 
 /// The seams between all patches, and where their nodes lie.
-pub(super) struct Net {
+pub(super) struct SeamGraph {
     pub spacing: f64,
     /// Spacing of the lattice on which cuts were decided; loops that were small there are cut off.
     pub decided: f64,
-    pub leaves: Vec<Option<Leaf>>,
+    pub leaves: Vec<Option<FlatPatch>>,
     pub seams: Vec<Seam>,
     /// Numbers of the seams that each crease is divided into.
     parts: Vec<Vec<usize>>,
@@ -80,17 +80,17 @@ pub(super) struct Net {
     on_seams: FxHashMap<(Node, u32), Point>,
 }
 
-impl Net {
+impl SeamGraph {
     /// Finds the seams of a surface, one for each crease. `decided` is the spacing of the lattice on which
     /// cuts were decided, or are to be drawn as if so.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
-        leaves: Vec<Option<Leaf>>,
+        leaves: Vec<Option<FlatPatch>>,
         decided: f64,
-    ) -> Result<Net> {
+    ) -> Result<SeamGraph> {
         let mesh = Triangulation::new(surface, &Frame::default())?;
-        let mut net = Net {
+        let mut net = SeamGraph {
             spacing: surface.lattice().spacing(),
             decided,
             borders: vec![Vec::new(); leaves.len()],

@@ -1,6 +1,6 @@
 //! Seams divided where only a part of them can be joined, and put together again.
 
-use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Net, Seam};
+use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Seam, SeamGraph};
 use crate::unroll::flat_triangle::Point;
 
 /// Minimum share of a crease's length that is joined where the whole crease cannot be.
@@ -9,7 +9,7 @@ const MIN_JOINED_CREASE_SHARE: f64 = 0.5;
 /// Minimum share of the length of a cut inside of a patch that is joined where the whole cut cannot be.
 const MIN_JOINED_CUT_SHARE: f64 = 0.2;
 
-impl Net {
+impl SeamGraph {
     /// Divides seams that cannot be joined as a whole, if by `gap` (see
     /// [`PatternOptions`](crate::pattern::PatternOptions)) a large enough part of them can.
     pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {

@@ -6,6 +6,7 @@
 //! into each other as the surface does.
 
 use super::labels::Labels;
+use super::window::Window;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
@@ -21,78 +22,8 @@ pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 /// Minimum number of vertices of a part that may be cut further.
 pub(super) const MIN_CUT_VERTICES: usize = 24;
 
-/// A rectangle of the lattice that begins at an even row, so that its rows are shifted alike.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Window {
-    top: usize,
-    left: usize,
-    bottom: usize,
-    right: usize,
-}
-
-impl Window {
-    /// The window of the whole lattice.
-    pub(super) fn whole(lattice: &Lattice) -> Window {
-        Window {
-            top: 0,
-            left: 0,
-            bottom: lattice.rows() - 1,
-            right: lattice.cols() - 1,
-        }
-    }
-
-    /// The window without a vertex.
-    const EMPTY: Window = Window {
-        top: usize::MAX,
-        left: usize::MAX,
-        bottom: 0,
-        right: 0,
-    };
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.top > self.bottom
-    }
-
-    pub(super) fn with(&self, other: &Window) -> Window {
-        Window {
-            top: self.top.min(other.top),
-            left: self.left.min(other.left),
-            bottom: self.bottom.max(other.bottom),
-            right: self.right.max(other.right),
-        }
-    }
-
-    /// Indices of the lattice's vertices in the window.
-    pub(super) fn vertices(self, lattice: &Lattice) -> impl Iterator<Item = usize> {
-        let cols = lattice.cols();
-        let rows = if self.is_empty() {
-            0..0
-        } else {
-            self.top..self.bottom + 1
-        };
-        rows.flat_map(move |row| (self.left..=self.right).map(move |col| row * cols + col))
-    }
-
-    /// For each of `count` patches the window of its vertices, a cell larger on each side.
-    pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
-        let mut windows = vec![Window::EMPTY; count];
-        for i in self.vertices(lattice) {
-            if let Some(window) = windows.get_mut(labels[i] as usize) {
-                let (row, col) = (i / lattice.cols(), i % lattice.cols());
-                *window = window.with(&Window {
-                    top: row.saturating_sub(1) & !1,
-                    left: col.saturating_sub(1),
-                    bottom: (row + 1).min(lattice.rows() - 1),
-                    right: (col + 1).min(lattice.cols() - 1),
-                });
-            }
-        }
-        windows
-    }
-}
-
 /// A patch, continued a cell beyond its creases and laid flat by itself.
-pub(super) struct Leaf {
+pub(super) struct FlatPatch {
     mesh: Triangulation,
     /// Positions of the vertices as the patch lies by itself. `places` holds their present positions.
     alone: Vec<Point>,
@@ -133,7 +64,7 @@ impl Strain {
     }
 }
 
-impl Leaf {
+impl FlatPatch {
     /// Lays a patch flat, with all triangles that have one of its vertices; `None` if there is none. A patch
     /// whose strain surely exceeds `limit` is laid flat with less effort.
     pub(super) fn new(
@@ -143,14 +74,14 @@ impl Leaf {
         window: Window,
         options: &UnrollOptions,
         limit: f64,
-    ) -> Result<Option<Leaf>> {
-        let Some((mesh, own)) = Leaf::mesh(surface, labels, patch, window)? else {
+    ) -> Result<Option<FlatPatch>> {
+        let Some((mesh, own)) = FlatPatch::mesh(surface, labels, patch, window)? else {
             return Ok(None);
         };
         let flat = unroll_mesh(mesh, options, Some(limit))?;
         let places = flat.places().iter();
         let places: Vec<Point> = places.map(|[x, y]| Point::new(*x, *y)).collect();
-        Ok(Some(Leaf {
+        Ok(Some(FlatPatch {
             mesh: flat.into_mesh(),
             alone: places.clone(),
             places,
@@ -168,8 +99,8 @@ impl Leaf {
         patch: u32,
         window: Window,
         start: impl Fn([usize; 2]) -> Option<Point>,
-    ) -> Result<Option<Leaf>> {
-        let Some((mesh, own)) = Leaf::mesh(surface, labels, patch, window)? else {
+    ) -> Result<Option<FlatPatch>> {
+        let Some((mesh, own)) = FlatPatch::mesh(surface, labels, patch, window)? else {
             return Ok(None);
         };
         let cols = mesh.lattice().cols();
@@ -180,7 +111,7 @@ impl Leaf {
         let Some(places) = spread(&mesh, known) else {
             return Ok(None);
         };
-        Ok(Some(Leaf {
+        Ok(Some(FlatPatch {
             mesh,
             alone: places.clone(),
             places,

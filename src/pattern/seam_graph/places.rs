@@ -1,7 +1,7 @@
 //! Where nodes are: in space, in plan, and on the plane of a patch that was laid flat.
 
-use super::{Net, Node, is_triangle};
-use crate::pattern::leaf::Leaf;
+use super::{Node, SeamGraph, is_triangle};
+use crate::pattern::flat_patch::FlatPatch;
 use crate::shape::patches::crease::smooth_polyline;
 use crate::unroll::arap_mesh::BarycentricPoint;
 use crate::unroll::flat_triangle::Point;
@@ -13,7 +13,7 @@ const MIN_NODE_SHARE: f64 = 0.01;
 /// A cut decided on a lattice of twice the spacing takes four times as many.
 const CUT_SMOOTHING_PASSES: f64 = 4.0;
 
-impl Net {
+impl SeamGraph {
     /// Position of a node in plan.
     pub(in crate::pattern) fn plan(&self, (p, q): Node) -> [f64; 2] {
         let corners = match is_triangle((p, q)) {
@@ -87,7 +87,7 @@ impl Net {
     /// Lays a patch as it lies by itself.
     pub(in crate::pattern) fn lay_alone(&mut self, patch: u32) {
         let leaf = self.leaves[patch as usize].as_ref();
-        if let Some(places) = leaf.and_then(Leaf::moved_from) {
+        if let Some(places) = leaf.and_then(FlatPatch::moved_from) {
             self.set_places(patch, places);
         }
     }

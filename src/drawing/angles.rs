@@ -17,7 +17,8 @@ use crate::unroll::flat_triangle::Point;
 pub struct WorstAngle {
     /// Position of the point on the surface, in the surface's units.
     pub place: [f64; 3],
-    /// One of the creases that are cut there, whose letter is on the drawing ([`Label`](super::Label)): the lowest one, if any.
+    /// Lowest number of the creases that are cut at the point, if any; its letter is on the drawing
+    /// ([`Label`](super::Label)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,
     /// Sum of the angles of the cut pieces around the point.

@@ -13,7 +13,8 @@ use super::totals::{Totals, summary};
 use crate::error::{Error, Result, positive};
 use crate::pattern::{Missing, Sheet};
 
-/// A drawing, its lower left corner at `0, 0`; `x` to the right, `y` up, in millimetres.
+/// Sheets drawn beside each other, in millimetres: the lower left corner is `0, 0`, `x` goes to the right and
+/// `y` up.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -22,7 +23,7 @@ pub struct Drawing {
     pub width: f64,
     /// Height of the drawing, in millimetres.
     pub height: f64,
-    /// The sheets, in their order; none lies on another.
+    /// The drawn sheets, in their order; none overlaps another.
     pub sheets: Vec<DrawnSheet>,
     /// The pages that the sheets lie on, if there are any ([`Drawing::onto`]).
     pub pages: Option<Pages>,

@@ -157,7 +157,7 @@ struct Own {
     cell: f64,
 }
 
-/// The sides of all sheets, and for each joint the numbers of the sides that make up either half of it.
+/// The runs of all outlines, here called sides, and for each joint the numbers of those on either side of it.
 struct Outlines {
     sides: Vec<Side>,
     joints: Vec<[Vec<usize>; 2]>,
@@ -303,7 +303,7 @@ fn product(row: &[(usize, f64)], x: &[f64]) -> f64 {
     row.iter().map(|(i, w)| w * x[*i]).sum()
 }
 
-/// Shift of a fold's end with the outline that it lies on, or within half a cell of.
+/// Shift of a fold's end with the outline that it lies on, or is within half a spacing of.
 fn way(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] {
     let pieces =
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };

@@ -112,7 +112,7 @@ impl DrawingOptions {
         DrawingOptions { allowance, ..self }
     }
 
-    /// These options with metal that is bent.
+    /// These options with a bend allowance for metal.
     pub fn bending(self, bending: Bending) -> Self {
         DrawingOptions {
             bending: Some(bending),
@@ -120,7 +120,7 @@ impl DrawingOptions {
         }
     }
 
-    /// These options with lines that are smooth within another tolerance.
+    /// These options with another tolerance of smooth lines.
     pub fn smoothing(self, smoothing: f64) -> Self {
         DrawingOptions { smoothing, ..self }
     }

@@ -21,7 +21,7 @@ const STOCK_MARGIN_MM: f64 = 5.0;
 /// Distance between pages drawn beside each other, in millimetres.
 const PAGE_GAP_MM: f64 = 20.0;
 
-/// What a pattern is made from: sizes in millimetres.
+/// Material that a pattern is cut from, with its size in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Stock {

@@ -31,7 +31,7 @@ pub(super) enum Assembly {
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
-/// All sheets, as they lie on the plane.
+/// All sheets with their positions on the plane.
 pub(super) struct Assembled {
     pub parts: Parts,
     pub patches: Patches,

@@ -251,7 +251,7 @@ fn middles(corners: &[Corner]) -> Vec<Point> {
         .collect()
 }
 
-/// That of the edge from the last vertex to the first.
+/// Middle of the edge from the last vertex to the first.
 fn closing(corners: &[Corner]) -> Option<Point> {
     let (first, last) = (vertices(corners).next()?, vertices(corners).last()?);
     Some(0.5 * (first + last))

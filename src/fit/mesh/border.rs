@@ -6,11 +6,11 @@ use super::quadratic::{Neighbour, Quadratic};
 use super::sides::Sides;
 use super::topology::Topology;
 
-/// Rings around a vertex of the border in which a vertex inside is looked for.
-const RINGS: usize = 3;
+/// Number of rings around a border vertex in which an inner vertex is looked for.
+const INNER_SEARCH_RINGS: usize = 3;
 
-/// What a vertex of the second ring counts beside one of the first, where some of these are missing.
-const BESIDE: f64 = 0.3;
+/// Weight of a second-ring vertex relative to a first-ring vertex, where first-ring vertices are missing.
+const SECOND_RING_WEIGHT: f64 = 0.3;
 
 /// Puts each vertex that is not inside on the mean of the quadratics that fit at the vertices inside next
 /// to it; where `sides` are known, by nothing beyond creases. Where there are none it stays.
@@ -22,7 +22,7 @@ pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame], sides: O
             continue;
         }
         let mut ring: Vec<u32> = topology.around(vertex).to_vec();
-        for _ in 1..RINGS {
+        for _ in 1..INNER_SEARCH_RINGS {
             if ring.iter().any(|other| topology.inside[*other as usize]) {
                 break;
             }
@@ -71,7 +71,7 @@ pub(super) fn continued(
     let mut second = Vec::new();
     topology.second_ring(inner, &mut second);
     let near = topology.around(inner).iter().map(|other| (other, 1.0));
-    let all = near.chain(second.iter().map(|other| (other, BESIDE)));
+    let all = near.chain(second.iter().map(|other| (other, SECOND_RING_WEIGHT)));
     let neighbours: Vec<Neighbour> = all
         .filter(|(other, _)| usable(**other as usize))
         .map(|(other, weight)| Neighbour {

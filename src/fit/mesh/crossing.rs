@@ -8,21 +8,26 @@ use super::fans::Fans;
 use super::geometry::{Point, twice_area};
 use super::topology::Topology;
 
-/// The cosine of an angle to the normal of a vertex: if all triangles there are within it, nothing crosses.
-const CALM: f64 = 0.5;
+/// Cosine of the angle between a triangle's normal and its vertex's normal above which no triangles there
+/// cross.
+const MIN_NORMAL_COSINE: f64 = 0.5;
 
-/// Triangles of so many rings are near.
-const RINGS: usize = 3;
+/// Number of rings around a vertex whose triangles are tested for crossing.
+const CROSSING_SEARCH_RINGS: usize = 3;
 
-/// Rounds of mending, at most.
-const ROUNDS: usize = 60;
+/// Largest number of rounds in which crossing triangles are pulled apart.
+const MAX_MENDING_ROUNDS: usize = 60;
 
-/// A mesh that is tangled everywhere is looked over so many times at most, but for a few vertices.
-const LOOKS: usize = 4;
-const FEW: usize = 100_000;
+/// Largest number of crossing tests per vertex, on average over the mesh: bounds the time on a mesh that
+/// crosses itself everywhere.
+const MAX_VISITS_PER_VERTEX: usize = 4;
 
-/// After so many rounds, vertices around those that were moved are moved, too.
-const WIDER: usize = 10;
+/// Number of crossing tests that are allowed on any mesh in addition to those per vertex, so that small
+/// meshes are mended completely.
+const EXTRA_VISITS: usize = 100_000;
+
+/// Number of mending rounds after which the neighbours of moved vertices are moved, too.
+const WIDENING_ROUNDS: usize = 10;
 
 /// Moves the vertices of such triangles towards the mean of their neighbours, those on creases along these
 /// first; `held` ones stay.
@@ -35,16 +40,16 @@ pub(super) fn uncross(
 ) {
     let all: Vec<u32> = (0..topology.len() as u32).collect();
     let mut bad = tangled(topology, fans, x, &all);
-    let mut left = LOOKS * topology.len() + FEW;
+    let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
     let mut moving: Vec<u32> = Vec::new();
-    for round in 0..ROUNDS {
+    for round in 0..MAX_MENDING_ROUNDS {
         if bad.is_empty() || left == 0 {
             return;
         }
         for triangle in &bad {
             moving.extend(topology.triangles[*triangle as usize]);
         }
-        if round % WIDER == WIDER - 1 {
+        if round % WIDENING_ROUNDS == WIDENING_ROUNDS - 1 {
             moving = around(topology, &moving);
         }
         moving.sort_unstable();
@@ -54,14 +59,14 @@ pub(super) fn uncross(
             if held[vertex] {
                 continue;
             }
-            let along = round < WIDER && creased(vertex);
+            let along = round < WIDENING_ROUNDS && creased(vertex);
             let beside = mean_beside(topology, x, vertex, along.then_some(creased));
             if let Some(mean) = beside {
                 x[vertex] += 0.5 * (mean - x[vertex]);
             }
         }
         let mut near = moving.clone();
-        for _ in 0..RINGS {
+        for _ in 0..CROSSING_SEARCH_RINGS {
             near = around(topology, &near);
         }
         left = left.saturating_sub(near.len());
@@ -119,7 +124,7 @@ fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> V
         let up = sides.clone().sum::<Point>();
         if sides
             .clone()
-            .any(|side| side.dot(&up) <= CALM * side.norm() * up.norm())
+            .any(|side| side.dot(&up) <= MIN_NORMAL_COSINE * side.norm() * up.norm())
         {
             suspects.extend(own);
         }
@@ -137,7 +142,7 @@ fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> V
             bad.push(triangle);
         }
         let mut near = corners.to_vec();
-        for _ in 1..RINGS {
+        for _ in 1..CROSSING_SEARCH_RINGS {
             near = around(topology, &near);
         }
         let mut others = Vec::new();

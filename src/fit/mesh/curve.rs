@@ -1,7 +1,8 @@
 //! Places in space in the order of a curve that fills it, so that what is near on it is near.
 
-/// Steps along each axis, as a power of two: three of them make a key of 63 bits.
-const BITS: u32 = 21;
+/// Number of bits of each coordinate in the key of the space-filling curve: three coordinates make a key of
+/// 63 bits.
+const AXIS_KEY_BITS: u32 = 21;
 
 /// The numbers of `places` along Morton's curve (1966).
 pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> {
@@ -13,7 +14,7 @@ pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> 
         }
     }
     let size = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
-    let steps = f64::from(1u32 << BITS) - 1.0;
+    let steps = f64::from(1u32 << AXIS_KEY_BITS) - 1.0;
     let mut keys: Vec<(u64, u32)> = (0..)
         .zip(places)
         .map(|(number, place)| {

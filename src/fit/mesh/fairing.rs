@@ -6,11 +6,11 @@ use super::geometry::Point;
 use super::sides::Sides;
 use super::topology::Topology;
 
-/// Vertices on either side along a curve that a quadratic is fitted to.
-const REACH: usize = 4;
+/// Number of vertices on either side along a curve that the fairing quadratic is fitted to.
+const FAIRING_HALF_WINDOW: usize = 4;
 
-/// Of a vertex's own variance, what is left by a fit that is worth it.
-const LEFT: f64 = 0.95;
+/// Largest variance of a faired vertex, relative to the vertex's own, at which fairing moves it.
+const MAX_VARIANCE_RATIO: f64 = 0.95;
 
 /// The borders and creases of a surface: of each vertex the ones before and after it. At their ends, and
 /// elsewhere, there are none.
@@ -54,7 +54,7 @@ fn fitted(x: &[Point], curves: &[Option<[u32; 2]>], ends: &[bool], vertex: usize
     matrix[(0, 0)] = 1.0;
     for (first, sign) in beside.into_iter().zip([-1.0, 1.0]) {
         let (mut before, mut here, mut along) = (vertex, first as usize, 0.0);
-        for _ in 0..REACH {
+        for _ in 0..FAIRING_HALF_WINDOW {
             along += sign * (x[here] - x[before]).norm() / scale;
             let powers = Vector3::new(1.0, along, along * along);
             matrix += powers * powers.transpose();
@@ -70,7 +70,7 @@ fn fitted(x: &[Point], curves: &[Option<[u32; 2]>], ends: &[bool], vertex: usize
         }
     }
     let inverse = matrix.cholesky()?.inverse();
-    if inverse[(0, 0)] > LEFT {
+    if inverse[(0, 0)] > MAX_VARIANCE_RATIO {
         return None;
     }
     let step = (inverse.row(0) * right).transpose();

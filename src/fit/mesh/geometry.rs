@@ -6,9 +6,9 @@ use super::topology::Topology;
 
 pub(crate) type Point = Vector3<f64>;
 
-/// How far a vertex goes towards the mean of its neighbours in one step. With 1 there are meshes that
-/// alternate for ever.
-const STEP: f64 = 0.7;
+/// Share of the way to the mean of its neighbours that a vertex goes in one smoothing step: with 1 some
+/// meshes alternate for ever.
+const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
 /// Where vertices are, and which way the surface faces there.
 #[derive(Debug, Clone)]
@@ -107,7 +107,7 @@ pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
                     continue;
                 }
             }
-            *x += STEP * (sum / count - old[vertex]);
+            *x += SMOOTHING_STEP_SHARE * (sum / count - old[vertex]);
         }
     }
 }
@@ -118,15 +118,15 @@ pub(super) fn faces_away(x: &[Point], up: &[Point], triangle: &[u32; 3]) -> bool
     twice_area(x, triangle).dot(&sum) < 0.0
 }
 
-/// Steps in which folded triangles are laid flat, at most.
-const UNFOLDING: usize = 40;
+/// Largest number of steps in which folded triangles are laid flat.
+const MAX_UNFOLDING_STEPS: usize = 40;
 
 /// Lays triangles flat that face away from the normals of their corners: their vertices go towards the mean
 /// of their neighbours, along the surface. Those that are `held` stay.
 pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
     let mut folded = vec![false; x.len()];
     let mut moved = vec![true; x.len()];
-    for _ in 0..UNFOLDING {
+    for _ in 0..MAX_UNFOLDING_STEPS {
         folded.fill(false);
         let mut any = false;
         for triangle in &topology.triangles {

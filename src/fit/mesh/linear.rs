@@ -5,7 +5,7 @@
 //! vertex, which is held at 1.
 
 use super::geometry::{Frame, Point, areas};
-use super::quadratic::{Neighbour, Quadratic, SECOND};
+use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT};
 use super::sides::Sides;
 use super::topology::Topology;
 use super::ways::Ways;
@@ -22,16 +22,17 @@ pub(super) type Problem = problem::Problem<SparseOperator>;
 /// Least share of the area, relative to the mean, that a vertex counts for.
 const LEAST_AREA: f64 = 0.1;
 
-/// Rings that amplify noise more than this, relative to a hexagonal one, are helped by the second ring.
-/// With it everywhere else but on regular meshes, surfaces come out closer to the truth, by a third of
-/// the angle between normals: a ring does not see all of the noise on it.
-const AMPLIFIED: f64 = 1.05;
+/// Largest noise amplification of a quadratic over the first ring, relative to a hexagonal one; above it the
+/// second ring is added. Including the second ring on all irregular meshes reduces the angle between normals
+/// of surface and truth by a third.
+const MAX_RING_AMPLIFICATION: f64 = 1.05;
 
-/// So many neighbours may do without it.
-const DETERMINED: usize = 6;
+/// Smallest number of first-ring vertices at which the second ring may be left out.
+const MIN_RING_VERTICES: usize = 6;
 
-/// Two rings of a hexagonal mesh, the vertex itself and the constant.
-const USUAL: usize = 20;
+/// Number of entries reserved per matrix row: two rings of a hexagonal mesh, the vertex itself and the
+/// constant.
+const STENCIL_ROW_CAPACITY: usize = 20;
 
 /// What stays the same from one linearisation to the next, in normalised coordinates.
 #[derive(Debug, Clone)]
@@ -93,7 +94,7 @@ impl Linearised {
         let unknowns = count + 1 + ways.all.len();
         let mut about = try_filled("stencils", count, NO_INDEX)?;
         let (mut centres, mut rows) = (Vec::new(), Rows::new());
-        rows.reserve(count, USUAL);
+        rows.reserve(count, STENCIL_ROW_CAPACITY);
         let mut row = Vec::new();
         for vertex in 0..count {
             if !topology.inside[vertex] {
@@ -240,9 +241,9 @@ impl Linearised {
     }
 }
 
-/// A frame is turned into the tangent plane of its own fit where it is off by more than this slope: what
-/// is fitted over a slanting plane is not the second fundamental form.
-const SLANTING: f64 = 0.02;
+/// Largest slope of a local quadratic fit against its frame. Above it the frame is turned into the fit's
+/// tangent plane, because second derivatives over a slanting plane are not the second fundamental form.
+const MAX_FRAME_SLOPE: f64 = 0.02;
 
 /// The quadratic about a vertex, over its tangent plane, and the vertices that it goes by.
 pub(crate) fn fit_at(
@@ -271,8 +272,9 @@ fn fit_beside(
     vertices.extend_from_slice(ring);
     let mut neighbours = Vec::with_capacity(4 * ring.len());
     neighbours.extend(ring.iter().map(|other| offset(other, 1.0)));
-    let mut fit = match vertices.len() >= DETERMINED {
-        true => Quadratic::fit(frame, &neighbours).filter(|fit| fit.amplification() <= AMPLIFIED),
+    let mut fit = match vertices.len() >= MIN_RING_VERTICES {
+        true => Quadratic::fit(frame, &neighbours)
+            .filter(|fit| fit.amplification() <= MAX_RING_AMPLIFICATION),
         false => None,
     };
     if fit.is_none() {
@@ -282,13 +284,17 @@ fn fit_beside(
             let own = sides.of[vertex];
             second.retain(|other| sides.touch(*other as usize, own));
         }
-        neighbours.extend(second.iter().map(|other| offset(other, SECOND)));
+        neighbours.extend(
+            second
+                .iter()
+                .map(|other| offset(other, SECOND_RING_FIT_WEIGHT)),
+        );
         vertices.extend(second);
         fit = Quadratic::fit(frame, &neighbours);
     }
     let fit = fit?;
     let [a, b] = fit.slope();
-    if a.hypot(b) > SLANTING {
+    if a.hypot(b) > MAX_FRAME_SLOPE {
         let [t1, t2] = &frame.tangents;
         let turned = Frame::about((frame.normal - a * t1 - b * t2).normalize(), *t1);
         if let Some(fit) = Quadratic::fit(&turned, &neighbours) {

@@ -12,9 +12,9 @@ use crate::fit::energy::load::Rings;
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
-/// Stencils of the ring next to a border or crease reach two rings further. Where all that reach a vertex are
-/// there, the same moments cancel out.
-const REACHED: u32 = 3;
+/// Number of rings that the load along a border or crease acts on: the ring next to it, and two further ones
+/// that its stencils reach. Further inside equal moments cancel.
+const LOAD_REACH_RINGS: u32 = 3;
 
 /// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside.
 /// Says whether there are any. What is less than the `flatness` is no moment of a bend: noise leaves so much on
@@ -63,7 +63,7 @@ pub(super) fn load_border(
             Some(way) => ways[way].0 as usize,
             None => unknown,
         };
-        rings.are_within(vertex, REACHED)
+        rings.are_within(vertex, LOAD_REACH_RINGS)
     })?;
     Ok(true)
 }

@@ -6,9 +6,11 @@ use super::geometry::{Frame, Point};
 use super::topology::Topology;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Fewer samples say nothing, and more say no more.
-const FEWEST: usize = 50;
-const MOST: usize = 20_000;
+/// Smallest number of samples from which noise is estimated.
+const MIN_NOISE_SAMPLES: usize = 50;
+
+/// Largest number of samples from which noise is estimated: more do not make the estimate better.
+const MAX_NOISE_SAMPLES: usize = 20_000;
 
 /// Standard deviation of `noisy` along the normals of the base: by how much a vertex is off the quadratic
 /// that fits those around it, as a median, so that creases do not count.
@@ -19,7 +21,7 @@ pub(super) fn noise(
     noisy: &[Point],
 ) -> Option<f64> {
     let inside = topology.vertices_inside();
-    let step = inside.clone().count().div_ceil(MOST).max(1);
+    let step = inside.clone().count().div_ceil(MAX_NOISE_SAMPLES).max(1);
     let mut second = Vec::new();
     let mut samples = Vec::new();
     for vertex in inside.step_by(step) {
@@ -53,7 +55,7 @@ pub(super) fn noise(
             samples.push(sample);
         }
     }
-    if samples.len() < FEWEST {
+    if samples.len() < MIN_NOISE_SAMPLES {
         return None;
     }
     Some(MAD_TO_SIGMA * median(&mut samples)?)

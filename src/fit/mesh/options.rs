@@ -4,8 +4,8 @@ use crate::error::{Error, Result};
 use crate::fit::options::{DEFAULT_CREASE_PASSES, Energy, Lambda, Options};
 use crate::math::sym2::Sym2;
 
-/// What a moment is above the flatness where a bend is clear.
-const CLEAR: f64 = 0.1;
+/// Excess of a vertex's moment over the flatness threshold at which a bend counts in full.
+const CLEAR_BEND_EXCESS: f64 = 0.1;
 
 /// Options of [`fit_mesh`](super::fit_mesh), as for heightfields where these are the same. The energy is
 /// [`Energy::Huber`](crate::Energy::Huber).
@@ -88,7 +88,7 @@ impl MeshOptions {
 
     /// Whether what bears a dual is a bend and not next to flat, where its direction is anyone's: from 0 to 1.
     pub(super) fn bent(&self, dual: Sym2) -> f64 {
-        ((dual.spectral_norm() - self.flatness) / CLEAR).clamp(0.0, 1.0)
+        ((dual.spectral_norm() - self.flatness) / CLEAR_BEND_EXCESS).clamp(0.0, 1.0)
     }
 
     /// Whether every option is within its range.

@@ -4,11 +4,11 @@
 use super::geometry::{Frame, Point};
 use crate::math::sym2::Sym2;
 
-/// Coefficients: of `½x²`, `xy`, `½y²`, `x` and `y`.
-const N: usize = 5;
+/// Number of coefficients of a local quadratic: of `½x²`, `xy`, `½y²`, `x` and `y`.
+const COEFFICIENT_COUNT: usize = 5;
 
-/// What a vertex of the second ring counts beside one of the first.
-pub(super) const SECOND: f64 = 0.03;
+/// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex.
+pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
 
 /// A neighbour: its offset from the vertex, and what it counts.
 #[derive(Debug, Clone, Copy)]
@@ -21,8 +21,8 @@ pub(super) struct Neighbour {
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     samples: Vec<Sample>,
-    inverse: [[f64; N]; N],
-    coefficients: [f64; N],
+    inverse: [[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
+    coefficients: [f64; COEFFICIENT_COUNT],
     scale: f64,
 }
 
@@ -30,18 +30,18 @@ pub(crate) struct Quadratic {
 #[derive(Debug, Clone)]
 struct Sample {
     /// From its height to the coefficients.
-    column: [f64; N],
+    column: [f64; COEFFICIENT_COUNT],
     /// Coordinates, by `scale`.
     place: [f64; 2],
     weight: f64,
     residual: f64,
 }
 
-fn terms([x, y]: [f64; 2]) -> [f64; N] {
+fn terms([x, y]: [f64; 2]) -> [f64; COEFFICIENT_COUNT] {
     [0.5 * x * x, x * y, 0.5 * y * y, x, y]
 }
 
-fn inner(a: &[f64; N], b: &[f64; N]) -> f64 {
+fn inner(a: &[f64; COEFFICIENT_COUNT], b: &[f64; COEFFICIENT_COUNT]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -54,7 +54,7 @@ impl Quadratic {
         if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
-        let mut matrix = [[0.0; N]; N];
+        let mut matrix = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
         let mut samples = Vec::with_capacity(neighbours.len());
         for Neighbour { offset, weight } in neighbours {
             let [x, y, height] = frame.coordinates(offset / scale);
@@ -65,14 +65,14 @@ impl Quadratic {
                 }
             }
             samples.push(Sample {
-                column: [0.0; N],
+                column: [0.0; COEFFICIENT_COUNT],
                 place: [x, y],
                 weight: *weight,
                 residual: height,
             });
         }
         let inverse = inverse(&matrix)?;
-        let mut coefficients = [0.0; N];
+        let mut coefficients = [0.0; COEFFICIENT_COUNT];
         for sample in &mut samples {
             let q = terms(sample.place);
             sample.column = std::array::from_fn(|k| sample.weight * inner(&inverse[k], &q));
@@ -140,9 +140,11 @@ impl Quadratic {
 }
 
 /// Of a symmetric matrix that is well positive definite, by Cholesky.
-fn inverse(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
-    let mut l = [[0.0; N]; N];
-    for i in 0..N {
+fn inverse(
+    matrix: &[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
+) -> Option<[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT]> {
+    let mut l = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
+    for i in 0..COEFFICIENT_COUNT {
         for j in 0..=i {
             let sum: f64 = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
             if i == j {
@@ -155,15 +157,19 @@ fn inverse(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
             }
         }
     }
-    let mut inverse = [[0.0; N]; N];
-    for column in 0..N {
-        let mut x = [0.0; N];
-        for i in 0..N {
+    let mut inverse = [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT];
+    for column in 0..COEFFICIENT_COUNT {
+        let mut x = [0.0; COEFFICIENT_COUNT];
+        for i in 0..COEFFICIENT_COUNT {
             let unit = f64::from(u8::from(i == column));
             x[i] = (unit - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
         }
-        for i in (0..N).rev() {
-            x[i] = (x[i] - (i + 1..N).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
+        for i in (0..COEFFICIENT_COUNT).rev() {
+            x[i] = (x[i]
+                - (i + 1..COEFFICIENT_COUNT)
+                    .map(|k| l[k][i] * x[k])
+                    .sum::<f64>())
+                / l[i][i];
         }
         for (row, x) in inverse.iter_mut().zip(x) {
             row[column] = x;

@@ -7,13 +7,13 @@
 use super::border::continued;
 use super::geometry::{Frame, Point, faces_away, normals};
 use super::linear::Given;
-use super::sides::{FOLD, Sides};
+use super::sides::{MIN_FOLD_ANGLE_RADIANS, Sides};
 use super::topology::Topology;
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use nalgebra::Matrix3;
 
-/// A vertex goes no further than so many lengths of the edges around it.
-const FARTHEST: f64 = 0.7;
+/// Largest step of a vertex when creases are sharpened, as a share of the mean length of the edges around it.
+const MAX_SHARPENING_SHARE: f64 = 0.7;
 
 /// Moves the vertices on creases, where `sides` meet; `rays` are their normals so far.
 pub(super) fn sharpen(given: &Given, sides: &Sides, x: &mut [Point], rays: &[Frame]) {
@@ -43,7 +43,7 @@ pub(super) fn sharpen(given: &Given, sides: &Sides, x: &mut [Point], rays: &[Fra
         let edges = ring
             .iter()
             .map(|other| (before[*other as usize] - before[vertex]).norm());
-        if step.norm() > FARTHEST * edges.sum::<f64>() / ring.len() as f64 {
+        if step.norm() > MAX_SHARPENING_SHARE * edges.sum::<f64>() / ring.len() as f64 {
             continue;
         }
         x[vertex] = before[vertex] + step;
@@ -92,7 +92,7 @@ fn meeting(planes: &[(f64, Point)]) -> Option<Point> {
     }
     let values = symmetric_eigen3(matrix);
     // Two planes at an angle have 1 ± cos, and none along their line.
-    let least = 1.0 - FOLD.cos();
+    let least = 1.0 - MIN_FOLD_ANGLE_RADIANS.cos();
     let known = values
         .iter()
         .take(planes.len())

@@ -7,11 +7,12 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
 
-/// Sides that meet at less than this, in radians, do not say well where.
-pub(super) const FOLD: f64 = 0.2;
+/// Smallest angle between two sides of a crease, in radians, from which the place of their intersection is
+/// determined well.
+pub(super) const MIN_FOLD_ANGLE_RADIANS: f64 = 0.2;
 
-/// The least share of the area that a side has.
-const SHARE: f64 = 0.003;
+/// Smallest area of a side of a crease, as a share of the area of the mesh.
+const MIN_SIDE_AREA_SHARE: f64 = 0.003;
 
 /// Which sides of creases vertices are on.
 pub(super) struct Sides {
@@ -28,7 +29,11 @@ impl Sides {
     /// Out of memory.
     pub(super) fn new(topology: &Topology, x: &[Point]) -> Result<Sides> {
         let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
-        let labels = facets.parted(facets.usual_bend(), SHARE, FOLD)?;
+        let labels = facets.parted(
+            facets.usual_bend(),
+            MIN_SIDE_AREA_SHARE,
+            MIN_FOLD_ANGLE_RADIANS,
+        )?;
         let mut sides = Sides {
             of: vec![NO_INDEX; topology.len()],
             fans: Fans::new(topology),

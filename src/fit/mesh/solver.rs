@@ -35,21 +35,23 @@ use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
 
-/// λ times noise and spacing, where it is found by itself.
-const LAMBDA: f64 = 6.4;
+/// Product of λ, the noise and the spacing of vertices that determines λ where no value is given.
+const LAMBDA_NOISE_PRODUCT: f64 = 6.4;
 
-/// The gap of the first solve, if that is not the only one: all it has to give is a base, and where creases are.
-const ROUGH: f64 = 0.03;
+/// Relative duality gap of the first of several solves, which only gives the next one a base and the places
+/// of creases.
+const FIRST_SOLVE_GAP: f64 = 0.03;
 
-/// Times the noise, how far a vertex goes at most to the curve of its border or crease, once these are smooth.
-const CORNER: f64 = 1.5;
+/// Largest movement of a vertex to the smoothed curve of its border or crease, in standard deviations of the
+/// noise.
+const MAX_FAIRING_NOISE_RATIO: f64 = 1.5;
 
 /// Of noise that cannot be told from none, as a share of the spacing.
 const NO_NOISE: f64 = 1e-4;
 
-/// Creases are looked for where λ is at most so many times what the noise asks for: a larger one takes
-/// noise for creases.
-const TOO_LARGE: f64 = 4.0;
+/// Largest λ, relative to the one that the noise asks for, at which creases are looked for: with a larger one
+/// noise is taken for creases.
+const MAX_CREASE_LAMBDA_RATIO: f64 = 4.0;
 
 /// A triangle mesh with the surface that was found.
 #[derive(Debug, Clone)]
@@ -149,14 +151,14 @@ impl MeshSolver {
         let spacing = spacing_of(mean);
         let sigma = noise(topology, &base, &frames, &given.noisy);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
-            LAMBDA / (sigma.max(NO_NOISE * spacing) * spacing)
+            LAMBDA_NOISE_PRODUCT / (sigma.max(NO_NOISE * spacing) * spacing)
         });
         let lambda = match options.lambda {
             Lambda::Auto => auto,
             given => given.value(),
         };
         let mut options = *options;
-        if lambda > TOO_LARGE * auto {
+        if lambda > MAX_CREASE_LAMBDA_RATIO * auto {
             options.crease_passes.get_or_insert(0);
         }
         let before = Shape::of(topology, &given.noisy, &base);
@@ -241,7 +243,7 @@ impl MeshSolver {
     fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised, Sides)>) -> Result<()> {
         let mut options = self.options.common();
         if warm.is_none() && self.options.crease_passes_or_default() > 0 {
-            options = options.gap(self.options.gap.max(ROUGH));
+            options = options.gap(self.options.gap.max(FIRST_SOLVE_GAP));
         }
         let plan = Plan::new(&options).without_cycles();
         let start = self.linear.start();
@@ -328,7 +330,12 @@ impl MeshSolver {
             restore(&self.given, surface, &self.linear.frames, Some(&sides));
             sharpen(&self.given, &sides, surface, &self.linear.frames);
             if let Some(sigma) = self.sigma {
-                fair(surface, &curves(topology, &sides), CORNER * sigma, held);
+                fair(
+                    surface,
+                    &curves(topology, &sides),
+                    MAX_FAIRING_NOISE_RATIO * sigma,
+                    held,
+                );
             }
             // Normals beside creases are others now.
             let up = normals(topology, surface, Some(&old));

@@ -1,6 +1,6 @@
 /**
- * `npm test`: sets up and runs every test there is; `npm test -- NAME...` those whose name
- * contains one of the words.
+ * `npm test`: sets up and runs every test there is; `npm test -- NAME...` those whose name contains one of the words;
+ * `npm test -- --quick` what two minutes are enough for once it was compiled.
  */
 import { compileWasm } from './build/wasm.mjs';
 import { setupTests } from './setup.mjs';
@@ -11,11 +11,13 @@ import { Skip } from './test/step.mjs';
 /** @typedef {{ name: string, seconds: number, state: 'passed' | 'failed' | 'skipped', remark: string }} Outcome */
 
 await main(async () => {
-  const words = process.argv.slice(2);
-  const chosen = steps.filter(({ name }) => words.length === 0 || words.some((word) => name.includes(word)));
+  const words = process.argv.slice(2).filter((word) => word !== '--quick');
+  const among = process.argv.includes('--quick') ? steps.filter(({ quick }) => quick) : steps;
+  const chosen = among.filter(({ name }) => words.length === 0 || words.some((word) => name.includes(word)));
   if (chosen.length === 0) {
-    throw new Problem(`No test has such a name: there are ${steps.map(({ name }) => name).join(', ')}.`);
+    throw new Problem(`No test has such a name: there are ${among.map(({ name }) => name).join(', ')}.`);
   }
+  console.log(`${chosen.length} steps: about ${duration(total(chosen))} on two idle cores after \`npm start\`, longer where more is to be compiled.`);
   // The tools and the wasm are compiled side by side.
   const compile = chosen.some(({ name }) => name === 'build') ? compileWasm : undefined;
   const context = await timed('Set-up', () => setupTests(compile));
@@ -24,7 +26,7 @@ await main(async () => {
   const outcomes = [];
   for (const step of chosen) {
     const start = performance.now();
-    heading(`${step.name}: ${step.what}`);
+    heading(`${step.name}: ${step.what} (about ${duration(step.seconds)})`);
     const outcome = await attempt(() => step.run(context));
     const seconds = (performance.now() - start) / 1000;
     console.log(`${outcome.state} in ${seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
@@ -59,6 +61,16 @@ async function timed(what, work) {
   const result = await work();
   console.log(`done in ${((performance.now() - start) / 1000).toFixed(1)} s`);
   return result;
+}
+
+/** @param {readonly import('./test/step.mjs').Step[]} chosen */
+function total(chosen) {
+  return chosen.reduce((sum, { seconds }) => sum + seconds, 0);
+}
+
+/** @param {number} seconds */
+function duration(seconds) {
+  return seconds < 100 ? `${seconds} s` : `${Math.ceil(seconds / 60)} minutes`;
 }
 
 /** @param {string} text */

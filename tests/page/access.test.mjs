@@ -86,7 +86,7 @@ pageTest('everything can be done by keyboard', async (page) => {
   await page.keyboard.press('Space');
   await settled(page);
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'cancel', 'the focus is not lost');
-});
+}, { start: '' });
 
 pageTest('what has the focus can be seen to have it', async (page) => {
   for (const selector of ['#input-canvas', '#end-file', '#size', '#open', '#lambda', 'summary', '#run']) {

@@ -31,7 +31,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
 
   const print = await page.pdf({ format: 'A4', printBackground: true });
   assert.equal(print.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length, 1, 'printed, it is one page');
-});
+}, { start: '' });
 
 for (const name of ['page', 'house', 'roof', 'oloid', 'cone', 'cylinder']) {
   pageTest(`${name}: the result is smoother than the input, and closer to the truth`, async (page) => {
@@ -45,7 +45,7 @@ for (const name of ['page', 'house', 'roof', 'oloid', 'cone', 'cylinder']) {
       const [before, after] = (await reported(page, measure)).split('→').map(parsed);
       assert.ok(after < before / 2, `${measure}: ${after} against ${before}`);
     }
-  });
+  }, { start: '' });
 }
 
 pageTest('progress moves the bar and the curve', async (page) => {
@@ -74,7 +74,7 @@ pageTest('progress moves the bar and the curve', async (page) => {
   assert.equal(values.at(-1), 1);
   assert.ok(curves >= 3, `${curves} different curves`);
   assert.match(await page.locator('#curve-canvas').getAttribute('aria-label') ?? '', /^Gap from .* to .*%/);
-});
+}, { start: '' });
 
 pageTest('a large run ends even where its worker does not listen, and what was there stays', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('700'));

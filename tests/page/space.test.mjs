@@ -105,7 +105,7 @@ pageTest('in space the surface is turned, lit and divided, and from above it is 
   // It is what the next visit begins with.
   await choose(page.getByRole('radio', { name: 'In space' }));
   assert.equal(await page.evaluate(() => localStorage.getItem('developable: arrangement')), 'space');
-}, { arrangement: 'space' });
+}, { arrangement: 'space', start: '' });
 
 pageTest('without WebGL the flat pictures are there', async (page) => {
   await page.addInitScript(() => {
@@ -157,7 +157,7 @@ pageTest('an answer that takes long can be done without, and asked for again; th
   assert.equal((await page.locator('#flat-reading').innerText()).trim(), '', 'nothing beside it');
   await choose(page.getByRole('radio', { name: 'Shaded', exact: true }));
   assert.equal(await page.locator('#unfold-field').isVisible(), false);
-}, { arrangement: 'space' });
+}, { arrangement: 'space', start: '' });
 
 pageTest('what rests is drawn finely, once; while λ is dragged there are pictures', async (page) => {
   await page.evaluate(() => {

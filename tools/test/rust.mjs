@@ -19,11 +19,17 @@ export async function lint() {
   await check('cargo', ['clippy', ...all, '--', '-D', 'warnings'], native);
 }
 
-export async function nativeTests() {
-  // The unit tests are small: as they are compiled by default they take a second or two to run, and a sixth of
-  // the time to compile.
+export async function unitTests() {
+  // They are small: as they are compiled by default they take a second or two to run, and a sixth of the time to
+  // compile.
   await check('cargo', ['test', '--profile', 'dev', '--lib'], native);
+}
+
+export async function nativeTests() {
   await check('cargo', ['test', '--test', 'native'], native);
+}
+
+export async function docTests() {
   await check('cargo', ['test', '--doc'], native);
 }
 

@@ -16,6 +16,8 @@ import { run } from '../util/process.mjs';
  * @typedef {object} Step
  * @property {string} name
  * @property {string} what
+ * @property {number} seconds that it takes on two idle cores, about
+ * @property {boolean} [quick] it is among the few of `npm test -- --quick`
  * @property {(context: Context) => Promise<void>} run throws where something is wrong
  */
 

@@ -13,6 +13,9 @@ const args = [
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
 
+/** The page's first example, so small that it is solved at once: for tests of what is opened after it. */
+const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
+
 /** Time for anything to happen, on a machine that may be busy. */
 const PATIENCE = 60_000;
 
@@ -49,14 +52,15 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat' }} [options]
- *   side by side unless said otherwise, where what canvases show can be read
+ * @param {import('playwright-core').BrowserContextOptions & { arrangement?: 'space' | 'flat', start?: string }} [options]
+ *   side by side unless said otherwise, where what canvases show can be read; the part of the address after the #,
+ *   which is a small example unless said otherwise
  */
-export function pageTest(name, body, { arrangement = 'flat', ...options } = {}) {
+export function pageTest(name, body, { arrangement = 'flat', start = SMALL_EXAMPLE, ...options } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
     await page.addInitScript((chosen) => localStorage.setItem('developable: arrangement', chosen), arrangement);
-    await page.goto(server.url);
+    await page.goto(server.url + start);
     await settled(page);
     await body(page);
     assert.deepEqual(incidents, []);

@@ -46,21 +46,25 @@ fn arc(offset: f64, radius: f64, half: f64) -> f64 {
     (radius * radius - offset * offset).sqrt() - (radius * radius - half * half).sqrt()
 }
 
-/// Sine and cosine of 25°.
-const TURN: [f64; 2] = [0.422_618_261_740_699_4, 0.906_307_787_036_65];
+/// Sine and cosine of 25°, the angle of the cylinder's rulings.
+const RULING_DIRECTION: [f64; 2] = [0.422_618_261_740_699_4, 0.906_307_787_036_65];
 
 fn cylinder(x: f64, y: f64) -> f64 {
     // Half the square's width across the axis.
-    let half = 0.5 * (TURN[0] + TURN[1]);
-    arc(TURN[1] * y - TURN[0] * x, 0.85, half)
+    let half = 0.5 * (RULING_DIRECTION[0] + RULING_DIRECTION[1]);
+    arc(
+        RULING_DIRECTION[1] * y - RULING_DIRECTION[0] * x,
+        0.85,
+        half,
+    )
 }
 
 fn cone(x: f64, y: f64) -> f64 {
-    const BASE: f64 = 0.48;
-    const SLOPE: f64 = 0.8;
+    const BASE_RADIUS: f64 = 0.48;
+    const CONE_SLOPE: f64 = 0.8;
     let r = x.hypot(y);
-    if r <= BASE {
-        SLOPE * (BASE - r)
+    if r <= BASE_RADIUS {
+        CONE_SLOPE * (BASE_RADIUS - r)
     } else {
         f64::NAN
     }
@@ -77,13 +81,14 @@ const HOUSE_DEPTH: f64 = 0.75;
 
 fn house(x: f64, y: f64) -> f64 {
     /// Height gained on the way from the eaves.
-    const PITCH: f64 = 0.8;
-    /// The vaults' radius, and half of their width at the eaves.
-    const RADIUS: f64 = 0.36;
-    const HALF: f64 = 0.3;
-    let roof = PITCH * (0.5 * HOUSE_DEPTH - y.abs()).min(0.5 - x.abs());
-    let vault = if x.abs() < HALF {
-        arc(x, RADIUS, HALF)
+    const ROOF_PITCH: f64 = 0.8;
+    /// Radius of the vaults.
+    const VAULT_RADIUS: f64 = 0.36;
+    /// Half the width of the vaults at the eaves.
+    const VAULT_HALF_WIDTH: f64 = 0.3;
+    let roof = ROOF_PITCH * (0.5 * HOUSE_DEPTH - y.abs()).min(0.5 - x.abs());
+    let vault = if x.abs() < VAULT_HALF_WIDTH {
+        arc(x, VAULT_RADIUS, VAULT_HALF_WIDTH)
     } else {
         0.0
     };
@@ -163,27 +168,28 @@ fn page(x: f64, y: f64) -> f64 {
 /// onto a cylinder beyond it, which changes only distances across that line in plan.
 fn unit_page(x: f64, y: f64) -> f64 {
     /// Direction across the rulings: 15° above the rows.
-    const ACROSS: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_74];
-    /// Where the roll begins, and its radius.
-    const START: f64 = 0.45;
-    const RADIUS: f64 = 0.42;
+    const ROLL_DIRECTION: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_74];
+    /// Distance from the corner at which the roll begins.
+    const ROLL_START: f64 = 0.45;
+    /// Radius of the roll.
+    const ROLL_RADIUS: f64 = 0.42;
 
-    let across = ACROSS[0] * x + ACROSS[1] * y;
-    let along = ACROSS[0] * y - ACROSS[1] * x;
-    let sine = ((across - START) / RADIUS).max(0.0);
+    let across = ROLL_DIRECTION[0] * x + ROLL_DIRECTION[1] * y;
+    let along = ROLL_DIRECTION[0] * y - ROLL_DIRECTION[1] * x;
+    let sine = ((across - ROLL_START) / ROLL_RADIUS).max(0.0);
     if sine >= 1.0 {
         return f64::NAN;
     }
     // Distance across the rulings on the sheet itself: arc length instead of plan length.
     let unrolled = if sine > 0.0 {
-        START + RADIUS * sine.asin()
+        ROLL_START + ROLL_RADIUS * sine.asin()
     } else {
         across
     };
-    let a = ACROSS[0] * unrolled - ACROSS[1] * along;
-    let b = ACROSS[1] * unrolled + ACROSS[0] * along;
+    let a = ROLL_DIRECTION[0] * unrolled - ROLL_DIRECTION[1] * along;
+    let b = ROLL_DIRECTION[1] * unrolled + ROLL_DIRECTION[0] * along;
     if (0.0..=A4_WIDTH).contains(&a) && (0.0..=1.0).contains(&b) {
-        RADIUS * (1.0 - (1.0 - sine * sine).sqrt())
+        ROLL_RADIUS * (1.0 - (1.0 - sine * sine).sqrt())
     } else {
         f64::NAN
     }

@@ -58,7 +58,7 @@ pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8
             });
         }
         head = format!(
-            "mtllib {}\nusemtl {MATERIAL}\n",
+            "mtllib {}\nusemtl {MATERIAL_NAME}\n",
             one_line("materials", name)?
         );
     }
@@ -68,8 +68,8 @@ pub fn write_obj_textured(mesh: &Mesh, materials: Option<&str>) -> Result<Vec<u8
     file.finish("OBJ file", written)
 }
 
-/// The name of the one material.
-const MATERIAL: &str = "surface";
+/// Name of the one material.
+const MATERIAL_NAME: &str = "surface";
 
 /// An MTL file: the material of [`write_obj_textured`], with the name of its picture's file.
 ///
@@ -77,7 +77,7 @@ const MATERIAL: &str = "surface";
 /// [`Error::Option`] for a name that is empty or of several lines.
 pub fn write_mtl(picture: &str) -> Result<Vec<u8>> {
     let picture = one_line("picture", picture)?;
-    Ok(format!("newmtl {MATERIAL}\nKd 1 1 1\nmap_Kd {picture}\n").into_bytes())
+    Ok(format!("newmtl {MATERIAL_NAME}\nKd 1 1 1\nmap_Kd {picture}\n").into_bytes())
 }
 
 fn one_line<'a>(option: &'static str, name: &'a str) -> Result<&'a str> {

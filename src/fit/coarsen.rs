@@ -9,16 +9,16 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::coarsening::{coarse_lattice, fine_vertex};
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::{NEIGHBOURS, ROW};
+use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
 
 /// To the neighbours W, E, NW, NE, SW and SE.
 const DIRECTIONS: [[f64; 2]; 6] = [
     [-1.0, 0.0],
     [1.0, 0.0],
-    [-0.5, ROW],
-    [0.5, ROW],
-    [-0.5, -ROW],
-    [0.5, -ROW],
+    [-0.5, ROW_SPACING],
+    [0.5, ROW_SPACING],
+    [-0.5, -ROW_SPACING],
+    [0.5, -ROW_SPACING],
 ];
 
 /// Half of what a coarse vertex stands for: of one fine vertex, and of half of each neighbour's.
@@ -55,7 +55,7 @@ pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
             let centre = fine_vertex(row, col);
-            let around = NEIGHBOURS.map(|t| t.step(centre.0, centre.1));
+            let around = NEIGHBOUR_DIRECTIONS.map(|t| t.step(centre.0, centre.1));
             let (own, ring) = (vertex(centre), around.map(vertex));
             let share = |own: bool, ring: usize| f64::from(u8::from(own)) + 0.5 * ring as f64;
             let valid = share(own.is_some(), ring.into_iter().flatten().count());

@@ -8,7 +8,7 @@ use super::heightfields::{Problem, State};
 use crate::error::Result;
 use crate::lattice::coarsening::parents;
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::{NEIGHBOURS, Towards};
+use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, Towards};
 use crate::math::sym2::Sym2;
 
 /// An iterate on the fine lattice from one on the coarse lattice. Where a fine
@@ -105,7 +105,7 @@ fn loop_weights(
     a: (isize, isize),
     b: (isize, isize),
 ) -> impl Iterator<Item = ((isize, isize), f64)> {
-    let around = |(row, col)| NEIGHBOURS.map(|t: Towards| t.step(row, col));
+    let around = |(row, col)| NEIGHBOUR_DIRECTIONS.map(|t: Towards| t.step(row, col));
     let end = if a == b { 5.0 } else { 3.0 };
     let shared = around(b);
     let far = around(a).into_iter().filter(move |v| shared.contains(v));

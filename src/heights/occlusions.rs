@@ -4,7 +4,7 @@
 use super::heightfield::Heightfield;
 use crate::error::{Result, check_shape, positive};
 use crate::heights::normalization::Normalization;
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, OPPOSITE, Towards};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION, Towards};
 use crate::lattice::stencil::HessianMap;
 
 /// Edges of the lattice across which a surface is torn.
@@ -107,7 +107,7 @@ impl Occlusions {
             for (k, neighbour) in lattice.neighbours(row, col).into_iter().enumerate() {
                 if let Some((r, c)) = neighbour.filter(|_| bits >> k & 1 != 0) {
                     both[i] |= 1 << k;
-                    both[lattice.index(r, c)] |= 1 << OPPOSITE[k];
+                    both[lattice.index(r, c)] |= 1 << OPPOSITE_DIRECTION[k];
                 }
             }
         }
@@ -167,7 +167,7 @@ fn mark(
     (row, col): (isize, isize),
     corners: &[(isize, isize)],
 ) {
-    for (k, towards) in NEIGHBOURS.into_iter().enumerate() {
+    for (k, towards) in NEIGHBOUR_DIRECTIONS.into_iter().enumerate() {
         if corners.contains(&towards.step(row, col)) {
             edges[lattice.index(row as usize, col as usize)] |= 1 << k;
         }

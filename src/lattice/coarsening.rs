@@ -1,7 +1,7 @@
 //! The lattice of twice the spacing: the sublattice whose vertex `(r, c)` is fine vertex
 //! `(2r, 2c − (r odd))`. Every other fine vertex is the midpoint of a coarse edge.
 
-use super::hexagonal::{Lattice, NEIGHBOURS, Towards};
+use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, Towards};
 use crate::error::Result;
 
 /// The fine vertex that a coarse vertex lies on.
@@ -21,7 +21,7 @@ pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
         return [vertex, vertex];
     }
     let at = |towards: Towards| coarse(towards.step(r, c));
-    let [w, e, nw, ne, sw, se] = NEIGHBOURS.map(at);
+    let [w, e, nw, ne, sw, se] = NEIGHBOUR_DIRECTIONS.map(at);
     // Exactly one pair of opposite neighbours is coarse.
     match (w.zip(e), nw.zip(se), ne.zip(sw)) {
         (Some((a, b)), _, _) | (_, Some((a, b)), _) | (_, _, Some((a, b))) => [a, b],

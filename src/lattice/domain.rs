@@ -1,6 +1,6 @@
 //! Which vertices take part: interior, boundary, omitted.
 
-use super::hexagonal::{Lattice, NEIGHBOURS};
+use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use super::runs::RowRuns;
 use crate::error::{Error, Result, try_filled};
 
@@ -252,7 +252,7 @@ impl Domain {
 /// In the padded box rows count from 1, so its odd rows are the lattice's even ones.
 fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
     let row = row as isize - 1;
-    NEIGHBOURS.map(|towards| {
+    NEIGHBOUR_DIRECTIONS.map(|towards| {
         let (r, c) = towards.step(row, 0);
         (r - row) * stride as isize + c
     })

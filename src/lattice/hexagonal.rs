@@ -3,8 +3,8 @@
 
 use crate::error::{Error, Result, checked_cells, positive};
 
-/// `√3 / 2`, the row spacing of a lattice of spacing 1.
-pub(crate) const ROW: f64 = 0.866_025_403_784_438_6;
+/// Distance between the rows of a lattice of spacing 1: `√3 / 2`.
+pub(crate) const ROW_SPACING: f64 = 0.866_025_403_784_438_6;
 
 /// A hexagonal lattice of `rows × cols` vertices, stored row by row.
 ///
@@ -91,7 +91,7 @@ impl Lattice {
         let cells = |length: f64, step: f64| (length / step + 1e-9).floor() + 1.0;
         // Odd rows are shifted to the left, so one more column lets them reach the right edge.
         let cols = cells(width, h) + 1.0;
-        let rows = cells(height, h * ROW);
+        let rows = cells(height, h * ROW_SPACING);
         if rows * cols > crate::MAX_CELLS as f64 {
             return Err(Error::TooLarge {
                 what: "lattice",
@@ -125,7 +125,7 @@ impl Lattice {
 
     /// Distance between rows, `spacing · √3/2`.
     pub fn row_spacing(&self) -> f64 {
-        self.spacing * ROW
+        self.spacing * ROW_SPACING
     }
 
     /// Position of vertex `(0, 0)`.
@@ -143,7 +143,7 @@ impl Lattice {
 
     /// The six neighbours W, E, NW, NE, SW, SE of `(row, col)`; `None` beyond the edge.
     pub fn neighbours(&self, row: usize, col: usize) -> [Option<(usize, usize)>; 6] {
-        NEIGHBOURS.map(|towards| {
+        NEIGHBOUR_DIRECTIONS.map(|towards| {
             let (r, c) = towards.step(row as isize, col as isize);
             self.contains(r, c).then_some((r as usize, c as usize))
         })
@@ -209,8 +209,8 @@ pub(crate) enum Towards {
     SouthEast,
 }
 
-/// W, E, NW, NE, SW, SE: the order used everywhere.
-pub(crate) const NEIGHBOURS: [Towards; 6] = [
+/// Directions from a vertex to its six neighbours: W, E, NW, NE, SW, SE, the order used everywhere.
+pub(crate) const NEIGHBOUR_DIRECTIONS: [Towards; 6] = [
     Towards::West,
     Towards::East,
     Towards::NorthWest,
@@ -219,8 +219,9 @@ pub(crate) const NEIGHBOURS: [Towards; 6] = [
     Towards::SouthEast,
 ];
 
-/// Seen from its other end, an edge to neighbour `k` is one to neighbour `OPPOSITE[k]`.
-pub(crate) const OPPOSITE: [usize; 6] = [1, 0, 5, 4, 3, 2];
+/// Index of the direction opposite to each: an edge to neighbour `k` is, from its other end, one to neighbour
+/// `OPPOSITE_DIRECTION[k]`.
+pub(crate) const OPPOSITE_DIRECTION: [usize; 6] = [1, 0, 5, 4, 3, 2];
 
 /// How far a row lies to the left of an even one, in spacings.
 pub(crate) fn shift(row: usize) -> f64 {
@@ -294,7 +295,7 @@ mod tests {
                     let (ur, uc) = ((r + 100) as usize, (c + 100) as usize);
                     let [x, y] = l.position(ur, uc);
                     q[0] += w * (x - 100.0 * 0.3);
-                    q[1] += w * (y + 100.0 * 0.3 * ROW);
+                    q[1] += w * (y + 100.0 * 0.3 * ROW_SPACING);
                 }
                 assert!((q[0] - p[0]).abs() < 1e-10 && (q[1] - p[1]).abs() < 1e-10);
                 assert!((t.weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);

@@ -4,13 +4,16 @@
 //! They take slices, not closures: a closure that is called in a loop and again
 //! for its tail is not inlined, and costs ten times the sum.
 
-const DOUBLE: usize = 8;
-const SINGLE: usize = 16;
+/// Number of independent sums over 64-bit values.
+const F64_LANES: usize = 8;
+
+/// Number of independent sums over 32-bit values.
+const F32_LANES: usize = 16;
 
 /// `Σ a`.
 pub(crate) fn sum(a: &[f64]) -> f64 {
-    let mut lanes = [0.0; DOUBLE];
-    let chunks = a.chunks_exact(DOUBLE);
+    let mut lanes = [0.0; F64_LANES];
+    let chunks = a.chunks_exact(F64_LANES);
     let tail = chunks.remainder();
     for chunk in chunks {
         for (lane, x) in lanes.iter_mut().zip(chunk) {
@@ -26,8 +29,8 @@ pub(crate) fn sum(a: &[f64]) -> f64 {
 
 /// `Σ a b` in single precision: for the length of a row, and no longer.
 pub(crate) fn dot(a: &[f32], b: &[f32]) -> f64 {
-    let mut lanes = [0.0f32; SINGLE];
-    let (a, b) = (a.chunks_exact(SINGLE), b.chunks_exact(SINGLE));
+    let mut lanes = [0.0f32; F32_LANES];
+    let (a, b) = (a.chunks_exact(F32_LANES), b.chunks_exact(F32_LANES));
     let tail = a.remainder().iter().zip(b.remainder());
     for (a, b) in a.zip(b) {
         for (lane, (x, y)) in lanes.iter_mut().zip(a.iter().zip(b)) {
@@ -42,8 +45,8 @@ pub(crate) fn dot(a: &[f32], b: &[f32]) -> f64 {
 
 /// `Σ a² m` in single precision: for the length of a row, and no longer.
 pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
-    let mut lanes = [0.0f32; SINGLE];
-    let (a, m) = (a.chunks_exact(SINGLE), m.chunks_exact(SINGLE));
+    let mut lanes = [0.0f32; F32_LANES];
+    let (a, m) = (a.chunks_exact(F32_LANES), m.chunks_exact(F32_LANES));
     let tail = a.remainder().iter().zip(m.remainder());
     for (a, m) in a.zip(m) {
         for (lane, (x, w)) in lanes.iter_mut().zip(a.iter().zip(m)) {

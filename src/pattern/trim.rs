@@ -3,7 +3,7 @@
 
 use super::flat_patch::FlatPatch;
 use super::labels::{Labels, connected_groups};
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use rustc_hash::FxHashMap;
 
 /// Maximum number of vertices of a speck, as a share of its part's.
@@ -52,7 +52,7 @@ pub(super) fn removable_vertices(
     let whole = together(&|i| !speck.contains_key(&i)).len() == 1;
     let is_outermost = |i: usize| {
         let own = lattice.around(i).filter(|k| labels.of[*k] == part);
-        own.count() < NEIGHBOURS.len()
+        own.count() < NEIGHBOUR_DIRECTIONS.len()
     };
     let specks = together(&|i| speck.contains_key(&i));
     let at_border = |group: &Vec<usize>| group.iter().any(|i| is_outermost(*i));

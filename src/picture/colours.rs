@@ -3,8 +3,9 @@
 /// What has no value of its own, as curvature beside a border.
 pub(super) const NO_VALUE: [u8; 3] = [150, 155, 160];
 
-/// Blue, white, red: ColorBrewer's RdBu, whose ends are told apart also by the colour-blind.
-const DIVERGING: [[f64; 3]; 11] = [
+/// Colours of values from the lowest to the highest, from blue over white to red: ColorBrewer's RdBu, whose
+/// ends are told apart also by the colour-blind.
+const CURVATURE_COLOURS: [[f64; 3]; 11] = [
     [5.0, 48.0, 97.0],
     [33.0, 102.0, 172.0],
     [67.0, 147.0, 195.0],
@@ -18,8 +19,8 @@ const DIVERGING: [[f64; 3]; 11] = [
     [103.0, 0.0, 31.0],
 ];
 
-/// Told apart by hue and lightness, then again from the start.
-const PATCHES: [[u8; 3]; 12] = [
+/// Colours of patches, told apart by hue and lightness; after the last they begin again.
+const PATCH_COLOURS: [[u8; 3]; 12] = [
     [86, 148, 206],
     [240, 160, 75],
     [107, 178, 106],
@@ -34,17 +35,17 @@ const PATCHES: [[u8; 3]; 12] = [
     [172, 210, 130],
 ];
 
-/// What is left of a patch's colour on a crease.
-const CREASE: f64 = 0.4;
+/// Brightness of a crease relative to its patch's colour.
+const CREASE_BRIGHTNESS: f64 = 0.4;
 
 /// The colour of a value from −1 to 1; beyond, that of the end.
 pub(super) fn diverging(value: f64) -> [u8; 3] {
-    let last = DIVERGING.len() - 1;
+    let last = CURVATURE_COLOURS.len() - 1;
     let place = 0.5 * (value.clamp(-1.0, 1.0) + 1.0) * last as f64;
     let from = (place as usize).min(last - 1);
     let share = place - from as f64;
     std::array::from_fn(|k| {
-        let [low, high] = [DIVERGING[from][k], DIVERGING[from + 1][k]];
+        let [low, high] = [CURVATURE_COLOURS[from][k], CURVATURE_COLOURS[from + 1][k]];
         (low + share * (high - low)).round() as u8
     })
 }
@@ -56,10 +57,10 @@ pub(super) fn steel(tone: f64) -> [u8; 3] {
 }
 
 pub(crate) fn patch(label: u32) -> [u8; 3] {
-    PATCHES[label as usize % PATCHES.len()]
+    PATCH_COLOURS[label as usize % PATCH_COLOURS.len()]
 }
 
 /// A patch's colour where it creases.
 pub(super) fn crease(label: u32) -> [u8; 3] {
-    patch(label).map(|channel| (CREASE * f64::from(channel)).round() as u8)
+    patch(label).map(|channel| (CREASE_BRIGHTNESS * f64::from(channel)).round() as u8)
 }

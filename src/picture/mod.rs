@@ -22,15 +22,15 @@ use crate::shape::analysis::Curvatures;
 use crate::shape::patches::{NO_PATCH, PatchOptions, Patches};
 
 /// Brightness where no light falls.
-const AMBIENT: f64 = 0.15;
+const AMBIENT_BRIGHTNESS: f64 = 0.15;
 
-/// Share of the vertices around a point, by their weights, that makes it a point of the surface.
-/// Half, less rounding: between two vertices the nearer one counts.
-const INSIDE: f64 = 0.5 - 1e-9;
+/// Least sum of the interpolation weights of surface vertices around a point that makes it a point of the
+/// surface: half, less rounding, so that between two vertices the nearer one counts.
+const MIN_VERTEX_WEIGHT: f64 = 0.5 - 1e-9;
 
-/// How far beyond its outermost vertices a surface is continued, in units of the coarser of
+/// Distance beyond its outermost vertices up to which a surface is continued, in units of the coarser of
 /// spacing and pixel: as far as there are points of its own between vertices.
-const REACH: f64 = 0.5 + 1e-9;
+const CONTINUATION_REACH: f64 = 0.5 + 1e-9;
 
 /// The same beyond the lattice's first and last row: an image may end a row and half a pixel later.
 const ROW_REACH: f64 = 1.5;
@@ -205,7 +205,7 @@ fn shaded(frame: &Frame<'_>, light: [f64; 3]) -> Result<Picture> {
     frame.coloured(|_, corners| {
         let [x, y] = corners.mean(&slopes)?;
         let cosine = (lz - x * lx - y * ly) / x.hypot(y).hypot(1.0);
-        let tone = AMBIENT + (1.0 - AMBIENT) * cosine.max(0.0);
+        let tone = AMBIENT_BRIGHTNESS + (1.0 - AMBIENT_BRIGHTNESS) * cosine.max(0.0);
         Some(colours::steel(tone))
     })
 }
@@ -324,7 +324,7 @@ impl<'a> Frame<'a> {
         let row = y.max(bottom).min(top);
         let inside = [x.max(min[0]).min(max[0]), row.max(min[1]).min(max[1])];
         let beyond = (x - inside[0]).abs().max((row - inside[1]).abs());
-        if (y - row).abs() > ROW_REACH * unit || beyond > REACH * unit {
+        if (y - row).abs() > ROW_REACH * unit || beyond > CONTINUATION_REACH * unit {
             return None;
         }
         let triangle = lattice.locate(inside);
@@ -342,7 +342,7 @@ impl<'a> Frame<'a> {
                 share += weight;
             }
         }
-        (share >= INSIDE).then_some(Corners(corners))
+        (share >= MIN_VERTEX_WEIGHT).then_some(Corners(corners))
     }
 }
 

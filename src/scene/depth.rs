@@ -8,9 +8,8 @@ use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
-/// How much farther one pixel's point may be than its neighbour's, in the distance between the two
-/// across the line of sight.
-const STEEPEST: f64 = 10.0;
+/// Largest difference in depth between neighbouring pixels' points, per distance across the line of sight.
+const MAX_DEPTH_SLOPE: f64 = 10.0;
 
 impl Intrinsics {
     /// What the camera has seen, as a mesh: each pixel is a vertex, by the same
@@ -172,7 +171,7 @@ impl Line<'_> {
             return false;
         };
         let rise = (b - a).abs();
-        if rise <= STEEPEST * a.min(b) / focal {
+        if rise <= MAX_DEPTH_SLOPE * a.min(b) / focal {
             return false;
         }
         let part = rise / wide as f64 / 4.0;
@@ -225,7 +224,7 @@ impl Grid<'_> {
         let sight = (from + to).normalize();
         let way = to - from;
         let along = way.dot(&sight);
-        along.abs() <= STEEPEST * (way - sight * along).norm()
+        along.abs() <= MAX_DEPTH_SLOPE * (way - sight * along).norm()
     }
 
     fn distance(&self, from: usize, to: usize) -> f64 {

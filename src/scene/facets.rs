@@ -12,15 +12,15 @@ use crate::math::statistics::median;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 
-/// The usual threshold between these angles: flat facets of a round shape fold by less, and what is left of
-/// noise does, too.
-const BEND: [f64; 2] = [0.035, 0.35];
+/// Least and largest threshold between the angles of facets and those of creases, in radians: flat facets of a round
+/// shape fold by less than the largest, and what is left of noise by less than the least.
+const CREASE_ANGLE_RANGE: [f64; 2] = [0.035, 0.35];
 
-/// A crease that noise has made blunt bends by no more than this along either side of a strip.
-const BLUNT: f64 = 1.0;
+/// Largest angle by which the strips on either side of a crease bend that noise has made blunt, in radians.
+const MAX_BLUNT_CREASE_ANGLE: f64 = 1.0;
 
-/// What is flat up to rounding says nothing about how much a surface bends usually.
-const FLAT: f64 = 1e-6;
+/// Rounding error of angles between facets, in radians, and of heights: what is flat up to it bends by nothing.
+const FLATNESS_TOLERANCE: f64 = 1e-6;
 
 /// Triangles with what lies between them.
 pub(crate) struct Facets {
@@ -73,8 +73,9 @@ impl Facets {
 
     pub fn usual_bend(&self) -> f64 {
         let pairs = self.pairs().map(|(side, _)| self.angles[side]);
-        let mut angles: Vec<f64> = pairs.filter(|angle| *angle > FLAT).collect();
-        (6.0 * median(&mut angles).unwrap_or(0.0)).clamp(BEND[0], BEND[1])
+        let mut angles: Vec<f64> = pairs.filter(|angle| *angle > FLATNESS_TOLERANCE).collect();
+        (6.0 * median(&mut angles).unwrap_or(0.0))
+            .clamp(CREASE_ANGLE_RANGE[0], CREASE_ANGLE_RANGE[1])
     }
 
     /// The smooth parts of the surface, by triangles, none smaller than a share of the area, and none that
@@ -130,10 +131,10 @@ impl Facets {
         for t in 0..heights.len() {
             open[t] = around(t).any(|(side, other)| {
                 let runs = self.angles[side] <= bend
-                    || (self.angles[side] <= BLUNT
+                    || (self.angles[side] <= MAX_BLUNT_CREASE_ANGLE
                         && self.triangles[other].iter().any(|v| smooth[*v as usize]));
                 // Up to rounding, which flat parts differ by.
-                runs && heights[other] < heights[t] - FLAT
+                runs && heights[other] < heights[t] - FLATNESS_TOLERANCE
             });
         }
         for (side, twin) in self.pairs() {

@@ -4,8 +4,8 @@ use super::mesh::Mesh;
 use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 
-/// A part with less than this share of the largest one's triangles is a scrap.
-const SCRAP: f64 = 0.25;
+/// Number of triangles below which a part is a scrap, as a share of the largest part's.
+const MAX_SCRAP_SHARE: f64 = 0.25;
 
 impl Mesh {
     /// The mesh without scraps: connected parts with less than a quarter of the largest one's triangles. Of
@@ -25,11 +25,9 @@ impl Mesh {
             counts[sets.find(triangle[0]) as usize] += 1;
         }
         let most = counts.iter().copied().max().unwrap_or(0);
-        Ok(
-            self.keep(|[first, ..]| {
-                counts[sets.find(first) as usize] as f64 >= SCRAP * most as f64
-            }),
-        )
+        Ok(self.keep(|[first, ..]| {
+            counts[sets.find(first) as usize] as f64 >= MAX_SCRAP_SHARE * most as f64
+        }))
     }
 }
 

@@ -11,7 +11,7 @@ use super::splats::splat;
 use super::view::{Frame, View};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::{Lattice, ROW, shift};
+use crate::lattice::hexagonal::{Lattice, ROW_SPACING, shift};
 use crate::math::lanes;
 
 /// How fine the lattice over a mesh is to be.
@@ -28,8 +28,9 @@ pub enum Resolution {
     Auto,
 }
 
-/// What `Resolution::Auto` stands for.
-const AUTO: usize = 200;
+/// Resolution that `Resolution::Auto` stands for where nothing else decides, in vertices along the longer
+/// side.
+const AUTO_RESOLUTION: usize = 200;
 const POINTS_FOR_EACH: f64 = 4.0;
 
 /// Where a ray hit the mesh first.
@@ -42,8 +43,8 @@ pub struct Hit {
     pub weights: [f32; 3],
 }
 
-/// Marks a lattice vertex whose ray hits nothing.
-const MISS: u32 = u32::MAX;
+/// Mark of a lattice vertex whose ray hits no triangle.
+const NO_TRIANGLE: u32 = u32::MAX;
 
 /// What is seen of a mesh, on a lattice in the frame of the view.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,11 +83,11 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
         Resolution::Across(vertices) if vertices >= 2 => across(vertices),
         Resolution::Auto if mesh.is_cloud() => {
             let points = mesh.positions().len() as f64;
-            // Each vertex has an area of ROW times the spacing squared.
-            let each = (POINTS_FOR_EACH / (points * ROW)).sqrt();
-            across(AUTO).max(each * width.sqrt() * height.sqrt())
+            // Each vertex has an area of ROW_SPACING times the spacing squared.
+            let each = (POINTS_FOR_EACH / (points * ROW_SPACING)).sqrt();
+            across(AUTO_RESOLUTION).max(each * width.sqrt() * height.sqrt())
         }
-        Resolution::Auto => across(AUTO),
+        Resolution::Auto => across(AUTO_RESOLUTION),
         Resolution::Across(vertices) => {
             return Err(Error::option("resolution", vertices, "must be at least 2"));
         }
@@ -101,14 +102,14 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
     let mut buffer = Buffer {
         lattice,
         heights: try_filled("depth buffer", lattice.len(), f64::NAN)?,
-        triangles: try_filled("depth buffer", lattice.len(), MISS)?,
+        triangles: try_filled("depth buffer", lattice.len(), NO_TRIANGLE)?,
         weights: try_filled("depth buffer", lattice.len(), [0.0; 3])?,
     };
     for (i, triangle) in mesh.triangles().iter().enumerate() {
         let corners = mesh.corners(*triangle).map(|p| buffer.place(frame.view(p)));
         buffer.scan(i as u32, corners);
     }
-    if buffer.triangles.iter().all(|t| *t == MISS) {
+    if buffer.triangles.iter().all(|t| *t == NO_TRIANGLE) {
         return Err(nothing_seen());
     }
     Ok(Samples {
@@ -121,8 +122,8 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
 
 fn sample_cloud(mesh: &Mesh, frame: Frame, lattice: Lattice) -> Result<Samples> {
     let points = mesh.positions().iter().map(|p| frame.view(*p));
-    let (heights, indices) = splat(&lattice, points, MISS)?;
-    if indices.iter().all(|i| *i == MISS) {
+    let (heights, indices) = splat(&lattice, points, NO_TRIANGLE)?;
+    if indices.iter().all(|i| *i == NO_TRIANGLE) {
         return Err(nothing_seen());
     }
     Ok(Samples {
@@ -179,7 +180,7 @@ impl Samples {
     /// What the ray through a lattice vertex (by row-major index) hit first.
     pub fn hit(&self, index: usize) -> Option<Hit> {
         let found = self.indices[index];
-        (found != MISS).then(|| Hit {
+        (found != NO_TRIANGLE).then(|| Hit {
             index: found as usize,
             weights: self.weights[index],
         })

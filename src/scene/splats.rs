@@ -11,11 +11,13 @@ use nalgebra::{Matrix3, Vector3};
 use crate::error::{Result, try_filled};
 use crate::lattice::hexagonal::{Lattice, shift};
 
-/// How far a vertex looks, and how far below the highest point it sees, in spacings.
-const RADIUS: f64 = 1.0;
-const DEPTH: f64 = 3.0;
-/// How far the points' centre may be off, in spacings.
-const OFFSET: f64 = 0.5;
+/// Distance within which a lattice vertex sees points, in lattice spacings.
+const SPLAT_RADIUS_SPACINGS: f64 = 1.0;
+
+/// Depth below the highest point down to which a lattice vertex sees points, in lattice spacings.
+const SPLAT_DEPTH_SPACINGS: f64 = 3.0;
+/// Largest distance between a lattice vertex and the centroid of its points, in lattice spacings.
+const MAX_CENTROID_OFFSET_SPACINGS: f64 = 0.5;
 
 /// Height and nearest visible point at each vertex; NaN and `miss` where there is none.
 pub(crate) fn splat(
@@ -36,7 +38,7 @@ pub(crate) fn splat(
         around(lattice, point, |vertex, [dx, dy]| {
             // In spacings, so that the sums are of one size.
             let below = (highest[vertex] - point[2]) / lattice.spacing();
-            if below > DEPTH {
+            if below > SPLAT_DEPTH_SPACINGS {
                 return;
             }
             let away = dx * dx + dy * dy;
@@ -68,14 +70,16 @@ fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [
         (top - y) / lattice.spacing(),
     );
     let rows = range(
-        (down - RADIUS) / step,
-        (down + RADIUS) / step,
+        (down - SPLAT_RADIUS_SPACINGS) / step,
+        (down + SPLAT_RADIUS_SPACINGS) / step,
         lattice.rows(),
     );
     for row in rows {
         let dy = row as f64 * step - down;
         let shift = shift(row);
-        let reach = (RADIUS * RADIUS - dy * dy).max(0.0).sqrt();
+        let reach = (SPLAT_RADIUS_SPACINGS * SPLAT_RADIUS_SPACINGS - dy * dy)
+            .max(0.0)
+            .sqrt();
         for col in range(along + shift - reach, along + shift + reach, lattice.cols()) {
             let dx = along - (col as f64 - shift);
             visit(lattice.index(row, col), [dx, dy]);
@@ -102,7 +106,7 @@ struct Sums {
 
 impl Sums {
     fn add(&mut self, [x, y]: [f64; 2], height: f64) {
-        let near = 1.0 - (x * x + y * y) / (RADIUS * RADIUS);
+        let near = 1.0 - (x * x + y * y) / (SPLAT_RADIUS_SPACINGS * SPLAT_RADIUS_SPACINGS);
         let w = near * near;
         self.weight += w;
         self.height += w * height;
@@ -119,7 +123,7 @@ impl Sums {
     fn height(&self) -> Option<f64> {
         let [x, y] = self.first.map(|v| v / self.weight);
         // Without any points both are NaN.
-        let around = x.hypot(y) <= OFFSET;
+        let around = x.hypot(y) <= MAX_CENTROID_OFFSET_SPACINGS;
         if !around {
             return None;
         }

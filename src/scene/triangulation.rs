@@ -5,10 +5,8 @@ use super::view::Frame;
 use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, Towards};
+use crate::math::index::NO_INDEX;
 use crate::math::lanes;
-
-/// Marks a lattice vertex that no triangle uses.
-const UNUSED: u32 = u32::MAX;
 
 /// The lattice's triangles as a mesh, and which lattice vertex each of its vertices is.
 ///
@@ -45,7 +43,7 @@ impl Triangulation {
     ) -> Result<Self> {
         let lattice = *surface.lattice();
         let whole = || whole_triangles(surface).filter(|triangle| wanted(*triangle));
-        let mut numbers = try_filled("mesh", lattice.len(), UNUSED)?;
+        let mut numbers = try_filled("mesh", lattice.len(), NO_INDEX)?;
         let mut count = 0;
         for triangle in whole() {
             count += 1;
@@ -57,13 +55,13 @@ impl Triangulation {
                 reason: "no triangle of the lattice has a height at all three vertices".into(),
             });
         }
-        let used = numbers.iter().filter(|n| **n != UNUSED).count();
+        let used = numbers.iter().filter(|n| **n != NO_INDEX).count();
         let mut vertices = room(used)?;
         let mut positions = room(used)?;
         for (i, number) in numbers
             .iter_mut()
             .enumerate()
-            .filter(|(_, n)| **n != UNUSED)
+            .filter(|(_, n)| **n != NO_INDEX)
         {
             *number = vertices.len() as u32;
             vertices.push(i as u32);

@@ -12,7 +12,7 @@ use super::unflip::unflip_triangles;
 use super::unrolling::{UnrollReport, Unrolling};
 use crate::error::{Error, Result, positive, try_filled};
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::{ROW, shift};
+use crate::lattice::hexagonal::{ROW_SPACING, shift};
 use crate::scene::triangulation::Triangulation;
 use crate::scene::view::Frame;
 
@@ -125,7 +125,7 @@ pub(super) fn plan_positions(grid: PaddedLattice) -> Result<Vec<Point>> {
     for row in 0..grid.rows() {
         let shift = shift(row);
         for (col, cell) in grid.row(row).enumerate() {
-            places[cell] = Point::new(col as f64 - shift, -(row as f64) * ROW);
+            places[cell] = Point::new(col as f64 - shift, -(row as f64) * ROW_SPACING);
         }
     }
     Ok(places)

@@ -11,9 +11,11 @@ use crate::drawing::beside;
 use crate::error::{Error, Result, positive};
 use crate::pattern::Sheet;
 
-/// Seconds that each step takes, and that pass between two.
-const STEP: f64 = 1.5;
-const PAUSE: f64 = 0.5;
+/// Duration of one step of the assembly, in seconds.
+const STEP_SECONDS: f64 = 1.5;
+
+/// Duration of the pause between two steps, in seconds.
+const PAUSE_SECONDS: f64 = 0.5;
 
 /// A GLB file of sheets that lie flat beside the surface and go to their places one after the other, bending as they
 /// do, in the order of an assembly. In metres, `scale` being the millimetres of a unit; +y is up, as viewers have
@@ -53,7 +55,7 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
             part.sheet,
             sheet,
             &moved,
-            step as f64 * (STEP + PAUSE),
+            step as f64 * (STEP_SECONDS + PAUSE_SECONDS),
             sizes,
         );
     }
@@ -134,8 +136,11 @@ struct File {
     channels: Vec<String>,
 }
 
-const FLOAT: u32 = 5126;
-const UNSIGNED: u32 = 5125;
+/// OpenGL's number for 32-bit floats, by which glTF names component types.
+const GL_FLOAT: u32 = 5126;
+
+/// OpenGL's number for unsigned 32-bit integers.
+const GL_UNSIGNED_INT: u32 = 5125;
 
 impl File {
     fn sheet(&mut self, number: usize, sheet: &Sheet, moved: &Moved, time: f64, scale: f64) {
@@ -156,7 +161,7 @@ impl File {
             .collect();
         let view = self.view(&corners);
         let count = 3 * faces.triangles.len();
-        let indices = self.accessor(view, UNSIGNED, count, "SCALAR", "");
+        let indices = self.accessor(view, GL_UNSIGNED_INT, count, "SCALAR", "");
         let [r, g, b] = colour(number).map(|v| linear(f64::from(v) / 255.0));
         self.materials.push(format!(
             r#"{{"doubleSided":true,"pbrMetallicRoughness":{{"baseColorFactor":[{r:.4},{g:.4},{b:.4},1],"metallicFactor":0,"roughnessFactor":0.8}}}}"#
@@ -173,7 +178,7 @@ impl File {
             list(&start),
             list(&turns[0])
         ));
-        let times = [[time as f32], [(time + STEP) as f32]];
+        let times = [[time as f32], [(time + STEP_SECONDS) as f32]];
         let input = self.floats(&times, "SCALAR", true);
         for (path, output) in [
             ("translation", self.floats(&[start, end], "VEC3", false)),
@@ -225,7 +230,7 @@ impl File {
             // Writing into a string cannot fail.
             let _ = write!(more, r#","min":{},"max":{}"#, list(&low), list(&high));
         }
-        self.accessor(view, FLOAT, rows.len(), shape, &more)
+        self.accessor(view, GL_FLOAT, rows.len(), shape, &more)
     }
 
     fn finish(self) -> Result<Vec<u8>> {

@@ -12,16 +12,20 @@ use crate::drawing::{letters, smooth};
 use crate::error::{Error, Result};
 use crate::pattern::{Faces, Sheet};
 
-/// Longer side of the picture, and the room around it, in its units.
-const SIZE: f64 = 1000.0;
-const ROOM: f64 = 20.0;
+/// Length of the picture's longer side, in its units.
+const PICTURE_SIZE: f64 = 1000.0;
 
-/// How far lines may be from those that were found, in spacings.
-const TOLERANCE: f64 = 0.5;
+/// Width of the margin around the picture, in its units.
+const PICTURE_MARGIN: f64 = 20.0;
 
-/// Sizes of numbers and letters.
-const NUMBER: f64 = 28.0;
-const LETTER: f64 = 16.0;
+/// Largest distance between a drawn line and the one that was found, in lattice spacings.
+const LINE_TOLERANCE_SPACINGS: f64 = 0.5;
+
+/// Font size of step numbers, in units of the picture.
+const NUMBER_FONT_SIZE: f64 = 28.0;
+
+/// Font size of edge letters, in units of the picture.
+const LETTER_FONT_SIZE: f64 = 16.0;
 
 /// An SVG file of the surface that sheets make, seen from above: the patches' numbers and the seams' letters are
 /// those of the drawing, folds are dashed. What faces away from there is left out.
@@ -44,14 +48,14 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
             reason: "its vertices must be finite, and not all at one place".into(),
         });
     }
-    let scale = SIZE / wide;
+    let scale = PICTURE_SIZE / wide;
     let place = |p: [f64; 2]| {
         [
-            ROOM + scale * (p[0] - low[0]),
-            ROOM + scale * (high[1] - p[1]),
+            PICTURE_MARGIN + scale * (p[0] - low[0]),
+            PICTURE_MARGIN + scale * (high[1] - p[1]),
         ]
     };
-    let [width, height] = [0, 1].map(|k| scale * (high[k] - low[k]) + 2.0 * ROOM);
+    let [width, height] = [0, 1].map(|k| scale * (high[k] - low[k]) + 2.0 * PICTURE_MARGIN);
     let mut areas = Group::new()
         .set("id", "sheets")
         .set("stroke", "#333333")
@@ -84,7 +88,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         let [r, g, b] = colour(number);
         let built = Built::new(&sheet.faces);
         let smoothed = |line: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            let line = smooth(line, TOLERANCE * sheet.spacing, sheet.spacing);
+            let line = smooth(line, LINE_TOLERANCE_SPACINGS * sheet.spacing, sheet.spacing);
             let points = line.points(0.1 / scale).into_iter();
             points.map(place).collect()
         };
@@ -135,7 +139,12 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         );
         for spot in &sheet.spots {
             if let Some(at) = seen(&built, &[spot.place]).concat().first() {
-                add((spot.patch + 1).to_string(), place(*at), NUMBER, "patch");
+                add(
+                    (spot.patch + 1).to_string(),
+                    place(*at),
+                    NUMBER_FONT_SIZE,
+                    "patch",
+                );
             }
         }
         for run in sheet.outlines.iter().flatten() {
@@ -148,7 +157,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
                 .is_some_and(|seam| run.patch == Some(seam.patches[0]));
             let middle = run.points[run.points.len() / 2];
             if let Some(at) = seen(&built, &[middle]).concat().first().filter(|_| own) {
-                add(name.clone(), place(*at), LETTER, "seam");
+                add(name.clone(), place(*at), LETTER_FONT_SIZE, "seam");
             }
         }
     }

@@ -2,11 +2,11 @@
 
 use crate::drawing::{Curve, Piece};
 
-/// How far arcs may be from a curve, in millimetres.
-const TOLERANCE: f64 = 0.01;
+/// Largest distance between an arc and the curve that it replaces, in millimetres.
+const ARC_TOLERANCE_MM: f64 = 0.01;
 
-/// How often a curve is halved at most.
-const HALVINGS: u32 = 8;
+/// Largest number of times that a curve is halved.
+const MAX_CURVE_HALVINGS: u32 = 8;
 
 /// A corner of a polyline, and what comes after it: the tangent of a quarter of the angle of an arc, positive if
 /// it runs counter-clockwise, 0 for a straight piece.
@@ -25,7 +25,7 @@ pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
                 place: from,
                 bulge: 0.0,
             }),
-            Piece::Bezier(_) => halved(&piece, [0.0, 1.0], HALVINGS, &mut out),
+            Piece::Bezier(_) => halved(&piece, [0.0, 1.0], MAX_CURVE_HALVINGS, &mut out),
         }
     }
     out.extend(curve.controls().last().map(|place| Corner {
@@ -46,7 +46,7 @@ fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>)
         (1..8).all(|i| {
             let place = piece.at(from + (to - from) * f64::from(i) / 8.0);
             let away = arcs.map(|(corner, end)| from_arc(place, corner, end));
-            away[0].min(away[1]) <= TOLERANCE
+            away[0].min(away[1]) <= ARC_TOLERANCE_MM
         })
     };
     match two.filter(|pair| left == 0 || near(pair)) {
@@ -63,17 +63,18 @@ fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>)
 }
 
 fn tangent(piece: &Piece, t: f64) -> [f64; 2] {
-    const STEP: f64 = 1e-4;
-    let (a, b) = ((t - STEP).max(0.0), (t + STEP).min(1.0));
+    /// Half the parameter difference over which a tangent is taken.
+    const TANGENT_STEP: f64 = 1e-4;
+    let (a, b) = ((t - TANGENT_STEP).max(0.0), (t + TANGENT_STEP).min(1.0));
     // At an end the difference is that of the place beside it: taken twice as far out, it is not.
     let slope = |a: f64, b: f64| {
         let (p, q) = (piece.at(a), piece.at(b));
         [0, 1].map(|k| (q[k] - p[k]) / (b - a))
     };
     let near = slope(a, b);
-    let out = match (t - STEP < 0.0, t + STEP > 1.0) {
-        (true, _) => extrapolated(near, slope(b, b + STEP)),
-        (_, true) => extrapolated(near, slope(a - STEP, a)),
+    let out = match (t - TANGENT_STEP < 0.0, t + TANGENT_STEP > 1.0) {
+        (true, _) => extrapolated(near, slope(b, b + TANGENT_STEP)),
+        (_, true) => extrapolated(near, slope(a - TANGENT_STEP, a)),
         _ => near,
     };
     let long = out[0].hypot(out[1]).max(f64::MIN_POSITIVE);

@@ -13,8 +13,8 @@ use crate::drawing::{Drawing, Label};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 
-/// Every layer with its colour, by its number in AutoCAD's palette.
-const LAYERS: [(&str, u8); 8] = [
+/// Layers with their colours, as numbers in AutoCAD's palette.
+const LAYER_COLOURS: [(&str, u8); 8] = [
     ("CUT", 7),
     ("MOUNTAIN", 1),
     ("VALLEY", 5),
@@ -25,11 +25,11 @@ const LAYERS: [(&str, u8); 8] = [
     ("LABEL", 9),
 ];
 
-/// `$INSUNITS` for millimetres.
-const MILLIMETRES: u8 = 4;
+/// Value of the header variable `$INSUNITS` for millimetres.
+const INSUNITS_MILLIMETRES: u8 = 4;
 
-/// Height of capitals, in sizes of the font.
-const CAPITALS: f64 = 0.72;
+/// Height of capital letters, in font sizes.
+const CAPITAL_HEIGHT: f64 = 0.72;
 
 /// A DXF file of a drawing (AutoCAD R12, ASCII) in millimetres, with polylines of straight pieces and arcs
 /// within a hundredth of a millimetre of the drawing's curves, and texts, on the layers `CUT`, `MOUNTAIN`,
@@ -50,7 +50,7 @@ fn write(file: &mut Pairs, drawing: &Drawing) -> io::Result<()> {
         file.pair(9, "$ACADVER")?;
         file.pair(1, "AC1009")?;
         file.pair(9, "$INSUNITS")?;
-        file.pair(70, MILLIMETRES)?;
+        file.pair(70, INSUNITS_MILLIMETRES)?;
         file.pair(9, "$EXTMIN")?;
         file.point(10, [0.0, 0.0])?;
         file.pair(9, "$EXTMAX")?;
@@ -59,8 +59,8 @@ fn write(file: &mut Pairs, drawing: &Drawing) -> io::Result<()> {
     file.section("TABLES", |file| {
         file.pair(0, "TABLE")?;
         file.pair(2, "LAYER")?;
-        file.pair(70, LAYERS.len())?;
-        for (name, color) in LAYERS {
+        file.pair(70, LAYER_COLOURS.len())?;
+        for (name, color) in LAYER_COLOURS {
             file.pair(0, "LAYER")?;
             file.pair(2, name)?;
             file.pair(70, 0)?;
@@ -145,17 +145,20 @@ impl Pairs {
 
     /// Centred on its place.
     fn text(&mut self, label: &Label) -> io::Result<()> {
-        const CENTRE: u8 = 1;
-        const MIDDLE: u8 = 2;
+        /// Horizontal alignment (group 72) at the centre.
+        const ALIGN_CENTRE: u8 = 1;
+
+        /// Vertical alignment (group 73) in the middle.
+        const ALIGN_MIDDLE: u8 = 2;
         self.pair(0, "TEXT")?;
         self.pair(8, "LABEL")?;
         self.point(10, label.place)?;
-        self.pair(40, CAPITALS * label.size)?;
+        self.pair(40, CAPITAL_HEIGHT * label.size)?;
         self.pair(1, encoded(&label.text))?;
         self.pair(50, label.turn)?;
-        self.pair(72, CENTRE)?;
+        self.pair(72, ALIGN_CENTRE)?;
         self.point(11, label.place)?;
-        self.pair(73, MIDDLE)
+        self.pair(73, ALIGN_MIDDLE)
     }
 }
 

@@ -85,7 +85,7 @@ impl Kind {
             Kind::Tab | Kind::Cut => [0, 0, 0],
             Kind::Edge => [200, 120, 0],
             Kind::Mark => [0, 140, 0],
-            Kind::Leader => [GREY; 3],
+            Kind::Leader => [TEXT_GREY_LEVEL; 3],
         }
     }
 
@@ -118,13 +118,13 @@ impl Kind {
 }
 
 /// Width of all lines, in millimetres.
-const WIDTH: f64 = 0.2;
+const LINE_WIDTH_MM: f64 = 0.2;
 
-/// Grey of all text, of 255.
-const GREY: u8 = 90;
+/// Grey level of all text, from 0 (black) to 255.
+const TEXT_GREY_LEVEL: u8 = 90;
 
-/// From the middle of a line of text down to where its letters stand, in sizes of the font.
-const DROP: f64 = 0.35;
+/// Distance from the middle of a line of text down to its baseline, in font sizes.
+const BASELINE_DROP: f64 = 0.35;
 
 /// A line, and whether it is closed.
 type Drawn<'a> = (&'a Curve, bool);

@@ -3,16 +3,19 @@
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
-use super::{DROP, GREY, WIDTH, layers};
+use super::{BASELINE_DROP, LINE_WIDTH_MM, TEXT_GREY_LEVEL, layers};
 use crate::drawing::{Drawing, Label, Pages, Piece, Stock};
 use crate::error::{Error, Result};
-use crate::files::points::{LARGEST, POINTS, points};
+use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
 /// Length of each arm of a registration mark, in millimetres.
-const ARM: f64 = 4.0;
+const REGISTRATION_ARM_MM: f64 = 4.0;
 
-const FONT: Name = Name(b"F");
-const DRAWING: Name = Name(b"D");
+/// Name of the font among a page's resources.
+const FONT_RESOURCE: Name = Name(b"F");
+
+/// Name of the drawing among a page's resources.
+const DRAWING_RESOURCE: Name = Name(b"D");
 
 /// A PDF file of a drawing in true size: with its pages, each with its name, and with crosses where it is laid
 /// on its neighbours, or on one page as large as it is. `stock` lays it out on pages first ([`Drawing::onto`]).
@@ -44,7 +47,7 @@ pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
     let figure = figure(drawing);
     let mut object = pdf.form_xobject(form, &figure);
     object.bbox(rect([drawing.width, drawing.height]));
-    object.resources().fonts().pair(FONT, font);
+    object.resources().fonts().pair(FONT_RESOURCE, font);
     object.finish();
     for (i, (size, marks)) in sheets.into_iter().enumerate() {
         let mut entry = pdf.page(page(i));
@@ -53,8 +56,8 @@ pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
             .media_box(rect(size))
             .contents(content(i));
         let mut resources = entry.resources();
-        resources.fonts().pair(FONT, font);
-        resources.x_objects().pair(DRAWING, form);
+        resources.fonts().pair(FONT_RESOURCE, font);
+        resources.x_objects().pair(DRAWING_RESOURCE, form);
         resources.finish();
         entry.finish();
         pdf.stream(content(i), &marks);
@@ -69,12 +72,15 @@ fn whole(drawing: &Drawing) -> Result<Sheet> {
     let size = [drawing.width, drawing.height];
     check_page(size)?;
     let mut page = Content::new();
-    page.x_object(DRAWING);
+    page.x_object(DRAWING_RESOURCE);
     Ok((size, page.finish().into_vec()))
 }
 
 fn check_page(size: [f64; 2]) -> Result<()> {
-    match size.iter().any(|side| side * POINTS > LARGEST) {
+    match size
+        .iter()
+        .any(|side| side * POINTS_PER_MM > MAX_PAGE_SIDE_POINTS)
+    {
         true => Err(Error::Unsupported {
             format: "PDF",
             reason: "a page has at most 5.08 metres; choose a smaller scale, or a paper".into(),
@@ -94,14 +100,14 @@ fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
         let [left, low, right, up] = [pages.blank, pages.blank, width, height].map(points);
         out.rect(left, low, right, up).clip_nonzero().end_path();
         out.transform([1.0, 0.0, 0.0, 1.0, points(shift[0]), points(shift[1])]);
-        out.x_object(DRAWING).restore_state();
+        out.x_object(DRAWING_RESOURCE).restore_state();
         grey(&mut out);
-        out.set_line_width(points(0.5 * WIDTH));
+        out.set_line_width(points(0.5 * LINE_WIDTH_MM));
         for [mx, my] in &pages.marks {
             let inside = (x..=x + width).contains(mx) && (y..=y + height).contains(my);
             if inside {
                 let [mx, my] = [mx + shift[0], my + shift[1]];
-                for [dx, dy] in [[ARM, 0.0], [0.0, ARM]] {
+                for [dx, dy] in [[REGISTRATION_ARM_MM, 0.0], [0.0, REGISTRATION_ARM_MM]] {
                     out.move_to(points(mx - dx), points(my - dy));
                     out.line_to(points(mx + dx), points(my + dy)).stroke();
                 }
@@ -117,12 +123,12 @@ fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
 /// The drawing itself, which the pages show parts of.
 fn figure(drawing: &Drawing) -> Vec<u8> {
     let mut out = Content::new();
-    out.set_line_width(points(WIDTH))
+    out.set_line_width(points(LINE_WIDTH_MM))
         .set_line_join(LineJoinStyle::RoundJoin);
     for (kind, lines) in layers(drawing) {
         let [r, g, b] = kind.color().map(|v| f32::from(v) / 255.0);
         out.set_stroke_rgb(r, g, b);
-        let dashes = kind.dashes().iter().map(|d| d * POINTS as f32);
+        let dashes = kind.dashes().iter().map(|d| d * POINTS_PER_MM as f32);
         out.set_dash_pattern(dashes, 0.0);
         for (line, closed) in lines {
             if let Some([x, y]) = line.controls().first() {
@@ -151,7 +157,7 @@ fn figure(drawing: &Drawing) -> Vec<u8> {
 }
 
 fn grey(out: &mut Content) {
-    let grey = f32::from(GREY) / 255.0;
+    let grey = f32::from(TEXT_GREY_LEVEL) / 255.0;
     out.set_fill_gray(grey).set_stroke_gray(grey);
 }
 
@@ -163,13 +169,13 @@ fn text(out: &mut Content, label: &Label) {
     // A letter of Helvetica is about half as wide as the font is large.
     let half = 0.5 * label.size * bytes.iter().map(|c| width(*c)).sum::<f64>();
     let (sin, cos) = label.turn.to_radians().sin_cos();
-    let (x, y) = (-half, -DROP * label.size);
+    let (x, y) = (-half, -BASELINE_DROP * label.size);
     let start = [
         label.place[0] + cos * x - sin * y,
         label.place[1] + sin * x + cos * y,
     ];
     let [c, s] = [cos as f32, sin as f32];
-    out.begin_text().set_font(FONT, points(label.size));
+    out.begin_text().set_font(FONT_RESOURCE, points(label.size));
     out.set_text_matrix([c, s, -s, c, points(start[0]), points(start[1])]);
     out.show(Str(&bytes)).end_text();
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use ::svg::node::element::{Element, Group, Path, Text, Title};
 use ::svg::{Document, Node};
 
-use super::{DROP, GREY, Kind, WIDTH};
+use super::{BASELINE_DROP, Kind, LINE_WIDTH_MM, TEXT_GREY_LEVEL};
 use crate::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 use crate::error::Result;
 
@@ -42,7 +42,7 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
         let mut layer = layer(kind.name())
             .set("fill", "none")
             .set("stroke", rgb(kind.color()))
-            .set("stroke-width", WIDTH);
+            .set("stroke-width", LINE_WIDTH_MM);
         if !kind.dashes().is_empty() {
             let dashes: Vec<String> = kind.dashes().iter().map(f32::to_string).collect();
             layer = layer.set("stroke-dasharray", dashes.join(" "));
@@ -79,7 +79,7 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
         document = document.add(layer);
     }
     let mut texts = layer("label")
-        .set("fill", rgb([GREY; 3]))
+        .set("fill", rgb([TEXT_GREY_LEVEL; 3]))
         .set("font-family", "Helvetica, Arial, sans-serif")
         .set("text-anchor", "middle");
     for (number, sheet) in drawing.sheets.iter().enumerate() {
@@ -96,7 +96,7 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
                 .set("data-sheet", number + 1)
                 .set("x", x.as_str())
                 .set("y", y.as_str())
-                .set("dy", self::number(DROP * label.size))
+                .set("dy", self::number(BASELINE_DROP * label.size))
                 .set("font-size", self::number(label.size));
             if label.turn != 0.0 {
                 let turn = self::number(-label.turn);

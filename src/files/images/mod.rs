@@ -52,8 +52,8 @@ pub enum Format {
     WebP,
 }
 
-/// Every format: its name in options, and its title in messages.
-const FORMATS: [(Format, &str, &str); 8] = [
+/// Formats with their names in options and their titles in messages.
+const FORMAT_TITLES: [(Format, &str, &str); 8] = [
     (Format::Png, "png", "PNG"),
     (Format::Npy, "npy", "NPY"),
     (Format::Tiff, "tiff", "TIFF"),
@@ -64,8 +64,8 @@ const FORMATS: [(Format, &str, &str); 8] = [
     (Format::WebP, "webp", "WebP"),
 ];
 
-/// The first bytes of every format; a `?` stands for any byte.
-const MAGIC: [(&[u8], Format); 13] = [
+/// First bytes of the files of each format; a `?` stands for any byte.
+const MAGIC_BYTES: [(&[u8], Format); 13] = [
     (b"\x89PNG\r\n\x1a\n", Format::Png),
     (b"\x93NUMPY", Format::Npy),
     (b"II*\0", Format::Tiff),
@@ -99,7 +99,7 @@ impl Format {
         let announces = |magic: &[u8]| {
             bytes.len() >= magic.len() && magic.iter().zip(bytes).all(|(m, b)| *m == b'?' || m == b)
         };
-        MAGIC
+        MAGIC_BYTES
             .into_iter()
             .find_map(|(magic, format)| announces(magic).then_some(format))
     }
@@ -109,7 +109,7 @@ impl Format {
     }
 
     fn entry(self) -> (Format, &'static str, &'static str) {
-        FORMATS[self as usize]
+        FORMAT_TITLES[self as usize]
     }
 }
 
@@ -118,7 +118,7 @@ impl FromStr for Format {
 
     /// From [`Format::name`].
     fn from_str(name: &str) -> Result<Self> {
-        FORMATS
+        FORMAT_TITLES
             .into_iter()
             .find_map(|(format, known, _)| (name == known).then_some(format))
             .ok_or_else(|| Error::option("format", name, FORMAT_NAMES))
@@ -344,7 +344,7 @@ mod tests {
 
     #[test]
     fn names_and_first_bytes_name_the_format() {
-        for (i, (format, name, _)) in FORMATS.into_iter().enumerate() {
+        for (i, (format, name, _)) in FORMAT_TITLES.into_iter().enumerate() {
             assert_eq!((format as usize, format.name()), (i, name));
             assert_eq!(format.name().parse(), Ok(format));
             assert!(FORMAT_NAMES.contains(&format!("`{name}`")));

@@ -24,9 +24,11 @@ const HEIGHT_OFFSET: &str = "developable:heightOffset";
 const PIXEL_SIZE: &str = "developable:pixelSize";
 const NO_DATA: &str = "developable:noData";
 
-/// Levels that [`write_png`] uses for heights; 0 is no data.
-const LOWEST: f64 = 1.0;
-const HIGHEST: f64 = 65535.0;
+/// Lowest level that [`write_png`] uses for heights; 0 is no data.
+const MIN_HEIGHT_LEVEL: f64 = 1.0;
+
+/// Highest level that [`write_png`] uses for heights.
+const MAX_HEIGHT_LEVEL: f64 = 65535.0;
 
 /// The pixels of a PNG file, and the reader that holds its metadata.
 pub(super) struct Pixels<'a> {
@@ -199,7 +201,7 @@ pub fn write_png(image: &HeightImage) -> Result<Vec<u8>> {
         if z.is_finite() {
             // Halved, so that the difference of two finite numbers is finite.
             let level = (0.5 * z - 0.5 * offset) / (0.5 * scale);
-            let level = level.round().clamp(LOWEST, HIGHEST);
+            let level = level.round().clamp(MIN_HEIGHT_LEVEL, MAX_HEIGHT_LEVEL);
             sample.copy_from_slice(&(level as u16).to_be_bytes());
         }
     }
@@ -241,15 +243,15 @@ fn quantisation(values: &[f64]) -> (f64, f64) {
             (low.min(*z), high.max(*z))
         });
     if low > high || (low == high && low == 0.0) {
-        return (1.0, -LOWEST); // no heights at all, or all 0
+        return (1.0, -MIN_HEIGHT_LEVEL); // no heights at all, or all 0
     }
     let scale = if low < high {
         // Divided first, because the difference of two finite numbers may not be finite.
-        let steps = HIGHEST - LOWEST;
+        let steps = MAX_HEIGHT_LEVEL - MIN_HEIGHT_LEVEL;
         high / steps - low / steps
     } else {
-        low.abs() / HIGHEST
+        low.abs() / MAX_HEIGHT_LEVEL
     };
     let scale = scale.max(f64::MIN_POSITIVE);
-    (scale, (low - scale * LOWEST).max(f64::MIN))
+    (scale, (low - scale * MIN_HEIGHT_LEVEL).max(f64::MIN))
 }

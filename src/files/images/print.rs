@@ -14,7 +14,7 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 use super::Buffer;
 use crate::dewarp::Photo;
 use crate::error::{Error, Result, positive, try_filled};
-use crate::files::points::{LARGEST, POINTS, points};
+use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
 /// How a photo is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -227,8 +227,8 @@ impl<P: PhotoRows> ImageBuffer for White<'_, P> {
     }
 }
 
-/// Shortest side of a page, in millimetres: below it programs that show PDF may fail.
-const SHORTEST: f64 = 2.0;
+/// Least length of a page's side, in millimetres: below it programs that show PDF may fail.
+const MIN_PAGE_SIDE_MM: f64 = 2.0;
 
 /// A PDF file of one page that is as large as what the photo shows, which fills it, as a JPEG. To be printed
 /// at 100 %.
@@ -248,7 +248,7 @@ pub fn write_photo_pdf(photo: &impl PhotoRows, options: &PhotoOptions) -> Result
     let sides = photo.size().map(|pixels| pixels as f64 / dots);
     if !sides
         .iter()
-        .all(|side| (SHORTEST..=LARGEST / POINTS).contains(side))
+        .all(|side| (MIN_PAGE_SIDE_MM..=MAX_PAGE_SIDE_POINTS / POINTS_PER_MM).contains(side))
     {
         return Err(Error::Unsupported {
             format: "PDF",

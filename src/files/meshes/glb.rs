@@ -20,7 +20,8 @@ use super::unsupported;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
-const NAME: &str = "GLB";
+/// Name of the format in messages.
+const FORMAT_NAME: &str = "GLB";
 
 /// A GLB file of a mesh: positions rounded to 32-bit floats, and what the mesh
 /// has of normals, colours (as bytes, 0 to 255 for 0 to 1) and texture
@@ -53,14 +54,17 @@ pub fn write_glb(mesh: &Mesh, texture: Option<&[u8]>) -> Result<Vec<u8>> {
 fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)> {
     if mesh.uvs().is_none() {
         let reason = "a texture needs texture coordinates, and the mesh has none";
-        return Err(unsupported(NAME, reason));
+        return Err(unsupported(FORMAT_NAME, reason));
     }
     if image.starts_with(b"\x89PNG") {
         Ok((image, "image/png"))
     } else if image.starts_with(b"\xff\xd8\xff") {
         Ok((image, "image/jpeg"))
     } else {
-        Err(unsupported(NAME, "a texture must be a PNG or JPEG file"))
+        Err(unsupported(
+            FORMAT_NAME,
+            "a texture must be a PNG or JPEG file",
+        ))
     }
 }
 
@@ -197,7 +201,7 @@ impl File {
         let start = self.bin.len().next_multiple_of(4);
         let end = start.saturating_add(length);
         if end > u32::MAX as usize {
-            return Err(unsupported(NAME, "files from 4 GiB are not written"));
+            return Err(unsupported(FORMAT_NAME, "files from 4 GiB are not written"));
         }
         self.bin
             .try_reserve(end - self.bin.len())
@@ -243,7 +247,7 @@ impl File {
         });
         self.root.scene = Some(scene);
         self.root.asset.generator = Some("developable".into());
-        let failed = |error: &dyn ToString| unsupported(NAME, error.to_string());
+        let failed = |error: &dyn ToString| unsupported(FORMAT_NAME, error.to_string());
         let json = self.root.to_vec().map_err(|error| failed(&error))?;
         let glb = Glb {
             // Its writer makes a header of its own.

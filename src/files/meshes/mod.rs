@@ -171,8 +171,8 @@ pub fn read_mesh_beside(
     })
 }
 
-/// What a vertex has where nothing gives it a colour.
-const WHITE: [f32; 3] = [1.0; 3];
+/// Colour of a vertex to which the file gives none.
+const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
 /// The texture coordinates of vertices that have none.
 const NO_UV: [f32; 2] = [f32::MIN; 2];
@@ -259,7 +259,12 @@ impl Parts {
             Mesh::new(self.positions, self.triangles)
         }
         .map_err(named)?;
-        if self.colors.len() == vertices && self.colors.iter().any(|color| *color != WHITE) {
+        if self.colors.len() == vertices
+            && self
+                .colors
+                .iter()
+                .any(|color| *color != DEFAULT_VERTEX_COLOUR)
+        {
             mesh = mesh.with_colors(self.colors)?;
         }
         let textured = self.textures.iter().any(|number| *number != NO_TEXTURE);
@@ -296,14 +301,15 @@ fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
     Ok(())
 }
 
-/// Most characters of what a decoder says: some quote the line, which may be the whole file.
-const LONGEST: usize = 160;
+/// Largest number of characters that are kept of a decoder's message: some quote the line, which may be the
+/// whole file.
+const MAX_MESSAGE_CHARACTERS: usize = 160;
 
 fn damaged(format: &'static str, reason: impl Display) -> Error {
     let said = reason.to_string();
     let words = said.split_whitespace();
     let mut reason = words.collect::<Vec<_>>().join(" ");
-    if let Some((end, _)) = reason.char_indices().nth(LONGEST) {
+    if let Some((end, _)) = reason.char_indices().nth(MAX_MESSAGE_CHARACTERS) {
         reason.truncate(end);
         reason.push('…');
     }

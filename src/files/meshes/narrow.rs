@@ -23,9 +23,9 @@ pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Res
     Ok(positions)
 }
 
-/// How many times its own size a mesh may be away from the origin: up to there 32 bits hold
-/// positions to a thousandth of the spacing, were it 4096 vertices across.
-const NEAR: f64 = 8.0;
+/// Largest distance of a mesh from the origin relative to its size: up to it 32 bits hold positions to a
+/// thousandth of the spacing of a mesh 4096 vertices across.
+const MAX_ORIGIN_DISTANCE_RATIO: f64 = 8.0;
 
 /// An origin near a mesh, in each coordinate in which its own is far away: 32 bits hold the
 /// differences from there, but not the fine detail of, say, coordinates on a map.
@@ -46,7 +46,8 @@ pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
         .fold(0.0, f64::max);
     ends.map(|(low, high)| {
         let middle = low / 2.0 + high / 2.0;
-        let far = middle.abs() > NEAR * size && middle.abs() < f64::from(f32::MAX);
+        let far =
+            middle.abs() > MAX_ORIGIN_DISTANCE_RATIO * size && middle.abs() < f64::from(f32::MAX);
         if far { rounded(middle) } else { 0.0 }
     })
 }

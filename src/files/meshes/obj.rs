@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tobj::{LoadError, LoadOptions, MTLLoadResult, Material, load_mtl_buf, load_obj_buf};
 
-use super::{Beside, NO_TEXTURE, Parts, WHITE, damaged};
+use super::{Beside, DEFAULT_VERTEX_COLOUR, NO_TEXTURE, Parts, damaged};
 use crate::error::Result;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
@@ -47,7 +47,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<(
         let material = mesh.material_id.and_then(|id| materials.get(id));
         if mesh.vertex_color.is_empty() {
             let diffuse = material.and_then(|material| material.diffuse);
-            let color = diffuse.map_or(WHITE, |color| color.map(|v| v as f32));
+            let color = diffuse.map_or(DEFAULT_VERTEX_COLOUR, |color| color.map(|v| v as f32));
             parts.material(start as usize, color);
         }
         let colors = mesh.vertex_color.chunks_exact(3);

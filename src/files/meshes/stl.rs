@@ -11,9 +11,11 @@ use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::scene::mesh::Mesh;
 
-/// Bytes before the triangles of a binary file, and of each triangle.
-const HEADER: usize = 84;
-const TRIANGLE: usize = 50;
+/// Number of bytes before the triangles of a binary file.
+const HEADER_BYTES: usize = 84;
+
+/// Number of bytes of each triangle of a binary file.
+const TRIANGLE_BYTES: usize = 50;
 
 /// Whether the file has the length that a binary one has to have.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
@@ -22,12 +24,14 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 
 /// The number of triangles that the header of a binary file states.
 fn triangles(bytes: &[u8]) -> Option<usize> {
-    let count = bytes.get(HEADER - 4..HEADER)?;
+    let count = bytes.get(HEADER_BYTES - 4..HEADER_BYTES)?;
     Some(u32::from_le_bytes(count.try_into().ok()?) as usize)
 }
 
 fn length(triangles: usize) -> Option<usize> {
-    triangles.checked_mul(TRIANGLE)?.checked_add(HEADER)
+    triangles
+        .checked_mul(TRIANGLE_BYTES)?
+        .checked_add(HEADER_BYTES)
 }
 
 pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
@@ -51,7 +55,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
     }
     // Some programs begin binary files like ASCII ones.
     let mut file = bytes.to_vec();
-    file[..HEADER - 4].fill(0);
+    file[..HEADER_BYTES - 4].fill(0);
     collect(&file, parts)
 }
 

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::error::{Result, try_filled};
 use crate::lattice::coarsening::parents;
 use crate::lattice::domain::{Domain, Role};
-use crate::lattice::hexagonal::{NEIGHBOURS, OPPOSITE};
+use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::per_cell::PerCell;
 
 /// Weight of a neighbour in an average.
@@ -24,7 +24,7 @@ pub(super) struct Averages {
     of: Vec<Average>,
 }
 
-/// At a cell, directions as bits in the order of [`NEIGHBOURS`].
+/// At a cell, directions as bits in the order of [`NEIGHBOUR_DIRECTIONS`].
 #[derive(Debug, Clone, Copy)]
 struct Average {
     cell: u32,
@@ -34,7 +34,7 @@ struct Average {
     interior: u8,
 }
 
-/// Of a direction in [`NEIGHBOURS`].
+/// Of a direction in [`NEIGHBOUR_DIRECTIONS`].
 impl Averages {
     pub(super) fn new(domain: &Domain) -> Self {
         let boundary = |cell: &usize| domain.roles()[*cell] == Role::Boundary;
@@ -47,7 +47,9 @@ impl Averages {
             };
             Average {
                 cell: cell as u32,
-                pairs: bits(&|k| around[k].is_active() && around[OPPOSITE[k]].is_active()),
+                pairs: bits(&|k| {
+                    around[k].is_active() && around[OPPOSITE_DIRECTION[k]].is_active()
+                }),
                 interior: bits(&|k| around[k] == Role::Interior),
             }
         };
@@ -189,7 +191,7 @@ fn nearby(parents: [(isize, isize); 2]) -> Vec<(isize, isize)> {
         let last = found.len();
         for i in first..last {
             let (row, col) = found[i];
-            for next in NEIGHBOURS.map(|towards| towards.step(row, col)) {
+            for next in NEIGHBOUR_DIRECTIONS.map(|towards| towards.step(row, col)) {
                 if !found.contains(&next) {
                     found.push(next);
                 }

@@ -9,28 +9,29 @@ use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
 
-/// By how many standard deviations the slope across a hole may differ from those beside it.
-const UNEXPLAINED: f64 = 4.0;
+/// Largest difference between the slope across a hole and those beside it that noise explains, in standard
+/// deviations.
+const MAX_SLOPE_JUMP_DEVIATIONS: f64 = 4.0;
 
-/// Slopes that differ by less are the same whatever the noise: keeps rounding from being a jump.
-const SAME: f64 = 0.05;
+/// Difference between slopes below which they count as equal whatever the noise, so that rounding is no jump.
+const NEGLIGIBLE_SLOPE_DIFFERENCE: f64 = 0.05;
 
-/// Nor is a difference up to this share of the spread: where the surface creases within the hole, and
-/// not in its middle, there is one.
-const BEND: f64 = 0.7;
+/// Largest difference between slopes that a crease within the hole explains, as a share of their spread: a
+/// crease off the hole's middle leaves one.
+const MAX_CREASE_SLOPE_SHARE: f64 = 0.7;
 
-/// Where no neighbours are left that slopes could be taken between, heights may be as far from the
-/// plane as is typical, times this,
-const STRAY: f64 = 3.0;
+/// Largest distance of a height from the plane around a hole, relative to the typical one, where no
+/// neighbours are left that slopes could be taken between.
+const MAX_PLANE_DISTANCE_RATIO: f64 = 3.0;
 
-/// and as far as a right-angled fold brings them, in distances from the hole.
-const FOLD: f64 = 0.35;
+/// Height by which a right-angled fold departs from that plane, per distance from the hole.
+const FOLD_HEIGHT_PER_DISTANCE: f64 = 0.35;
 
-/// Fewest heights that a plane is fitted to.
-const FEWEST: usize = 6;
+/// Least number of heights that a plane is fitted to.
+const MIN_PLANE_SAMPLES: usize = 6;
 
-/// For so many differences the typical noise counts as much as a hole's own.
-const TYPICAL: f64 = 6.0;
+/// Weight of the typical noise beside a hole's own, in numbers of differences.
+const TYPICAL_NOISE_WEIGHT: f64 = 6.0;
 
 /// A hole's cell with the plane through what is around.
 #[derive(Debug, Clone, Copy)]
@@ -78,8 +79,9 @@ struct Scratch {
     shares: Vec<Vector2<f64>>,
 }
 
-/// Keeps matrices that are singular but for rounding positive.
-const SHIFT: f64 = 1e-6;
+/// Amount added to the diagonal of a plane's normal matrix so that one that is
+/// singular up to rounding stays positive.
+const PLANE_MATRIX_SHIFT: f64 = 1e-6;
 
 impl<'a> Crossings<'a> {
     pub(super) fn new(
@@ -104,7 +106,7 @@ impl<'a> Crossings<'a> {
         let at = |cell: &usize| self.at(*cell, &mut scratch);
         let found: Vec<Option<Crossing>> = cells.iter().map(at).collect();
         let known = || found.iter().flatten();
-        let spreads = known().filter(|c| c.terms >= TYPICAL);
+        let spreads = known().filter(|c| c.terms >= TYPICAL_NOISE_WEIGHT);
         let mut spreads: Vec<f64> = spreads.map(|c| c.spread / c.terms).collect();
         let strays = known().filter(|c| !c.sees);
         let mut strays: Vec<f64> = strays.map(|c| c.stray).collect();
@@ -141,7 +143,7 @@ impl<'a> Crossings<'a> {
                 around = Some(k + 1);
             }
             match around {
-                Some(distance) if k > distance && scratch.found.len() >= FEWEST => {
+                Some(distance) if k > distance && scratch.found.len() >= MIN_PLANE_SAMPLES => {
                     return self.fit(cell, &sites.sites[..ring[1]], distance, scratch);
                 }
                 _ => (),
@@ -179,7 +181,7 @@ impl<'a> Crossings<'a> {
             strays += residual * residual;
         }
         // Slopes between neighbours, less the plane's.
-        let mut gradient = LeastSquares::<2>::with_ridge([SHIFT; 2]);
+        let mut gradient = LeastSquares::<2>::with_ridge([PLANE_MATRIX_SHIFT; 2]);
         let (mut squares, mut terms) = (0.0, 0.0);
         shares.clear();
         shares.resize(sites.len(), Vector2::zeros());
@@ -196,9 +198,11 @@ impl<'a> Crossings<'a> {
                 }
             }
         }
-        let variance = found.iter().fold(Matrix2::identity() * SHIFT, |sum, i| {
-            sum + shares[*i] * shares[*i].transpose()
-        });
+        let variance = found
+            .iter()
+            .fold(Matrix2::identity() * PLANE_MATRIX_SHIFT, |sum, i| {
+                sum + shares[*i] * shares[*i].transpose()
+            });
         let (normal, right) = (&gradient.matrix, &gradient.right);
         let [_, least] = Sym2::new(normal.m11, normal.m12, normal.m22).eigenvalues();
         let difference = gradient.solve()?;
@@ -230,15 +234,17 @@ struct Typical {
 
 impl Crossing {
     fn is_sound(&self, typical: &Typical, spacing: f64) -> bool {
-        let fold = FOLD * self.reach * spacing;
-        let spread = (self.spread + TYPICAL * typical.spread) / (self.terms + TYPICAL);
+        let fold = FOLD_HEIGHT_PER_DISTANCE * self.reach * spacing;
+        let spread = (self.spread + TYPICAL_NOISE_WEIGHT * typical.spread)
+            / (self.terms + TYPICAL_NOISE_WEIGHT);
         // A difference of two heights has twice the variance of one.
-        let noise = self.evidence <= UNEXPLAINED.powi(2) * 0.5 * spread;
-        let bend = self.difference <= SAME * spacing + BEND * spread.sqrt();
+        let noise = self.evidence <= MAX_SLOPE_JUMP_DEVIATIONS.powi(2) * 0.5 * spread;
+        let bend = self.difference
+            <= NEGLIGIBLE_SLOPE_DIFFERENCE * spacing + MAX_CREASE_SLOPE_SHARE * spread.sqrt();
         self.height.is_finite()
             && match self.sees {
                 true => noise || bend,
-                false => self.stray <= STRAY * typical.stray + fold,
+                false => self.stray <= MAX_PLANE_DISTANCE_RATIO * typical.stray + fold,
             }
     }
 }

@@ -39,12 +39,13 @@ pub enum Bridging {
     UpTo(usize),
 }
 
-/// The widest holes that may be bridged: beyond that a plane says little about what is missing.
-const WIDEST: usize = 16;
+/// Largest width of a hole that may be bridged, in lattice vertices: beyond it a plane says little about what
+/// is missing.
+const MAX_BRIDGE_WIDTH_VERTICES: usize = 16;
 
-/// Confidence of a bridged vertex one step from data on all sides, relative to that of the data;
-/// it falls with the distance. A hundredth, or none, takes more iterations to the same surface.
-const CONFIDENCE: f64 = 0.2;
+/// Confidence of a bridged vertex one step from data on all sides, relative to that of the data; it falls
+/// with the distance. With a hundredth or none the same surface takes more iterations.
+const BRIDGE_CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {
     /// Up to 4 across.
@@ -61,7 +62,7 @@ impl Bridging {
     pub fn width(self) -> Result<usize> {
         match self {
             Bridging::Off => Ok(0),
-            Bridging::UpTo(width) if (1..=WIDEST).contains(&width) => Ok(width),
+            Bridging::UpTo(width) if (1..=MAX_BRIDGE_WIDTH_VERTICES).contains(&width) => Ok(width),
             Bridging::UpTo(width) => {
                 let requirement = "must be a width from 1 to 16 vertices or pixels, or none";
                 Err(Error::option("bridge", width, requirement))
@@ -126,7 +127,7 @@ impl Surroundings<'_> {
             bridges.push(Bridge {
                 index: raster.index(crossing.cell),
                 height: crossing.height,
-                confidence: CONFIDENCE / crossing.distance * crossing.confidence,
+                confidence: BRIDGE_CONFIDENCE / crossing.distance * crossing.confidence,
             });
         }
         Ok(bridges)

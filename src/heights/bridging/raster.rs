@@ -1,7 +1,7 @@
 //! Vertices or pixels in rows, with a margin around them, and who neighbours whom.
 
 use crate::error::{Result, try_filled};
-use crate::lattice::hexagonal::{NEIGHBOURS, ROW};
+use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
 
 /// Cells are counted row by row over the padded box, so that neighbours lie at offsets that depend
 /// on nothing but the parity of the row.
@@ -85,7 +85,7 @@ impl Raster {
         let row = isize::from(odd);
         match self.hexagonal {
             true => [1, 3, 2, 0, 4, 5]
-                .map(|k: usize| NEIGHBOURS[k].step(row, 0))
+                .map(|k: usize| NEIGHBOUR_DIRECTIONS[k].step(row, 0))
                 .map(|(r, c)| [r - row, c])
                 .to_vec(),
             false => {
@@ -132,7 +132,10 @@ impl Raster {
         match self.hexagonal {
             true => {
                 let there = odd ^ (row.rem_euclid(2) == 1);
-                [col as f64 - shift(there) + shift(odd), -(row as f64) * ROW]
+                [
+                    col as f64 - shift(there) + shift(odd),
+                    -(row as f64) * ROW_SPACING,
+                ]
             }
             false => [col as f64, -(row as f64)],
         }

@@ -19,10 +19,11 @@ pub(super) struct Site {
     pub next: Vec<usize>,
 }
 
-const SECTORS: u32 = 12;
+/// Number of sectors of directions by which it is told whether neighbours surround a place.
+const DIRECTION_SECTORS: u32 = 12;
 
-/// Keeps directions on the border of two sectors on one side, in turns.
-const ROUNDING: f64 = 1e-9;
+/// Margin that keeps directions on the border of two sectors on one side, in full turns.
+const SECTOR_BORDER_TURNS: f64 = 1e-9;
 
 impl Sites {
     pub(super) fn new(raster: &Raster, odd: bool, most: usize) -> Self {
@@ -57,7 +58,9 @@ impl Sites {
             Site {
                 offset: at[0] * stride + at[1],
                 place: place.into(),
-                sector: ((angle + ROUNDING).rem_euclid(1.0) * f64::from(SECTORS)) as u32 % SECTORS,
+                sector: ((angle + SECTOR_BORDER_TURNS).rem_euclid(1.0)
+                    * f64::from(DIRECTION_SECTORS)) as u32
+                    % DIRECTION_SECTORS,
                 next: next.collect(),
             }
         });
@@ -70,7 +73,7 @@ impl Sites {
 
 /// Whether no half of the sectors in a row is without any.
 pub(super) fn surround(sectors: u32) -> bool {
-    let all = sectors | sectors << SECTORS;
-    let half = (1 << (SECTORS / 2)) - 1;
-    (0..SECTORS).all(|first| all >> first & half != 0)
+    let all = sectors | sectors << DIRECTION_SECTORS;
+    let half = (1 << (DIRECTION_SECTORS / 2)) - 1;
+    (0..DIRECTION_SECTORS).all(|first| all >> first & half != 0)
 }

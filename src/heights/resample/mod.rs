@@ -13,15 +13,15 @@ use crate::lattice::hexagonal::{Lattice, Located};
 /// far above rounding, far below anything one could see.
 const ON_GRID: f64 = 1e-9;
 
-/// How far beyond the last vertex heights are extrapolated, in units of the
-/// coarser of lattice spacing and pixel size.
-const REACH: f64 = 3.0;
+/// Distance beyond the last vertex up to which heights are extrapolated, in units of the coarser of lattice
+/// spacing and pixel size.
+const EXTRAPOLATION_REACH: f64 = 3.0;
 
 /// Marks a pixel that no plane has reached.
 const NO_SOURCE: u32 = u32::MAX;
 
-/// Marks a pixel within a triangle.
-const WITHIN: u32 = u32::MAX - 1;
+/// Mark of a pixel that lies within a triangle.
+const PIXEL_IN_TRIANGLE: u32 = u32::MAX - 1;
 
 impl HeightImage {
     /// Samples the image at the vertices of a lattice of the given spacing
@@ -86,7 +86,7 @@ impl Heightfield {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory) if the image cannot be allocated.
     pub fn to_image(&self, like: &HeightImage) -> Result<HeightImage> {
         let (width, pixels) = (like.width(), like.values().len());
-        let reach = REACH * self.lattice().spacing().max(like.pixel_size());
+        let reach = EXTRAPOLATION_REACH * self.lattice().spacing().max(like.pixel_size());
         let mut values = try_filled("height image", pixels, f64::NAN)?;
         let mut sources = try_filled("height image", pixels, NO_SOURCE)?;
         let triangle_of = |i: usize| self.triangle_at(like.position(i / width, i % width));
@@ -99,7 +99,7 @@ impl Heightfield {
                 let triangle = self.triangle_at(like.position(row, col));
                 values[i] = triangle.map_or(f64::NAN, |triangle| self.linear(&triangle));
                 if values[i].is_finite() {
-                    sources[i] = WITHIN;
+                    sources[i] = PIXEL_IN_TRIANGLE;
                 } else {
                     missing.push(i);
                 }
@@ -107,7 +107,7 @@ impl Heightfield {
         }
 
         // From pixels beside one that has no height, which are few: those at the lattice's border.
-        let beside = |i: &usize| neighbours(like, *i).filter(|k| sources[*k] == WITHIN);
+        let beside = |i: &usize| neighbours(like, *i).filter(|k| sources[*k] == PIXEL_IN_TRIANGLE);
         let mut border: Vec<usize> = missing.iter().flat_map(beside).collect();
         border.sort_unstable();
         border.dedup();

@@ -2,7 +2,7 @@
 
 use super::{Node, SeamGraph, Segment, is_triangle};
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::NEIGHBOURS;
+use crate::lattice::hexagonal::NEIGHBOUR_DIRECTIONS;
 use crate::pattern::line::meeting;
 use crate::scene::triangulation::Triangulation;
 use crate::shape::patches::NO_PATCH;
@@ -157,8 +157,8 @@ fn is_open(surface: &Heightfield, mesh: &Triangulation, from: u32, to: u32) -> b
     let target = (to.0 as isize, to.1 as isize);
     // The next direction clockwise of W, E, NW, NE, SW, SE.
     const NEXT_CLOCKWISE: [usize; 6] = [2, 5, 3, 1, 0, 4];
-    let towards = (0..6).find(|k| NEIGHBOURS[*k].step(place.0, place.1) == target);
+    let towards = (0..6).find(|k| NEIGHBOUR_DIRECTIONS[*k].step(place.0, place.1) == target);
     let Some(towards) = towards else { return true };
-    let (row, col) = NEIGHBOURS[NEXT_CLOCKWISE[towards]].step(place.0, place.1);
+    let (row, col) = NEIGHBOUR_DIRECTIONS[NEXT_CLOCKWISE[towards]].step(place.0, place.1);
     !lattice.contains(row, col) || surface.height(row as usize, col as usize).is_nan()
 }

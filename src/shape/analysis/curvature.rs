@@ -6,7 +6,7 @@ use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 use crate::lattice::hessian::HessianOperator;
-use crate::lattice::hexagonal::ROW;
+use crate::lattice::hexagonal::ROW_SPACING;
 use crate::math::sym2::Sym2;
 
 /// Curvatures at the vertices of a heightfield, row by row; NaN where a vertex or one of its
@@ -79,11 +79,11 @@ fn gaussian_curvature([w, e, nw, ne, sw, se]: [f64; 6], spacing: f64) -> f64 {
     // In units of the spacing, once around.
     let edges = [
         [1.0, 0.0, e],
-        [0.5, ROW, ne],
-        [-0.5, ROW, nw],
+        [0.5, ROW_SPACING, ne],
+        [-0.5, ROW_SPACING, nw],
         [-1.0, 0.0, w],
-        [-0.5, -ROW, sw],
-        [0.5, -ROW, se],
+        [-0.5, -ROW_SPACING, sw],
+        [0.5, -ROW_SPACING, se],
     ]
     .map(|[x, y, z]| [x, y, z / spacing]);
     let (mut angles, mut area) = (0.0, 0.0);
@@ -168,7 +168,7 @@ mod tests {
         // The apex holds what the cone lacks of 2π: gathered over the whole, by Gauss and Bonnet.
         let apex = TAU * (1.0 - 1.0 / (1.0f64 + 0.49).sqrt());
         let whole: f64 = (c.gaussian.iter().filter(|k| !k.is_nan()))
-            .map(|k| k * (1.0f64 + 0.49).sqrt() * 0.02 * 0.02 * ROW)
+            .map(|k| k * (1.0f64 + 0.49).sqrt() * 0.02 * 0.02 * ROW_SPACING)
             .sum();
         assert!((whole - apex).abs() < 0.1 * apex, "{whole} {apex}");
     }

@@ -3,7 +3,7 @@
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
-use crate::lattice::hexagonal::{Lattice, NEIGHBOURS, OPPOSITE};
+use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::stencil::Quadratic;
 
 /// Bend angle and slope of a heightfield at each vertex of the lattice; NaN where a neighbour is missing.
@@ -76,7 +76,8 @@ impl BendAngles {
     ) -> Option<f64> {
         let cols = lattice.cols();
         let step = |i: usize, towards: usize| {
-            let (r, c) = NEIGHBOURS[towards].step((i / cols) as isize, (i % cols) as isize);
+            let (r, c) =
+                NEIGHBOUR_DIRECTIONS[towards].step((i / cols) as isize, (i % cols) as isize);
             let inside = lattice.contains(r, c);
             inside.then(|| lattice.index(r as usize, c as usize))
         };
@@ -98,7 +99,7 @@ impl BendAngles {
             })
         };
         let (a, b) = (
-            normal(ends[0], OPPOSITE[towards])?,
+            normal(ends[0], OPPOSITE_DIRECTION[towards])?,
             normal(ends[1], towards)?,
         );
         let dot: f64 = (0..3).map(|k| a[k] * b[k]).sum();

@@ -5,7 +5,7 @@ use nalgebra::{Matrix6, Vector6};
 use super::bend_angles::BendAngles;
 use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::hexagonal::{ROW, shift};
+use crate::lattice::hexagonal::{ROW_SPACING, shift};
 
 /// Radius, in spacings, around a vertex within which the vertices of a patch determine its extrapolated height.
 const EXTRAPOLATION_RADIUS: usize = 3;
@@ -88,7 +88,7 @@ pub(crate) fn extrapolated_height(
         {
             let i = lattice.index(r, c);
             let x = c as f64 - shift(r) - (col as f64 - shift(row));
-            let y = (row as f64 - r as f64) * ROW;
+            let y = (row as f64 - r as f64) * ROW_SPACING;
             if i != vertex && labels[i] == patch && x.hypot(y) < EXTRAPOLATION_RADIUS as f64 + 0.1 {
                 samples.push(([x, y], surface.heights()[i]));
             }

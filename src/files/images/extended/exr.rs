@@ -19,8 +19,8 @@ use super::{
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::heights::heightfield::HeightImage;
 
-/// More than any of its compressions can shrink.
-const RATIO: usize = 4096;
+/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
+const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// The attribute that our own files have besides.
 const PIXEL_SIZE: &str = "developable:pixelSize";
@@ -34,7 +34,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
         return Err(Error::Empty { what: "EXR image" });
     }
     let pixel_bytes = header.channels.bytes_per_pixel;
-    check_length(Format::Exr, bytes, len.saturating_mul(pixel_bytes), RATIO)?;
+    check_length(
+        Format::Exr,
+        bytes,
+        len.saturating_mul(pixel_bytes),
+        MAX_COMPRESSION_RATIO,
+    )?;
     let data_type = type_name(header.channels.list[chosen.heights[0]].sample_type);
     let pixel_size = match header.own_attributes.other.get(&Text::from(PIXEL_SIZE)) {
         Some(AttributeValue::F64(size)) if size.is_finite() && *size > 0.0 => *size,

@@ -11,13 +11,15 @@ use super::tiff_tags::oriented;
 use super::{Decoded, Format, PhotoFile, check_length, damaged, picture, rgba_of, unsupported};
 use crate::error::{Error, Result, checked_cells, try_filled};
 
-/// More samples than one byte can stand for: an even block of 64 takes a few
-/// bits, and in a progressive file a run of such blocks does.
-const RATIO: usize = 4096;
+/// Largest number of samples that one byte can stand for: an even block of 64 takes a few bits, and in a
+/// progressive file a run of such blocks does.
+const MAX_SAMPLES_PER_BYTE: usize = 4096;
 
-/// The marker that ends a file, and the one that data of the picture follow.
-const END: [u8; 2] = [0xff, 0xd9];
-const SCAN: u8 = 0xda;
+/// Marker that ends a file.
+const END_MARKER: [u8; 2] = [0xff, 0xd9];
+
+/// Second byte of the marker that image data follow.
+const SCAN_MARKER: u8 = 0xda;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     let mut file = Opened::new(bytes)?;
@@ -104,7 +106,7 @@ impl<'a> Opened<'a> {
                 ));
             }
         };
-        check_length(Format::Jpeg, bytes, stored.1 * len, RATIO)?;
+        check_length(Format::Jpeg, bytes, stored.1 * len, MAX_SAMPLES_PER_BYTE)?;
         Ok(Opened {
             decoder,
             options,
@@ -171,9 +173,9 @@ fn ends(bytes: &[u8]) -> bool {
             return false;
         };
         rest = next;
-        if marker == SCAN {
+        if marker == SCAN_MARKER {
             break;
         }
     }
-    rest.windows(2).any(|pair| pair == END)
+    rest.windows(2).any(|pair| pair == END_MARKER)
 }

@@ -16,8 +16,8 @@ const DEFLATE_RATIO: usize = 1032;
 /// The largest NPY file that is read: 64-bit numbers, and a header.
 const MAX_BYTES: usize = 8 * MAX_CELLS + 16_384;
 
-/// What is read of an array to know its shape.
-const HEAD: u64 = 16_384;
+/// Number of bytes of an array that are read to know its shape.
+const MAX_HEADER_BYTES: u64 = 16_384;
 
 /// The most arrays that an archive may have.
 const MAX_ARRAYS: usize = 1024;
@@ -47,7 +47,7 @@ pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
         .map(|name| {
             let mut head = Vec::new();
             let entry = archive.by_name(&member(&name)).map_err(failed)?;
-            let whole = entry.take(HEAD).read_to_end(&mut head);
+            let whole = entry.take(MAX_HEADER_BYTES).read_to_end(&mut head);
             whole.map_err(|e| damaged(Format::Npz, e))?;
             let (shape, data_type) = npy::describe(&head).map_err(|e| within(&name, e))?;
             Ok(NpzArray {

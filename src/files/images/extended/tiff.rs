@@ -16,8 +16,8 @@ use super::{
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::heights::heightfield::HeightImage;
 
-/// More than any of its compressions can shrink.
-const RATIO: usize = 4096;
+/// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
+const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// What the decoder itself may allocate: a compressed strip, and the values of a tag.
 const DECODER_BYTES: usize = 1 << 28;
@@ -59,7 +59,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     if layout.len != needed {
         return Err(damaged(Format::Tiff, "its sizes contradict each other"));
     }
-    check_length(Format::Tiff, bytes, needed, RATIO)?;
+    check_length(Format::Tiff, bytes, needed, MAX_COMPRESSION_RATIO)?;
     let about = tiff_tags::read(&mut file, type_name(kind))?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;

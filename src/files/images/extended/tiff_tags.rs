@@ -13,9 +13,11 @@ use crate::files::images::Unit;
 
 pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
-/// Millimetres in an inch and in a centimetre.
-const INCH: f64 = 25.4;
-const CENTIMETRE: f64 = 10.0;
+/// Length of an inch, in millimetres.
+const INCH_MM: f64 = 25.4;
+
+/// Length of a centimetre, in millimetres.
+const CENTIMETRE_MM: f64 = 10.0;
 
 /// Values of `ResolutionUnit`.
 const NO_UNIT: u16 = 1;
@@ -24,12 +26,16 @@ const PER_CENTIMETRE: u16 = 3;
 
 /// GeoTIFF keys, and the values of them that matter.
 const MODEL_TYPE: u16 = 1024;
-const GEOGRAPHIC: u16 = 2;
-const LINEAR_UNIT: u16 = 3076;
-const METRE: u16 = 9001;
 
-/// Relative difference up to which two sides of a pixel are the same.
-const SAME: f64 = 1e-6;
+/// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
+const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
+const LINEAR_UNIT: u16 = 3076;
+
+/// Value of the GeoTIFF key `ProjLinearUnitsGeoKey` for metres.
+const LINEAR_UNIT_METRE: u16 = 9001;
+
+/// Relative difference between a pixel's sides up to which they count as equal.
+const NEGLIGIBLE_SIDE_DIFFERENCE: f64 = 1e-6;
 
 pub(super) struct About {
     pub(super) pixel_size: f64,
@@ -86,8 +92,8 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Then it tells the proportions of a pixel only.
         NO_UNIT => return square(1.0 / x, 1.0 / y).map(|_| (1.0, None)),
-        PER_INCH => INCH,
-        PER_CENTIMETRE => CENTIMETRE,
+        PER_INCH => INCH_MM,
+        PER_CENTIMETRE => CENTIMETRE_MM,
         other => {
             return Err(damaged(
                 Format::Tiff,
@@ -106,7 +112,7 @@ fn square(x: f64, y: f64) -> Result<f64> {
             format!("its pixels are {x} wide and {y} high, no sound numbers"),
         ));
     }
-    if (x - y).abs() > SAME * x.max(y) {
+    if (x - y).abs() > NEGLIGIBLE_SIDE_DIFFERENCE * x.max(y) {
         return Err(unsupported(
             Format::Tiff,
             format!("its pixels are {x} wide and {y} high; only square ones are read: resample it"),
@@ -140,14 +146,14 @@ fn geographic_unit(file: &mut File) -> Result<Option<Unit>> {
             .find(|entry| entry[0] == wanted && entry[1] == 0)
             .map(|entry| entry[3])
     };
-    if key(MODEL_TYPE) == Some(GEOGRAPHIC) {
+    if key(MODEL_TYPE) == Some(MODEL_TYPE_GEOGRAPHIC) {
         return Err(unsupported(
             Format::Tiff,
             "its pixels are degrees of longitude and latitude, which are no lengths: project it \
              to a map first",
         ));
     }
-    Ok((key(LINEAR_UNIT) == Some(METRE)).then_some(Unit::Metre))
+    Ok((key(LINEAR_UNIT) == Some(LINEAR_UNIT_METRE)).then_some(Unit::Metre))
 }
 
 fn no_data(file: &mut File, data_type: &str) -> Result<Option<f64>> {

@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
 
-use super::NAME;
+use super::FORMAT_NAME;
 use crate::error::Result;
 use crate::files::meshes::{damaged, unsupported};
 
@@ -17,11 +17,11 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
         return Ok(None);
     };
     let Some((_, data)) = data.split_once(";base64,") else {
-        return Err(damaged(NAME, "embedded data are not in base64"));
+        return Err(damaged(FORMAT_NAME, "embedded data are not in base64"));
     };
     let bytes = STANDARD
         .decode(data)
-        .map_err(|error| damaged(NAME, error))?;
+        .map_err(|error| damaged(FORMAT_NAME, error))?;
     Ok(Some(bytes))
 }
 
@@ -54,7 +54,7 @@ pub(super) fn floats<const N: usize>(
     let kind = accessor.data_type();
     let (width, components) = (kind.size(), count(accessor.dimensions()));
     if components < N {
-        return Err(damaged(NAME, "an attribute has too few components"));
+        return Err(damaged(FORMAT_NAME, "an attribute has too few components"));
     }
     let component = |bytes: &[u8]| match (kind, bytes) {
         (DataType::F32, [a, b, c, d]) => Some(f64::from(f32::from_le_bytes([*a, *b, *c, *d]))),
@@ -69,7 +69,7 @@ pub(super) fn floats<const N: usize>(
             let mut out = [0.0; N];
             for (out, bytes) in out.iter_mut().zip(element.chunks_exact(width)) {
                 *out = component(bytes)
-                    .ok_or_else(|| unsupported(NAME, "an attribute has an unusual type"))?;
+                    .ok_or_else(|| unsupported(FORMAT_NAME, "an attribute has an unusual type"))?;
             }
             Ok(out)
         })
@@ -82,7 +82,7 @@ pub(super) fn whole(accessor: &Accessor, buffers: &[Cow<[u8]>]) -> Result<Vec<u3
             (DataType::U8, [a]) => Ok(u32::from(*a)),
             (DataType::U16, [a, b]) => Ok(u32::from(u16::from_le_bytes([*a, *b]))),
             (DataType::U32, [a, b, c, d]) => Ok(u32::from_le_bytes([*a, *b, *c, *d])),
-            _ => Err(damaged(NAME, "indices are not single whole numbers")),
+            _ => Err(damaged(FORMAT_NAME, "indices are not single whole numbers")),
         })
         .collect()
 }
@@ -104,10 +104,10 @@ fn elements<'a>(
     buffers: &'a [Cow<'a, [u8]>],
 ) -> Result<impl Iterator<Item = &'a [u8]>> {
     if accessor.sparse().is_some() {
-        return Err(unsupported(NAME, "sparse accessors are not read"));
+        return Err(unsupported(FORMAT_NAME, "sparse accessors are not read"));
     }
     let Some(view) = accessor.view() else {
-        return Err(unsupported(NAME, "an accessor has no buffer view"));
+        return Err(unsupported(FORMAT_NAME, "an accessor has no buffer view"));
     };
     let size = accessor.data_type().size() * count(accessor.dimensions());
     let stride = view.stride().unwrap_or(size);
@@ -121,7 +121,7 @@ fn elements<'a>(
     };
     let bytes = whole().ok_or_else(|| {
         damaged(
-            NAME,
+            FORMAT_NAME,
             "an accessor reaches beyond its buffer, which may have been cut short",
         )
     })?;

@@ -12,10 +12,11 @@ use gltf::{Document, Glb, Primitive, Semantic};
 use nalgebra::{Matrix4, Vector4};
 
 use self::data::{embedded, floats, plain, whole};
-use super::{Beside, NO_TEXTURE, Parts, WHITE, damaged, unsupported};
+use super::{Beside, DEFAULT_VERTEX_COLOUR, NO_TEXTURE, Parts, damaged, unsupported};
 use crate::error::{Error, Result};
 
-const NAME: &str = "glTF";
+/// Name of the format in messages.
+const FORMAT_NAME: &str = "glTF";
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
     let binary = bytes.starts_with(b"glTF");
@@ -23,18 +24,21 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<(
         // `gltf` takes the header's own length off what that says.
         let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
         if length.is_none_or(|length| u32::from_le_bytes(length) < 12) {
-            return Err(damaged(NAME, "its header states a length that cannot be"));
+            return Err(damaged(
+                FORMAT_NAME,
+                "its header states a length that cannot be",
+            ));
         }
-        let glb = Glb::from_slice(bytes).map_err(|error| damaged(NAME, error))?;
+        let glb = Glb::from_slice(bytes).map_err(|error| damaged(FORMAT_NAME, error))?;
         (glb.json, glb.bin)
     } else {
         (bytes.into(), None)
     };
     let root: Root =
-        gltf::json::deserialize::from_slice(&json).map_err(|error| damaged(NAME, error))?;
+        gltf::json::deserialize::from_slice(&json).map_err(|error| damaged(FORMAT_NAME, error))?;
     if let Some(name) = root.extensions_required.first() {
         return Err(unsupported(
-            NAME,
+            FORMAT_NAME,
             format!(
                 "the file cannot be read without the extension {}; save it without, or without \
                  compression",
@@ -57,18 +61,18 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<(
         .any(|i| i >= root.accessors.len())
     {
         return Err(damaged(
-            NAME,
+            FORMAT_NAME,
             "an attribute names an accessor that is not there",
         ));
     }
-    let document = Document::from_json(root).map_err(|error| damaged(NAME, error))?;
+    let document = Document::from_json(root).map_err(|error| damaged(FORMAT_NAME, error))?;
     let buffers = document
         .buffers()
         .map(|buffer| match buffer.source() {
             Source::Bin => bin
                 .as_deref()
                 .map(Cow::Borrowed)
-                .ok_or_else(|| damaged(NAME, "there is no binary chunk")),
+                .ok_or_else(|| damaged(FORMAT_NAME, "there is no binary chunk")),
             Source::Uri(uri) => match embedded(uri)? {
                 Some(bytes) => Ok(Cow::Owned(bytes)),
                 None => match beside.find(&plain(uri)) {
@@ -91,7 +95,7 @@ fn elsewhere(uri: &str) -> Error {
     let reason = format!(
         "its buffer {name} is another file, which is missing; save it as GLB, or give that file too"
     );
-    unsupported(NAME, reason)
+    unsupported(FORMAT_NAME, reason)
 }
 
 /// A document with the bytes of its buffers.
@@ -120,7 +124,7 @@ impl Scene<'_> {
             .default_scene()
             .or_else(|| document.scenes().next())
         else {
-            return Err(unsupported(NAME, "there is no scene in it"));
+            return Err(unsupported(FORMAT_NAME, "there is no scene in it"));
         };
         let mut pictures = vec![None; document.as_json().images.len()];
         let mut seen = vec![false; document.nodes().len()];
@@ -131,7 +135,7 @@ impl Scene<'_> {
         while let Some((node, above)) = open.pop() {
             if std::mem::replace(&mut seen[node.index()], true) {
                 return Err(damaged(
-                    NAME,
+                    FORMAT_NAME,
                     "a node has two parents, or is its own ancestor",
                 ));
             }
@@ -154,7 +158,7 @@ impl Scene<'_> {
         parts: &mut Parts,
     ) -> Result<Look> {
         let mut look = Look {
-            color: WHITE,
+            color: DEFAULT_VERTEX_COLOUR,
             texture: NO_TEXTURE,
             set: 0,
         };
@@ -210,7 +214,8 @@ impl Scene<'_> {
             let end = start.checked_add(usize::try_from(view.byte_length.0).ok()?)?;
             self.buffers.get(view.buffer.value())?.get(start..end)
         };
-        let bytes = bytes().ok_or_else(|| damaged(NAME, "an image reaches beyond its buffer"))?;
+        let bytes =
+            bytes().ok_or_else(|| damaged(FORMAT_NAME, "an image reaches beyond its buffer"))?;
         Ok(Some(("", bytes.into())))
     }
 
@@ -265,7 +270,7 @@ impl Scene<'_> {
         };
         if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
             return Err(damaged(
-                NAME,
+                FORMAT_NAME,
                 format!("a triangle names vertex {outside} of {vertices}"),
             ));
         }

@@ -11,8 +11,8 @@ use crate::lattice::coarsening::{coarse_lattice, fine_vertex};
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
 
-/// To the neighbours W, E, NW, NE, SW and SE.
-const DIRECTIONS: [[f64; 2]; 6] = [
+/// Offsets to the neighbours W, E, NW, NE, SW and SE, in spacings.
+const NEIGHBOUR_OFFSETS: [[f64; 2]; 6] = [
     [-1.0, 0.0],
     [1.0, 0.0],
     [-0.5, ROW_SPACING],
@@ -21,8 +21,9 @@ const DIRECTIONS: [[f64; 2]; 6] = [
     [0.5, -ROW_SPACING],
 ];
 
-/// Half of what a coarse vertex stands for: of one fine vertex, and of half of each neighbour's.
-const HALF: f64 = 2.0;
+/// Half of the weight that a coarse vertex stands for: that of one fine vertex, and of half of each
+/// neighbour's.
+const HALF_COARSE_WEIGHT: f64 = 2.0;
 
 /// The input on the lattice of twice the spacing, of which `domain` has the roles.
 ///
@@ -62,13 +63,13 @@ pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
             let stencils = around.into_iter().filter(|v| has_stencil(*v)).count();
             let occluded = |v: usize| input.is_occluded(v);
             torn.push(u8::from(
-                share(has_stencil(centre), stencils) < HALF
+                share(has_stencil(centre), stencils) < HALF_COARSE_WEIGHT
                     || own
                         .into_iter()
                         .chain(ring.into_iter().flatten())
                         .any(occluded),
             ));
-            let merged = match own.is_some() || valid >= HALF {
+            let merged = match own.is_some() || valid >= HALF_COARSE_WEIGHT {
                 true => input.merged(own, ring),
                 false => Merged::default(),
             };
@@ -112,7 +113,7 @@ impl Input {
         let mut terms: Vec<([f64; 2], f64, usize)> =
             own.map(|v| ([0.0; 2], 2.0, v)).into_iter().collect();
         for k in pairs.into_iter().flatten().flatten() {
-            terms.extend(ring[k].map(|v| (DIRECTIONS[k], 1.0, v)));
+            terms.extend(ring[k].map(|v| (NEIGHBOUR_OFFSETS[k], 1.0, v)));
         }
         let count: f64 = terms.iter().map(|(_, share, _)| share).sum();
         let plain: f64 = terms.iter().map(|(_, share, v)| share * heights[*v]).sum();

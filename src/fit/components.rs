@@ -20,13 +20,14 @@ pub(crate) struct Part {
 
 #[derive(Debug, Clone)]
 pub(crate) struct Components {
-    /// The part of each cell, or [`NONE`]; empty if there is only one part.
+    /// The part of each cell, or [`NO_COMPONENT`]; empty if there is only one part.
     labels: Vec<u32>,
     /// The largest first, the others about in reading order.
     pub list: Vec<Part>,
 }
 
-const NONE: u32 = u32::MAX;
+/// Mark of a vertex that belongs to no component.
+const NO_COMPONENT: u32 = u32::MAX;
 
 impl Components {
     /// Costs little more than a look at each cell.
@@ -44,14 +45,14 @@ impl Components {
             }
         }
         // A part's root becomes its number.
-        let mut numbers = try_filled("components", domain.cells(), NONE)?;
+        let mut numbers = try_filled("components", domain.cells(), NO_COMPONENT)?;
         let mut boxes: Vec<[usize; 4]> = Vec::new();
         let mut interior: Vec<usize> = Vec::new();
         for run in domain.active().all() {
             let row = run.start / stride;
             for cell in run.start..run.end {
                 let root = sets.find(cell as u32) as usize;
-                if numbers[root] == NONE {
+                if numbers[root] == NO_COMPONENT {
                     numbers[root] = boxes.len() as u32;
                     boxes.push([row, row, usize::MAX, 0]);
                     interior.push(0);
@@ -91,7 +92,7 @@ impl Components {
         for (i, number) in order.iter().enumerate() {
             place[*number] = i as u32;
         }
-        let mut labels = try_filled("components", domain.cells(), NONE)?;
+        let mut labels = try_filled("components", domain.cells(), NO_COMPONENT)?;
         for cell in domain.active().cells() {
             labels[cell] = place[numbers[sets.find(cell as u32) as usize] as usize];
         }

@@ -16,9 +16,11 @@ pub(crate) type Problem = problem::Problem<LatticeOperator>;
 pub(crate) type State = state::State<LatticeOperator>;
 pub(crate) type Level = iteration::Level<LatticeOperator>;
 
-/// Heights and Hessians are at most so large, and the spacing; and at least one over it.
-const LARGEST: f64 = 1e130;
-const FARTHEST: f64 = 1e50;
+/// Largest magnitude of heights and Hessians.
+const MAX_MAGNITUDE: f64 = 1e130;
+
+/// Largest spacing; the least is one over it.
+const MAX_SPACING: f64 = 1e50;
 
 impl Problem {
     pub(crate) fn new(
@@ -88,15 +90,15 @@ fn check_range(
     let finite = cells().all(|cell| target[cell].is_finite());
     let bend = cells().fold(0.0f64, |m, cell| m.max(target[cell].abs()));
     let hessian = |height: f64| height / (h * h);
-    let affine = bend <= 16.0 * f64::EPSILON * largest && largest >= 1.0 / LARGEST;
+    let affine = bend <= 16.0 * f64::EPSILON * largest && largest >= 1.0 / MAX_MAGNITUDE;
     let zero = bend == 0.0 && cells().all(|cell| heights[domain.lattice_index(cell)] == 0.0);
     // As what a NaN is not.
-    let small_enough = h >= 1.0 / FARTHEST && largest.max(hessian(largest)) <= LARGEST;
+    let small_enough = h >= 1.0 / MAX_SPACING && largest.max(hessian(largest)) <= MAX_MAGNITUDE;
     if !(finite && small_enough) {
         return Err(Error::Overflow { spacing });
     }
-    let large_enough = affine || zero || bend.min(hessian(bend)) >= 1.0 / LARGEST;
-    if h > FARTHEST || !large_enough {
+    let large_enough = affine || zero || bend.min(hessian(bend)) >= 1.0 / MAX_MAGNITUDE;
+    if h > MAX_SPACING || !large_enough {
         return Err(Error::Underflow { spacing });
     }
     Ok(())

@@ -7,9 +7,11 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 
-/// Least and most confidence: from one to the other is as far as double precision carries both.
-const LEAST: f64 = 1e-6;
-const MOST: f64 = 1e6;
+/// Least confidence: from it to the largest is as far as double precision carries both.
+const MIN_CONFIDENCE: f64 = 1e-6;
+
+/// Largest confidence.
+const MAX_CONFIDENCE: f64 = 1e6;
 
 /// A heightfield with all that a solve may know besides: how far each height
 /// is to be trusted, which heights must be met exactly, where the surface is
@@ -121,7 +123,10 @@ impl Input {
             self.field.heights(),
             self.field.lattice().cols(),
         )?;
-        for weight in confidence.iter_mut().filter(|weight| **weight < LEAST) {
+        for weight in confidence
+            .iter_mut()
+            .filter(|weight| **weight < MIN_CONFIDENCE)
+        {
             *weight = 0.0;
         }
         self.confidence = confidence;
@@ -282,7 +287,7 @@ pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Res
                 advice: "0 means that a height is not to be trusted at all",
             });
         }
-        if !(0.0..=MOST).contains(weight) {
+        if !(0.0..=MAX_CONFIDENCE).contains(weight) {
             return Err(Error::option(
                 "confidence",
                 format!(

@@ -5,11 +5,11 @@ use std::str::FromStr;
 use crate::error::{Error, Result};
 use crate::heights::normalization::Normalization;
 
-/// Beyond these even double precision sees only one of the energy's two terms.
-const LAMBDAS: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
+/// Least and largest λ: beyond these even double precision sees only one of the energy's two terms.
+const LAMBDA_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 
-/// In normalised coordinates: from far below a spacing to far beyond any surface.
-const RADII: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+/// Least and largest radius in normalised coordinates: from far below a spacing to far beyond any surface.
+const RADIUS_RANGE: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 /// Maximum number of reweighting or crease passes; more of them change nothing.
 const MAX_PASSES: usize = 20;
@@ -212,7 +212,7 @@ impl Bending {
     pub(crate) const NUCLEAR: Bending = Bending {
         bend_radius: 0.1,
         flatness: 1.0,
-        crease_radius: *RADII.start(),
+        crease_radius: *RADIUS_RANGE.start(),
     };
 
     pub(crate) const fn new(bend_radius: f64, flatness: f64, crease_radius: f64) -> Self {
@@ -435,7 +435,7 @@ impl Options {
     }
 
     fn check_ranges(&self) -> Result<()> {
-        if !LAMBDAS.contains(&self.lambda.value()) {
+        if !LAMBDA_RANGE.contains(&self.lambda.value()) {
             return Err(Error::option(
                 "lambda",
                 self.lambda.value(),
@@ -459,7 +459,7 @@ impl Options {
             ));
         }
         if let Some(weight) = self.tie_break
-            && !LAMBDAS.contains(&weight)
+            && !LAMBDA_RANGE.contains(&weight)
         {
             return Err(Error::option(
                 "tie_break",
@@ -471,7 +471,7 @@ impl Options {
             ("bend_radius", self.bend_radius),
             ("crease_radius", self.crease_radius),
         ] {
-            if radius.is_some_and(|radius| !RADII.contains(&radius)) {
+            if radius.is_some_and(|radius| !RADIUS_RANGE.contains(&radius)) {
                 return Err(Error::option(
                     name,
                     radius.unwrap_or_default(),

@@ -20,15 +20,17 @@ pub(crate) enum Guess {
     Earlier,
 }
 
-/// Residuals at which a pass is done, relative to its first one, and to that about the plane.
-const ENOUGH: f64 = 1e-10;
-const ROUGHLY: f64 = 1e-7;
+/// Residual at which a pass is done, relative to its first one.
+const PASS_RESIDUAL: f64 = 1e-10;
 
-/// Passes in which the tie break pulls towards the last one's plate: then it has no say.
-const PASSES: usize = 3;
+/// Residual at which a pass is done, relative to that about the plane.
+const PLANE_RESIDUAL: f64 = 1e-7;
 
-/// Most iterations in a pass.
-const STEPS: usize = 200;
+/// Number of passes in which the tie break pulls towards the last one's plate: then it has no say.
+const TIE_BREAK_PASSES: usize = 3;
+
+/// Largest number of iterations in a pass.
+const MAX_PASS_ITERATIONS: usize = 200;
 
 /// Sets `z̃` at the free vertices of a problem to the minimiser of
 /// `λ Σ w(z − z̃)² + ρ/2 Σ ‖H‖_F²` over what is given: the plate that ties are
@@ -49,9 +51,9 @@ pub(crate) fn fill(
     }
     let mut z = problem.target.clone();
     precise.start(problem, rho, &z);
-    let rough = ROUGHLY * precise.distance(problem, &multigrid);
+    let rough = PLANE_RESIDUAL * precise.distance(problem, &multigrid);
     let passes = match guess {
-        Guess::Plane => PASSES,
+        Guess::Plane => TIE_BREAK_PASSES,
         Guess::Earlier => {
             z.copy_from_slice(&given);
             problem.target = given;
@@ -62,10 +64,16 @@ pub(crate) fn fill(
     for _ in 0..passes {
         precise.start(problem, rho, &z);
         let goal = match guess {
-            Guess::Plane => ENOUGH * precise.distance(problem, &multigrid),
+            Guess::Plane => PASS_RESIDUAL * precise.distance(problem, &multigrid),
             Guess::Earlier => rough,
         };
-        steps += precise.solve(problem, rho, &mut multigrid, &mut z, (goal, STEPS));
+        steps += precise.solve(
+            problem,
+            rho,
+            &mut multigrid,
+            &mut z,
+            (goal, MAX_PASS_ITERATIONS),
+        );
         for cell in &problem.free {
             problem.target[*cell as usize] = z[*cell as usize];
         }

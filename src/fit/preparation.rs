@@ -22,8 +22,9 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
-/// From such a gap on a surface is only looked at, and an earlier plate is good enough for it.
-const WATCHED: f64 = 0.05;
+/// Relative duality gap from which on a surface is only looked at, and an earlier plate is good enough for
+/// it.
+const PREVIEW_GAP: f64 = 0.05;
 
 /// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
 const COARSEST_GRID: usize = 20;
@@ -105,7 +106,7 @@ impl Preparation {
         let trivial = energy <= problem.rounding && problem.free.is_empty();
         let (guess, warm) = match memory {
             Some((memory, corner)) => (
-                match options.gap_or_default() >= WATCHED {
+                match options.gap_or_default() >= PREVIEW_GAP {
                     true => memory.plate(&mut problem, corner),
                     false => Guess::Plane,
                 },

@@ -29,11 +29,12 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
         (ax - bx).powi(2) + (ay - by).powi(2)
     };
 
-    const NONE: usize = usize::MAX;
-    /// How far a quadratic is trusted, in spacings.
-    const REACH: f64 = 4.0;
-    let reach = REACH * REACH;
-    let mut source = vec![NONE; domain.cells()];
+    /// Mark of a vertex that no quadratic has reached.
+    const NO_SOURCE: usize = usize::MAX;
+    /// Distance up to which a quadratic is trusted, in spacings.
+    const QUADRATIC_REACH_SPACINGS: f64 = 4.0;
+    let reach = QUADRATIC_REACH_SPACINGS * QUADRATIC_REACH_SPACINGS;
+    let mut source = vec![NO_SOURCE; domain.cells()];
     let mut queue = VecDeque::new();
     for cell in domain.interior().cells() {
         source[cell] = cell;
@@ -48,8 +49,8 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
         for offset in domain.neighbour_offsets(cell / stride) {
             let neighbour = cell.wrapping_add_signed(offset);
             let candidate = source[neighbour];
-            if candidate != NONE
-                && (source[cell] == NONE
+            if candidate != NO_SOURCE
+                && (source[cell] == NO_SOURCE
                     || distance(cell, candidate) < distance(cell, source[cell]))
             {
                 source[cell] = candidate;
@@ -57,7 +58,7 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
         }
         for offset in domain.neighbour_offsets(cell / stride) {
             let neighbour = cell.wrapping_add_signed(offset);
-            if roles[neighbour] == Role::Omitted && source[neighbour] == NONE {
+            if roles[neighbour] == Role::Omitted && source[neighbour] == NO_SOURCE {
                 // Claimed now so that it is queued once; improved when its turn comes.
                 source[neighbour] = source[cell];
                 queue.push_back(neighbour);
@@ -75,7 +76,7 @@ pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64
     for cell in (0..domain.cells()).filter(|cell| roles[*cell] == Role::Omitted) {
         let index = domain.lattice_index(cell);
         heights[index] = match source[cell] {
-            NONE => own(index),
+            NO_SOURCE => own(index),
             from if distance(cell, from) > reach => own(index),
             from => {
                 let ring = domain

@@ -192,10 +192,10 @@ pub fn fit_with(
     options: &Options,
     mut on_progress: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Surface> {
-    /// About ten iterations of the default schedule.
-    const WORK: usize = 20;
+    /// Amount of work between two reports: about ten iterations of the default schedule.
+    const ADVANCE_WORK: usize = 20;
     let mut solver = Solver::new(input, options)?;
-    while solver.advance(WORK)? == Status::Running {
+    while solver.advance(ADVANCE_WORK)? == Status::Running {
         if on_progress(&solver.progress()).is_break() {
             solver.cancel();
         }

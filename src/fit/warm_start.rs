@@ -13,9 +13,8 @@ use super::plate::Guess;
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
-/// Factors from one λ to the next within which the last answer may be a better start than a coarse
-/// lattice.
-const NEAR: RangeInclusive<f64> = 0.4..=3.0;
+/// Ratios of the new λ to the last one at which the last answer may be a better start than a coarse lattice.
+const WARM_START_LAMBDA_RATIOS: RangeInclusive<f64> = 0.4..=3.0;
 
 /// What the last solve that was not overtaken has found, to start from.
 #[derive(Debug, Clone)]
@@ -72,7 +71,7 @@ impl WarmStart {
             return Ok(None);
         };
         let alike = discriminant(&problem.kind) == discriminant(&first.problem.kind);
-        if !alike || !NEAR.contains(&ratio) {
+        if !alike || !WARM_START_LAMBDA_RATIOS.contains(&ratio) {
             return Ok(None);
         }
         // The last penalty is one for ending a solve, not for beginning it.

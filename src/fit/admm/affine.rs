@@ -11,19 +11,20 @@ use super::iteration::Level;
 use crate::error::Result;
 use crate::fit::operator::{Operator, Solver};
 
-/// The screening length `(κ/2λ)^¼`, in sizes of the domain: bends are then a millionth of what they
-/// could be.
-const STIFF: f64 = 10.0;
+/// Screening length `(κ/2λ)^¼` of a surface that counts as stiff, in sizes of the domain: its bends are then
+/// a millionth of what they could be.
+const STIFF_SCREENING_LENGTH: f64 = 10.0;
 
-/// A larger gap means that the surface bends.
-pub(super) const NEARLY: f64 = 0.1;
+/// Largest relative duality gap of the affine surface at which it may be the answer: a larger gap means that
+/// the surface bends.
+pub(super) const MAX_AFFINE_GAP: f64 = 0.1;
 
-/// Residual at which its dual is found, relative to the first; where fidelity is weak, what is left
-/// costs more.
-const ENOUGH: [f64; 2] = [1e-4, 1e-9];
+/// Residuals at which the affine surface's dual is found, relative to the first: the usual one, and the one
+/// where fidelity is weak and what is left costs more.
+const DUAL_RESIDUALS: [f64; 2] = [1e-4, 1e-9];
 
-/// Most iterations for it.
-const STEPS: usize = 100;
+/// Largest number of conjugate-gradient iterations for the affine surface's dual.
+const MAX_DUAL_ITERATIONS: usize = 100;
 
 impl<O: Operator> Level<O> {
     /// Takes the affine surface, and a bound about it, where it is better than the best one so far.
@@ -38,16 +39,21 @@ impl<O: Operator> Level<O> {
         if objective > self.best.objective() {
             return Ok(());
         }
-        let stiffness = 2.0 * self.problem.lambda * (STIFF * self.problem.operator.size()).powi(4);
+        let stiffness = 2.0
+            * self.problem.lambda
+            * (STIFF_SCREENING_LENGTH * self.problem.operator.size()).powi(4);
         self.solver.set_rho(stiffness);
         let (state, problem) = (&mut self.state, &self.problem);
-        let enough = (ENOUGH[usize::from(problem.loose)], STEPS);
+        let enough = (
+            DUAL_RESIDUALS[usize::from(problem.loose)],
+            MAX_DUAL_ITERATIONS,
+        );
         let balanced = balanced_bound(state, problem, &z, stiffness, &mut self.solver, enough)?;
         self.solver.set_rho(self.state.rho);
         self.cg_iterations += balanced.steps;
         self.best.dual_bound = self.best.dual_bound.max(balanced.bound);
         self.best.take_affine(&z, cost);
-        if objective - balanced.bound <= NEARLY * objective {
+        if objective - balanced.bound <= MAX_AFFINE_GAP * objective {
             self.state.z = z;
             self.state
                 .take_balanced(&self.problem, stiffness, &balanced);

@@ -20,13 +20,16 @@ use crate::lattice::runs::Run;
 use crate::math::lanes::{self, narrow, widen};
 use crate::math::sym2::{Sym2, clamp};
 
-/// Steps from one look at the bound to the next: a third to a fourth of an iteration each.
-const STEPS: usize = 8;
+/// Number of ascent steps from one evaluation of the bound to the next; each costs a third to a fourth of an
+/// iteration of ADMM.
+const STEPS_PER_LOOK: usize = 8;
 
-/// Looks at least, and at most. After those, what is missing must be in reach: each look finds about
-/// half of what the last one did.
-const LOOKS: [usize; 2] = [2, 8];
-const REACH: f64 = 1.5;
+/// Least and largest number of evaluations of the bound. After the least the missing gap must be in reach:
+/// each evaluation finds about half of what the last one did.
+const LOOK_LIMITS: [usize; 2] = [2, 8];
+
+/// Factor by which the missing gap may exceed the last gain of the bound for the ascent to go on.
+const REACH_FACTOR: f64 = 1.5;
 
 /// Share of the last step that the `k`-th one starts ahead with. On a scan, ten steps come
 /// furthest with 0.7, fifty with what grows to 0.95.
@@ -34,8 +37,8 @@ fn momentum(k: usize) -> f32 {
     (k as f32 / (k as f32 + 3.0)).clamp(0.7, 0.95)
 }
 
-/// What a look costs, in conjugate-gradient iterations.
-pub(crate) const LOOK: usize = 5;
+/// Cost of one evaluation of the bound, in conjugate-gradient iterations.
+pub(crate) const LOOK_CG_ITERATIONS: usize = 5;
 
 /// How far a search has come: bounds wanted, found, and found last, and looks so far.
 #[derive(Debug, Clone, Default)]
@@ -146,7 +149,7 @@ impl<O: Operator> Ascent<O> {
         Ok(())
     }
 
-    /// A few steps more, which cost about [`LOOK`] conjugate-gradient iterations; the best bound
+    /// A few steps more, which cost about [`LOOK_CG_ITERATIONS`] conjugate-gradient iterations; the best bound
     /// once the search is over.
     pub(crate) fn look(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Option<f64> {
         match problem.kind {
@@ -158,11 +161,11 @@ impl<O: Operator> Ascent<O> {
             _ => self.steps(&problem.operator, Projection),
         }
         let next = self.bound(state, problem);
-        let [least, most] = LOOKS;
+        let [least, most] = LOOK_LIMITS;
         let search = &mut self.search;
         search.looks += 1;
         search.best = search.best.max(next);
-        let in_reach = search.goal - next <= REACH * (next - search.last);
+        let in_reach = search.goal - next <= REACH_FACTOR * (next - search.last);
         search.last = next;
         let over = search.best >= search.goal
             || search.looks >= least && !in_reach
@@ -171,8 +174,8 @@ impl<O: Operator> Ascent<O> {
     }
 
     fn steps(&mut self, operator: &O, proximal: impl Proximal) {
-        let before = self.search.looks * STEPS;
-        for step in before..before + STEPS {
+        let before = self.search.looks * STEPS_PER_LOOK;
+        for step in before..before + STEPS_PER_LOOK {
             self.step(operator, proximal, momentum(step));
         }
     }

@@ -14,8 +14,8 @@ use crate::fit::energy::problem::Problem;
 use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
 use crate::math::sym2::Sym2;
 
-/// Residual at which the dual is balanced, relative to the first, and most iterations.
-pub(super) const ENOUGH: (f64, usize) = (1e-9, 100);
+/// Residual at which the dual is balanced, relative to the first, and largest number of iterations.
+pub(super) const BALANCE_LIMITS: (f64, usize) = (1e-9, 100);
 
 pub(super) struct Balanced {
     /// A lower bound of the optimum.

@@ -2,8 +2,8 @@
 
 use web_time::Instant;
 
-use super::ascent::{Ascent, LOOK};
-use super::balance::{Balanced, ENOUGH, balanced_bound};
+use super::ascent::{Ascent, LOOK_CG_ITERATIONS};
+use super::balance::{BALANCE_LIMITS, Balanced, balanced_bound};
 use super::rank::RankReduction;
 use super::schedule::Plan;
 use super::state::{Certificate, State};
@@ -64,8 +64,8 @@ pub(crate) struct Best {
     pub affine: bool,
 }
 
-/// Iterations that a surface follows a load for.
-const FOLLOWING: usize = 10;
+/// Number of iterations in which a surface follows a load.
+const LOAD_ITERATIONS: usize = 10;
 
 /// An objective that grows by more than this from one check to the next, and is as much above the
 /// input's, is out of hand.
@@ -203,7 +203,7 @@ impl<O: Operator> Level<O> {
                 continue;
             }
             if self.checking.is_some() {
-                *left = left.saturating_sub(LOOK);
+                *left = left.saturating_sub(LOOK_CG_ITERATIONS);
                 let reason = self.look();
                 self.seconds.certificate += start.elapsed().as_secs_f64();
                 if reason.is_some() {
@@ -309,7 +309,7 @@ impl<O: Operator> Level<O> {
             let (z, rho) = (self.state.z.clone(), self.state.rho);
             let (state, solver) = (&mut self.state, &mut self.solver);
             let Balanced { bound, steps, .. } =
-                balanced_bound(state, &self.problem, &z, rho, solver, ENOUGH)?;
+                balanced_bound(state, &self.problem, &z, rho, solver, BALANCE_LIMITS)?;
             self.cg_iterations += steps;
             certificate.dual_bound = certificate.dual_bound.max(bound);
         }
@@ -470,7 +470,7 @@ impl<O: Operator> Level<O> {
     pub(crate) fn begin_pass_at_creases(&mut self, loaded: bool) -> Result<Option<StopReason>> {
         let stop = self.begin_pass()?;
         if loaded {
-            self.follow_load(FOLLOWING);
+            self.follow_load(LOAD_ITERATIONS);
             return Ok(None);
         }
         Ok(stop)

@@ -21,19 +21,20 @@ use crate::math::lanes;
 use crate::math::real::larger;
 use crate::math::sym2::Sym2;
 
-/// Steps, each of which costs about as much as an iteration of ADMM.
-const STEPS: usize = 8;
+/// Number of steps of the rank refinement, each of which costs about as much as an iteration of ADMM.
+const RANK_STEPS: usize = 8;
 
-/// The first limit, in medians of the smaller eigenvalues, and what it is multiplied by from step to
-/// step.
-const LIMIT: f64 = 1.2;
-const SHRINKING: f64 = 0.7;
+/// First limit of the smaller eigenvalues, in their medians.
+const FIRST_EIGENVALUE_LIMIT: f64 = 1.2;
 
-/// Over-relaxation: heights can follow but a part of what is asked of the Hessians.
-const RELAXATION: f64 = 2.0;
+/// Factor by which the limit changes from step to step.
+const LIMIT_FACTOR: f64 = 0.7;
 
-/// One stencil of so many is looked at for the median.
-const SAMPLE: usize = 7;
+/// Factor of over-relaxation: heights can follow but a part of what is asked of the Hessians.
+const OVER_RELAXATION: f64 = 2.0;
+
+/// Stride between the stencils that the median is taken of.
+const MEDIAN_SAMPLE_STRIDE: usize = 7;
 
 #[derive(Debug, Clone)]
 pub(super) struct RankReduction {
@@ -50,7 +51,7 @@ impl RankReduction {
         let mut sizes = Vec::new();
         let mut count = 0;
         problem.operator.hessians(z, |_, hessian| {
-            if count % SAMPLE == 0 {
+            if count % MEDIAN_SAMPLE_STRIDE == 0 {
                 sizes.push(lesser_eigenvalue(hessian).0.abs());
             }
             count += 1;
@@ -71,7 +72,7 @@ impl RankReduction {
         Ok(Some(RankReduction {
             start: copy()?,
             z: copy()?,
-            limit: LIMIT * *median,
+            limit: FIRST_EIGENVALUE_LIMIT * *median,
             steps: 0,
         }))
     }
@@ -94,8 +95,8 @@ impl RankReduction {
             *start += momentum * (*z - before);
         }
         self.steps += 1;
-        self.limit *= SHRINKING;
-        (self.steps == STEPS).then_some(self.z.as_slice())
+        self.limit *= LIMIT_FACTOR;
+        (self.steps == RANK_STEPS).then_some(self.z.as_slice())
     }
 }
 
@@ -135,7 +136,7 @@ impl<O: Operator> State<O> {
             ..
         } = self;
         let [_, [wide, ..]] = terms;
-        let factor = -RELAXATION * *rho * solver.residual_scale();
+        let factor = -OVER_RELAXATION * *rho * solver.residual_scale();
         let residual = solver.residual();
         problem.operator.sweep(
             scratch,

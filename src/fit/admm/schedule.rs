@@ -1,7 +1,7 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
-use super::affine::NEARLY;
+use super::affine::MAX_AFFINE_GAP;
 use super::iteration::Best;
 use super::state::Certificate;
 use crate::fit::energy::law::Kind;
@@ -16,7 +16,7 @@ pub(crate) struct Plan {
     schedule: Schedule,
     /// Over-relaxation of `Cz` in the H-step and the dual update.
     relaxation: f64,
-    /// Conjugate-gradient iterations in a z-step, at most; while the gap is above [`ROUGH`]; in
+    /// Conjugate-gradient iterations in a z-step, at most; while the gap is above [`SECOND_CG_STEP_GAP`]; in
     /// the first one of a level; and where vertices are free, for there one V-cycle does less.
     cg_iterations: usize,
     cg_rough: usize,
@@ -41,20 +41,21 @@ pub(crate) struct Plan {
     pub follows_normals: bool,
 }
 
-/// Absolute and relative residuals at which `Schedule::Paper` stops: those of
-/// the authors' own code, which measures both among the Hessians, the dual one
-/// without the `Cᵀ` that the criterion of Boyd et al. has. With it the factors
-/// 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
-const ABSOLUTE: f64 = 1e-4;
-const RELATIVE: f64 = 1e-3;
+/// Absolute residual at which `Schedule::Paper` stops: that of the authors' own code, which measures both
+/// residuals among the Hessians, the dual one without the `Cᵀ` that the criterion of Boyd et al. has. With it
+/// the factors 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
+const PAPER_ABSOLUTE_RESIDUAL: f64 = 1e-4;
 
-/// A coarse level has at least so many interior vertices: below that nothing is saved.
-const COARSEST: usize = 500;
+/// Relative residual at which `Schedule::Paper` stops, measured as the absolute one.
+const PAPER_RELATIVE_RESIDUAL: f64 = 1e-3;
 
-/// Relative residuals are balanced at primal = BALANCE · dual: the dual residual is
-/// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound
-/// least, since `ascent` takes them away.
-const BALANCE: f64 = 0.025;
+/// Least number of interior vertices of a coarse level: below it nothing is saved.
+const MIN_COARSE_VERTICES: usize = 500;
+
+/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at: the dual residual is
+/// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound least, since
+/// `ascent` takes them away.
+const RESIDUAL_BALANCE: f64 = 0.025;
 
 /// The gap is the sum of what the dual residual costs and what the primal one does. ρ also rises when
 /// the former is less than this share of it, and does not fall.
@@ -66,45 +67,47 @@ const LARGE_SHARE: f64 = 0.7;
 /// The same where vertices are free, and the dual residual is the change of the Hessians.
 const FREE_BALANCE: f64 = 10.0;
 
-/// Above this gap a second conjugate-gradient iteration per z-step pays. Below, it saves hardly more
-/// iterations than it costs.
-const ROUGH: f64 = 0.03;
+/// Relative duality gap above which a second conjugate-gradient iteration per z-step pays. Below, it saves
+/// hardly more iterations than it costs.
+const SECOND_CG_STEP_GAP: f64 = 0.03;
 
-/// It is not needed where the first one has come this close, by the residual's squares.
-const CLOSE: f64 = 0.005;
+/// Squared relative residual after the first conjugate-gradient iteration below which no second one is
+/// needed.
+const SECOND_CG_STEP_RESIDUAL: f64 = 0.005;
 
-/// The squares of a residual that single precision carries on from, relative to its first.
-const SINGLE: f64 = 1e-6;
+/// Squared residual, relative to the first, at which conjugate gradients in single precision end.
+const SINGLE_PRECISION_RESIDUAL: f64 = 1e-6;
 
-/// What ρ is multiplied by from one level to the next.
-const FINER: f64 = 0.5;
+/// Factor by which ρ changes from one level to the next finer one.
+const LEVEL_RHO_FACTOR: f64 = 0.5;
 
-/// Longest screening length of the z-step, in sizes of the domain.
-const SCREENING: f64 = 0.1;
+/// Largest screening length of the z-step, in sizes of the domain.
+const MAX_SCREENING_LENGTH: f64 = 0.1;
 
-/// The same in cells: its fourth power is the condition number. Longer ones move the surface
-/// faster and its bound more slowly.
-const CELLS: f64 = 10.0;
+/// Largest screening length of the z-step, in cells: its fourth power is the condition number. Longer ones
+/// move the surface faster and its bound more slowly.
+const MAX_SCREENING_CELLS: f64 = 10.0;
 
-/// Most of what a search for a better bound divides the gap by.
-const CLIMBABLE: f64 = 100.0;
+/// Largest factor by which an ascent of the bound divides the gap.
+const MAX_ASCENT_GAIN: f64 = 100.0;
 
-/// The same where there are no coarser levels to start from: on a mesh that begins with nothing, or with the
-/// dual of other weights, searches from larger gaps only cost time.
-const NEARER: f64 = 10.0;
+/// Largest factor by which an ascent of the bound divides the gap where there are no coarser levels to start
+/// from: on a mesh that begins with nothing, or with the dual of other weights, ascents from larger gaps only
+/// cost time.
+const MAX_ASCENT_GAIN_SINGLE_LEVEL: f64 = 10.0;
 
 /// Gaps from here on leave the surface's Hessians a smaller eigenvalue that is worth taking away.
 const FULL_RANK: f64 = 2e-3;
 
-/// A start is far from a gap if its own is this many times the root of it: from there it is no
-/// faster than from coarse lattices.
-const FAR: f64 = 3.0;
+/// Ratio of a start's own gap to the root of the gap that is asked for from which on the start is no faster
+/// than coarse lattices.
+const FAR_START_RATIO: f64 = 3.0;
 
-/// Iterations without over-relaxation on a new lattice.
-const SETTLING: usize = 5;
+/// Number of iterations without over-relaxation on a new lattice.
+const PLAIN_ITERATIONS: usize = 5;
 
-/// Iterations in which certificates are taken more often.
-const BEGINNING: usize = 30;
+/// Number of iterations at the beginning in which certificates are taken more often.
+const EARLY_ITERATIONS: usize = 30;
 
 /// Coarse levels need no smaller gap: their lattice is further from the fine one than that.
 const COARSE_GAP: f64 = 0.01;
@@ -128,7 +131,7 @@ impl Plan {
             check_first: 5,
             imbalance: 3.0,
             by_costs: false,
-            climbable: CLIMBABLE,
+            climbable: MAX_ASCENT_GAIN,
             gap: options.gap_or_default(),
             coarse: false,
             max_iterations: options.max_iterations,
@@ -156,7 +159,7 @@ impl Plan {
     pub(crate) fn without_cycles(self) -> Self {
         Plan {
             by_costs: true,
-            climbable: NEARER,
+            climbable: MAX_ASCENT_GAIN_SINGLE_LEVEL,
             cg_rough: self.cg_iterations,
             ..self
         }
@@ -183,7 +186,7 @@ impl Plan {
 
     /// Whether a lattice with so many interior vertices is worth a level of its own.
     pub(crate) fn wants_level(&self, interior: usize) -> bool {
-        self.schedule == Schedule::Default && interior >= COARSEST
+        self.schedule == Schedule::Default && interior >= MIN_COARSE_VERTICES
     }
 
     /// The penalty to start from.
@@ -197,7 +200,7 @@ impl Plan {
 
     /// The penalty to go on with on the lattice of half the spacing.
     pub(crate) fn finer_rho<O: Operator>(&self, rho: f64, fine: &Problem<O>) -> f64 {
-        self.within_bounds(FINER * rho, fine)
+        self.within_bounds(LEVEL_RHO_FACTOR * rho, fine)
     }
 
     /// Where the optimum is nearly affine the relative primal residual stays at 1, and
@@ -209,7 +212,8 @@ impl Plan {
             // No screening length, but the ratio of dual and Hessian of a surface as large as this.
             return rho.min(10.0 * size);
         }
-        let length = (SCREENING * size).min(CELLS * problem.operator.spacing());
+        let length =
+            (MAX_SCREENING_LENGTH * size).min(MAX_SCREENING_CELLS * problem.operator.spacing());
         rho.min(2.0 * problem.lambda * length.powi(4))
     }
 
@@ -217,7 +221,7 @@ impl Plan {
     pub(crate) fn is_far(&self, start: &Certificate) -> bool {
         let objective = start.objective();
         let gap = (objective - start.dual_bound) / objective;
-        gap.is_nan() || gap > FAR * self.gap.sqrt()
+        gap.is_nan() || gap > FAR_START_RATIO * self.gap.sqrt()
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.
@@ -231,7 +235,7 @@ impl Plan {
             self.cg_free
         } else if iteration == 0 {
             self.cg_first
-        } else if gap > ROUGH {
+        } else if gap > SECOND_CG_STEP_GAP {
             self.cg_rough
         } else {
             self.cg_iterations
@@ -242,9 +246,9 @@ impl Plan {
     /// first ones.
     pub(crate) fn cg_reduction<O: Operator>(&self, problem: &Problem<O>, iteration: usize) -> f64 {
         match self.schedule {
-            Schedule::Paper => SINGLE,
+            Schedule::Paper => SINGLE_PRECISION_RESIDUAL,
             Schedule::Default if iteration == 0 || problem.loose => 0.0,
-            Schedule::Default => CLOSE,
+            Schedule::Default => SECOND_CG_STEP_RESIDUAL,
         }
     }
 
@@ -255,7 +259,7 @@ impl Plan {
 
     /// Whether a certificate is due.
     pub(crate) fn is_check(&self, iteration: usize) -> bool {
-        let every = if iteration <= BEGINNING {
+        let every = if iteration <= EARLY_ITERATIONS {
             self.check_first
         } else {
             self.check_every
@@ -267,7 +271,7 @@ impl Plan {
     /// sign. Iterations without take them away, where the start is full of them and where the
     /// bound is to be taken.
     pub(crate) fn relaxation(&self, iteration: usize) -> f64 {
-        if iteration <= SETTLING || self.is_check(iteration) {
+        if iteration <= PLAIN_ITERATIONS || self.is_check(iteration) {
             1.0
         } else {
             self.relaxation
@@ -370,7 +374,7 @@ impl Plan {
             ),
             Schedule::Default => (
                 certificate.primal_residual / certificate.primal_size,
-                BALANCE * certificate.dual_residual / certificate.dual_size,
+                RESIDUAL_BALANCE * certificate.dual_residual / certificate.dual_size,
             ),
             Schedule::Paper => (certificate.primal_residual, change),
         };
@@ -409,7 +413,7 @@ impl Plan {
         let missing = objective - best.dual_bound;
         // An affine surface is worth a try on the next lattice before this one has proved it.
         let wanted = if best.affine && self.coarse {
-            NEARLY
+            MAX_AFFINE_GAP
         } else {
             self.gap
         };
@@ -422,11 +426,12 @@ impl Plan {
             Schedule::Paper => {
                 // Four entries of a Hessian, as in the paper.
                 let entries = 4.0 * problem.operator.stencils().len() as f64;
-                let absolute = entries.sqrt() * ABSOLUTE;
+                let absolute = entries.sqrt() * PAPER_ABSOLUTE_RESIDUAL;
                 // Before the first iteration both residuals vanish without meaning anything.
                 let met = iteration > 0
-                    && certificate.primal_residual <= absolute + RELATIVE * certificate.primal_size
-                    && change <= absolute + RELATIVE * certificate.dual_norm;
+                    && certificate.primal_residual
+                        <= absolute + PAPER_RELATIVE_RESIDUAL * certificate.primal_size
+                    && change <= absolute + PAPER_RELATIVE_RESIDUAL * certificate.dual_norm;
                 met.then_some(StopReason::Residuals)
             }
         };

@@ -25,18 +25,18 @@ pub(crate) struct State<O: Operator> {
     pub(super) terms: [Terms; 2],
 }
 
-type Terms = [Vec<f64>; SUMS];
+type Terms = [Vec<f64>; CERTIFICATE_SUMS];
 
-/// Sums over matrices, and as many over heights, that a certificate takes.
-const SUMS: usize = 6;
+/// Number of sums over matrices, and as many over heights, that a certificate takes.
+const CERTIFICATE_SUMS: usize = 6;
 
 /// The first `n` terms of each sum.
 #[inline(always)]
-fn terms_of(terms: &mut Terms, n: usize) -> [&mut [f64]; SUMS] {
+fn terms_of(terms: &mut Terms, n: usize) -> [&mut [f64]; CERTIFICATE_SUMS] {
     terms.each_mut().map(|row| &mut row[..n])
 }
 
-fn add_sums<const N: usize>(sums: &mut [f64; SUMS], terms: [&mut [f64]; N]) {
+fn add_sums<const N: usize>(sums: &mut [f64; CERTIFICATE_SUMS], terms: [&mut [f64]; N]) {
     for (sum, terms) in sums.iter_mut().zip(terms) {
         *sum += lanes::sum(terms);
     }
@@ -333,7 +333,8 @@ impl<O: Operator> State<O> {
         } = self;
         let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
         let fidelity = 2.0 * problem.lambda;
-        let (mut stencil_sums, mut vertex_sums) = ([0.0; SUMS], [0.0; SUMS]);
+        let (mut stencil_sums, mut vertex_sums) =
+            ([0.0; CERTIFICATE_SUMS], [0.0; CERTIFICATE_SUMS]);
         let [stencil_terms, vertex_terms] = terms;
         problem.operator.sweep(
             scratch,

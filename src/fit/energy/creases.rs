@@ -9,17 +9,17 @@ use crate::error::Result;
 use crate::fit::operator::Operator;
 use crate::lattice::per_cell::PerCell;
 
-/// The least weight.
-const LEAST: f64 = 0.05;
+/// Least weight of a stencil on a crease.
+const MIN_CREASE_WEIGHT: f64 = 0.05;
 
-/// What is left of the weight where smooth parts of the surface are known to meet.
-const FREE: f64 = 0.01;
+/// Weight of a stencil where smooth parts of the surface are known to meet.
+const KNOWN_CREASE_WEIGHT: f64 = 0.01;
 
-/// A weight that changes by more than this share has changed.
-const CHANGE: f64 = 0.1;
+/// Least relative change by which a weight counts as changed.
+const MIN_WEIGHT_CHANGE: f64 = 0.1;
 
-/// Share of creases whose weight changes below which another pass is not worth it.
-const SETTLED: f64 = 0.02;
+/// Least share of creases with a changed weight for which another pass is worth it.
+const MIN_CHANGED_CREASES: f64 = 0.02;
 
 /// What a pass is about.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub(crate) struct Creases {
 impl Creases {
     /// Whether the pass is worth making.
     pub(crate) fn is_worth(self) -> bool {
-        self.changed as f64 > SETTLED * self.vertices as f64
+        self.changed as f64 > MIN_CHANGED_CREASES * self.vertices as f64
     }
 }
 
@@ -47,13 +47,13 @@ impl<O: Operator> Problem<O> {
         for stencil in self.operator.stencils().cells() {
             let sharpness = radius * weights[stencil];
             let weight = if sharpness > 1.0 {
-                (1.0 / sharpness).max(LEAST)
+                (1.0 / sharpness).max(MIN_CREASE_WEIGHT)
             } else {
                 1.0
             };
             let before = self.weight.at(stencil);
             creases.vertices += usize::from(weight < 1.0);
-            creases.changed += usize::from((weight - before).abs() > CHANGE * before);
+            creases.changed += usize::from((weight - before).abs() > MIN_WEIGHT_CHANGE * before);
             weights[stencil] = weight;
         }
         if creases.is_worth() {
@@ -71,7 +71,7 @@ impl<O: Operator> Problem<O> {
             let weight = self.weight.at(stencil);
             found += usize::from(*known && weight == 1.0);
             match known {
-                true => weight.min(FREE),
+                true => weight.min(KNOWN_CREASE_WEIGHT),
                 false => weight,
             }
         });

@@ -13,12 +13,13 @@ use crate::error::{Result, try_filled};
 use crate::fit::operator::{Matrices, Operator, Sums};
 use crate::math::sym2::Sym2;
 
-/// Of the length over which a border straightens: there the moments are those inside.
-const REACH: f64 = 2.3;
+/// Distance from the border, in lengths over which a border straightens, at which the moments are those
+/// inside.
+const BORDER_REACH: f64 = 2.3;
 
-/// Of the largest moment that a stencil bears, `ω`: a load as large as that would fold the sheet along its
-/// border without end.
-const BEARABLE: f64 = 0.6;
+/// Largest moment of a load, as a share of the largest that a stencil bears, `ω`: a load as large as that
+/// would fold the sheet along its border without end.
+const MAX_LOAD_MOMENT: f64 = 0.6;
 
 /// The vertices next to the border, in rings: those without a stencil, their neighbours, and so on.
 pub(crate) struct Rings {
@@ -124,7 +125,7 @@ impl<O: Operator> Problem<O> {
     /// How many rings reach from the border to where moments are those inside.
     pub(crate) fn reach(&self, bend_radius: f64) -> u32 {
         let length = (2.0 * bend_radius / self.lambda).powf(0.25);
-        ((REACH * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32
+        ((BORDER_REACH * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32
     }
 
     /// Loads the vertices that are `near` the border with `moments`, of all stencils, as far as these are
@@ -142,7 +143,7 @@ impl<O: Operator> Problem<O> {
             &mut load,
             |_, run, _, mut to| {
                 for (i, stencil) in (run.start..run.end).enumerate() {
-                    let most = BEARABLE * self.weight.at(stencil);
+                    let most = MAX_LOAD_MOMENT * self.weight.at(stencil);
                     let moment = moments[stencil];
                     let share = most / moment.spectral_norm().max(most);
                     to.set(i, moment.scale(share).coordinates());

@@ -7,21 +7,21 @@ use crate::fit::operator::Operator;
 use crate::fit::options::Energy;
 use crate::lattice::per_cell::PerCell;
 
-/// Norms up to this share of their mean count as none when an energy is reweighted.
-const REWEIGHTING: f64 = 0.3;
+/// Norm, as a share of the mean, up to which a Hessian counts as none when an energy is reweighted.
+const NEGLIGIBLE_NORM_SHARE: f64 = 0.3;
 
-/// A weight of this over `λh⁴` lets a vertex move by next to nothing: keeping it where it is costs
-/// less than a tenth, the norm of one Hessian being of order 1 to 1/h.
-const FIRM: f64 = 1e3;
+/// Weight over `λh⁴` from which on a vertex moves by next to nothing: keeping it where it is costs less than
+/// a tenth, the norm of one Hessian being of order 1 to 1/h.
+const FIRM_WEIGHT: f64 = 1e3;
 
-/// Weights up to this share of the largest are next to none.
-const WEAK: f64 = 5e-3;
+/// Weight, as a share of the largest, up to which it counts as none.
+const NEGLIGIBLE_WEIGHT_SHARE: f64 = 5e-3;
 
-/// Fidelity up to this share of what the input's bends cost is next to none.
-const NOTHING: f64 = 0.1;
+/// Fidelity, as a share of the cost of the input's bends, up to which it counts as none.
+const NEGLIGIBLE_FIDELITY_SHARE: f64 = 0.1;
 
-/// How often norms are averaged with their neighbours' before that.
-const SPREADING: usize = 30;
+/// Number of times that norms are averaged with their neighbours' before a reweighting.
+const NORM_AVERAGING_STEPS: usize = 30;
 
 /// `P(z) = λ Σ w (z − z̃)² + Σ ω f(Cz)` (paper, Eq. 15), the one sum over the operator's vertices, the
 /// other over its stencils, subject to `z = z̃` at constrained vertices.
@@ -114,12 +114,12 @@ impl<O: Operator> Problem<O> {
             inverse[vertex] = if constrained { 0.0 } else { 1.0 / weight };
         }
         let largest = vertices.cells().fold(0.0f64, |m, v| m.max(fidelity[v]));
-        let weak = |vertex: usize| fidelity[vertex] < WEAK * largest;
+        let weak = |vertex: usize| fidelity[vertex] < NEGLIGIBLE_WEIGHT_SHARE * largest;
         self.loose = !self.free.is_empty() || vertices.cells().any(weak);
         if self.loose {
             // Beside them, what is held firmly would drown everything else in its rounding errors.
             // Its share of the bound stays.
-            let firm = FIRM / (self.lambda * self.operator.spacing().powi(4));
+            let firm = FIRM_WEIGHT / (self.lambda * self.operator.spacing().powi(4));
             let firm = |vertex: &usize| fidelity[*vertex] >= firm && inverse[*vertex] > 0.0;
             let firm = vertices.cells().filter(firm);
             self.constrained.extend(firm.map(|vertex| vertex as u32));
@@ -135,7 +135,8 @@ impl<O: Operator> Problem<O> {
     fn yields(&self) -> bool {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * self.target[v].powi(2));
-        self.lambda * squares.sum::<f64>() < NOTHING * self.smoothness(&self.target)
+        self.lambda * squares.sum::<f64>()
+            < NEGLIGIBLE_FIDELITY_SHARE * self.smoothness(&self.target)
     }
 
     /// What rounding errors may change in an objective of 0, those of a Hessian's norm being `norm`.
@@ -191,10 +192,10 @@ impl<O: Operator> Problem<O> {
         let mut norms = self.norms(z)?;
         let stencils = self.operator.stencils();
         let sum: f64 = stencils.cells().map(|stencil| norms[stencil]).sum();
-        for _ in 0..SPREADING {
+        for _ in 0..NORM_AVERAGING_STEPS {
             self.operator.spread(&mut norms);
         }
-        let epsilon = REWEIGHTING * sum / stencils.len() as f64;
+        let epsilon = NEGLIGIBLE_NORM_SHARE * sum / stencils.len() as f64;
         for stencil in stencils.cells() {
             let factor = if epsilon > 0.0 {
                 epsilon / (norms[stencil] + epsilon)

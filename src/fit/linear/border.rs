@@ -15,7 +15,7 @@ use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::per_cell::PerCell;
 
 /// Weight of a neighbour in an average.
-const SHARE: f32 = 0.125;
+const NEIGHBOUR_WEIGHT: f32 = 0.125;
 
 /// `A` at the boundary vertices: the average with those pairs of opposite
 /// neighbours that are both there.
@@ -74,7 +74,7 @@ impl Averages {
             let cell = average.cell as usize;
             for (k, n) in neighbours(domain, cell) {
                 if average.pairs & 1 << k != 0 {
-                    to[cell] += SHARE * (from[n] - from[cell]);
+                    to[cell] += NEIGHBOUR_WEIGHT * (from[n] - from[cell]);
                 }
             }
         }
@@ -89,15 +89,15 @@ impl Averages {
                 let pair = average.pairs & 1 << k != 0;
                 let interior = average.interior & 1 << k != 0;
                 if pair {
-                    to[cell] -= SHARE * from[cell];
+                    to[cell] -= NEIGHBOUR_WEIGHT * from[cell];
                 }
                 match (interior, pair) {
-                    (true, true) => to[cell] += SHARE * from[n],
+                    (true, true) => to[cell] += NEIGHBOUR_WEIGHT * from[n],
                     (true, false) => {
-                        to[cell] += SHARE * from[n];
-                        to[n] -= SHARE * from[cell];
+                        to[cell] += NEIGHBOUR_WEIGHT * from[n];
+                        to[n] -= NEIGHBOUR_WEIGHT * from[cell];
                     }
-                    (false, true) => to[n] += SHARE * from[cell],
+                    (false, true) => to[n] += NEIGHBOUR_WEIGHT * from[cell],
                     (false, false) => (),
                 }
             }

@@ -20,11 +20,12 @@ use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
 use crate::math::lanes;
 
-/// Smoothing steps before and after the coarse correction.
-const STEPS: usize = 2;
+/// Number of smoothing steps before and after the coarse correction.
+const SMOOTHING_STEPS: usize = 2;
 
-/// The smoother works on eigenvalues down to the largest over this; the rest is for the coarse lattice.
-const RANGE: f32 = 5.0;
+/// Ratio of the largest eigenvalue to the least that the smoother works on; the rest is for the coarse
+/// lattice.
+const SMOOTHED_EIGENVALUE_RATIO: f32 = 5.0;
 
 /// A lattice with no larger condition number than this needs no coarser one.
 const WELL_CONDITIONED: f32 = 8.0;
@@ -32,16 +33,17 @@ const WELL_CONDITIONED: f32 = 8.0;
 /// Most smoothing steps on the coarsest lattice.
 const BOTTOM_STEPS: f32 = 40.0;
 
-/// A lattice that needs more steps than that, and has no more unknowns than
-/// this, is solved directly.
-const DIRECT: usize = 300;
+/// Largest number of unknowns of a lattice that is solved directly where it needs more smoothing steps than
+/// the others.
+const MAX_DIRECT_UNKNOWNS: usize = 300;
 
-/// Added to its diagonal, relative: keeps a matrix that is singular but for rounding positive.
-const SHIFT: f32 = 1e-5;
+/// Amount added to a matrix's diagonal, relative to it, so that one that is singular up to rounding stays
+/// positive.
+const DIAGONAL_SHIFT: f32 = 1e-5;
 
-/// How stiff the springs of [`Shares`] are, relative to the finest lattice: fewest iterations on drawn
-/// curves; 1 and 0.001 took half as many again.
-const SPRING: f64 = 0.03;
+/// Stiffness of the springs of [`Shares`], relative to the finest lattice: fewest iterations on drawn curves;
+/// 1 and 0.001 took half as many again.
+const SPRING_STIFFNESS: f64 = 0.03;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Multigrid {
@@ -128,7 +130,7 @@ impl Multigrid {
     /// Changes the matrix.
     pub(crate) fn set(&mut self, rho: f64) {
         let typical = 2.0 * self.lambda;
-        let spring = SPRING * self.floors[0].grid.stiffness(rho);
+        let spring = SPRING_STIFFNESS * self.floors[0].grid.stiffness(rho);
         for floor in &mut self.floors {
             match &floor.shares {
                 None => floor.grid.set(rho, typical, |_| typical),
@@ -178,9 +180,9 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     else {
         return fine.solve();
     };
-    let low = LARGEST_EIGENVALUE / RANGE;
+    let low = LARGEST_EIGENVALUE / SMOOTHED_EIGENVALUE_RATIO;
     fine.start(low);
-    fine.smooth(STEPS - 1, low, true);
+    fine.smooth(SMOOTHING_STEPS - 1, low, true);
     fine.grid.residual(&mut fine.x, &fine.b, &mut fine.residual);
     fine.grid.pin(&mut fine.residual);
     let scale = 0.25 * fine.grid.diagonal / coarse.grid.diagonal;
@@ -196,7 +198,7 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
         (&fine.grid.domain, &mut fine.x, &mut fine.residual),
     );
     fine.grid.pin(&mut fine.x);
-    fine.smooth(STEPS, low, false);
+    fine.smooth(SMOOTHING_STEPS, low, false);
 }
 
 impl Shares {
@@ -254,13 +256,15 @@ impl Floor {
     fn prepare(&mut self) {
         let steps = 1.5 * self.grid.condition().sqrt();
         let unknowns = self.grid.domain.active().len();
-        let slow = steps > BOTTOM_STEPS && unknowns <= DIRECT && self.grid.constrained().is_empty();
+        let slow = steps > BOTTOM_STEPS
+            && unknowns <= MAX_DIRECT_UNKNOWNS
+            && self.grid.constrained().is_empty();
         self.direct = None;
         if slow {
             let columns = self.grid.dense();
             let mut matrix = DMatrix::from_fn(unknowns, unknowns, |i, j| columns[j][i]);
             for i in 0..unknowns {
-                matrix[(i, i)] *= 1.0 + SHIFT;
+                matrix[(i, i)] *= 1.0 + DIAGONAL_SHIFT;
             }
             self.direct = matrix.cholesky();
         }

@@ -12,9 +12,9 @@ use crate::lattice::stencil::{Gathered, HessianMap, Ring, Rolling, weights_of};
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// `h⁴‖CᵀC‖` of the unbounded lattice, where two of the three second differences are at their
-/// largest and the third vanishes; of a part of it no more.
-const NORM: f32 = 256.0 / 9.0;
+/// Norm `h⁴‖CᵀC‖` of the unbounded lattice, where two of the three second differences are at their largest
+/// and the third vanishes; of a part of it no more.
+const SCALED_OPERATOR_NORM: f32 = 256.0 / 9.0;
 
 /// `C` over a domain, in normalised coordinates. Vertices and stencils are both cells of its padded
 /// box.
@@ -118,7 +118,7 @@ impl Operator for LatticeOperator {
 
     #[inline(always)]
     fn norm(&self) -> f32 {
-        NORM
+        SCALED_OPERATOR_NORM
     }
 
     fn place(&self, vertex: usize) -> [f64; 2] {

@@ -8,17 +8,19 @@ use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
 
-/// Vertices are of so many classes, none of which has two that are neighbours; one is held out at a time.
-pub(crate) const CLASSES: usize = 3;
+/// Number of classes of vertices, none of which has two that are neighbours; one is held out at a time.
+pub(crate) const HELD_OUT_CLASSES: usize = 3;
 
-/// Fewer say nothing.
-const FEWEST: usize = 60;
+/// Least number of held-out heights that say anything.
+const MIN_HELD_OUT_SAMPLES: usize = 60;
 
 /// Confidence of what takes a held-out height's place, the mean of those around: enough for the
 /// speed of a solve, and too little to count. Only what is trusted far more is held out. Both are
 /// shares of the largest confidence.
 const MADE_UP: f64 = 0.01;
-const TRUSTED: f64 = 0.1;
+
+/// Least confidence of a held-out height, as a share of the largest.
+const MIN_HELD_OUT_CONFIDENCE: f64 = 0.1;
 
 /// An input without some of its heights, and these.
 #[derive(Debug, Clone)]
@@ -29,7 +31,7 @@ pub(crate) struct HeldOut {
 }
 
 impl HeldOut {
-    /// Without one of the [`CLASSES`]; nothing if that has too few.
+    /// Without one of the [`HELD_OUT_CLASSES`]; nothing if that has too few.
     pub(crate) fn of(input: &Input, class: usize) -> Result<Option<Self>> {
         let lattice = *input.field.lattice();
         let mut heights = try_filled("held-out heights", lattice.len(), 0.0)?;
@@ -44,7 +46,7 @@ impl HeldOut {
             for col in (0..lattice.cols()).filter(|col| class_of(row, *col) == class) {
                 let vertex = lattice.index(row, col);
                 let known = |v: usize| input.is_given(v) && heights[v].is_finite();
-                let trusted = confidence[vertex] >= TRUSTED * largest;
+                let trusted = confidence[vertex] >= MIN_HELD_OUT_CONFIDENCE * largest;
                 if !known(vertex) || !trusted || input.is_constrained(vertex) {
                     continue;
                 }
@@ -60,7 +62,7 @@ impl HeldOut {
                 confidence[vertex] = MADE_UP * largest;
             }
         }
-        if samples.len() < FEWEST {
+        if samples.len() < MIN_HELD_OUT_SAMPLES {
             return Ok(None);
         }
         let mut input = input.clone();
@@ -86,7 +88,7 @@ impl HeldOut {
 
 /// Steps to the east and to the two neighbours below go on to the next class, or the one after it.
 fn class_of(row: usize, col: usize) -> usize {
-    (row / 2 + row + col) % CLASSES
+    (row / 2 + row + col) % HELD_OUT_CLASSES
 }
 
 /// By how many standard errors of the mean difference `others` are smaller than `misses`.
@@ -114,7 +116,7 @@ mod tests {
         let field = Heightfield::from_fn(lattice, |x, y| x * y).unwrap();
         let input = Input::new(field);
         let mut count = vec![0; lattice.len()];
-        for class in 0..CLASSES {
+        for class in 0..HELD_OUT_CLASSES {
             let held_out = HeldOut::of(&input, class).unwrap().unwrap();
             let is_out = |v: usize| held_out.samples.iter().any(|sample| sample.0 == v);
             for &(vertex, ..) in &held_out.samples {

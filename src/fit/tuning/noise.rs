@@ -10,32 +10,37 @@ use crate::math::statistics::{MAD_TO_SIGMA, median};
 /// independent from vertex to vertex.
 const SMALLER_BEND: f64 = 0.93;
 
-/// Fewer samples say nothing.
-const FEWEST: usize = 50;
+/// Least number of samples that say anything about noise.
+const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Most merging for correlated noise.
 const MOST_MERGED: usize = 2;
 
-/// Noise that is independent from vertex to vertex has `σh` as before after merging. If it grows by
-/// more than the first factor it is correlated until then. What grows by more than the second one
-/// each time is no noise but the surface's own shape, which grows by up to 16; where that comes in
-/// later, noise ends where it grows least.
-const CORRELATED: [f64; 2] = [1.3, 5.0];
+/// Least and largest factor by which `σh` of correlated noise grows from one merging to the next. Noise that
+/// is independent from vertex to vertex has `σh` as before. What grows by more than the largest each time is
+/// no noise but the surface's own shape, which grows by up to 16; where that comes in later, noise ends where
+/// it grows least.
+const CORRELATED_GROWTH_RANGE: [f64; 2] = [1.3, 5.0];
 
-/// Noise that is smooth over several vertices shows late, behind what is rougher and smaller, such as
-/// rounding or the edges of pixels: growth rises by this factor, to no more than what noise that is still
-/// smooth can grow by, or it is that of noise on each lattice, and at least the second number. What grows so
-/// is no shape of a developable surface, which does not bend both ways: what it does by at least this share
-/// is noise.
-const RISES: f64 = 1.1;
-const EVERYWHERE: f64 = 3.0;
-const FASTEST: f64 = 12.0;
+/// Factor by which growth rises where noise is smooth over several vertices: it shows late, behind what is
+/// rougher and smaller, such as rounding or the edges of pixels.
+const SMOOTH_NOISE_RISE: f64 = 1.1;
+
+/// Least growth on each lattice where noise is smooth on all of them.
+const MIN_SMOOTH_NOISE_GROWTH: f64 = 3.0;
+
+/// Largest growth of noise that is still smooth.
+const MAX_SMOOTH_NOISE_GROWTH: f64 = 12.0;
+
+/// Least share of curvature that bends both ways at which what grows so is noise: a developable surface does not bend
+/// both ways.
 const BOTH_WAYS: f64 = 0.75;
 
-/// Steps are looked for if at most this share of the heights are different ones, and counted as equal
-/// within this share of them.
-const DISTINCT: f64 = 0.25;
-const EQUAL: f64 = 1e-3;
+/// Largest share of different heights among all at which steps of quantisation are looked for.
+const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
+
+/// Relative difference up to which heights count as equal when steps are looked for.
+const EQUAL_HEIGHT_TOLERANCE: f64 = 1e-3;
 
 /// The noise of an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +79,7 @@ impl Noise {
             noise.merged = width.log2().round() as usize;
             return Ok(Some(noise));
         }
-        let [least, most] = CORRELATED;
+        let [least, most] = CORRELATED_GROWTH_RANGE;
         let mut merged = merge(input)?;
         let mut last = noise;
         let mut slowest = most;
@@ -119,8 +124,11 @@ impl Noise {
 fn shows_late(growth: &[f64]) -> bool {
     let (first, later) = (growth[0], &growth[1..]);
     let fastest = later.iter().copied().fold(0.0, f64::max);
-    let rises = fastest > RISES * first && (CORRELATED[1]..FASTEST).contains(&fastest);
-    rises || (growth.iter()).all(|growth| (EVERYWHERE..CORRELATED[1]).contains(growth))
+    let rises = fastest > SMOOTH_NOISE_RISE * first
+        && (CORRELATED_GROWTH_RANGE[1]..MAX_SMOOTH_NOISE_GROWTH).contains(&fastest);
+    rises
+        || (growth.iter())
+            .all(|growth| (MIN_SMOOTH_NOISE_GROWTH..CORRELATED_GROWTH_RANGE[1]).contains(growth))
 }
 
 /// What rings of six neighbours have in excess of any quadratic: the sum of their heights with
@@ -145,7 +153,7 @@ fn bend_noise(input: &Input) -> Option<f64> {
 /// The median of absolute values at rings of six neighbours, so that creases do not count.
 fn median_of_rings(input: &Input, value: impl Fn(f64, [f64; 6]) -> f64) -> Option<f64> {
     let lattice = input.field.lattice();
-    let least = TRUSTED * largest_trust(input);
+    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let sample = |vertex| sample(input, vertex, least);
     let mut samples = Vec::new();
     for row in 0..lattice.rows() {
@@ -159,14 +167,14 @@ fn median_of_rings(input: &Input, value: impl Fn(f64, [f64; 6]) -> f64) -> Optio
             }
         }
     }
-    if samples.len() < FEWEST {
+    if samples.len() < MIN_NOISE_SAMPLES {
         return None;
     }
     median(&mut samples)
 }
 
-/// Bridged vertices have less, as a share of the largest confidence.
-const TRUSTED: f64 = 0.5;
+/// Least confidence of a sample, as a share of the largest: bridged vertices have less.
+const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
 fn largest_trust(input: &Input) -> f64 {
     match input.confidence.is_empty() {
@@ -189,7 +197,7 @@ fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
 
 /// The step that all heights are multiples of, from some height on, if many are the same.
 fn step(input: &Input) -> Option<f64> {
-    let least = TRUSTED * largest_trust(input);
+    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
     let mut heights: Vec<f64> = samples.filter(|z| z.is_finite()).collect();
     let count = heights.len();
@@ -197,19 +205,20 @@ fn step(input: &Input) -> Option<f64> {
     let size = heights.first()?.abs().max(heights.last()?.abs());
     let rounding = 16.0 * f64::EPSILON * size;
     heights.dedup_by(|a, b| *a - *b <= rounding);
-    if heights.len() < 2 || heights.len() as f64 > DISTINCT * count as f64 {
+    if heights.len() < 2 || heights.len() as f64 > MAX_DISTINCT_HEIGHTS * count as f64 {
         return None;
     }
     let gaps = heights.windows(2).map(|pair| pair[1] - pair[0]);
     let step = gaps.clone().fold(f64::INFINITY, f64::min);
-    let multiple = |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL * gap / step;
+    let multiple =
+        |gap: f64| (gap / step - (gap / step).round()).abs() <= EQUAL_HEIGHT_TOLERANCE * gap / step;
     gaps.into_iter().all(multiple).then_some(step)
 }
 
 /// About how many vertices in a row are rounded to the same step.
 fn plateau(input: &Input, step: f64) -> f64 {
     let lattice = input.field.lattice();
-    let least = TRUSTED * largest_trust(input);
+    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let (mut sum, mut count) = (0.0, 0.0);
     for row in 0..lattice.rows() {
         for col in 1..lattice.cols() {

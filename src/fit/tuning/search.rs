@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::held_out::{CLASSES, HeldOut, advantage};
+use super::held_out::{HELD_OUT_CLASSES, HeldOut, advantage};
 use super::merge::merge;
 use super::noise::Noise;
 use crate::error::Result;
@@ -16,57 +16,60 @@ use crate::fit::partwise::{Beginning, Partwise, Solvable, Status};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
-/// `λ σh` of about the best λ, in normalised coordinates.
-const START: f64 = 8.0;
+/// Product `λ σh` at about the best λ, in normalised coordinates, with which the search begins.
+const FIRST_LAMBDA_NOISE: f64 = 8.0;
 
-/// Where noise asks for more, there is none to speak of: then λ is this preset.
-const LARGEST: f64 = 1e9;
+/// Largest λ of the search: where noise asks for more there is none to speak of, and λ is this preset.
+const MAX_SEARCH_LAMBDA: f64 = 1e9;
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
-/// Factor from one λ to the next, and most steps down from the first.
-const FACTOR: f64 = 3.0;
-const FARTHEST: i32 = 3;
+/// Factor from one λ of the search to the next.
+const LAMBDA_STEP_FACTOR: f64 = 3.0;
+
+/// Largest number of steps down from the first λ.
+const MAX_STEPS_DOWN: i32 = 3;
 
 /// Most merging before a search.
 const MOST_MERGED: usize = 2;
 
-/// Gap of the solves that are compared: their surfaces differ by more than it leaves open.
-const GAP: f64 = 0.02;
+/// Relative duality gap of the solves that are compared: their surfaces differ by more than it leaves open.
+const SEARCH_GAP: f64 = 0.02;
 
-/// Iterations of one of them, at most.
-const ITERATIONS: usize = 500;
+/// Largest number of iterations of a solve that is compared.
+const MAX_SEARCH_ITERATIONS: usize = 500;
 
-/// A coarse lattice will do if it has so many vertices with a stencil; or so many, where noise is
-/// correlated on any finer one.
-const ENOUGH: [usize; 2] = [1500, 400];
+/// Least number of vertices with a stencil of a coarse lattice that the search may use: usually, and where
+/// noise is correlated on any finer one.
+const MIN_SEARCH_VERTICES: [usize; 2] = [1500, 400];
 
-/// So many heights held out tell small differences; where there are fewer, further ones are held out in
-/// further solves.
-const MANY: usize = 1500;
+/// Number of held-out heights that tells small differences; where there are fewer, further ones are held out
+/// in further solves.
+const MIN_HELD_OUT_HEIGHTS: usize = 1500;
 
-/// By how many standard errors predictions must be better: with a smaller λ, a larger one. Bendings have
-/// hurdles of their own.
-const BETTER: [f64; 2] = [-0.5, 2.0];
+/// Number of standard errors by which predictions must be better with a smaller and with a larger λ. Bendings
+/// have hurdles of their own.
+const LAMBDA_HURDLES: [f64; 2] = [-0.5, 2.0];
 
-/// From here on, times [`START`], noise would come back in passes at creases.
-const LOUD: f64 = 2.0;
+/// Ratio of `λ σh` to [`FIRST_LAMBDA_NOISE`] from which on noise would come back in passes at creases.
+const LOUD_NOISE_RATIO: f64 = 2.0;
 
-/// By how much less the squares of what predictions miss must be on average for another bending, where
-/// noise is alike from one vertex to the next: a surface that bends, or creases, more easily follows such
-/// noise, and so predicts heights that have it, too.
-const IN_SPITE: [f64; 2] = [0.15, 0.045];
+/// Shares by which the mean squares of what predictions miss must be less for another bending where noise is
+/// alike from one vertex to the next: a surface that bends, or creases, more easily follows such noise, and
+/// so predicts heights that have it, too.
+const CORRELATED_BENDING_GAINS: [f64; 2] = [0.15, 0.045];
 
-/// The same of creases where it is alike on finer lattices only, on which they follow it.
-const ON_FINER: f64 = 0.021;
+/// Share by which they must be less for creases where noise is alike on finer lattices only, on which creases
+/// follow it.
+const FINER_CREASE_GAIN: f64 = 0.021;
 
-/// And by how many standard errors.
-const DOUBT: f64 = 1.0;
+/// Number of standard errors by which predictions must be better besides.
+const BENDING_HURDLE: f64 = 1.0;
 
 /// Bendings to be compared: the steps from the first λ to those that may suit each, and by how many standard
 /// errors it must predict better than those before it. What there is no reason to leave; for smooth bends,
-/// for creases among these, and for flat facets; for smooth bends alone, which has no cost of flat parts
-/// to lean on.
-const BENDINGS: [Choice; 5] = [
+/// for creases among these, and for flat facets; for smooth bends alone, which has no cost of flat parts to
+/// lean on.
+const BENDING_CHOICES: [Choice; 5] = [
     (Bending::NUCLEAR, &[0], 0.0),
     (Bending::SMOOTH, &[0, -1], 0.0),
     (Bending::new(0.3, 0.3, 0.3), &[0], 0.0),
@@ -107,11 +110,11 @@ pub(crate) fn first(
         solves: 0,
         iterations: 0,
     };
-    let lambda = match noise.map(|noise| START / (noise.product * scale * scale)) {
+    let lambda = match noise.map(|noise| FIRST_LAMBDA_NOISE / (noise.product * scale * scale)) {
         None => Lambda::Medium,
-        Some(lambda) if lambda <= LARGEST => {
+        Some(lambda) if lambda <= MAX_SEARCH_LAMBDA => {
             choice.reason = LambdaReason::Noise;
-            Lambda::Value(lambda.max(1.0 / LARGEST))
+            Lambda::Value(lambda.max(1.0 / MAX_SEARCH_LAMBDA))
         }
         Some(_) => {
             choice.reason = LambdaReason::NoNoise;
@@ -124,7 +127,7 @@ pub(crate) fn first(
 /// The options with what is not given filled in.
 pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let loudness = noise.map_or(0.0, |noise| {
-        options.lambda.value() * noise.product * scale * scale / START
+        options.lambda.value() * noise.product * scale * scale / FIRST_LAMBDA_NOISE
     });
     at_loudness(options, Bending::SMOOTH, loudness)
 }
@@ -143,7 +146,7 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
         ..bending
     };
     let mut out = quiet.within(options).of(options);
-    if loudness > LOUD {
+    if loudness > LOUD_NOISE_RATIO {
         out.crease_passes.get_or_insert(0);
     }
     out
@@ -152,7 +155,7 @@ fn at_loudness(options: &Options, bending: Bending, loudness: f64) -> Options {
 /// The input on the lattice that a search is made on, and whether its noise is alike from one vertex to
 /// the next there.
 fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
-    let [enough, least] = ENOUGH;
+    let [enough, least] = MIN_SEARCH_VERTICES;
     let halved = |input: &Input| -> Result<(Input, usize)> {
         let merged = merge(input)?;
         let size = merged.domain().map_or(0, |domain| domain.interior_len());
@@ -227,16 +230,22 @@ impl Search {
         // More of what is predictable anyway would only be surer of it.
         let solves = match dependent {
             true => 1,
-            false => MANY.div_ceil(class.len()).min(CLASSES),
+            false => MIN_HELD_OUT_HEIGHTS
+                .div_ceil(class.len())
+                .min(HELD_OUT_CLASSES),
         };
         let mut held_out = vec![class];
         for class in 1..solves {
             held_out.extend(HeldOut::of(&input, class)?);
         }
         let mut bendings: Vec<Choice> = Vec::new();
-        for (bending, steps, hurdle) in BENDINGS {
+        for (bending, steps, hurdle) in BENDING_CHOICES {
             let steps: &[i32] = if dependent { &[0] } else { steps };
-            let hurdle = if noise.merged > 0 { DOUBT } else { hurdle };
+            let hurdle = if noise.merged > 0 {
+                BENDING_HURDLE
+            } else {
+                hurdle
+            };
             if asked.energy_or_default() == Energy::Huber || bendings.is_empty() {
                 bendings.push((bending, steps, hurdle));
             }
@@ -250,7 +259,7 @@ impl Search {
             steps: match dependent {
                 true => [0, 0],
                 false => [
-                    -FARTHEST,
+                    -MAX_STEPS_DOWN,
                     i32::from(noise.merged == 0 && noise.step.is_none()),
                 ],
             },
@@ -316,7 +325,7 @@ impl Search {
 
     /// Whether the present candidate is better than the best so far.
     fn is_better(&self, misses: &[f64]) -> bool {
-        let [smaller, larger] = BETTER;
+        let [smaller, larger] = LAMBDA_HURDLES;
         let [(new, _, other), (old, ..)] =
             [self.now, self.best].map(|(bending, _)| self.bendings[bending]);
         let hurdle = match (self.now.0 == self.best.0, self.now.1 < self.best.1) {
@@ -324,13 +333,13 @@ impl Search {
             (true, true) => smaller,
             (true, false) => larger,
         };
-        let [bends, creases] = IN_SPITE;
+        let [bends, creases] = CORRELATED_BENDING_GAINS;
         let sharp = old.crease_radius.max(Bending::SMOOTH.crease_radius);
         let correlated = self.known.noise.is_some_and(|noise| noise.merged > 0);
         let least = match (self.dependent, correlated && new.crease_radius > sharp) {
             (true, _) if new.flatness < old.flatness => bends,
             (true, true) => creases,
-            (false, true) => ON_FINER,
+            (false, true) => FINER_CREASE_GAIN,
             _ => 0.0,
         };
         let sum = |misses: &[f64]| misses.iter().sum::<f64>();
@@ -381,7 +390,7 @@ impl Search {
 
 /// The options of a candidate.
 fn of(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
-    let factor = FACTOR.powi(step);
+    let factor = LAMBDA_STEP_FACTOR.powi(step);
     let options = first.lambda(first.lambda.value() * factor);
     at_loudness(&options, bendings[bending].0, factor)
 }
@@ -416,8 +425,8 @@ fn compared(asked: &Options, first: Lambda) -> Options {
     }
     .lambda(first)
     .border(Border::Free)
-    .max_iterations(ITERATIONS)
-    .gap(GAP)
+    .max_iterations(MAX_SEARCH_ITERATIONS)
+    .gap(SEARCH_GAP)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
@@ -455,7 +464,7 @@ mod tests {
     #[test]
     fn candidates_are_guarded() {
         let first = Options::default().energy(Energy::Huber).lambda(1e4);
-        let at = |step| of(&first, &BENDINGS, (1, step));
+        let at = |step| of(&first, &BENDING_CHOICES, (1, step));
         assert_eq!((at(0).flatness, at(0).crease_passes), (Some(0.3), None));
         assert_eq!((at(-1).flatness, at(-1).crease_passes), (Some(0.3), None));
         assert!((at(1).flatness.unwrap() - 0.9).abs() < 1e-12 && at(1).crease_passes == Some(0));

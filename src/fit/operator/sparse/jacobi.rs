@@ -7,8 +7,9 @@ use crate::fit::operator::{Operator, Solver};
 use crate::math::lanes;
 use crate::math::real::Real;
 
-/// Iterations of a step: together they do about as much as a V-cycle, for which ADMM's schedule is.
-const STEPS: usize = 6;
+/// Number of Jacobi iterations of a step: together they do about as much as a V-cycle, for which ADMM's
+/// schedule is.
+const JACOBI_STEPS: usize = 6;
 
 /// `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
 #[derive(Debug, Clone)]
@@ -278,7 +279,7 @@ impl Solver<SparseOperator> for JacobiGradients {
     }
 
     fn step(&mut self, operator: &SparseOperator) -> bool {
-        let done = (0..STEPS).take_while(|_| self.gradients.step(operator));
+        let done = (0..JACOBI_STEPS).take_while(|_| self.gradients.step(operator));
         done.count() > 0
     }
 
@@ -303,7 +304,7 @@ impl Solver<SparseOperator> for JacobiGradients {
         gradients.start();
         let goal = tolerance * gradients.distance();
         let mut done = 0;
-        while done < STEPS * steps && gradients.distance() > goal {
+        while done < JACOBI_STEPS * steps && gradients.distance() > goal {
             if !gradients.step(operator) {
                 break;
             }
@@ -312,6 +313,6 @@ impl Solver<SparseOperator> for JacobiGradients {
         for (x, more) in x.iter_mut().zip(&gradients.solution) {
             *x += more;
         }
-        Ok(done.div_ceil(STEPS))
+        Ok(done.div_ceil(JACOBI_STEPS))
     }
 }

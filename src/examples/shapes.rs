@@ -1,7 +1,7 @@
 //! The examples' exact heights. `x` runs to the right and `y` up from the
 //! middle of the box, whose longer side is 1; NaN is beyond the shape.
 
-use super::Example;
+use super::example::Example;
 
 /// A box and the surface over it.
 pub(super) struct Shape {

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::admm::iteration::Best;
+use super::admm::best::Best;
 use super::admm::schedule::Plan;
 use super::border_load::load_border;
 use super::energy::creases::Creases;

@@ -4,7 +4,7 @@
 use std::mem;
 use std::sync::Arc;
 
-use super::admm::iteration::Best;
+use super::admm::best::Best;
 use super::admm::schedule::Plan;
 use super::cascade::{Answer, Cascade};
 use super::coarsen::coarsen;

@@ -1,6 +1,6 @@
 //! The figures of all parts together.
 
-use super::admm::iteration::Best;
+use super::admm::best::Best;
 use super::report::{LevelReport, relative_gap};
 
 /// Sums over the parts.

@@ -4,8 +4,10 @@ use std::io;
 
 use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar, WriteOptions, WriterBuilder};
 
-use super::{Buffer, Decoded, Format};
+use super::decoded::Decoded;
+use super::format::Format;
 use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
+use crate::files::buffer::Buffer;
 
 /// Longest header read, in bytes; NumPy has the same limit.
 const MAX_HEADER: usize = 10_000;

@@ -2,7 +2,7 @@
 
 use ::png::{ColorType, Transformations};
 
-use super::Format;
+use super::format::Format;
 use super::png::Pixels;
 use crate::error::{Error, Result, try_filled};
 

@@ -7,8 +7,10 @@ use ::png::{
     Transformations, text_metadata::TEXtChunk,
 };
 
-use super::{Buffer, Decoded, Format, coloured, suggested_scale};
+use super::decoded::{Decoded, coloured, suggested_scale};
+use super::format::Format;
 use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::buffer::Buffer;
 use crate::heights::heightfield::HeightImage;
 
 /// What the decoder itself may allocate: two rows of the widest image and metadata.

@@ -11,9 +11,9 @@ use jpeg_encoder::{
 };
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
-use super::Buffer;
 use crate::dewarp::Photo;
 use crate::error::{Error, Result, positive, try_filled};
+use crate::files::buffer::Buffer;
 use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
 /// How a photo is written.

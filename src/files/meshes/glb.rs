@@ -15,8 +15,8 @@ use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Buffer, Image, Index, Material, Mesh as GltfMesh};
 use gltf::json::{Node, Root, Scene, Value};
 
+use super::builder::unsupported;
 use super::narrow::{byte, narrowed, near_origin};
-use super::unsupported;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 

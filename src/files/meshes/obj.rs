@@ -4,10 +4,11 @@ use std::path::Path;
 
 use tobj::{LoadError, LoadOptions, MTLLoadResult, Material, load_mtl_buf, load_obj_buf};
 
-use super::{Beside, DEFAULT_VERTEX_COLOUR, NO_TEXTURE, Parts, damaged};
+use super::beside::Beside;
+use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged};
 use crate::error::Result;
 
-pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
     // Names may be in any encoding.
     let mut text = String::from_utf8_lossy(bytes);
     check_indices(&text)?;

@@ -9,13 +9,14 @@ use ply_rs_bw::ply::{
 };
 use ply_rs_bw::writer::Writer;
 
+use super::beside::Beside;
+use super::builder::{MeshBuilder, damaged, unsupported};
 use super::narrow::byte;
-use super::{Beside, Parts, damaged, unsupported};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::scene::mesh::Mesh;
 
-pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = Parser::<Skipped>::new()
         .read_header(&mut reader)
@@ -95,7 +96,7 @@ struct Vertex {
 }
 
 impl Vertex {
-    fn add(&self, parts: &mut Parts) -> Result<()> {
+    fn add(&self, parts: &mut MeshBuilder) -> Result<()> {
         parts.position(self.position)?;
         if !self.color.iter().any(|c| c.is_nan()) {
             parts.colors.push(self.color);

@@ -5,8 +5,8 @@ use std::io::Cursor;
 use nalgebra::Vector3;
 use stl_io::{Normal, Triangle, Vertex, create_stl_reader};
 
+use super::builder::{MeshBuilder, damaged, unsupported};
 use super::narrow::narrowed;
-use super::{Parts, damaged, unsupported};
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::scene::mesh::Mesh;
@@ -34,7 +34,7 @@ fn length(triangles: usize) -> Option<usize> {
         .checked_add(HEADER_BYTES)
 }
 
-pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
+pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     if bytes.starts_with(b"solid") && !is_binary(bytes) {
         return ascii(bytes, parts);
     }
@@ -60,7 +60,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut Parts) -> Result<()> {
 }
 
 /// Several solids may follow one another, of which `stl_io` reads one.
-fn ascii(bytes: &[u8], parts: &mut Parts) -> Result<()> {
+fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let ends = bytes.iter().enumerate().filter(|(_, b)| **b == b'\n');
     let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1));
     let starts: Vec<usize> = lines
@@ -78,7 +78,7 @@ fn ascii(bytes: &[u8], parts: &mut Parts) -> Result<()> {
     Ok(())
 }
 
-fn collect(bytes: &[u8], parts: &mut Parts) -> Result<()> {
+fn collect(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let mut cursor = Cursor::new(bytes);
     let reader = create_stl_reader(&mut cursor).map_err(|error| damaged("STL", error))?;
     for triangle in reader {

@@ -7,17 +7,14 @@
 //! too large for the ball, ADMM goes on from there.
 
 use super::balance::balanced_bound;
+use super::best::MAX_AFFINE_GAP;
 use super::iteration::Level;
 use crate::error::Result;
-use crate::fit::operator::{Operator, Solver};
+use crate::fit::linear::zstep::{Solvable, Solver};
 
 /// Screening length `(κ/2λ)^¼` of a surface that counts as stiff, in sizes of the domain: its bends are then
 /// a millionth of what they could be.
 const STIFF_SCREENING_LENGTH: f64 = 10.0;
-
-/// Largest relative duality gap of the affine surface at which it may be the answer: a larger gap means that
-/// the surface bends.
-pub(super) const MAX_AFFINE_GAP: f64 = 0.1;
 
 /// Residuals at which the affine surface's dual is found, relative to the first: the usual one, and the one
 /// where fidelity is weak and what is left costs more.
@@ -26,7 +23,7 @@ const DUAL_RESIDUALS: [f64; 2] = [1e-4, 1e-9];
 /// Largest number of conjugate-gradient iterations for the affine surface's dual.
 const MAX_DUAL_ITERATIONS: usize = 100;
 
-impl<O: Operator> Level<O> {
+impl<O: Solvable> Level<O> {
     /// Takes the affine surface, and a bound about it, where it is better than the best one so far.
     pub(super) fn try_affine(&mut self) -> Result<()> {
         let trivial = self.best.objective() <= self.best.rounding;

@@ -14,7 +14,8 @@ use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::{HuberStep, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Hessians as _, Matrices as _, Operator, Sums as _};
+use crate::fit::linear::zstep::Solvable;
+use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
 use crate::math::lanes::{self, narrow, widen};
@@ -50,7 +51,7 @@ struct Search {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Ascent<O: Operator> {
+pub(crate) struct Ascent<O: Solvable> {
     search: Search,
     /// `Y` after the last step, and further on in its direction, where the next one starts.
     last: Matrices<f32>,
@@ -98,7 +99,7 @@ fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 
     matrices.each_mut().map(|values| &mut values[start..end])
 }
 
-impl<O: Operator> Ascent<O> {
+impl<O: Solvable> Ascent<O> {
     pub(crate) fn new(problem: &Problem<O>) -> Result<Self> {
         let operator = &problem.operator;
         let zeros = |cells| try_filled("bound", cells, 0.0);

@@ -11,7 +11,8 @@ use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::Law;
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
+use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::sym2::Sym2;
 
 /// Residual at which the dual is balanced, relative to the first, and largest number of iterations.
@@ -27,7 +28,7 @@ pub(super) struct Balanced {
 
 /// Balances the iterate's dual about the surface `z`. The matrix of the `solver` is that of the
 /// stiffness.
-pub(super) fn balanced_bound<O: Operator>(
+pub(super) fn balanced_bound<O: Solvable>(
     state: &mut State<O>,
     problem: &Problem<O>,
     z: &[f64],
@@ -43,7 +44,7 @@ pub(super) fn balanced_bound<O: Operator>(
     Ok(Balanced { bound, steps, q })
 }
 
-impl<O: Operator> State<O> {
+impl<O: Solvable> State<O> {
     /// Goes on from the balanced dual.
     pub(super) fn take_balanced(
         &mut self,

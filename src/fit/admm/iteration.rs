@@ -4,17 +4,18 @@ use web_time::Instant;
 
 use super::ascent::{Ascent, LOOK_CG_ITERATIONS};
 use super::balance::{BALANCE_LIMITS, Balanced, balanced_bound};
+use super::best::Best;
 use super::rank::RankReduction;
 use super::schedule::Plan;
 use super::state::{Certificate, State};
 use crate::error::Result;
 use crate::fit::energy::creases::Creases;
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Operator, Solver};
-use crate::fit::report::{LevelReport, Seconds, StopReason, relative_gap};
+use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::report::{LevelReport, Seconds, StopReason};
 
 #[derive(Debug, Clone)]
-pub(crate) struct Level<O: Operator> {
+pub(crate) struct Level<O: Solvable> {
     pub problem: Problem<O>,
     pub state: State<O>,
     pub best: Best,
@@ -51,19 +52,6 @@ pub(crate) struct Level<O: Operator> {
     follows_until: usize,
 }
 
-/// The best iterate so far and the best bound so far; they need not belong together.
-#[derive(Debug, Clone)]
-pub(crate) struct Best {
-    pub z: Vec<f64>,
-    pub fidelity: f64,
-    pub nuclear_norm: f64,
-    pub dual_bound: f64,
-    /// What rounding errors of the heights may change in both.
-    pub rounding: f64,
-    /// Whether the iterate is the affine surface of least squares.
-    pub affine: bool,
-}
-
 /// Number of iterations in which a surface follows a load.
 const LOAD_ITERATIONS: usize = 10;
 
@@ -74,58 +62,7 @@ const OUT_OF_HAND: f64 = 10.0;
 /// Most recoveries from that.
 const MOST_RECOVERIES: usize = 6;
 
-impl Best {
-    /// The target itself: its objective is finite, and 0 is a bound of every energy without an offset.
-    pub(crate) fn of_input<O: Operator>(problem: &Problem<O>) -> Self {
-        Best {
-            z: problem.target.clone(),
-            fidelity: -problem.offset,
-            nuclear_norm: problem.smoothness(&problem.target),
-            dual_bound: -problem.offset,
-            rounding: problem.rounding,
-            affine: false,
-        }
-    }
-
-    pub(crate) fn objective(&self) -> f64 {
-        self.fidelity + self.nuclear_norm
-    }
-
-    /// Everything, where it is not known.
-    pub(crate) fn gap(&self) -> f64 {
-        relative_gap(self.objective(), self.dual_bound, self.rounding).unwrap_or(1.0)
-    }
-
-    /// Takes what is better of an iterate. One that is not finite has nothing that is.
-    pub(crate) fn take(&mut self, z: &[f64], certificate: &Certificate) {
-        if certificate.objective() < self.objective() {
-            self.take_surface(z, certificate);
-        }
-        self.dual_bound = self.dual_bound.max(certificate.dual_bound);
-    }
-
-    /// Takes the affine surface of least squares.
-    pub(super) fn take_affine(&mut self, z: &[f64], [fidelity, nuclear_norm]: [f64; 2]) {
-        self.z.copy_from_slice(z);
-        (self.fidelity, self.nuclear_norm) = (fidelity, nuclear_norm);
-        self.affine = true;
-    }
-
-    /// Takes a surface and bound of another energy than before.
-    fn replace(&mut self, z: &[f64], certificate: &Certificate) {
-        self.take_surface(z, certificate);
-        self.dual_bound = certificate.dual_bound;
-    }
-
-    fn take_surface(&mut self, z: &[f64], certificate: &Certificate) {
-        self.z.copy_from_slice(z);
-        self.fidelity = certificate.fidelity;
-        self.nuclear_norm = certificate.nuclear_norm;
-        self.affine = false;
-    }
-}
-
-impl<O: Operator> Level<O> {
+impl<O: Solvable> Level<O> {
     /// Starts from `state`, with the solver of its z-steps, or from the affine surface if that
     /// `may_be_affine`, and looks for better bounds from the iteration `next_climb` on; a reason to
     /// stop at once comes with it.

@@ -3,6 +3,7 @@
 mod affine;
 mod ascent;
 mod balance;
+pub(crate) mod best;
 pub(crate) mod iteration;
 mod rank;
 pub(crate) mod schedule;

@@ -16,7 +16,8 @@
 use super::state::State;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
+use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::lanes;
 use crate::math::real::larger;
 use crate::math::sym2::Sym2;
@@ -47,7 +48,7 @@ pub(super) struct RankReduction {
 
 impl RankReduction {
     /// From the surface `z`; nothing where its Hessians are of rank one as it is.
-    pub(super) fn new<O: Operator>(problem: &Problem<O>, z: &[f64]) -> Result<Option<Self>> {
+    pub(super) fn new<O: Solvable>(problem: &Problem<O>, z: &[f64]) -> Result<Option<Self>> {
         let mut sizes = Vec::new();
         let mut count = 0;
         problem.operator.hessians(z, |_, hessian| {
@@ -79,7 +80,7 @@ impl RankReduction {
 
     /// One step, with the conjugate-gradient iteration that it takes; the surface, once there are
     /// enough.
-    pub(super) fn step<O: Operator>(
+    pub(super) fn step<O: Solvable>(
         &mut self,
         problem: &Problem<O>,
         state: &mut State<O>,
@@ -126,7 +127,7 @@ fn lesser_part(hessian: Sym2, limit: f64) -> Sym2 {
     }
 }
 
-impl<O: Operator> State<O> {
+impl<O: Solvable> State<O> {
     /// Makes `−ρCᵀN` of the surface `z` the residual of the next z-step.
     fn lower_rank(&mut self, problem: &Problem<O>, z: &[f64], limit: f64, solver: &mut O::Solver) {
         let State {

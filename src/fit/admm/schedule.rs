@@ -1,12 +1,11 @@
 //! The two ways to run the iterations: on how many levels, how exactly each
 //! z-step is solved, how ρ follows the residuals, and when to stop.
 
-use super::affine::MAX_AFFINE_GAP;
-use super::iteration::Best;
+use super::best::{Best, MAX_AFFINE_GAP};
 use super::state::Certificate;
 use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::Operator;
+use crate::fit::linear::zstep::Solvable;
 use crate::fit::options::{Energy, Options, Schedule};
 use crate::fit::report::StopReason;
 
@@ -190,7 +189,7 @@ impl Plan {
     }
 
     /// The penalty to start from.
-    pub(crate) fn first_rho<O: Operator>(&self, problem: &Problem<O>) -> f64 {
+    pub(crate) fn first_rho<O: Solvable>(&self, problem: &Problem<O>) -> f64 {
         match self.schedule {
             // Creases have Hessians of order 1/h, which makes h the natural unit of ρ.
             Schedule::Default => self.within_bounds(problem.operator.spacing(), problem),
@@ -199,14 +198,14 @@ impl Plan {
     }
 
     /// The penalty to go on with on the lattice of half the spacing.
-    pub(crate) fn finer_rho<O: Operator>(&self, rho: f64, fine: &Problem<O>) -> f64 {
+    pub(crate) fn finer_rho<O: Solvable>(&self, rho: f64, fine: &Problem<O>) -> f64 {
         self.within_bounds(LEVEL_RHO_FACTOR * rho, fine)
     }
 
     /// Where the optimum is nearly affine the relative primal residual stays at 1, and
     /// balancing alone would let ρ grow without end. There is no use for a screening
     /// length (ρ/2λ)^¼ beyond a part of the domain's size.
-    fn within_bounds<O: Operator>(&self, rho: f64, problem: &Problem<O>) -> f64 {
+    fn within_bounds<O: Solvable>(&self, rho: f64, problem: &Problem<O>) -> f64 {
         let size = problem.operator.size();
         if problem.loose {
             // No screening length, but the ratio of dual and Hessian of a surface as large as this.
@@ -225,7 +224,7 @@ impl Plan {
     }
 
     /// Conjugate-gradient iterations of the z-step after so many iterations, at such a gap.
-    pub(crate) fn cg_limit<O: Operator>(
+    pub(crate) fn cg_limit<O: Solvable>(
         &self,
         problem: &Problem<O>,
         iteration: usize,
@@ -244,7 +243,7 @@ impl Plan {
 
     /// The squares of the residual at which a z-step, or a round of it, ends early, relative to its
     /// first ones.
-    pub(crate) fn cg_reduction<O: Operator>(&self, problem: &Problem<O>, iteration: usize) -> f64 {
+    pub(crate) fn cg_reduction<O: Solvable>(&self, problem: &Problem<O>, iteration: usize) -> f64 {
         match self.schedule {
             Schedule::Paper => SINGLE_PRECISION_RESIDUAL,
             Schedule::Default if iteration == 0 || problem.loose => 0.0,
@@ -253,7 +252,7 @@ impl Plan {
     }
 
     /// Whether [`Plan::stop`] and [`Plan::next_rho`] ask for the change of the Hessians.
-    pub(crate) fn measures_change<O: Operator>(&self, problem: &Problem<O>) -> bool {
+    pub(crate) fn measures_change<O: Solvable>(&self, problem: &Problem<O>) -> bool {
         self.schedule == Schedule::Paper || problem.loose
     }
 
@@ -279,14 +278,14 @@ impl Plan {
     }
 
     /// Whether an affine surface is worth a try.
-    pub(crate) fn tries_affine<O: Operator>(&self, problem: &Problem<O>) -> bool {
+    pub(crate) fn tries_affine<O: Solvable>(&self, problem: &Problem<O>) -> bool {
         self.schedule == Schedule::Default
             && !self.follows_normals
             && problem.constrained.is_empty()
     }
 
     /// Whether an iterate of such a gap is worth the search for a better bound.
-    pub(crate) fn climbs<O: Operator>(&self, problem: &Problem<O>, gap: f64) -> bool {
+    pub(crate) fn climbs<O: Solvable>(&self, problem: &Problem<O>, gap: f64) -> bool {
         self.schedule == Schedule::Default
             && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
             && !problem.loose
@@ -296,7 +295,7 @@ impl Plan {
 
     /// Whether the surface's Hessians are to be brought to the rank of the split ones once the iterations
     /// have stopped: those of a smaller gap have it.
-    pub(crate) fn reduces_rank<O: Operator>(&self, problem: &Problem<O>) -> bool {
+    pub(crate) fn reduces_rank<O: Solvable>(&self, problem: &Problem<O>) -> bool {
         self.schedule == Schedule::Default
             && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
             && !problem.loose
@@ -359,7 +358,7 @@ impl Plan {
 
     /// Residual balancing (Boyd et al., Sec. 3.4.1), by what the residuals cost: the penalty to go on
     /// with.
-    pub(crate) fn next_rho<O: Operator>(
+    pub(crate) fn next_rho<O: Solvable>(
         &self,
         problem: &Problem<O>,
         rho: f64,
@@ -401,7 +400,7 @@ impl Plan {
 
     /// Whether to stop after `iteration` iterations, the last of which moved the
     /// Hessians by `change = ρ‖ΔH‖`, and why.
-    pub(crate) fn stop<O: Operator>(
+    pub(crate) fn stop<O: Solvable>(
         &self,
         problem: &Problem<O>,
         iteration: usize,

@@ -9,14 +9,15 @@
 use crate::error::{Result, try_filled};
 use crate::fit::energy::law::{Any, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Hessians, Matrices, Operator, Solver, Sums};
+use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::lattice::runs::Run;
 use crate::math::lanes;
 use crate::math::sym2::Sym2;
 
 /// `z` at the operator's vertices and `V` at its stencils.
 #[derive(Debug, Clone)]
-pub(crate) struct State<O: Operator> {
+pub(crate) struct State<O: Solvable> {
     pub z: Vec<f64>,
     pub(crate) v: MatrixField,
     pub rho: f64,
@@ -59,7 +60,7 @@ pub(super) struct MatrixRun<'a> {
 
 impl MatrixField {
     /// Zeros.
-    pub(super) fn new<O: Operator>(problem: &Problem<O>) -> Result<Self> {
+    pub(super) fn new<O: Solvable>(problem: &Problem<O>) -> Result<Self> {
         let cells = problem.operator.stencil_cells();
         let zeros = || try_filled("Hessians and dual", cells, 0.0);
         Ok(MatrixField {
@@ -84,7 +85,7 @@ impl MatrixField {
     }
 
     /// From `V = Y + ρH` to `Y + factor · ρH`.
-    fn rescale<O: Operator>(&mut self, problem: &Problem<O>, law: impl Law, factor: f64) {
+    fn rescale<O: Solvable>(&mut self, problem: &Problem<O>, law: impl Law, factor: f64) {
         for run in problem.operator.stencils().all() {
             let weight = problem.weight.run(*run);
             let mut v = self.run(*run);
@@ -152,7 +153,7 @@ impl Certificate {
     }
 }
 
-impl<O: Operator> State<O> {
+impl<O: Solvable> State<O> {
     /// `z = z̃`, `H = U = 0`.
     pub(crate) fn new(problem: &Problem<O>, rho: f64) -> Result<Self> {
         let operator = &problem.operator;
@@ -407,7 +408,7 @@ impl<O: Operator> State<O> {
 /// `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best `t` up to
 /// `largest`: it is concave in `t`, and the conjugates are 0 or quadratic. Where that
 /// overflows, what is left is `t = 0`. Always finite, and never below 0 but for the problem's offset.
-pub(super) fn dual_bound<O: Operator>(
+pub(super) fn dual_bound<O: Solvable>(
     problem: &Problem<O>,
     inner: f64,
     quadratic: f64,

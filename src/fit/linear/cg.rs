@@ -16,10 +16,11 @@ use std::sync::Arc;
 use super::grid::{part, part_mut};
 use super::multigrid::Multigrid;
 use super::precise::Precise;
+use super::zstep::{Solvable, Solver};
 use crate::error::{Result, try_filled};
 use crate::fit::heightfields::Problem;
+use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::LatticeOperator;
-use crate::fit::operator::{Operator, Solver};
 use crate::lattice::domain::Domain;
 use crate::math::lanes;
 
@@ -61,6 +62,10 @@ impl ConjugateGradients {
             previous: 0.0,
         })
     }
+}
+
+impl Solvable for LatticeOperator {
+    type Solver = ConjugateGradients;
 }
 
 impl Solver<LatticeOperator> for ConjugateGradients {

@@ -1,7 +1,7 @@
 //! The base of the first linearisation.
 
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
-use super::linear::Given;
+use super::given::Given;
 
 /// Number of smoothing steps for the places of vertices across the viewing rays, with which the first base
 /// begins.

@@ -1,7 +1,7 @@
 //! Vertices on the border, put where the surface inside goes on to.
 
 use super::geometry::{Frame, Point};
-use super::linear::Given;
+use super::given::Given;
 use super::quadratic::{Neighbour, Quadratic};
 use super::sides::Sides;
 use super::topology::Topology;

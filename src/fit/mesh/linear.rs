@@ -5,6 +5,7 @@
 //! vertex, which is held at 1.
 
 use super::geometry::{Frame, Point, areas};
+use super::given::Given;
 use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT};
 use super::sides::Sides;
 use super::topology::Topology;
@@ -33,18 +34,6 @@ const MIN_RING_VERTICES: usize = 6;
 /// Number of entries reserved per matrix row: two rings of a hexagonal mesh, the vertex itself and the
 /// constant.
 const STENCIL_ROW_CAPACITY: usize = 20;
-
-/// What stays the same from one linearisation to the next, in normalised coordinates.
-#[derive(Debug, Clone)]
-pub(super) struct Given {
-    pub topology: Topology,
-    /// The vertices as they were given.
-    pub noisy: Vec<Point>,
-    /// What each vertex is trusted, 1 for all if empty.
-    pub confidence: Vec<f64>,
-    /// Which vertices stay where they are.
-    pub held: Vec<bool>,
-}
 
 /// The least confidence: what is next to none would need a system of its own.
 const LEAST_CONFIDENCE: f64 = 1e-4;

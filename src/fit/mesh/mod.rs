@@ -12,6 +12,7 @@ mod curve;
 mod fairing;
 mod fans;
 pub(crate) mod geometry;
+mod given;
 mod known;
 pub(crate) mod linear;
 mod load;

@@ -6,7 +6,7 @@
 
 use super::border::continued;
 use super::geometry::{Frame, Point, faces_away, normals};
-use super::linear::Given;
+use super::given::Given;
 use super::sides::{MIN_FOLD_ANGLE_RADIANS, Sides};
 use super::topology::Topology;
 use crate::math::symmetric_eigen::symmetric_eigen3;

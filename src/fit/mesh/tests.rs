@@ -4,7 +4,8 @@ use std::sync::Arc;
 use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::{Frame, Point, normals};
-use super::linear::{Given, Linearised};
+use super::given::Given;
+use super::linear::Linearised;
 use super::quadratic::{Neighbour, Quadratic};
 use super::topology::Topology;
 use super::{MeshOptions, fit_mesh};
@@ -15,6 +16,7 @@ use crate::fit::coordinates::Coordinates;
 use crate::fit::energy::law::Bends;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::linear::zstep::Solvable;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
@@ -213,7 +215,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let coordinates = Coordinates::new(&input, &domain, 1.0);
     let problem =
         heightfields::Problem::new(&input, domain.clone(), &coordinates, &options).unwrap();
-    fn solve<O: Operator>(
+    fn solve<O: Solvable>(
         problem: crate::fit::energy::problem::Problem<O>,
         options: &Options,
         solver: impl Fn(&crate::fit::energy::problem::Problem<O>, f64) -> O::Solver,

@@ -4,7 +4,7 @@
 //! sides: what it is off across the ray would stay a dent in both.
 
 use super::geometry::{Frame, Point};
-use super::linear::Given;
+use super::given::Given;
 use super::sides::Sides;
 
 /// Ways across the rays, each an unknown of its own.

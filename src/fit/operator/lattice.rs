@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::Result;
 use crate::fit::coordinates::Coordinates;
-use crate::fit::linear::cg::ConjugateGradients;
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::runs::{RowRuns, Run};
 use crate::lattice::stencil::{Gathered, HessianMap, Ring, Rolling, weights_of};
@@ -85,7 +84,6 @@ impl Operator for LatticeOperator {
     type Hessians<'a, T: Real> = RunHessians<'a, T>;
     type Matrices<'a, T: Real> = RunMatrices<'a, T>;
     type Sums<'a, T: Real> = Gathered<'a, T>;
-    type Solver = ConjugateGradients;
 
     fn vertices(&self) -> &RowRuns {
         self.domain.active()

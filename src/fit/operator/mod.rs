@@ -1,5 +1,5 @@
 //! The operator `C` from heights to Hessians, as the energy and ADMM see it: which vertices and
-//! stencils there are, the two sweeps over them, and who solves the z-step.
+//! stencils there are, and the two sweeps over them.
 //!
 //! Heights are arrays over the operator's vertices, Hessians and duals over its stencils. Both may
 //! have gaps: what counts are the runs.
@@ -9,7 +9,6 @@ pub(crate) mod sparse;
 
 use std::fmt::Debug;
 
-use super::energy::problem::Problem;
 use crate::error::Result;
 use crate::lattice::runs::{RowRuns, Run};
 use crate::math::real::Real;
@@ -25,7 +24,6 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     type Hessians<'a, T: Real>: Hessians<T>;
     type Matrices<'a, T: Real>: Matrices<T>;
     type Sums<'a, T: Real>: Sums<T>;
-    type Solver: Solver<Self>;
 
     /// The unknowns.
     fn vertices(&self) -> &RowRuns;
@@ -111,48 +109,4 @@ pub(crate) trait Matrices<T> {
 /// `CᵀY` of one run.
 pub(crate) trait Sums<T> {
     fn at(&self, i: usize) -> T;
-}
-
-/// The z-step: finds the correction of `A δ = b − A z`, `A = 2λw + ρCᵀC`, over the vertices that are
-/// not constrained.
-pub(crate) trait Solver<O: Operator>: Clone + Debug {
-    /// Changes `A`; the residual must be made anew.
-    fn set_rho(&mut self, rho: f64);
-
-    /// `b − A z`, in the system's scale: whoever changes `b` or `z` writes it (times
-    /// [`Self::residual_scale`]) and calls [`Self::restart`].
-    fn residual(&mut self) -> &mut [f32];
-
-    /// Factor from `b − A z` to the system's scale.
-    fn residual_scale(&self) -> f64;
-
-    /// Starts anew from the residual that was just written.
-    fn restart(&mut self, operator: &O);
-
-    /// `‖r‖²` in the norm of the inverse diagonal.
-    fn energy(&self) -> f64;
-
-    /// `‖r‖` relative to `‖2λw z̃‖`, in that norm.
-    fn relative_residual(&self, problem: &Problem<O>) -> f64;
-
-    /// One iteration on the correction. Returns `false`, and changes nothing, when nothing is left to
-    /// improve.
-    fn step(&mut self, operator: &O) -> bool;
-
-    /// Adds the correction found so far to `z`.
-    fn correct(&mut self, operator: &O, z: &mut [f64]);
-
-    /// In double precision, adds to `x` until the residual, which is given for `x`, is `tolerance` of
-    /// what it was, or after so many `steps`. Returns how many there were; what is left of the
-    /// residual is of no use.
-    ///
-    /// # Errors
-    /// Out of memory.
-    fn solve_precisely(
-        &mut self,
-        problem: &Problem<O>,
-        residual: &mut Vec<f64>,
-        x: &mut [f64],
-        enough: (f64, usize),
-    ) -> Result<usize>;
 }

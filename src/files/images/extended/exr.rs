@@ -12,11 +12,12 @@ use ::exr::prelude::{
 };
 use npyz::half::f16;
 
-use super::{
-    Channels, Decoded, Format, check_length, damaged, default_scale, grey, narrowed, room,
-    unsupported,
+use super::samples::{
+    Channels, check_length, damaged, default_scale, grey, narrowed, room, unsupported,
 };
 use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 
 /// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.

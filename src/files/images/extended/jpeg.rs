@@ -7,9 +7,12 @@ use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
 
+use super::samples::{check_length, damaged, picture, rgba_of, unsupported};
 use super::tiff_tags::oriented;
-use super::{Decoded, Format, PhotoFile, check_length, damaged, picture, rgba_of, unsupported};
 use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::Format;
+use crate::files::images::photo::PhotoFile;
 
 /// Largest number of samples that one byte can stand for: an even block of 64 takes a few bits, and in a
 /// progressive file a run of such blocks does.

@@ -4,15 +4,16 @@ mod exr;
 mod jpeg;
 mod npz;
 mod pfm;
+mod samples;
 mod tiff;
 mod tiff_tags;
 mod webp;
 
+use self::samples::unsupported;
+use super::decoded::Decoded;
+use super::format::Format;
 use super::photo::PhotoFile;
-use super::{Decoded, Format, coloured, suggested_scale};
-use crate::error::{Error, Result, try_filled};
-use crate::heights::heightfield::HeightImage;
-use crate::math::lanes;
+use crate::error::{Error, Result};
 
 pub use exr::write_exr;
 pub use npz::{NpzArray, decode_npz, npz_arrays};
@@ -49,131 +50,5 @@ pub fn decode_photo(bytes: &[u8], format: Format) -> Result<PhotoFile> {
             other,
             "photos are read from PNG, JPEG and WebP files",
         )),
-    }
-}
-
-/// Red, green, blue and alpha from 8-bit samples: of grey, of colours, or of both.
-fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<Vec<[u8; 4]>> {
-    let mut rgba = try_filled(format.title(), samples.len() / stride, [u8::MAX; 4])?;
-    for (out, pixel) in rgba.iter_mut().zip(samples.chunks_exact(stride)) {
-        match pixel {
-            [grey] => out[..3].fill(*grey),
-            other => out[..stride].copy_from_slice(other),
-        }
-    }
-    Ok(rgba)
-}
-
-/// What the samples of a pixel are: one of grey or three of colour come first.
-struct Channels {
-    colours: usize,
-    alpha: Option<usize>,
-}
-
-/// Grey values from the samples `sample(pixel, channel)`. An alpha of 0 is no data.
-fn grey(
-    format: Format,
-    (width, height): (usize, usize),
-    channels: &Channels,
-    sample: impl Fn(usize, usize) -> f64,
-) -> Result<Vec<f64>> {
-    let mut values = try_filled(format.title(), width * height, f64::NAN)?;
-    for (i, z) in values.iter_mut().enumerate() {
-        if channels.alpha.is_some_and(|k| sample(i, k) == 0.0) {
-            continue;
-        }
-        let first = sample(i, 0);
-        let same = |other: f64| other == first || other.is_nan() && first.is_nan();
-        if !(1..channels.colours).all(|k| same(sample(i, k))) {
-            return Err(coloured(format.title(), i, width));
-        }
-        *z = first;
-    }
-    Ok(values)
-}
-
-/// Whether so many bytes, shrunk by at most `ratio`, can come from so short a file.
-fn check_length(format: Format, file: &[u8], needed: usize, ratio: usize) -> Result<()> {
-    if needed / ratio <= file.len() {
-        return Ok(());
-    }
-    Err(damaged(
-        format,
-        format!("{} bytes cannot hold that many pixels", file.len()),
-    ))
-}
-
-/// The largest value less the smallest that a type of integers can have; floats have none.
-fn integer_range(data_type: &str) -> Option<f64> {
-    let bits = data_type.strip_prefix(['u', 'i'])?;
-    Some(bits.parse::<i32>().ok()?).map(|bits| 2f64.powi(bits) - 1.0)
-}
-
-/// The scale that heights of this type have where the file records none.
-fn default_scale((width, height): (usize, usize), pixel_size: f64, data_type: &str) -> f64 {
-    integer_range(data_type).map_or(1.0, |range| {
-        pixel_size * suggested_scale(width, height, range)
-    })
-}
-
-/// A picture of 8-bit samples, `colours` of colour and perhaps one of alpha.
-fn picture(format: Format, size: (usize, usize), samples: &[u8], stride: usize) -> Result<Decoded> {
-    let (colours, alpha) = match stride {
-        2 | 4 => (stride - 1, Some(stride - 1)),
-        _ => (stride, None),
-    };
-    let values = grey(format, size, &Channels { colours, alpha }, |i, k| {
-        samples[stride * i + k].into()
-    })?;
-    Ok(Decoded {
-        format,
-        width: size.0,
-        height: size.1,
-        values,
-        pixel_size: 1.0,
-        unit: None,
-        height_scale: default_scale(size, 1.0, "u8"),
-        data_type: "u8",
-    })
-}
-
-/// The heights in 32 bits, which is all that EXR and most readers of TIFF know.
-fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f32>> {
-    let mut heights = try_filled(what, image.values().len(), 0f32)?;
-    for (i, (narrow, z)) in heights.iter_mut().zip(image.values()).enumerate() {
-        *narrow = lanes::single(*z);
-        if narrow.is_infinite() {
-            return Err(Error::NotFinite {
-                what,
-                value: f64::from(*narrow),
-                row: i / image.width(),
-                col: i % image.width(),
-                advice: "heights beyond 3.4e38 do not fit into its 32-bit floats; scale them down \
-                         or write NPY",
-            });
-        }
-    }
-    Ok(heights)
-}
-
-/// An empty file with room for so many bytes, whose lack is an error instead of an abort.
-fn room(what: &'static str, bytes: usize) -> Result<Vec<u8>> {
-    let mut file = Vec::new();
-    file.try_reserve_exact(bytes)
-        .map_err(|_| Error::OutOfMemory { what, bytes })?;
-    Ok(file)
-}
-
-fn damaged(format: Format, reason: impl ToString) -> Error {
-    Error::Format {
-        format: format.title(),
-        reason: reason.to_string(),
-    }
-}
-
-fn unsupported(format: Format, reason: impl ToString) -> Error {
-    Error::Unsupported {
-        format: format.title(),
-        reason: reason.to_string(),
     }
 }

@@ -5,9 +5,11 @@ use std::io::{Cursor, Read};
 use ::zip::ZipArchive;
 use ::zip::result::ZipError;
 
-use super::{Decoded, Format, check_length, damaged, unsupported};
+use super::samples::{check_length, damaged, room, unsupported};
 use crate::MAX_CELLS;
 use crate::error::{Error, Result};
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::Format;
 use crate::files::images::npy;
 
 /// The most that DEFLATE can shrink anything.
@@ -94,11 +96,11 @@ pub fn decode_npz(bytes: &[u8], array: Option<&str>) -> Result<Decoded> {
         });
     }
     check_length(Format::Npz, bytes, size, DEFLATE_RATIO)?;
-    let mut file = super::room("NPZ array", size)?;
+    let mut file = room("NPZ array", size)?;
     // Never more than was announced, and the archive's checksum says whether it is that.
     let read = entry.take(size as u64 + 1).read_to_end(&mut file);
     read.map_err(|e| damaged(Format::Npz, e))?;
-    let decoded = crate::files::images::announced(&file, Some(Format::Npy))
+    let decoded = crate::files::images::format::announced(&file, Some(Format::Npy))
         .and_then(|_| npy::decode(&file))
         .map_err(|e| within(name, e))?;
     Ok(Decoded {

@@ -1,8 +1,10 @@
 //! Portable float maps: a line each for kind, size and scale, then 32-bit
 //! floats, the bottom row first.
 
-use super::{Channels, Decoded, Format, damaged, grey};
+use super::samples::{Channels, damaged, grey};
 use crate::error::{Error, Result, checked_cells};
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::Format;
 
 /// Longest number in a header, in bytes.
 const MAX_WORD: usize = 32;

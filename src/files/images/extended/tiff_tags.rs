@@ -7,9 +7,10 @@ use ::tiff::decoder::Decoder;
 use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
 
-use super::{Format, damaged, unsupported};
+use super::samples::{damaged, unsupported};
 use crate::error::{Error, Result, try_filled};
-use crate::files::images::Unit;
+use crate::files::images::decoded::Unit;
+use crate::files::images::format::Format;
 
 pub(super) type File<'a> = Decoder<Cursor<&'a [u8]>>;
 

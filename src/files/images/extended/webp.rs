@@ -4,8 +4,11 @@ use std::io::Cursor;
 
 use image_webp::{DecodingError, WebPDecoder};
 
-use super::{Decoded, Format, PhotoFile, damaged, picture, rgba_of, unsupported};
+use super::samples::{damaged, picture, rgba_of, unsupported};
 use crate::error::{Result, checked_cells, try_filled};
+use crate::files::images::decoded::Decoded;
+use crate::files::images::format::Format;
+use crate::files::images::photo::PhotoFile;
 
 /// What the decoder may allocate for metadata.
 const DECODER_BYTES: usize = 1 << 24;

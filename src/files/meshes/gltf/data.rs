@@ -7,9 +7,11 @@ use base64::engine::general_purpose::STANDARD;
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
 
-use super::FORMAT_NAME;
 use crate::error::Result;
-use crate::files::meshes::{damaged, unsupported};
+use crate::files::meshes::builder::{damaged, unsupported};
+
+/// Name of the format in messages.
+pub(super) const FORMAT_NAME: &str = "glTF";
 
 /// The bytes within a `data:` address.
 pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {

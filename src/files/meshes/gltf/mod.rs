@@ -11,14 +11,12 @@ use gltf::mesh::Mode;
 use gltf::{Document, Glb, Primitive, Semantic};
 use nalgebra::{Matrix4, Vector4};
 
-use self::data::{embedded, floats, plain, whole};
-use super::{Beside, DEFAULT_VERTEX_COLOUR, NO_TEXTURE, Parts, damaged, unsupported};
+use self::data::{FORMAT_NAME, embedded, floats, plain, whole};
+use super::beside::Beside;
+use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE, damaged, unsupported};
 use crate::error::{Error, Result};
 
-/// Name of the format in messages.
-const FORMAT_NAME: &str = "glTF";
-
-pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut Parts) -> Result<()> {
+pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
     let binary = bytes.starts_with(b"glTF");
     let (json, bin) = if binary {
         // `gltf` takes the header's own length off what that says.
@@ -118,7 +116,7 @@ struct Look {
 
 impl Scene<'_> {
     /// Every node of the scene, with the transforms of those above it.
-    fn visit(&self, parts: &mut Parts) -> Result<()> {
+    fn visit(&self, parts: &mut MeshBuilder) -> Result<()> {
         let document = self.document;
         let Some(scene) = document
             .default_scene()
@@ -155,7 +153,7 @@ impl Scene<'_> {
         &self,
         primitive: &Primitive,
         pictures: &mut [Option<i32>],
-        parts: &mut Parts,
+        parts: &mut MeshBuilder,
     ) -> Result<Look> {
         let mut look = Look {
             color: DEFAULT_VERTEX_COLOUR,
@@ -224,7 +222,7 @@ impl Scene<'_> {
         primitive: &Primitive,
         transform: &Matrix4<f64>,
         look: &Look,
-        parts: &mut Parts,
+        parts: &mut MeshBuilder,
     ) -> Result<()> {
         let buffers = self.buffers;
         let mode = primitive.mode();

@@ -3,7 +3,8 @@
 use super::{LONGEST, Rows, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::operator::{Operator, Solver};
+use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::operator::Operator;
 use crate::math::lanes;
 use crate::math::real::Real;
 
@@ -242,6 +243,10 @@ impl JacobiGradients {
             unit: if largest > 0.0 { largest } else { 1.0 },
         })
     }
+}
+
+impl Solvable for SparseOperator {
+    type Solver = JacobiGradients;
 }
 
 impl Solver<SparseOperator> for JacobiGradients {

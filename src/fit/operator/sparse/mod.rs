@@ -6,7 +6,6 @@ mod tests;
 
 use std::sync::Arc;
 
-use self::jacobi::JacobiGradients;
 use super::{Hessians, Matrices, Operator, Sums};
 use crate::error::{Result, try_filled};
 use crate::lattice::runs::{RowRuns, Run};
@@ -345,7 +344,6 @@ impl Operator for SparseOperator {
     type Hessians<'a, T: Real> = RunHessians<'a, T>;
     type Matrices<'a, T: Real> = RunMatrices<'a, T>;
     type Sums<'a, T: Real> = RunSums<'a, T>;
-    type Solver = JacobiGradients;
 
     fn vertices(&self) -> &RowRuns {
         &self.vertices

@@ -15,6 +15,7 @@ use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
+use crate::fit::linear::zstep::Solvable;
 use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
 use crate::fit::report::StopReason;
 use crate::lattice::domain::Domain;
@@ -143,7 +144,7 @@ impl Both {
 }
 
 /// ADMM from the input to the end, on one level.
-fn solve<O: Operator>(
+fn solve<O: Solvable>(
     problem: &problem::Problem<O>,
     solver: impl Fn(&problem::Problem<O>, f64) -> Result<O::Solver>,
     options: &Options,
@@ -165,7 +166,7 @@ fn multigrid(problem: &heightfields::Problem, rho: f64) -> Result<ConjugateGradi
 
 /// Both answers are certified, each bound is one for the other as well, and the surfaces are as close
 /// as strong convexity says: `λ min w ‖z − z*‖² ≤ P − D`.
-fn assert_alike(both: &Both, lattice: &Level<impl Operator>, sparse: &Level<SparseOperator>) {
+fn assert_alike(both: &Both, lattice: &Level<impl Solvable>, sparse: &Level<SparseOperator>) {
     let (a, b) = (&lattice.best, &sparse.best);
     let bound = a.dual_bound.max(b.dual_bound);
     let gaps = [a, b].map(|best| best.objective() - bound);
@@ -240,7 +241,7 @@ fn a_lattice_as_a_matrix_has_its_sweeps() {
     let scale = lattice.spacing.powi(-2);
     let close = |a: f64, b: f64, size: f64| assert!((a - b).abs() < size, "{a} for {b}");
 
-    fn run<O: Operator>(operator: &O, z: &[f64], y: impl Fn(usize) -> [f64; 3]) -> [Vec<f64>; 4] {
+    fn run<O: Solvable>(operator: &O, z: &[f64], y: impl Fn(usize) -> [f64; 3]) -> [Vec<f64>; 4] {
         let hessians = || vec![0.0; 3 * operator.stencil_cells()];
         let heights = || vec![0.0; operator.vertex_cells()];
         let mut found = (hessians(), heights());
@@ -343,7 +344,7 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let (mut lattice, _) = solve(&both.lattice, multigrid, &options);
     let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &options);
     for _ in 0..2 {
-        fn pass<O: Operator>(level: &mut Level<O>) {
+        fn pass<O: Solvable>(level: &mut Level<O>) {
             let mut reason = level.reweight().unwrap();
             while reason.is_none() {
                 reason = level.advance(&mut 1000).unwrap();

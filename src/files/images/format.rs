@@ -1,0 +1,177 @@
+//! The image formats: their names, and how the first bytes of a file tell which one it has.
+
+use std::str::FromStr;
+
+use crate::error::{Error, Result};
+
+/// A file format that can be read. All but the first two need the cargo feature
+/// `images`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// Portable Network Graphics, grey, 1 to 16 bits.
+    Png,
+    /// NumPy's array file.
+    Npy,
+    /// Tagged Image File Format, also BigTIFF and GeoTIFF.
+    Tiff,
+    /// OpenEXR.
+    Exr,
+    /// Portable float map.
+    Pfm,
+    /// NumPy's archive of arrays.
+    Npz,
+    /// JPEG, grey.
+    Jpeg,
+    /// WebP, grey.
+    WebP,
+}
+
+/// Formats with their names in options and their titles in messages.
+const FORMAT_TITLES: [(Format, &str, &str); 8] = [
+    (Format::Png, "png", "PNG"),
+    (Format::Npy, "npy", "NPY"),
+    (Format::Tiff, "tiff", "TIFF"),
+    (Format::Exr, "exr", "EXR"),
+    (Format::Pfm, "pfm", "PFM"),
+    (Format::Npz, "npz", "NPZ"),
+    (Format::Jpeg, "jpeg", "JPEG"),
+    (Format::WebP, "webp", "WebP"),
+];
+
+/// First bytes of the files of each format; a `?` stands for any byte.
+const MAGIC_BYTES: [(&[u8], Format); 13] = [
+    (b"\x89PNG\r\n\x1a\n", Format::Png),
+    (b"\x93NUMPY", Format::Npy),
+    (b"II*\0", Format::Tiff),
+    (b"MM\0*", Format::Tiff),
+    (b"II+\0", Format::Tiff),
+    (b"MM\0+", Format::Tiff),
+    (b"\x76\x2f\x31\x01", Format::Exr),
+    (b"Pf\n", Format::Pfm),
+    (b"PF\n", Format::Pfm),
+    (b"PK\x03\x04", Format::Npz),
+    (b"PK\x05\x06", Format::Npz),
+    (b"\xff\xd8\xff", Format::Jpeg),
+    (b"RIFF????WEBP", Format::WebP),
+];
+
+impl Format {
+    /// Whether it is read without the cargo feature `images`.
+    #[cfg(feature = "images")]
+    pub(super) fn is_basic(self) -> bool {
+        matches!(self, Format::Png | Format::Npy)
+    }
+
+    /// The name in lower case: `"png"`, `"npy"`, `"tiff"`, `"exr"`, `"pfm"`,
+    /// `"npz"`, `"jpeg"` or `"webp"`.
+    pub fn name(self) -> &'static str {
+        self.entry().1
+    }
+
+    /// The format that a file's first bytes announce.
+    pub fn detect(bytes: &[u8]) -> Option<Format> {
+        let announces = |magic: &[u8]| {
+            bytes.len() >= magic.len() && magic.iter().zip(bytes).all(|(m, b)| *m == b'?' || m == b)
+        };
+        MAGIC_BYTES
+            .into_iter()
+            .find_map(|(magic, format)| announces(magic).then_some(format))
+    }
+
+    pub(super) fn title(self) -> &'static str {
+        self.entry().2
+    }
+
+    fn entry(self) -> (Format, &'static str, &'static str) {
+        FORMAT_TITLES[self as usize]
+    }
+}
+
+impl FromStr for Format {
+    type Err = Error;
+
+    /// From [`Format::name`].
+    fn from_str(name: &str) -> Result<Self> {
+        FORMAT_TITLES
+            .into_iter()
+            .find_map(|(format, known, _)| (name == known).then_some(format))
+            .ok_or_else(|| Error::option("format", name, FORMAT_NAMES))
+    }
+}
+
+/// What the option `format` must be, as its error says.
+pub const FORMAT_NAMES: &str =
+    "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
+
+/// The format that the bytes announce, if it is the stated one.
+///
+/// # Errors
+/// [`Error::Format`] for an empty file and one of another format than stated,
+/// [`Error::Unsupported`] for a file of no known format.
+pub fn announced(bytes: &[u8], stated: Option<Format>) -> Result<Format> {
+    if bytes.is_empty() {
+        return Err(Error::Format {
+            format: stated.map_or("an image", Format::title),
+            reason: "the file is empty".into(),
+        });
+    }
+    match (stated, Format::detect(bytes)) {
+        (None, Some(found)) => Ok(found),
+        (Some(stated), Some(found)) if stated == found => Ok(found),
+        (None, None) => Err(Error::Unsupported {
+            format: "this file",
+            reason: format!(
+                "{} cannot be read; PNG, NPY, TIFF, EXR, PFM, NPZ, JPEG and WebP can",
+                guess(bytes)
+            ),
+        }),
+        (Some(stated), _) => Err(Error::Format {
+            format: stated.title(),
+            reason: format!("it begins like {}", guess(bytes)),
+        }),
+    }
+}
+
+/// What a file seems to be, for messages only.
+fn guess(bytes: &[u8]) -> &'static str {
+    let known: [(&[u8], &str); 6] = [
+        (b"\x89PNG", "a PNG file damaged in transfer"),
+        (b"Pf", "a PFM file whose header is damaged"),
+        (b"GIF8", "a GIF file"),
+        (b"RIFF", "a RIFF file that is no WebP"),
+        (b"%PDF", "a PDF file"),
+        (b"BM", "a BMP file"),
+    ];
+    match Format::detect(bytes) {
+        Some(Format::Png) => "a PNG file",
+        Some(Format::Npy) => "an NPY file",
+        Some(Format::Tiff) => "a TIFF file",
+        Some(Format::Exr) => "an OpenEXR file",
+        Some(Format::Pfm) => "a PFM file",
+        Some(Format::Npz) => "a zip archive (perhaps NPZ)",
+        Some(Format::Jpeg) => "a JPEG file",
+        Some(Format::WebP) => "a WebP file",
+        None => known
+            .iter()
+            .find(|(magic, _)| bytes.starts_with(magic))
+            .map_or("a file of unknown format", |(_, name)| name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_first_bytes_name_the_format() {
+        for (i, (format, name, _)) in FORMAT_TITLES.into_iter().enumerate() {
+            assert_eq!((format as usize, format.name()), (i, name));
+            assert_eq!(format.name().parse(), Ok(format));
+            assert!(FORMAT_NAMES.contains(&format!("`{name}`")));
+        }
+        assert_eq!("PNG".parse::<Format>().unwrap_err().code(), "OPTION");
+        assert_eq!(Format::detect(b"\x93NUMPY\x01\0"), Some(Format::Npy));
+        assert_eq!(Format::detect(b"\x89PNG\n\x1a\n\0"), None);
+    }
+}

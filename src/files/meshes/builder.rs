@@ -1,0 +1,161 @@
+//! A mesh that is put together from a file, and the errors on the way.
+
+use std::fmt::Display;
+
+use super::beside::Texture;
+use crate::error::{Error, MAX_CELLS, Result};
+use crate::scene::mesh::Mesh;
+
+/// Colour of a vertex to which the file gives none.
+pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
+
+/// The texture coordinates of vertices that have none.
+const NO_UV: [f32; 2] = [f32::MIN; 2];
+
+/// The number of no texture.
+pub(super) const NO_TEXTURE: i32 = -1;
+
+/// A mesh that the decoders put together vertex by vertex and triangle by triangle.
+#[derive(Default)]
+pub(super) struct MeshBuilder {
+    pub(super) positions: Vec<[f64; 3]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) colors: Vec<[f32; 3]>,
+    pub(super) uvs: Vec<[f32; 2]>,
+    /// The texture of each triangle; shorter where the last ones have none.
+    pub(super) textures: Vec<i32>,
+    pub(super) pictures: Vec<Texture>,
+    /// Number of bytes that further pictures can have: no more than the files have.
+    pub(super) room: usize,
+}
+
+impl MeshBuilder {
+    pub(super) fn position(&mut self, position: [f64; 3]) -> Result<()> {
+        push(&mut self.positions, position, 3 * MAX_CELLS)
+    }
+
+    pub(super) fn triangle(&mut self, triangle: [u32; 3]) -> Result<()> {
+        push(&mut self.triangles, triangle, MAX_CELLS)
+    }
+
+    /// A polygon as triangles that all share its first corner.
+    pub(super) fn fan(&mut self, corners: &[u32]) -> Result<()> {
+        let [first, rest @ ..] = corners else {
+            return Ok(());
+        };
+        rest.windows(2)
+            .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
+    }
+
+    /// The same colour for all vertices from one on.
+    pub(super) fn material(&mut self, start: usize, color: [f32; 3]) {
+        let vertices = self.positions.len() - start;
+        self.colors.extend(std::iter::repeat_n(color, vertices));
+    }
+
+    /// The last vertices have no texture coordinates, which others may have.
+    pub(super) fn no_uvs(&mut self) {
+        self.uvs.resize(self.positions.len(), NO_UV);
+    }
+
+    /// The number of a picture by its name; of one that has none, a new one.
+    pub(super) fn picture(&mut self, name: &str, bytes: &[u8]) -> Result<i32> {
+        let known = (self.pictures.iter()).position(|p| !name.is_empty() && p.name == name);
+        if let Some(number) = known {
+            return Ok(number as i32);
+        }
+        // The same bytes may go by any number of names.
+        self.room = (self.room.checked_sub(bytes.len()))
+            .ok_or_else(|| damaged("textures", "together they are larger than their files"))?;
+        self.pictures.push(Texture {
+            name: name.into(),
+            bytes: bytes.into(),
+        });
+        Ok(self.pictures.len() as i32 - 1)
+    }
+
+    /// Gives a texture to all triangles that have not been given one yet.
+    pub(super) fn texture(&mut self, number: i32) {
+        self.textures.resize(self.triangles.len(), number);
+    }
+
+    /// The mesh; its errors name the format `title`. Where there are vertices but no triangles, it is a point cloud if
+    /// files of the format can hold one. Colours and texture coordinates that only some of the vertices have are left
+    /// out.
+    pub(super) fn into_mesh(mut self, title: &'static str, can_be_cloud: bool) -> Result<Mesh> {
+        let (vertices, triangles) = (self.positions.len(), self.triangles.len());
+        let named = |error| match error {
+            Error::Format { reason, .. } => damaged(title, reason),
+            Error::Unsupported { reason, .. } => unsupported(title, reason),
+            other => other,
+        };
+        let cloud = self.triangles.is_empty() && vertices > 0 && can_be_cloud;
+        let mut mesh = if cloud {
+            Mesh::cloud(self.positions)
+        } else {
+            Mesh::new(self.positions, self.triangles)
+        }
+        .map_err(named)?;
+        if self.colors.len() == vertices
+            && self
+                .colors
+                .iter()
+                .any(|color| *color != DEFAULT_VERTEX_COLOUR)
+        {
+            mesh = mesh.with_colors(self.colors)?;
+        }
+        let textured = self.textures.iter().any(|number| *number != NO_TEXTURE);
+        let complete = self.uvs.len() == vertices;
+        if complete && (textured || !self.uvs.contains(&NO_UV)) {
+            let without = self.uvs.iter_mut().filter(|uv| **uv == NO_UV);
+            without.for_each(|uv| *uv = [0.0; 2]);
+            mesh = mesh.with_uvs(self.uvs)?;
+            if textured {
+                self.textures.resize(triangles, NO_TEXTURE);
+                mesh = mesh.with_textures(self.textures)?;
+            }
+        }
+        Ok(mesh)
+    }
+}
+
+fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
+    if list.len() >= limit {
+        return Err(Error::TooLarge {
+            what: "mesh",
+            requested: limit + 1,
+            limit,
+        });
+    }
+    // Asked only where the list has to grow, for that alone costs anything.
+    if list.len() == list.capacity() {
+        list.try_reserve(1).map_err(|_| Error::OutOfMemory {
+            what: "mesh",
+            bytes: list.len() * size_of::<T>(),
+        })?;
+    }
+    list.push(value);
+    Ok(())
+}
+
+/// Largest number of characters that are kept of a decoder's message: some quote the line, which may be the
+/// whole file.
+const MAX_MESSAGE_CHARACTERS: usize = 160;
+
+pub(super) fn damaged(format: &'static str, reason: impl Display) -> Error {
+    let said = reason.to_string();
+    let words = said.split_whitespace();
+    let mut reason = words.collect::<Vec<_>>().join(" ");
+    if let Some((end, _)) = reason.char_indices().nth(MAX_MESSAGE_CHARACTERS) {
+        reason.truncate(end);
+        reason.push('…');
+    }
+    Error::Format { format, reason }
+}
+
+pub(super) fn unsupported(format: &'static str, reason: impl Into<String>) -> Error {
+    Error::Unsupported {
+        format,
+        reason: reason.into(),
+    }
+}

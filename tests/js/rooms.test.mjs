@@ -1,7 +1,11 @@
-/** Which folder of `src/` may import from which, and that no modules import each other in a circle. */
+/** Which folder of `src/` may import from which, that no modules import each other in a circle, and what is written about them. */
 import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { circles, graphOf, moduleGraph } from '../../tools/docs/modules.mjs';
+import { moduleSentences, moduleTable } from '../../tools/docs/module-table.mjs';
+import { root } from './support/paths.mjs';
 
 /** The rooms of the library: each imports only from those before it. */
 const ROOMS = [
@@ -26,6 +30,24 @@ test('every room imports only from rooms before it', () => {
 test('no modules of a room import each other in a circle', () => {
   const found = circles(moduleGraph()).map((group) => group.join(', '));
   assert.deepEqual(found, []);
+});
+
+test('MODULES.md has every module with the first sentence of its documentation', () => {
+  const modules = moduleSentences();
+  assert.ok(modules.length > 200, `only ${modules.length} modules were found`);
+  assert.deepEqual(modules.filter(({ sentence }) => sentence === '').map(({ path }) => path), []);
+  assert.equal(readFileSync(join(root, 'MODULES.md'), 'utf8'), moduleTable(), '`npm run modules` brings it up to date');
+});
+
+test('ARCHITECTURE.md is short, has every room, and names no file that is not there', () => {
+  const text = readFileSync(join(root, 'ARCHITECTURE.md'), 'utf8');
+  const lines = text.split('\n').length;
+  assert.ok(lines <= 250, `${lines} lines`);
+  assert.deepEqual(ROOMS.filter((room) => !new RegExp(`^\\| \`${room}/?\``, 'm').test(text)), []);
+  const named = [...text.matchAll(/`([\w./-]+(?:\/|\.(?:rs|js|mjs|ts)))`/g)].map(([, path]) => path);
+  assert.ok(named.length > 80, `${named.length} files are named`);
+  const folders = ['', 'src', 'src/fit', 'src/unroll', 'src/pattern'];
+  assert.deepEqual(named.filter((path) => !folders.some((folder) => existsSync(join(root, folder, path)))), []);
 });
 
 test('dependencies are found behind re-exports, in nested imports and in paths, but not in tests', () => {

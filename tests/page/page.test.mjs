@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, drop, look, pageTest, painted, saveAs } from './support/page.mjs';
+import { choose, drop, ended, look, pageTest, painted, saveAs } from './support/page.mjs';
 import { camera, dottedPhoto, misplaced, parsePng, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -408,9 +408,9 @@ for (const width of [360, 768, 1280]) {
 
 pageTest('what is written of a flat page can be done without, and asked for again', async (page) => {
   await openPhoto(page, 'letter.png', photo);
+  const before = new Set(page.workers());
   // In one go, for the file may be there in a moment.
-  const cancelled = await page.evaluate(async () => {
-    const dialog = /** @type {HTMLDialogElement} */ (document.querySelector('#save-dialog'));
+  const size = await page.evaluate(async () => {
     /** @type {HTMLButtonElement} */ (document.querySelector('#page-save')).click();
     const writing = /** @type {HTMLElement} */ (document.querySelector('#writing'));
     // What takes no time would not be told of.
@@ -419,11 +419,13 @@ pageTest('what is written of a flat page can be done without, and asked for agai
       setTimeout(resolve, 1000);
     });
     /** @type {HTMLButtonElement} */ (document.querySelector('#writing-cancel')).click();
-    const size = document.querySelector('#save-size')?.textContent;
-    await new Promise((resolve) => setTimeout(resolve, 1500));
-    return dialog.open && { size, later: document.querySelector('#save-size')?.textContent, saves: !(/** @type {HTMLButtonElement} */ (document.querySelector('#save-now')).disabled) };
+    return document.querySelector('#save-size')?.textContent;
   });
-  assert.deepEqual(cancelled, { size: 'Cancelled.', later: 'Cancelled.', saves: false });
+  assert.equal(size, 'Cancelled.');
+  await ended(page, before);
+  assert.ok(await page.locator('#save-dialog').isVisible());
+  assert.equal(await page.locator('#save-size').innerText(), 'Cancelled.');
+  assert.ok(await page.locator('#save-now').isDisabled());
   await page.getByRole('button', { name: 'Write it' }).click();
   const { bytes } = await saveAs(page, 'PNG');
   assert.ok(misplaced(parsePng(bytes)) < 0.003);
@@ -452,9 +454,10 @@ pageTest('a photo that is being read can be done without', async (page) => {
   }, cancel);
   await openPhoto(page, 'letter.png', photo);
   const caption = page.locator('#page-caption');
+  const before = new Set(page.workers());
   assert.equal(await open(true), true);
-  // It would have been there by now.
-  await page.waitForTimeout(3000);
+  await ended(page, before);
+  await painted(page);
   assert.match(await caption.innerText(), /letter/);
   assert.equal(await open(false), false);
   await caption.filter({ hasText: 'large' }).waitFor();

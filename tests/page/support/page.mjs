@@ -130,6 +130,15 @@ function watch(page) {
 }
 
 /**
+ * Waits until all workers have ended that were started in the meantime: no answer of theirs can come any more.
+ * @param {Page} page
+ * @param {Set<import('playwright-core').Worker>} before workers that stay
+ */
+export async function ended(page, before) {
+  for (let worker; (worker = page.workers().find((one) => !before.has(one)));) await worker.waitForEvent('close');
+}
+
+/**
  * Waits for the run under way, and for the start before the first one, to end.
  * @param {Page} page
  */

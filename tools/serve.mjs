@@ -17,7 +17,7 @@ const strict = [
  * @typedef {object} Site
  * @property {Record<string, string>} folders what is served: from a path that ends in `/` to a folder on the disk
  * @property {string} policy the content security policy of every answer
- * @property {Record<string, string>} headers further headers of every answer
+ * @property {Record<string, string>} headers further headers of every answer, or other values of those it has anyway
  */
 
 /**
@@ -53,10 +53,10 @@ export async function serve({
  * @param {Site} site
  */
 function answer({ method, url = '', headers: asked }, response, { folders, policy, headers }) {
-  for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
   response.setHeader('Content-Security-Policy', policy);
   response.setHeader('Cache-Control', 'no-store');
   response.setHeader('X-Content-Type-Options', 'nosniff');
+  for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
   if (method !== 'GET' && method !== 'HEAD') {
     response.setHeader('Allow', 'GET, HEAD');
     return refuse(response, 405);

@@ -85,4 +85,5 @@ pageTest('the site works under any path and without a network, and is renewed as
     await server.close().catch(() => {});
     await rm(folder, { recursive: true, force: true });
   }
-});
+  // With options the browser is not the one that keeps a profile: contexts can be added to it.
+}, { serviceWorkers: 'allow' });

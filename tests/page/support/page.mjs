@@ -1,6 +1,9 @@
 /** Tests on the page in Chromium, each on a fresh page that is watched all the time. */
 import assert from 'node:assert/strict';
 import { accessSync, constants } from 'node:fs';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
 import { serve } from '../../../tools/serve.mjs';
@@ -19,21 +22,58 @@ const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
 /** Time for anything to happen, on a machine that may be busy. */
 const PATIENCE = 60_000;
 
-/** @type {import('playwright-core').Browser} */
+const VIEWPORT = { width: 1280, height: 900 };
+
+/** All that the page may keep in the browser, by its names in Chromium's protocol. */
+const STORAGE_TYPES = 'cookies,local_storage,indexeddb,cache_storage,service_workers,file_systems';
+
+/** @type {Promise<import('playwright-core').Browser> | undefined} */
 let browser;
+/** The browser with a folder of its own, whose caches make each start but the first cheaper. @type {Promise<import('playwright-core').BrowserContext> | undefined} */
+let shared;
+/** @type {string | undefined} */
+let profile;
 /** @type {Awaited<ReturnType<typeof serve>>} */
 let server;
 
 const missing = browserMissing();
 if (!missing) {
   before(async () => {
-    server = await serve({ port: 0 });
-    browser = await chromium.launch({ executablePath, args });
+    // The files don't change during a test run: they may be cached, with the code that was compiled from them.
+    server = await serve({ port: 0, headers: { 'Cache-Control': 'max-age=3600' } });
   });
   after(async () => {
-    await browser?.close();
+    await (await shared)?.close();
+    await (await browser)?.close();
     await server?.close();
+    if (profile) await rm(profile, { recursive: true, force: true, maxRetries: 5 });
   });
+}
+
+/**
+ * A browser context for one test: the shared one where no options are given.
+ * @param {import('playwright-core').BrowserContextOptions} options
+ */
+async function contextWith(options) {
+  if (Object.keys(options).length === 0) return (shared ??= sharedContext());
+  browser ??= chromium.launch({ executablePath, args });
+  return (await browser).newContext({ viewport: VIEWPORT, ...options });
+}
+
+async function sharedContext() {
+  profile = await mkdtemp(join(tmpdir(), 'developable-profile-'));
+  return chromium.launchPersistentContext(profile, { executablePath, args, viewport: VIEWPORT });
+}
+
+/**
+ * Deletes what earlier tests left in the browser: storage and permissions.
+ * @param {Page} page
+ */
+async function forget(page) {
+  await page.context().clearPermissions();
+  const protocol = await page.context().newCDPSession(page);
+  await protocol.send('Storage.clearDataForOrigin', { origin: new URL(server.url).origin, storageTypes: STORAGE_TYPES });
+  await protocol.detach();
 }
 
 /** @returns {string | false} why the tests cannot run */
@@ -87,19 +127,23 @@ export function brokenStartTest(name, spoil, body) {
 }
 
 /**
- * A test in a tab of its own, which shows nothing yet.
+ * A test in a tab of its own, which shows nothing yet and finds nothing kept.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
  * @param {import('playwright-core').BrowserContextOptions} [options]
  */
 export function inChromium(name, body, options = {}) {
   test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+    const context = await contextWith(options);
     context.setDefaultTimeout(PATIENCE);
+    const page = await context.newPage();
     try {
-      await body(await context.newPage());
+      await forget(page);
+      await body(page);
     } finally {
-      await context.close();
+      if (context !== await shared) await context.close();
+      // With its last tab the browser would end.
+      else await Promise.all(context.pages().slice(1).map((one) => one.close()));
     }
   });
 }

@@ -74,6 +74,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+// Unit tests share modules with the integration tests, which know the library by its name.
+#[cfg(test)]
+extern crate self as developable;
+
 pub mod assembly;
 pub mod dewarp;
 pub mod drawing;

@@ -23,51 +23,13 @@ use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::scene::view::Frame as Frame3;
 use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
+/// Meshes that the integration tests use as well.
+#[path = "../../../tests/native/common/closed_meshes.rs"]
+mod closed_meshes;
 mod creases;
 mod crossing;
 
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut random = oorandom::Rand64::new(seed.into());
-    move || 2.0 * random.rand_float() - 1.0
-}
-
-/// About normal, of variance 1.
-fn normal(random: &mut impl FnMut() -> f64) -> f64 {
-    (0..12).map(|_| random()).sum::<f64>() / 2.0
-}
-
-/// The triangles of a map from the unit square, with random diagonals; corners at the same place are one
-/// vertex.
-fn grid(cols: usize, rows: usize, map: impl Fn(f64, f64) -> [f64; 3]) -> Vec<[[f64; 3]; 3]> {
-    let mut random = random(3);
-    let at = |i: usize, j: usize| map(i as f64 / cols as f64, j as f64 / rows as f64);
-    let mut triangles = Vec::new();
-    for i in 0..cols {
-        for j in 0..rows {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            triangles.extend(match random() > 0.0 {
-                true => [[a, b, c], [a, c, d]],
-                false => [[a, b, d], [b, c, d]],
-            });
-        }
-    }
-    triangles
-}
-
-fn indexed(soup: &[[[f64; 3]; 3]]) -> Mesh {
-    let (mut places, mut found) = (Vec::new(), HashMap::new());
-    let triangles = soup.iter().map(|triangle| {
-        triangle.map(|x| {
-            let key = x.map(|x| (x * 1e9).round() as i64);
-            *found.entry(key).or_insert_with(|| {
-                places.push(x);
-                places.len() as u32 - 1
-            })
-        })
-    });
-    let triangles = triangles.collect();
-    Mesh::new(places, triangles).unwrap()
-}
+use closed_meshes::{cube, grid, indexed, normal, points, random, with_positions};
 
 /// A pipe around the x axis, with uneven triangles.
 fn pipe(cols: usize, radius: f64, length: f64) -> Mesh {
@@ -77,32 +39,6 @@ fn pipe(cols: usize, radius: f64, length: f64) -> Mesh {
         let x = length * v;
         [x, radius * angle.cos(), radius * angle.sin()]
     }))
-}
-
-/// The surface of the cube of side 2 about the origin, outwards.
-fn cube(cols: usize) -> Mesh {
-    let mut soup = Vec::new();
-    for axis in 0..3 {
-        for side in [-1.0, 1.0] {
-            soup.extend(grid(cols, cols, |u, v| {
-                let mut x = [0.0; 3];
-                x[axis] = side;
-                x[(axis + 1) % 3] = side * (2.0 * u - 1.0);
-                x[(axis + 2) % 3] = 2.0 * v - 1.0;
-                x
-            }));
-        }
-    }
-    indexed(&soup)
-}
-
-fn points(mesh: &Mesh) -> Vec<Point> {
-    mesh.positions().iter().map(|x| Point::from(*x)).collect()
-}
-
-fn with_positions(mesh: &Mesh, x: &[Point]) -> Mesh {
-    let positions = x.iter().map(|x| (*x).into()).collect();
-    Mesh::new(positions, mesh.triangles().to_vec()).unwrap()
 }
 
 /// Moved along its normals.

@@ -1,6 +1,7 @@
 //! What several integration tests share.
 #![allow(dead_code)] // each test uses a part of it
 
+pub mod closed_meshes;
 pub mod conic;
 #[cfg(feature = "formats")]
 pub mod files;

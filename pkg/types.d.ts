@@ -324,7 +324,7 @@ export interface Progress {
   /** Best certified lower bound of the optimum so far. */
   dualBound: number;
   /** `(objective - dualBound) / objective`; `undefined` where the objective is a rounding error. */
-  gap: number | undefined;
+  gap?: number;
   /** ADMM penalty. */
   rho: number;
   /** Seconds since the solver was made or restarted. */
@@ -365,9 +365,9 @@ export interface LambdaChoice {
    */
   reason: 'prediction' | 'noise' | 'noNoise' | 'unknown';
   /** Standard deviation of the heights' noise, in the input's units; `undefined` if it cannot be told. */
-  sigma: number | undefined;
+  sigma?: number;
   /** The step of quantised heights, where that is what their noise comes from. */
-  step: number | undefined;
+  step?: number;
   /** Noise is independent from vertex to vertex on the lattice of `2 ** merged` times the spacing. */
   merged: number;
   /** How many ways were compared, each by up to three solves. */
@@ -407,7 +407,7 @@ export interface Report {
   /** Reweighted passes that were made after the first solve; the figures are the last one's. */
   reweighting: number;
   /** For the energy `'huber'`: what bends cost, whether given or chosen, and where creases are. */
-  huber: HuberReport | undefined;
+  huber?: HuberReport;
   /** Value of the energy at the returned surface, in normalised coordinates; always finite. */
   objective: number;
   /** `lambda * sum (z - input)^2`, with the confidences as factors. */
@@ -420,11 +420,11 @@ export interface Report {
    * `(objective - dualBound) / objective`: how far from the optimum the result can be at most. `undefined` for
    * `'rounding'`, and where the objective is no more than a rounding error: then a share of it says nothing.
    */
-  gap: number | undefined;
+  gap?: number;
   /** Lambda that was used, as a number. */
   lambda: number;
   /** How that came about, for `lambda: 'auto'`. */
-  lambdaChoice: LambdaChoice | undefined;
+  lambdaChoice?: LambdaChoice;
   /** Last ADMM penalty. */
   rho: number;
   /** Factor from the input's units to normalised coordinates. */

@@ -643,6 +643,40 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "serde")]
+    fn options_are_read_from_json() {
+        let read = |json: &str| serde_json::from_str::<Options>(json);
+        assert_eq!(read("{}").unwrap(), Options::default());
+        let given = r#"{"lambda": "big", "maxIterations": 7, "normalize": false, "energy": "secondFormOfInput", "schedule": "paper"}"#;
+        let expected = Options::default()
+            .lambda(Lambda::Big)
+            .max_iterations(7)
+            .normalization(Normalization::Off)
+            .energy(Energy::SecondFormOfInput)
+            .schedule(Schedule::Paper);
+        assert_eq!(read(given).unwrap(), expected);
+        for number in ["300000", "3e5"] {
+            let options = read(&format!(r#"{{"lambda": {number}}}"#)).unwrap();
+            assert_eq!(options, Options::default().lambda(3e5));
+        }
+        for wrong in [
+            r#"{"lambda": "huge"}"#,
+            r#"{"lamda": 1}"#,
+            r#"{"gap": "x"}"#,
+        ] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_paper_fills_in_what_is_not_given() {
+        assert_eq!(Options::default().or_paper(), Options::paper());
+        let auto = Options::default().lambda(Lambda::Auto).or_paper();
+        assert_eq!(auto.lambda_or_default(), Lambda::Auto);
+        assert_eq!(auto.energy_or_default(), Energy::Nuclear);
+    }
+
+    #[test]
     fn options_out_of_range_are_named() {
         let name = |options: Options| match options.validate() {
             Err(Error::Option { name, .. }) => name,

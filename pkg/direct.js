@@ -201,7 +201,8 @@ function answerOf(onProgress, progress) {
 /** @type {typeof import('./direct.js').occlusions} */
 export function occlusions(input, given) {
   const field = asField(input);
-  const options = optionsOf('occlusions', given);
+  const { threshold: occlusionThreshold, ...rest } = optionsOf('occlusions', given);
+  const options = { ...rest, occlusionThreshold };
   return solver.call((wasm) =>
     field.kind === 'image' ? wasm.occlusionsOfImage(field, options) : wasm.occlusionsOfLattice(field, options),
   );

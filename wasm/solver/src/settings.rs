@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::*;
 use developable::checks::positive;
 use developable::{Bridging, Normalization, Options};
 use developable_wasm::Result;
-use developable_wasm::options::{Given, option, read};
+use developable_wasm::options::{Given, option};
 
 /// `SolverOptions` of the types.
 #[derive(Clone, Copy, Default)]
@@ -30,15 +30,6 @@ struct InputOptions {
     occlusion_threshold: Option<f64>,
     #[serde(with = "preserve")]
     bridge: JsValue,
-}
-
-/// `OcclusionOptions` of the types.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct DetectionOptions {
-    threshold: Option<f64>,
-    spacing: Option<f64>,
-    normalize: Normalization,
 }
 
 impl Settings {
@@ -69,17 +60,6 @@ impl Settings {
             positive("occlusion_threshold", threshold)?;
         }
         Ok(())
-    }
-
-    /// The settings of a search for occlusions.
-    pub fn of_detection(options: &JsValue) -> Result<Settings> {
-        let found: DetectionOptions = read(options)?;
-        Ok(Settings {
-            normalization: found.normalize,
-            spacing: found.spacing,
-            occlusion_threshold: found.threshold,
-            ..Settings::default()
-        })
     }
 
     /// Whether what is solved stays the same with these in the place of others.

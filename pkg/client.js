@@ -130,7 +130,7 @@ export class DevelopableWorker {
    * @param {import('./index.js').ExplorePatternOptions} [given]
    */
   explorePattern(input, given) {
-    return explored(/** @type {import('./index.js').DevelopableWorker} */ (/** @type {unknown} */ (this)), input, given);
+    return explored(/** @type {any} */ (this), (values) => this.#request((remote) => remote.trials(values)), input, given);
   }
 
   /**
@@ -138,7 +138,7 @@ export class DevelopableWorker {
    * @param {import('./index.js').ExplorePatternMeshOptions} [given]
    */
   explorePatternMesh(mesh, given) {
-    return exploredMesh(/** @type {import('./index.js').DevelopableWorker} */ (/** @type {unknown} */ (this)), mesh, given);
+    return exploredMesh(/** @type {any} */ (this), (values) => this.#request((remote) => remote.trials(values)), mesh, given);
   }
 
   get connected() {

@@ -28,6 +28,44 @@ export async function load(...parts) {
   await Promise.all(wanted.map(({ part, place }) => part.init(place)));
 }
 
+/**
+ * A call of the wasm about heights, and its options.
+ * @param {keyof typeof import('./options.js').OPTIONS} name
+ * @param {import('./instance.js').Instance<any>} part
+ * @returns {any}
+ */
+const ofHeights = (name, part) => (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
+  const field = asField(input);
+  const options = optionsOf(name, given);
+  return part.call((wasm) => wasm[name](field, options));
+};
+
+/**
+ * A call of the wasm about a whole mesh, and its options.
+ * @param {keyof typeof import('./options.js').OPTIONS} name
+ * @param {import('./instance.js').Instance<any>} part
+ * @returns {any}
+ */
+const ofMesh = (name, part) => (/** @type {any} */ mesh, /** @type {object | undefined} */ given) => {
+  const { shape } = wholeOf(mesh);
+  const options = optionsOf(name, given);
+  return part.call((wasm) => wasm[name](shape, options));
+};
+
+/**
+ * A call of the wasm that writes a file of one thing.
+ * @param {string} name
+ * @param {import('./instance.js').Instance<any>} part
+ * @param {(input: any) => unknown} take checks and copies it
+ */
+const writing = (name, part, take) => (/** @type {any} */ input) => {
+  const taken = take(input);
+  return unshared(part.call((wasm) => wasm[name](taken)));
+};
+
+/** @param {unknown} drawing */
+const asDrawing = (drawing) => plainCopy('the drawing', drawing);
+
 /** @typedef {import('./direct.js').Solver} SolverApi */
 
 /** Milliseconds between two calls of `fit`'s `onProgress`. */
@@ -163,7 +201,8 @@ function answerOf(onProgress, progress) {
 /** @type {typeof import('./direct.js').occlusions} */
 export function occlusions(input, given) {
   const field = asField(input);
-  const options = optionsOf('occlusions', given);
+  const { threshold: occlusionThreshold, ...rest } = optionsOf('occlusions', given);
+  const options = { ...rest, occlusionThreshold };
   return solver.call((wasm) =>
     field.kind === 'image' ? wasm.occlusionsOfImage(field, options) : wasm.occlusionsOfLattice(field, options),
   );
@@ -192,22 +231,13 @@ export function writeNpy(input) {
 }
 
 /** @type {typeof import('./direct.js').writePng} */
-export function writePng(input) {
-  const image = asPixels(input);
-  return bytesOf((wasm) => wasm.writePng(image));
-}
+export const writePng = writing('writePng', files, asPixels);
 
 /** @type {typeof import('./direct.js').writeTiff} */
-export function writeTiff(input) {
-  const image = asPixels(input);
-  return unshared(images.call((wasm) => wasm.writeTiff(image)));
-}
+export const writeTiff = writing('writeTiff', images, asPixels);
 
 /** @type {typeof import('./direct.js').writeExr} */
-export function writeExr(input) {
-  const image = asPixels(input);
-  return unshared(images.call((wasm) => wasm.writeExr(image)));
-}
+export const writeExr = writing('writeExr', images, asPixels);
 
 /** @type {typeof import('./direct.js').writeObj} */
 export function writeObj(input, given) {
@@ -223,16 +253,10 @@ export function writeMtl(picture) {
 }
 
 /** @type {typeof import('./direct.js').writePly} */
-export function writePly(input) {
-  const lattice = asMeshOrLattice(input);
-  return unshared(meshes.call((wasm) => wasm.writePly(lattice)));
-}
+export const writePly = writing('writePly', meshes, asMeshOrLattice);
 
 /** @type {typeof import('./direct.js').writeStl} */
-export function writeStl(input) {
-  const lattice = asMeshOrLattice(input);
-  return unshared(meshes.call((wasm) => wasm.writeStl(lattice)));
-}
+export const writeStl = writing('writeStl', meshes, asMeshOrLattice);
 
 /** @type {typeof import('./direct.js').writeGlb} */
 export function writeGlb(input, given) {
@@ -289,11 +313,7 @@ export function analyze(input, given) {
 }
 
 /** @type {typeof import('./direct.js').patches} */
-export function patches(input, given) {
-  const field = asField(input);
-  const options = optionsOf('patches', given);
-  return sheets.call((wasm) => wasm.patches(field, options));
-}
+export const patches = ofHeights('patches', sheets);
 
 /** @type {typeof import('./direct.js').picture} */
 export function picture(input, given) {
@@ -310,11 +330,7 @@ export function draw(canvas, input, given) {
 }
 
 /** @type {typeof import('./direct.js').rulings} */
-export function rulings(input, given) {
-  const field = asField(input);
-  const options = optionsOf('rulings', given);
-  return sheets.call((wasm) => wasm.rulings(field, options));
-}
+export const rulings = ofHeights('rulings', sheets);
 
 /** @type {typeof import('./direct.js').fitCylinder} */
 export function fitCylinder(input) {
@@ -323,65 +339,35 @@ export function fitCylinder(input) {
 }
 
 /** @type {typeof import('./direct.js').unroll} */
-export function unroll(input, given) {
-  const field = asField(input);
-  const options = optionsOf('unroll', given);
-  return sheets.call((wasm) => wasm.unroll(field, options));
-}
+export const unroll = ofHeights('unroll', sheets);
 
 /** @type {typeof import('./direct.js').pattern} */
-export function pattern(input, given) {
-  const field = asField(input);
-  const options = optionsOf('pattern', given);
-  return patterns.call((wasm) => wasm.pattern(field, options));
-}
+export const pattern = ofHeights('pattern', patterns);
 
 /** @type {typeof import('./direct.js').analyzeMesh} */
-export function analyzeMesh(mesh, given) {
-  const { shape } = wholeOf(mesh);
-  const options = optionsOf('analyzeMesh', given);
-  return meshFits.call((wasm) => wasm.analyzeMesh(shape, options));
-}
+export const analyzeMesh = ofMesh('analyzeMesh', meshFits);
 
 /** @type {typeof import('./direct.js').meshRulings} */
-export function meshRulings(mesh, given) {
-  const { shape } = wholeOf(mesh);
-  const options = optionsOf('meshRulings', given);
-  return meshFits.call((wasm) => wasm.meshRulings(shape, options));
-}
+export const meshRulings = ofMesh('meshRulings', meshFits);
 
 /** @type {typeof import('./direct.js').unrollMesh} */
-export function unrollMesh(mesh, given) {
-  const { shape } = wholeOf(mesh);
-  const options = optionsOf('unrollMesh', given);
-  return patterns.call((wasm) => wasm.unrollMesh(shape, options));
-}
+export const unrollMesh = ofMesh('unrollMesh', patterns);
 
 /** @type {typeof import('./direct.js').patternMesh} */
-export function patternMesh(mesh, given) {
-  const { shape } = wholeOf(mesh);
-  const options = optionsOf('patternMesh', given);
-  return patterns.call((wasm) => wasm.patternMesh(shape, options));
-}
+export const patternMesh = ofMesh('patternMesh', patterns);
 
 /** @type {typeof import('./direct.js').writeSvg} */
-export function writeSvg(drawing) {
-  const own = plainCopy('the drawing', drawing);
-  return unshared(patterns.call((wasm) => wasm.writeSvg(own)));
-}
+export const writeSvg = writing('writeSvg', patterns, asDrawing);
 
 /** @type {typeof import('./direct.js').writePdf} */
 export function writePdf(drawing, given) {
-  const own = plainCopy('the drawing', drawing);
+  const own = asDrawing(drawing);
   const options = optionsOf('writePdf', given);
   return unshared(patterns.call((wasm) => wasm.writePdf(own, options)));
 }
 
 /** @type {typeof import('./direct.js').writeDxf} */
-export function writeDxf(drawing) {
-  const own = plainCopy('the drawing', drawing);
-  return unshared(patterns.call((wasm) => wasm.writeDxf(own)));
-}
+export const writeDxf = writing('writeDxf', patterns, asDrawing);
 
 /**
  * Here there is nobody to hand anything over to.

@@ -1,7 +1,6 @@
 /**
- * Patterns of one input at several λ and sizes of patches, to choose from. The loop is here and not in Rust's `explore`, which
- * goes by the same numbers in the same order: solves and patterns run in two wasm files, and plans are told and broken off
- * between them.
+ * Patterns of one input at several λ and sizes of patches, to choose from. What is tried, and in which order, Rust's `explore`
+ * says; the loop is here, since solves and patterns run in two wasm files, and plans are told and broken off between them.
  */
 import { DevelopableError } from './errors.js';
 import { optionsOf } from './options.js';
@@ -11,6 +10,7 @@ import { optionsOf } from './options.js';
  * @typedef {import('./types.js').ExploredPatterns} ExploredPatterns
  * @typedef {import('./types.js').Mesh} Mesh
  * @typedef {Pick<import('./index.js').DevelopableWorker, 'open' | 'analyze' | 'pattern' | 'fitMesh' | 'patternMesh'>} Worker
+ * @typedef {typeof import('./service.js').service['trials']} Trials
  */
 
 /**
@@ -19,20 +19,14 @@ import { optionsOf } from './options.js';
  * @typedef {{ surface: S, distance: number, seconds: number }} Solved
  */
 
-/** What is tried unless something else is said: half-decades of λ, and shares of all vertices. */
-const LAMBDAS = [1e7, 3e6, 1e6, 3e5, 1e5, 3e4];
-const SMALLEST = [0.005, 0.02, 0.08];
-
-/** Of the λ that a mesh's noise asks for. */
-const SHARES = [1, 0.3, 0.1, 0.03];
-
 /**
  * @param {Worker} worker
+ * @param {Trials} trials
  * @param {import('./types.js').HeightImage | import('./types.js').Heightfield} input
  * @param {import('./index.js').ExplorePatternOptions} [given]
  */
-export async function explored(worker, input, given) {
-  const { lambdas = LAMBDAS, solver = {}, pattern = {}, ...choice } = optionsOf('explorePattern', given);
+export async function explored(worker, trials, input, given) {
+  const { lambdas, smallest, solver = {}, pattern = {}, ...choice } = optionsOf('explorePattern', given);
   const { signal } = choice;
   const { spacing } = solver;
   signal?.throwIfAborted();
@@ -45,7 +39,7 @@ export async function explored(worker, input, given) {
     return { surface, distance: deviation?.rms ?? NaN, seconds: (performance.now() - begun) / 1000 };
   };
   try {
-    return await tried(lambdas, choice, solved, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
+    return await tried(await trials({ lambdas, smallest }), choice, solved, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
   } finally {
     open.dispose();
   }
@@ -53,15 +47,16 @@ export async function explored(worker, input, given) {
 
 /**
  * @param {Worker} worker
+ * @param {Trials} trials
  * @param {Mesh} mesh
  * @param {import('./index.js').ExplorePatternMeshOptions} [given]
  */
-export async function exploredMesh(worker, mesh, given) {
-  const { lambdas, solver = {}, pattern = {}, ...choice } = optionsOf('explorePatternMesh', given);
+export async function exploredMesh(worker, trials, mesh, given) {
+  const { lambdas, smallest, solver = {}, pattern = {}, ...choice } = optionsOf('explorePatternMesh', given);
   const { signal } = choice;
   signal?.throwIfAborted();
   const own = lambdas === undefined ? await worker.fitMesh(mesh, { ...solver, signal }) : undefined;
-  const all = lambdas ?? SHARES.map((share) => share * (own?.report.lambda ?? NaN));
+  const all = await trials({ lambdas, smallest, meshLambda: own?.report.lambda });
   const solved = async (/** @type {number} */ lambda) => {
     const surface = lambda === own?.report.lambda ? own : await worker.fitMesh(mesh, { ...solver, lambda, signal });
     return { surface, distance: moved(mesh, surface), seconds: surface.report.seconds.total };
@@ -80,21 +75,20 @@ function moved({ positions: from }, { positions: to }) {
 }
 
 /**
- * From the surface that is nearest to the input to the plainest one, and with smaller patches before larger ones. So the
- * first plan with few enough sheets is the finest.
+ * The plans, or those up to the first one with few enough sheets.
  * @template S
- * @param {readonly number[]} lambdas
- * @param {Pick<import('./index.js').ExplorePatternOptions, 'smallest' | 'sheets' | 'signal' | 'onPlan'>} choice
+ * @param {Awaited<ReturnType<Trials>>} trials
+ * @param {Pick<import('./index.js').ExplorePatternOptions, 'sheets' | 'signal' | 'onPlan'>} choice
  * @param {(lambda: number) => Promise<Solved<S>>} solved
  * @param {(surface: S, smallest: number) => Promise<import('./types.js').Drawing>} laid
  * @returns {Promise<ExploredPatterns>}
  */
-async function tried(lambdas, { smallest = SMALLEST, sheets = Infinity, signal, onPlan }, solved, laid) {
+async function tried({ lambdas, smallest }, { sheets = Infinity, signal, onPlan }, solved, laid) {
   /** @type {PatternPlan[]} */
   const plans = [];
-  for (const lambda of [...lambdas].sort((a, b) => b - a)) {
+  for (const lambda of lambdas) {
     const { surface, distance, seconds: fitting } = await solved(lambda);
-    for (const share of [...smallest].sort((a, b) => a - b)) {
+    for (const share of smallest) {
       signal?.throwIfAborted();
       const started = performance.now();
       const found = await drawn(laid(surface, share));

@@ -236,53 +236,6 @@ export function dispose(): void;
 export class DevelopableWorker {
   constructor(options?: WorkerOptions);
   init(): Promise<void>;
-  fit(input: HeightImage, options?: FitOptions): Promise<ImageSurface>;
-  fit(input: Heightfield, options?: FitOptions): Promise<LatticeSurface>;
-  fit(input: HeightImage | Heightfield, options?: FitOptions): Promise<Surface>;
-  open(input: HeightImage, options?: HandOver): Promise<OpenSolver<HeightImage>>;
-  open(input: Heightfield, options?: HandOver): Promise<OpenSolver<Heightfield>>;
-  open(input: HeightImage | Heightfield, options?: HandOver): Promise<OpenSolver>;
-  occlusions(input: HeightImage | Heightfield, options?: OcclusionOptions): Promise<DetectedOcclusions>;
-  read(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadOptions): Promise<ReadResult>;
-  npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
-  writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-  writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-  writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-  writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-  writeObj(input: Heightfield | Mesh, options?: WriteObjOptions): Promise<Uint8Array<ArrayBuffer>>;
-  writeMtl(picture: string): Promise<Uint8Array<ArrayBuffer>>;
-  writePly(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
-  writeStl(input: Heightfield | Mesh): Promise<Uint8Array<ArrayBuffer>>;
-  writeGlb(input: Heightfield | Mesh, options?: WriteGlbOptions): Promise<Uint8Array<ArrayBuffer>>;
-  readMesh(bytes: Uint8Array | ArrayBuffer | Blob, options?: ReadMeshOptions): Promise<Mesh>;
-  fitMesh(mesh: Mesh, options?: FitMeshOptions): Promise<MeshSurface>;
-  sampleMesh(mesh: Mesh, options?: SampleMeshOptions): Promise<SampledMesh>;
-  backProject(image: HeightImage, camera: Intrinsics, options?: DepthOptions): Promise<Mesh>;
-  paint<F extends Heightfield>(input: F, picture: Picture | Blob, options?: PaintOptions): Promise<Painted<F>>;
-  analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
-  patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
-  picture(input: HeightImage | Heightfield, options?: PictureOptions): Promise<SurfacePicture>;
-  draw(canvas: Canvas, input: HeightImage | Heightfield, options?: PictureOptions): Promise<void>;
-  rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
-  fitCylinder(input: Heightfield): Promise<FittedCylinder>;
-  unroll(input: HeightImage | Heightfield, options?: UnrollOptions): Promise<Unrolling>;
-  pattern(input: HeightImage | Heightfield, options?: PatternOptions): Promise<Drawing>;
-  analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
-  meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
-  unrollMesh(mesh: Mesh, options?: MeshUnrollOptions): Promise<MeshUnrolling>;
-  patternMesh(mesh: Mesh, options?: MeshPatternOptions): Promise<Drawing>;
-  explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
-  explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
-  writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
-  writePdf(drawing: Drawing, options?: WritePdfOptions): Promise<Uint8Array<ArrayBuffer>>;
-  writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
-  dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver): Promise<Dewarped>;
-  dewarpPage(
-    photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions & HandOver,
-  ): Promise<DewarpedPage>;
-  readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
-  writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
-  example(name: ExampleName, options?: ExampleOptions): Promise<Example>;
   /** Whether the worker runs. It starts with the first call, and anew with the first one after it crashed. */
   readonly connected: boolean;
   readonly disposed: boolean;
@@ -290,3 +243,8 @@ export class DevelopableWorker {
   dispose(): void;
   [Symbol.dispose](): void;
 }
+
+/** The functions of this module, of one's own worker. */
+export interface DevelopableWorker extends Omit<
+  typeof import('./index.js'), 'DevelopableError' | 'DevelopableWorker' | 'dispose' | 'init' | 'parseCamera'
+> {}

@@ -3,7 +3,7 @@ import * as direct from './direct.js';
 import { CALLS, forPictures } from './calls.js';
 import { takeCopiesFrom } from './copies.js';
 import { DevelopableError } from './errors.js';
-import { solver } from './instances.js';
+import { patterns, solver } from './instances.js';
 import { Job } from './job.js';
 import { KeptSolver } from './kept.js';
 import { paintOf } from './paint.js';
@@ -153,6 +153,16 @@ export const service = {
     await loaded(typeof parts === 'function' ? parts(...sent) : parts);
     const result = /** @type {(...args: any[]) => any} */ (direct[name])(...sent);
     return transfer(result, [...buffersIn(result)]);
+  },
+
+  /**
+   * The λ and sizes of patches of an exploration, in the order in which they are tried.
+   * @param {{ lambdas?: readonly number[], smallest?: readonly number[], meshLambda?: number }} given
+   * @returns {Promise<{ lambdas: number[], smallest: number[] }>}
+   */
+  async trials(given) {
+    await loaded(['patterns']);
+    return patterns.call((wasm) => wasm.trials(given));
   },
 
   /** @type {(input: Input, picture: import('./types.js').Picture, options?: import('./types.js').PaintOptions) => Promise<ReturnType<typeof paintOf>>} */

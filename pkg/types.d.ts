@@ -1,6 +1,7 @@
 /// <reference lib="esnext.disposable" />
 /** What the direct and the worker API share: inputs, options, results. */
 export { DevelopableError, type ErrorCode } from './errors.js';
+export * from './option-types.js';
 
 /** Any flat numeric array; values are converted to 64-bit floats. */
 export type Numbers =
@@ -128,26 +129,6 @@ export interface Mesh {
   confidence?: Float32Array;
 }
 
-/** Options of a fit over a whole mesh. The energy is `huber`; a mesh is scaled so that the ball about it has diameter 1. */
-export interface MeshSolverOptions {
-  /** How closely to follow the input, in those coordinates. Default `'auto'`: by the noise of the mesh. */
-  lambda?: 'small' | 'medium' | 'big' | 'auto' | number;
-  /** Certified relative gap of each linearised problem to stop at; default 0.01. */
-  gap?: number;
-  /** Most ADMM iterations for each linearisation; default 1000. */
-  maxIterations?: number;
-  /** Bends of a larger radius cost their square, others their size; default 0.1. */
-  bendRadius?: number;
-  /** The slope that the cost of bends begins with, from 0 (nothing is quite flat) to 1; default 0.3. */
-  flatness?: number;
-  /** What bends more tightly is a crease; default 0.1. */
-  creaseRadius?: number;
-  /** Number of crease passes, each of another linearisation; default: 2, or 0 where lambda is large for the noise. */
-  creasePasses?: number;
-  /** Which vertices stay where they are. */
-  held?: readonly (boolean | number)[] | Uint8Array;
-}
-
 /** What was mended of a mesh before a fit; the result has its vertices and triangles all the same. */
 export interface MeshRepairs {
   /** Vertices at the place of another one, which move with it. */
@@ -267,59 +248,8 @@ export interface Pixels {
   data: Numbers;
 }
 
-/** What is known of depths besides. Images may be finer or coarser than the depths, but must show the same. */
-export interface DepthOptions {
-  /**
-   * How far each depth is to be trusted. Whole numbers up to 2 are the levels that ARKit tells: 0 takes the depth out, 1
-   * gives it a fourth of the weight, 2 all of it. Others are shares of the largest of their type (255 of bytes, as
-   * ARCore tells), floats are factors from 0 to 1 themselves; 0 takes the depth out. It goes along to `fit`.
-   */
-  confidence?: Pixels;
-  /** 0 takes out; of the depths, or of the photo. */
-  mask?: Pixels;
-  /** Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it are taken out, and what of the rest is small and apart, as what is seen behind a bent edge. */
-  crop?: readonly (readonly [number, number])[];
-  /** The size of the photo that `crop` is about. */
-  photo?: { width: number; height: number };
-  /**
-   * Degrees by which the depths are turned clockwise first, with all that is about them (the camera's numbers, the
-   * confidence, a mask of their size), to lie as the photo does: phones store depths as the sensor lies. Default 0.
-   */
-  turn?: 0 | 90 | 180 | 270;
-  /** The camera of the photo, which `mask` (unless it is as large as the depths) and `crop` are seen through. Default: the depths' own. */
-  camera?: PhotoCamera;
-}
-
-export interface ReadMeshOptions {
-  /** Taken from the bytes where it is not given. */
-  format?: 'obj' | 'ply' | 'stl' | 'gltf' | 'glb';
-  /**
-   * What lies beside the file, by name: the materials (MTL) and textures of an OBJ, the texture of a
-   * PLY, the buffers and textures of a glTF. A name is looked for as it is and then without its
-   * folders; what is not there is listed in the mesh's `missing`, but a glTF needs its buffers.
-   */
-  files?: Map<string, Uint8Array | ArrayBuffer> | Record<string, Uint8Array | ArrayBuffer>;
-}
-
 /** A direction to look in: `'-z'` looks down the z axis, so that what has the largest z is in front. */
 export type ViewName = '-x' | '+x' | '-y' | '+y' | '-z' | '+z' | 'best-fit';
-
-export interface SampleMeshOptions {
-  /**
-   * A direction to look in, by name or as a vector; or `'best-fit'`, straight at the plane that
-   * fits the triangles best, from the side that more of their area faces (of a point cloud: that
-   * fits the points, its largest component towards the viewer). Up is as close to +y as
-   * it can be; along `-y` it is -z, along `+y` +z. Default `'-z'`.
-   */
-  view?: ViewName | readonly [number, number, number];
-  /**
-   * Vertices along the longer side of what is seen, at least 2. Default 200; of a point cloud fewer,
-   * where that leaves less than four points for each vertex.
-   */
-  resolution?: number;
-  /** Distance of neighbours on the lattice, in the place of `resolution`. */
-  spacing?: number;
-}
 
 /**
  * What is seen of a mesh: the first hit of a ray through each vertex of a lattice, NaN where there is none.
@@ -361,100 +291,6 @@ export interface SampledMesh extends Heightfield {
  */
 export type Energy = 'nuclear' | 'frobenius' | 'squaredNuclear' | 'secondFormOfInput' | 'secondForm' | 'huber';
 
-export interface SolverOptions {
-  /**
-   * The paper's setting, `lambda: 'medium'` and `energy: 'nuclear'`, for what is not given otherwise. Default false.
-   * It suits shapes that are to be approximated by few large sheets; the smaller `lambda`, the fewer.
-   */
-  paper?: boolean;
-  /**
-   * Weight of the fidelity term, for coordinates normalised to the unit square:
-   * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
-   * (nearly developable input), a number from 1e-12 to 1e15, or `'auto'`. Default `'auto'`.
-   *
-   * `'auto'` finds it from the noise of the heights: a first value from the size of the noise, then the value that predicts
-   * held-out heights best, by some solves on a lattice of twice the spacing. With the energy `'huber'` the parameters of the
-   * energy are found likewise. An input whose noise cannot be measured, as a design, has 1e6. `report.lambdaChoice` tells
-   * what was found. It costs about as much as two solves, or several where there are few heights.
-   */
-  lambda?: number | 'small' | 'medium' | 'big' | 'auto';
-  /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
-  schedule?: 'default' | 'paper';
-  /**
-   * Certified relative duality gap to stop at, between 0 and 1 (exclusive). Default 0.01. The objective is then at most
-   * 1 / (1 - gap) times the optimum. Refused with the paper's schedule, which stops on residuals.
-   */
-  gap?: number;
-  /** Most ADMM iterations. Default 20000. */
-  maxIterations?: number;
-  /** Scale x, y and z by one factor to the unit square before solving (and back after). Default true. */
-  normalize?: boolean;
-  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
-  spacing?: number;
-  /** What is minimised besides the fidelity term. Default `'huber'`; for a design `'nuclear'`. */
-  energy?: Energy;
-  /**
-   * Reweighting passes: each solves again with every vertex's penalty divided by its size before, which undoes a
-   * part of the shrinkage of large curvatures. A whole number up to 20. Default 0. Refused with the energy `'huber'`,
-   * which has crease passes.
-   */
-  reweighting?: number;
-  /**
-   * For the energy `'huber'`, and refused with others: bends of a larger radius cost their square, others their size, in
-   * normalised coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
-   */
-  bendRadius?: number;
-  /**
-   * For the energy `'huber'`, and refused with others: the slope that the cost of bends begins with, from 0 (nothing is quite
-   * flat) to 1 (the nuclear norm). Default: found with `lambda: 'auto'`, else 0.3, and more where lambda is large
-   * for the noise of the input.
-   */
-  flatness?: number;
-  /**
-   * For the energy `'huber'`, and refused with others: tighter bends than this radius are creases, in normalised
-   * coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
-   */
-  creaseRadius?: number;
-  /**
-   * For the energy `'huber'`, and refused with others: maximum number of crease passes after the first solve, a whole number
-   * up to 20. They end where they change next to nothing. Default: 2, or 0 where lambda is large for the noise of the input,
-   * of which passes would make creases.
-   */
-  creasePasses?: number;
-  /**
-   * Weight, in place of lambda, of the squared distance from the thin plate through the
-   * constraints, at vertices without a fidelity term, where the surface need not be unique
-   * otherwise. From 1e-12 to 1e15. Default 0.01.
-   */
-  tieBreak?: number;
-  /**
-   * Looks for occlusions first, as {@link OcclusionOptions.threshold} says; they come to those
-   * that the input names. `'auto'` is the authors' value, 4e4. Default: none are looked for. A design
-   * has no heights to find any in.
-   */
-  occlusionThreshold?: number | 'auto';
-  /**
-   * Holes up to this width are bridged, in pixels of an image or vertices of a lattice, 1 to 16:
-   * dead pixels, speckle, lost rows and columns. What counts is a hole's narrow side; large holes,
-   * what a mask takes out, and gaps between two levels of depth stay. Bridged places are part of
-   * the surface and of its image; `report.bridged` counts them. `true` is the default, 4; `false`,
-   * 0, `'none'` and `'off'` bridge none. A design has none.
-   */
-  bridge?: number | boolean | 'none' | 'off';
-}
-
-export interface OcclusionOptions {
-  /**
-   * Least magnitude of curvature, in normalised coordinates, that counts as a jump: larger than
-   * any fold has, and growing as the lattice gets finer. Above 0. Default 4e4, the authors' value.
-   */
-  threshold?: number;
-  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
-  spacing?: number;
-  /** Whether the threshold is meant for the unit square. Default true. */
-  normalize?: boolean;
-}
-
 /**
  * Occlusions that were found in heights. On the lattice they can be given back as they are:
  * `vertices` as `occlusions`, `edges` as `brokenEdges`.
@@ -488,7 +324,7 @@ export interface Progress {
   /** Best certified lower bound of the optimum so far. */
   dualBound: number;
   /** `(objective - dualBound) / objective`; `undefined` where the objective is a rounding error. */
-  gap: number | undefined;
+  gap?: number;
   /** ADMM penalty. */
   rho: number;
   /** Seconds since the solver was made or restarted. */
@@ -529,9 +365,9 @@ export interface LambdaChoice {
    */
   reason: 'prediction' | 'noise' | 'noNoise' | 'unknown';
   /** Standard deviation of the heights' noise, in the input's units; `undefined` if it cannot be told. */
-  sigma: number | undefined;
+  sigma?: number;
   /** The step of quantised heights, where that is what their noise comes from. */
-  step: number | undefined;
+  step?: number;
   /** Noise is independent from vertex to vertex on the lattice of `2 ** merged` times the spacing. */
   merged: number;
   /** How many ways were compared, each by up to three solves. */
@@ -571,7 +407,7 @@ export interface Report {
   /** Reweighted passes that were made after the first solve; the figures are the last one's. */
   reweighting: number;
   /** For the energy `'huber'`: what bends cost, whether given or chosen, and where creases are. */
-  huber: HuberReport | undefined;
+  huber?: HuberReport;
   /** Value of the energy at the returned surface, in normalised coordinates; always finite. */
   objective: number;
   /** `lambda * sum (z - input)^2`, with the confidences as factors. */
@@ -584,11 +420,11 @@ export interface Report {
    * `(objective - dualBound) / objective`: how far from the optimum the result can be at most. `undefined` for
    * `'rounding'`, and where the objective is no more than a rounding error: then a share of it says nothing.
    */
-  gap: number | undefined;
+  gap?: number;
   /** Lambda that was used, as a number. */
   lambda: number;
   /** How that came about, for `lambda: 'auto'`. */
-  lambdaChoice: LambdaChoice | undefined;
+  lambdaChoice?: LambdaChoice;
   /** Last ADMM penalty. */
   rho: number;
   /** Factor from the input's units to normalised coordinates. */
@@ -671,34 +507,11 @@ export type SurfaceOf<I extends HeightImage | Heightfield> = I extends HeightIma
 
 export type ExampleName = 'cylinder' | 'cone' | 'roof' | 'oloid' | 'page' | 'house';
 
-export interface ExampleOptions {
-  /** Pixels along the longer side. Default 200. */
-  size?: number;
-  /** Standard deviation of the noise, as a share of the example's height range. Default 0.02. */
-  noise?: number;
-  /** Seed of the noise: an integer from 0 to 2^32 - 1. Default 1. */
-  seed?: number;
-}
-
 export interface Example {
   /** The noisy height image. */
   input: HeightImage & { data: Float64Array };
   /** The surface without noise, at the same pixels. */
   truth: Float64Array;
-}
-
-export interface PatchOptions {
-  /**
-   * Angle, in radians, by which the surface bends from one vertex to the next on a crease. Default:
-   * six times its median, and at least 0.035.
-   */
-  bend?: number;
-  /** Angle between the two sides of a crease: patches that fold by less are one. Default 0.15. */
-  fold?: number;
-  /** Share of all vertices that a patch has at least. Default 0.005. */
-  smallest?: number;
-  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
-  spacing?: number;
 }
 
 /** The line between two patches. */
@@ -733,63 +546,9 @@ export interface Canvas {
   getContext(kind: '2d'): object | null;
 }
 
-export interface PictureOptions extends PatchOptions {
-  /**
-   * - `'shaded'`: matt steel under one light;
-   * - `'curvature'`: from blue (below 0) over white to red (above 0); grey where there is none, beside
-   *   borders;
-   * - `'patches'`: a colour for each patch, darker where they meet; `bend`, `fold` and `smallest` are
-   *   for this one.
-   *
-   * Default `'shaded'`.
-   */
-  style?: 'shaded' | 'curvature' | 'patches';
-  /**
-   * For `'shaded'`, towards the light: x to the right, y up, z towards the viewer and above 0; of any
-   * length. Brightness is 0.15 + 0.85 times the cosine of the angle to the normal. Default: above to
-   * the left.
-   */
-  light?: readonly [number, number, number];
-  /** Which one: `'gaussian'`, or `'kappa2'`, as `analyze` gives them. Default `'gaussian'`. */
-  curvature?: 'gaussian' | 'kappa2';
-  /**
-   * The curvature at the ends of the colours, in units of the surface; beyond it they stay the same.
-   * Default: that of a sphere as wide as the longer side of the surface.
-   */
-  limit?: number;
-  /** Pixels across; those down follow. Default: one for each lattice spacing. */
-  width?: number;
-  /**
-   * The part of the plane that is drawn: left, bottom, right, top. Default: that of the height
-   * image, also of the one that a surface was made from; of other lattices, half a spacing around
-   * their vertices.
-   */
-  extent?: readonly [number, number, number, number];
-}
-
 /** RGBA bytes, transparent where there is no surface: an `ImageData`, or the same as a plain object in Node. */
 export type SurfacePicture = DecodedPhoto &
   (typeof globalThis extends { ImageData: { prototype: infer I } } ? I : unknown);
-
-export interface RulingOptions {
-  /** Distance between lines, as seen from above. Default: ten lattice spacings. */
-  separation?: number;
-  /** A line ends where its direction is trusted by less, from 0 to 1. Default 0.3. */
-  confidence?: number;
-  /** A line ends where the surface bends by more from one vertex to the next, in radians. Default 0.2. */
-  crease?: number;
-  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
-  spacing?: number;
-}
-
-export interface MeshRulingOptions {
-  /** Distance between lines, in space. Default: ten times the mean length of an edge. */
-  separation?: number;
-  /** As of `RulingOptions`. */
-  confidence?: number;
-  /** As of `RulingOptions`. */
-  crease?: number;
-}
 
 /** A ruling that was traced. */
 export interface Ruling {
@@ -842,31 +601,6 @@ export interface SizedPhoto extends Photo {
   unit?: Unit | 'page';
 }
 
-export interface WritePhotoOptions {
-  /** The kind of file. Default `'png'`. */
-  format?: 'png' | 'jpeg' | 'pdf';
-  /** Quality of JPEG, and of the picture in a PDF, from 1 to 100. Default 90. */
-  quality?: number;
-  /**
-   * Pixels for each millimetre of what is shown. Default: by the photo's own `resolution` and `unit`. It makes the
-   * page of a PDF, and is stated in PNG (in whole pixels per metre) and JPEG (in whole pixels per inch or centimetre).
-   */
-  dotsPerMillimetre?: number;
-}
-
-export interface PaintOptions {
-  /**
-   * The part of the plane that the picture shows: left, bottom, right, top. Default: the picture is where the surface's
-   * camera sees its points, or else where its texture coordinates say; without any, as for `dewarp`.
-   */
-  extent?: readonly [number, number, number, number];
-  /**
-   * The camera that took the picture, for heights that were sampled from a mesh in a camera's axes, as for `dewarp`.
-   * What it does not see keeps its colour.
-   */
-  camera?: PhotoCamera;
-}
-
 /** A surface in the colours of a picture. */
 export type Painted<F> = F & { uvs: Float32Array; colors: Float32Array; texture?: Uint8Array };
 
@@ -882,15 +616,6 @@ export interface DecodedPhoto extends Photo {
    * tell it and the photo was not cropped.
    */
   film35?: number;
-}
-
-/** Options of the figures of a mesh as it is. */
-export interface MeshAnalyzeOptions {
-  /**
-   * Gaussian curvature, in coordinates in which the ball about the mesh has the diameter 1, above which a vertex counts.
-   * Default 1.
-   */
-  threshold?: number;
 }
 
 /** Curvatures at the vertices of a mesh, NaN where triangles do not go all around one; above 0 where it bends as a ball. */
@@ -910,18 +635,6 @@ export interface MeshAnalysis {
   rulings: Float64Array<ArrayBuffer>;
   /** `size` is the diameter of the ball about the mesh; the sum of nuclear norms is by area. */
   summary: AnalysisSummary;
-}
-
-export interface AnalyzeOptions {
-  /**
-   * Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts.
-   * Default 1, that of a sphere whose radius is the longer side.
-   */
-  threshold?: number;
-  /** Another surface on the same lattice, such as the input, to tell the deviation from. */
-  reference?: HeightImage | Heightfield;
-  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
-  spacing?: number;
 }
 
 /** How often magnitudes occur, in bins of half a decade. */
@@ -968,15 +681,6 @@ export interface Analysis {
   summary: AnalysisSummary;
   /** Of the surface from the reference, in its units. */
   deviation?: { vertices: number; rms: number; maximum: number };
-}
-
-export interface UnrollOptions {
-  /** Stop when an iteration changes the mean of the squared strains by less than this. Default 1e-10. */
-  tolerance?: number;
-  /** Most iterations. Default 500. */
-  maxIterations?: number;
-  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
-  spacing?: number;
 }
 
 /** Lengths on a flat layout against those on the surface: strains, as shares. */
@@ -1045,67 +749,6 @@ export interface Unrolling {
  * or sheets of a width and a height, or a roll of a width, five millimetres of whose edges stay free.
  */
 export type Stock = 'a4' | 'letter' | readonly [width: number, height: number] | readonly [width: number];
-
-export interface PatternOptions extends PatchOptions, UnrollOptions {
-  /** Millimetres for each unit of length. Default 1. */
-  scale?: number;
-  /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. Default: no tabs. */
-  tabs?: number;
-  /** Distance of marks along seams that are joined, in millimetres: the same on both sides. Default: no marks. */
-  marks?: number;
-  /** Width that a laser or a saw burns away, in millimetres: lines are cut half of it further out. Default 0. */
-  kerf?: number;
-  /** What is left outside of all edges to be sewn or bent over, in millimetres. Default 0. */
-  allowance?: number;
-  /**
-   * Thickness of metal, in millimetres: sheets get what bends take along the neutral line, and lose what they save
-   * beside the crease. The surface is the upper side of the metal. Folds have to be straight and go from edge to edge.
-   * Default: none is taken into account.
-   */
-  thickness?: number;
-  /** Inner radius of bends, in millimetres. Default: the thickness. */
-  innerRadius?: number;
-  /** Where the neutral line is, from the inside of a bend, as a share of the thickness. Default 0.44. */
-  kFactor?: number;
-  /** Whether to tell how the sheets are put together. Default false. */
-  assembly?: boolean;
-  /**
-   * How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they are.
-   * Default 0.5.
-   */
-  smoothing?: number;
-  /**
-   * Pages to lay the sheets on, each whole on one where it fits, turned if it fits better so; paper that it is too
-   * large for is put together. Default: no pages, the sheets beside each other.
-   */
-  stock?: Stock;
-  /**
-   * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
-   * length; a quarter of the lattice's spacing is always allowed. Default 0.005.
-   */
-  gap?: number;
-  /**
-   * The most strain that a sheet may be laid flat with, as a share (root of the mean square); what is strained by more
-   * is cut. Default 0.01.
-   */
-  maxStrain?: number;
-  /**
-   * Whether sheets are folded back to see how near they come to the surface (`summary.refolding`). Takes about as long
-   * as laying them flat. Default `false`.
-   */
-  refold?: boolean;
-}
-
-/** Options of a mesh laid flat as it is. `bend` is the angle between triangles, by default at most 0.35. */
-export interface MeshUnrollOptions extends Omit<PatchOptions, 'spacing'>, Omit<UnrollOptions, 'spacing'> {
-  /** As in `PatternOptions`; a quarter of the mean length of edges is always allowed. */
-  gap?: number;
-  /** As in `PatternOptions`. */
-  maxStrain?: number;
-}
-
-/** Options of the drawing of a mesh as it is laid flat. */
-export interface MeshPatternOptions extends Omit<PatternOptions, 'spacing' | 'refold'> {}
 
 /**
  * A mesh as it is laid flat: in sheets, one to the right of the other, as they are seen from the side that its triangles
@@ -1310,46 +953,6 @@ export interface DrawingPages {
   marks: [number, number][];
 }
 
-export interface WritePdfOptions {
-  /** Lay it on pages of this size first. Default: the drawing's own pages, or one as large as it is. */
-  stock?: Stock;
-}
-
-export interface DewarpOptions extends UnrollOptions {
-  /** Pixels of the flat image per unit of length. Default: as many as the photo has. */
-  dots?: number;
-  /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. Default true. */
-  map?: boolean;
-  /**
-   * Whether it is wanted on a grid of points, too; a number is the largest error that is allowed between
-   * them, in pixels of the photo. Default false; 0.25 for true.
-   */
-  grid?: boolean | number;
-  /**
-   * Cut off the margins: keep the largest upright rectangle that is all sheet, or, of a `crop` with four corners, the
-   * rectangle that these are on the flat sheet. Default false.
-   */
-  trim?: boolean;
-  /** Turn the flat image upright: the sides of `crop`, or the smallest rectangle around the sheet. Default false. */
-  deskew?: boolean;
-  /**
-   * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
-   * The sheet is continued up to there, by 6 % at most, and the flat image ends there. Default: all of it.
-   */
-  crop?: readonly (readonly [number, number])[];
-  /**
-   * The part of the plane that the photo shows: left, bottom, right, top. Default: that of the
-   * height image, also of the one that a surface was made from; of heights on a lattice, what their
-   * vertices cover.
-   */
-  extent?: readonly [number, number, number, number];
-  /**
-   * The camera that took the photo, for heights that were sampled from a mesh in a camera's axes. Default: the one that
-   * has seen the depths; of other meshes, their texture coordinates say where in the photo they are.
-   */
-  camera?: PhotoCamera;
-}
-
 /**
  * A warp map in little room: places in the photo at the nodes of a grid over the flat image, to be interpolated
  * bilinearly. Node (i, j), column i of row j, lies at the pixel (i · step[0], j · step[1]), (0, 0) being the centre of
@@ -1415,40 +1018,6 @@ export type PageEdges = (
   lines?: readonly EdgeTrace[];
 };
 
-export interface DewarpPageOptions {
-  /** The camera's focal length, in pixels of the photo. */
-  focalLength?: number;
-  /** The same as the angle, in degrees, that the photo's longer side covers. */
-  fieldOfView?: number;
-  /**
-   * The same in millimetres, as for a film of 36 by 24 mm. Default: what `readPhoto` has found in the
-   * file. With none of the three it is found from the perspective, if that is strong enough.
-   */
-  film35?: number;
-  /** The format of the page, or of each page of a spread: by name, or width and height in millimetres. */
-  page?: 'a4' | 'letter' | readonly [number, number];
-  /** A known distance on the page, in millimetres, between two places in the photo. */
-  ruler?: { from: readonly [number, number]; to: readonly [number, number]; length: number };
-  /** Where the camera's axis meets the photo, in its pixels. Default: the middle. Of a cropped photo, the whole one's. */
-  centre?: readonly [number, number];
-  /** How near to the edge traced points are meant to be, in pixels. Default: 1/2500 of the photo's diagonal. */
-  accuracy?: number;
-  /**
-   * Whether lines of text are looked for in the photo: where print stands on lines that agree with the edges, they make
-   * the page more exact, and where they do not, the verdict says so. Default: if `lines` are given of no page.
-   */
-  findLines?: boolean;
-  /** Pixels of the flat image per unit of length. Default: as many as the photo has of the page. */
-  dots?: number;
-  /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. Default true. */
-  map?: boolean;
-  /**
-   * Whether it is wanted on a grid of points, too; a number is the largest error that is allowed between
-   * them, in pixels of the photo. Default false; 0.25 for true.
-   */
-  grid?: boolean | number;
-}
-
 /**
  * Whether a page that was made flat by its edges is to be trusted: both edges are straight, so that it was flat
  * or is folded along them, which they do not show (`'flat'`); it was curled one way, and its edges and lines of text
@@ -1507,13 +1076,6 @@ export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'uni
   lines: [number, number][][][];
   verdict: PageVerdict;
   report: PageReport;
-}
-
-export interface ReadOptions {
-  /** Taken from the bytes where it is not given. */
-  format?: Format;
-  /** Of an NPZ file, the name of the array; may be left out where there is only one. */
-  array?: string;
 }
 
 /** What can be read. */

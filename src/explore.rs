@@ -38,9 +38,14 @@ use crate::shape::analysis::Deviation;
 use crate::shape::patches::{PatchOptions, Patches};
 use web_time::Instant;
 
-/// What is tried unless something else is said; the package's `explore.js` has the same numbers.
+/// λ to try by default: half-decades from a surface near to the input to a plain one.
 const LAMBDAS: [f64; 6] = [1e7, 3e6, 1e6, 3e5, 1e5, 3e4];
+
+/// Minimum sizes of patches to try by default, as shares of all vertices: a factor of four from one to the next.
 const SMALLEST: [f64; 3] = [0.005, 0.02, 0.08];
+
+/// λ to try of a mesh by default, as shares of the λ that its noise asks for.
+const MESH_LAMBDA_SHARES: [f64; 4] = [1.0, 0.3, 0.1, 0.03];
 
 /// What is tried, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +75,23 @@ impl Default for ExploreOptions {
             pattern: PatternOptions::default(),
             drawing: DrawingOptions::default(),
         }
+    }
+}
+
+impl ExploreOptions {
+    /// Default options for a mesh, from the λ that its noise asks for.
+    pub fn for_mesh(lambda: f64) -> Self {
+        ExploreOptions {
+            lambdas: MESH_LAMBDA_SHARES.map(|share| share * lambda).into(),
+            ..Default::default()
+        }
+    }
+
+    /// These options with what is tried in order: larger λ, and smaller patches, first.
+    pub fn in_order(mut self) -> Self {
+        self.lambdas.sort_by(|a, b| b.total_cmp(a));
+        self.smallest.sort_by(f64::total_cmp);
+        self
     }
 }
 
@@ -137,7 +159,7 @@ struct Fitted {
 /// errors are those of [`Solver::advance`], [`Patches::new`], [`pattern`], except for what no cut makes flat, and
 /// [`Drawing::new`].
 pub fn explore(input: impl Into<Input>, options: &ExploreOptions) -> Result<Plans> {
-    let mut options = options.clone();
+    let options = options.clone().in_order();
     let empty = |name| {
         Err(Error::option(
             name,
@@ -145,8 +167,6 @@ pub fn explore(input: impl Into<Input>, options: &ExploreOptions) -> Result<Plan
             "must have at least one number",
         ))
     };
-    options.lambdas.sort_by(|a, b| b.total_cmp(a));
-    options.smallest.sort_by(f64::total_cmp);
     let Some(first) = options.lambdas.first() else {
         return empty("lambdas");
     };

@@ -3,6 +3,7 @@ import { pathToFileURL } from 'node:url';
 import { setupBuild } from './setup.mjs';
 import { main } from './util/problem.mjs';
 import { buildInline } from './build/inline.mjs';
+import { buildOptionTypes } from './build/option-types.mjs';
 import { buildVendor } from './build/vendor.mjs';
 import { compileWasm, packWasm } from './build/wasm.mjs';
 
@@ -12,7 +13,7 @@ import { compileWasm, packWasm } from './build/wasm.mjs';
  */
 export async function build(kind) {
   const { env, bindgen } = await setupBuild((found) => compileWasm(found, kind));
-  await buildVendor();
+  await Promise.all([buildVendor(), buildOptionTypes()]);
   await packWasm({ env, bindgen }, kind);
   await buildInline();
 }

@@ -1,9 +1,13 @@
 /** From the command line to a task. */
 import { extname } from 'node:path';
-import { OPTIONS } from '../options.js';
+import { sampleMesh } from '../schema/file.js';
+import { meshSolver, solver } from '../schema/fit.js';
+import { drawing, patternMesh } from '../schema/pattern.js';
+import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
+import { meshPatches, rulings } from '../schema/shape.js';
 import { show } from '../values.js';
 import { checkFlags, commandNamed } from './commands.js';
-import { split, usage } from './flags.js';
+import { flagName, flagNames, split, usage } from './flags.js';
 import { refuseSameFiles } from './same-file.js';
 
 /**
@@ -52,13 +56,12 @@ import { refuseSameFiles } from './same-file.js';
  * @typedef {SheetTask & { command: 'unroll' }} UnrollTask
  * @typedef {SheetTask & { command: 'patches', patching: import('../types.js').PatchOptions }} PatchesTask
  * @typedef {SheetTask & { command: 'rulings', tracing: import('../types.js').RulingOptions }} RulingsTask
+ * @typedef {Omit<import('../types.js').MeshPatternOptions, 'assembly'>} Drawing with the options of patches
  * @typedef {SheetTask & {
- *   command: 'pattern', patching: import('../types.js').PatchOptions, maxStrain?: number, scale?: number, tabs?: number,
- *   marks?: number, kerf?: number, allowance?: number, thickness?: number, innerRadius?: number, kFactor?: number, assembly?: string,
- *   smoothing?: number, stock?: import('../types.js').Stock, explore: boolean, sheets?: number,
+ *   command: 'pattern', drawing: Drawing, assembly?: string, explore: boolean, sheets?: number,
  * }} PatternTask
  * @typedef {SheetTask & {
- *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim: boolean, deskew: boolean, map?: string,
+ *   command: 'dewarp', texture?: string, photoCamera?: string, crop?: [number, number][], dots?: number, trim?: boolean, deskew?: boolean, map?: string,
  *   quality?: number, shape: Shape,
  * }} DewarpTask
  * @typedef {{
@@ -68,8 +71,7 @@ import { refuseSameFiles } from './same-file.js';
  * }} PageTask
  * @typedef {{
  *   command: 'surface', make: WholeCommand, input: string, output: string, extension: Extension, written: string[], force: boolean, report?: string,
- *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, laying: import('../types.js').PatchOptions & { maxStrain?: number },
- *   drawing: Omit<import('../types.js').MeshPatternOptions, 'assembly'>, assembly?: string, explore: boolean, sheets?: number,
+ *   asIs: boolean, threshold?: number, tracing: import('../types.js').MeshRulingOptions, drawing: Drawing, assembly?: string, explore: boolean, sheets?: number,
  *   options: import('../types.js').MeshSolverOptions,
  * }} MeshTask
  * @typedef {{ command: 'info', input: string, array?: string }} InfoTask
@@ -80,7 +82,6 @@ const drawings = /** @type {const} */ (['.svg', '.pdf', '.dxf']);
 const lattices = /** @type {const} */ (['square', 'hex']);
 const units = /** @type {const} */ (['mm', 'm']);
 const shapes = /** @type {const} */ (['auto', 'cylinder', 'developable']);
-const lambdas = /** @type {const} */ (['small', 'medium', 'big', 'auto']);
 const formats = /** @type {const} */ (['a4', 'letter']);
 
 /** @typedef {typeof shapes[number]} Shape what is fitted to the heights of a photo */
@@ -149,9 +150,7 @@ export function parse(args) {
     mask,
     lattice: kind !== 'image' ? 'mesh' : choice('lattice', values.lattice ?? 'square', lattices),
     camera,
-    view: values.view === undefined ? undefined : view(values.view),
-    resolution: number('resolution', values),
-    spacing: number('spacing', values),
+    ...given(sampleMesh, values, { view }),
     pixelSize: number('pixel-size', values),
     heightScale: heightScale(values),
     unit: values.unit === undefined ? undefined : choice('unit', values.unit, units),
@@ -182,23 +181,7 @@ export function parse(args) {
     texture,
     photoCamera,
     mtl,
-    options: {
-      paper: values.paper,
-      lambda: lambda(values.lambda),
-      gap: number('gap', values),
-      schedule: one('schedule', values, OPTIONS.solver.schedule),
-      maxIterations: number('max-iterations', values),
-      normalize: about.normalize,
-      energy: one('energy', values, OPTIONS.solver.energy),
-      reweighting: number('reweighting', values),
-      bendRadius: number('bend-radius', values),
-      flatness: number('flatness', values),
-      creaseRadius: number('crease-radius', values),
-      creasePasses: number('crease-passes', values),
-      tieBreak: number('tie-break', values),
-      occlusionThreshold: threshold(values),
-      bridge: isWord(values.bridge, 'none', 'off') ? false : number('bridge', values, 'none or '),
-    },
+    options: { ...given(solver, values), normalize: about.normalize },
   };
   if (photoCamera !== undefined && kind === 'image') {
     throw usage('--photo-camera is for depths and meshes, and the input is an image: --intrinsics says that it has depths');
@@ -214,18 +197,18 @@ export function parse(args) {
       if (asIs && about.lattice === 'square' && isMesh(output)) {
         throw usage('--as-is of an image has no mesh: write .json or .npy, or leave it out', command);
       }
-      return { command, ...fitting, asIs, patching: patching(values) };
+      return { command, ...fitting, asIs, patching: given(meshPatches, values) };
     case 'rulings':
       return {
         command,
         ...fitting,
         asIs,
-        tracing: tracing(values),
+        tracing: given(rulings, values),
       };
     case 'unroll':
       return { command, ...fitting, asIs };
     case 'pattern':
-      return { command, ...fitting, asIs, patching: patching(values), ...drawing(values), ...exploring(values, about.extension) };
+      return { command, ...fitting, asIs, ...patterned(values), ...exploring(values, about.extension) };
     case 'dewarp':
       if (texture === undefined && kind !== 'mesh') {
         throw usage("the photo is missing: --texture PHOTO; or INPUT is the photo, then the page's edges: --edges FILE");
@@ -236,12 +219,8 @@ export function parse(args) {
         ...fitting,
         asIs,
         texture,
-        crop: corners(values.crop),
-        dots: number('dots', values),
-        trim: values.trim === true,
-        deskew: values.deskew === true,
-        map,
-        quality: number('quality', values),
+        ...given(dewarp, values, { crop: corners, map: String }),
+        ...given(writePhoto, values),
         shape: shape(values, about.lattice),
       };
     default:
@@ -261,21 +240,16 @@ function shape(values, lattice) {
   return wanted;
 }
 
-/** What a fit over a whole mesh takes. @satisfies {readonly Flag[]} */
-const wholeFlags = [
-  'surface', 'output', 'force', 'report', 'lambda', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'gap', 'max-iterations',
-];
+/** What a fit over a whole mesh takes. */
+const wholeFlags = ['surface', 'output', 'force', 'report', ...flagNames(meshSolver)];
 
 /** What else commands take that go on with it. @satisfies {Record<string, readonly Flag[]>} */
 const wholeCommands = {
   fit: [],
   analyze: ['as-is', 'threshold'],
-  rulings: ['as-is', 'separation', 'min-confidence', 'crease'],
+  rulings: ['as-is', ...flagNames(rulings)],
   unroll: ['as-is'],
-  pattern: [
-    'as-is', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor',
-    'smoothing', 'stock', 'assembly', 'explore', 'sheets',
-  ],
+  pattern: ['as-is', ...flagNames(meshPatches), ...flagNames(drawing), 'explore', 'sheets'],
 };
 
 /** @typedef {keyof typeof wholeCommands} WholeCommand */
@@ -295,7 +269,6 @@ function whole(make, { input, output, written, force, extension: kind }, values)
   if (make === 'fit' && (!isMesh(output) || kind === '.json')) {
     throw usage('with --surface the output is a mesh: .obj, .ply, .stl or .glb', make);
   }
-  const { maxStrain, assembly, ...drawn } = drawing(values);
   return {
     command: 'surface',
     make,
@@ -307,24 +280,14 @@ function whole(make, { input, output, written, force, extension: kind }, values)
     report: values.report,
     asIs: values['as-is'] === true,
     threshold: number('threshold', values),
-    tracing: tracing(values),
-    laying: { ...patching(values), maxStrain },
-    drawing: drawn,
-    assembly,
+    tracing: given(rulings, values),
+    ...patterned(values),
     ...exploring(values, kind),
-    options: {
-      lambda: lambda(values.lambda),
-      gap: number('gap', values),
-      maxIterations: number('max-iterations', values),
-      bendRadius: number('bend-radius', values),
-      flatness: number('flatness', values),
-      creaseRadius: number('crease-radius', values),
-      creasePasses: number('crease-passes', values),
-    },
+    options: given(meshSolver, values),
   };
 }
 
-const pageFlags = /** @type {const} */ (['focal-length', 'field-of-view', 'page']);
+const pageFlags = flagNames(dewarpPage, 'page');
 
 /**
  * A photo alone.
@@ -357,13 +320,8 @@ function page(input, output, edges, values) {
     edges,
     report,
     map,
-    quality: number('quality', values),
-    options: {
-      dots: number('dots', values),
-      focalLength: number('focal-length', values),
-      fieldOfView: number('field-of-view', values),
-      page: values.page === undefined ? undefined : format(values.page),
-    },
+    ...given(writePhoto, values),
+    options: (({ map: _, ...options }) => options)(given(dewarpPage, values, { map: String, page: format })),
   };
 }
 
@@ -383,43 +341,12 @@ function format(text) {
 }
 
 /**
- * Where to look for occlusions.
- * @param {Values} values
- * @returns {SolverOptions['occlusionThreshold']}
- */
-function threshold(values) {
-  return isWord(values['occlusion-threshold'], 'auto') ? 'auto' : number('occlusion-threshold', values, 'auto or ');
-}
-
-/** Where patches end. @param {Values} values */
-function patching(values) {
-  return { bend: number('bend', values), fold: number('fold', values), smallest: number('smallest', values) };
-}
-
-/** How rulings are traced. @param {Values} values */
-function tracing(values) {
-  return { separation: number('separation', values), confidence: number('min-confidence', values), crease: number('crease', values) };
-}
-
-/**
- * How a pattern is drawn.
+ * How a pattern is made.
  * @param {Values} values
  */
-function drawing(values) {
-  return {
-    maxStrain: number('max-strain', values),
-    scale: number('scale', values),
-    tabs: number('tabs', values),
-    marks: number('marks', values),
-    kerf: number('kerf', values),
-    allowance: number('allowance', values),
-    thickness: number('thickness', values),
-    innerRadius: number('inner-radius', values),
-    kFactor: number('k-factor', values),
-    assembly: values.assembly,
-    smoothing: number('smoothing', values),
-    stock: values.stock === undefined || isWord(values.stock, 'none') ? undefined : stock(values.stock),
-  };
+function patterned(values) {
+  const { assembly, ...drawn } = given(patternMesh, values, { assembly: String, stock });
+  return { drawing: drawn, assembly };
 }
 
 /**
@@ -442,9 +369,10 @@ function exploring(values, extension) {
 /**
  * What a pattern is made from.
  * @param {string} text
- * @returns {import('../types.js').Stock}
+ * @returns {import('../types.js').Stock | undefined}
  */
 function stock(text) {
+  if (isWord(text, 'none')) return undefined;
   const name = formats.find((known) => isWord(text, known));
   if (name !== undefined) return name;
   const [, width, height] = /^(\d*\.?\d+)x(\d*\.?\d+)?$/i.exec(text) ?? [];
@@ -511,11 +439,10 @@ function intrinsics({ intrinsics: text = '', ray = false, turn: rotate }) {
 
 /**
  * Pairs of numbers.
- * @param {string | undefined} text
- * @returns {[number, number][] | undefined}
+ * @param {string} text
+ * @returns {[number, number][]}
  */
 function corners(text) {
-  if (text === undefined) return undefined;
   const numbers = list(text);
   if (numbers.length < 6 || numbers.length % 2 !== 0 || numbers.some(Number.isNaN)) {
     throw usage(`--crop must be three or more corners as in x,y,x,y,x,y, but is ${show(text)}`);
@@ -564,16 +491,6 @@ function extension(what, output, known) {
 }
 
 /**
- * @param {string | undefined} text
- * @returns {SolverOptions['lambda']}
- */
-function lambda(text) {
-  const name = lambdas.find((known) => isWord(text, known));
-  if (name !== undefined) return name;
-  return number('lambda', { lambda: text }, 'small, medium, big, auto or ');
-}
-
-/**
  * Whether the value is one of these words, in whatever case.
  * @param {string | undefined} value
  * @param {...string} words
@@ -596,31 +513,39 @@ function choice(name, value, choices) {
 }
 
 /**
- * One of the names that an option may have, or nothing.
- * @template {'schedule' | 'energy'} N
- * @param {N} name
+ * What flags say of some options: each as its kind reads a text, unless a reader is given.
+ * @template {import('../schema/kinds.js').Options} O
+ * @param {O} options
  * @param {Values} values
- * @param {import('../options.js').Kind} kind
- * @returns {SolverOptions[N]}
+ * @param {{ [N in keyof O]?: (text: string) => unknown }} [readers]
+ * @returns {Partial<Record<keyof O, any>>}
  */
-function one(name, values, kind) {
-  const text = values[name];
-  if (text === undefined) return undefined;
-  const value = kind.take(text);
-  if (value !== undefined) return /** @type {SolverOptions[N]} */ (value);
-  throw usage(`--${name} ${kind.must}, but is ${show(text)}`);
+function given(options, values, readers = {}) {
+  /** @type {Record<string, unknown>} */
+  const said = values;
+  const found = Object.entries(options).flatMap(([name, option]) => {
+    const flag = flagName(name, option);
+    const text = option.flag && said[flag];
+    if (text === undefined) return [];
+    const reader = readers[name];
+    if (reader !== undefined) return [[name, reader(String(text))]];
+    const { must, take } = option.kind.typed ?? option.kind;
+    const value = take(text);
+    if (value === undefined) throw usage(`--${flag} ${must}, but is ${show(text)}`);
+    return [[name, value]];
+  });
+  return /** @type {Partial<Record<keyof O, any>>} */ (Object.fromEntries(found));
 }
 
 /**
  * @param {Exclude<Flag, import('./flags.js').PlainFlag>} name
  * @param {Values} values
- * @param {string} [names] what may stand there besides a number
  */
-function number(name, values, names = '') {
+function number(name, values) {
   const text = values[name];
   if (text === undefined) return undefined;
   // `Number` takes blanks for 0.
   const value = text.trim() === '' ? NaN : Number(text);
   if (!Number.isNaN(value)) return value;
-  throw usage(`--${name} must be ${names}a number, but is ${show(text)}`);
+  throw usage(`--${name} must be a number, but is ${show(text)}`);
 }

@@ -1,7 +1,12 @@
 /** The commands: what each does, reads, writes and takes. */
 import { nearest } from '../nearest.js';
 import { show } from '../values.js';
-import { usage } from './flags.js';
+import { sampleMesh } from '../schema/file.js';
+import { solver } from '../schema/fit.js';
+import { drawing } from '../schema/pattern.js';
+import { dewarp, dewarpPage } from '../schema/photo.js';
+import { meshPatches, rulings } from '../schema/shape.js';
+import { flagNames, usage } from './flags.js';
 
 /**
  * @typedef {import('./flags.js').Flag} Flag
@@ -18,20 +23,17 @@ import { usage } from './flags.js';
  */
 
 /** @satisfies {readonly Flag[]} */
-const heights = ['lattice', 'spacing', 'pixel-size', 'height-scale', 'array', 'mask', 'no-data'];
+const heights = ['lattice', ...flagNames(sampleMesh, 'heights'), 'pixel-size', 'height-scale', 'array', 'mask', 'no-data'];
 /** Of photos that are written. @satisfies {readonly Flag[]} */
 const printed = ['unit', 'quality'];
 /** @satisfies {readonly Flag[]} */
-const mesh = ['view', 'resolution', 'intrinsics', 'turn', 'ray'];
+const mesh = [...flagNames(sampleMesh, 'mesh'), 'intrinsics', 'turn', 'ray'];
 /** @satisfies {readonly Flag[]} */
-const energy = [
-  'paper', 'lambda', 'energy', 'reweighting', 'bend-radius', 'flatness', 'crease-radius', 'crease-passes', 'tie-break', 'no-normalize', 'gap',
-  'schedule', 'max-iterations',
-];
+const energy = [...flagNames(solver, 'energy'), ...flagNames(solver, 'stop')];
 /** @satisfies {readonly Flag[]} */
-const known = ['confidence', 'constraints', 'free', 'occlusions', 'occlusion-threshold', 'bridge'];
+const known = ['confidence', 'constraints', 'free', 'occlusions', ...flagNames(solver, 'known')];
 /** @satisfies {readonly Flag[]} */
-const page = ['edges', 'focal-length', 'field-of-view', 'page'];
+const page = ['edges', ...flagNames(dewarpPage, 'page')];
 /** @satisfies {readonly Flag[]} */
 const general = ['help', 'version'];
 
@@ -104,7 +106,7 @@ export const commands = {
         '.npy: the patch of each vertex on the lattice, from 0, -1 for none; .obj, .ply or .glb: the surface with a ' +
         'colour for each patch',
     },
-    flags: [...shaped, 'report', 'bend', 'fold', 'smallest'],
+    flags: [...shaped, 'report', ...flagNames(meshPatches)],
     words: { report: 'JSON file for the patches and creases, beside another output' },
     examples: ['patches roof.png -o patches.json', 'patches roof.png -o patches.ply --report patches.json'],
   },
@@ -116,7 +118,7 @@ export const commands = {
       INPUT,
       RULINGS: '.json: the points of each line, its length and how straight it is (default: standard output); .obj: lines',
     },
-    flags: [...shaped, 'surface', 'report', 'separation', 'min-confidence', 'crease'],
+    flags: [...shaped, 'surface', 'report', ...flagNames(rulings)],
     words: { report: 'JSON file for the lines, beside another output' },
     examples: ['rulings page.tif -o rulings.obj --separation 20', 'rulings page.tif', 'rulings scan.ply -o rulings.obj --surface'],
   },
@@ -134,7 +136,7 @@ export const commands = {
     summary: 'cut it into sheets of paper or metal',
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
     terms: { INPUT, PATTERN: '.svg, .pdf or .dxf in true size, or .json' },
-    flags: [...shaped, 'surface', 'report', 'bend', 'fold', 'smallest', 'max-strain', 'scale', 'tabs', 'marks', 'kerf', 'allowance', 'thickness', 'inner-radius', 'k-factor', 'smoothing', 'stock', 'assembly', 'explore', 'sheets'],
+    flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'explore', 'sheets'],
     words: { report: 'JSON file for the figures of the pattern' },
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --stock a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
   },
@@ -152,7 +154,7 @@ export const commands = {
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
         'others state their resolution, where the unit of lengths is known: --unit, or with --edges --page',
     },
-    flags: [...shaped, 'report', 'texture', 'photo-camera', 'crop', 'shape', 'dots', 'trim', 'deskew', 'map', ...printed, ...page],
+    flags: [...shaped, 'report', 'texture', 'photo-camera', 'shape', ...flagNames(dewarp), ...printed, ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
     examples: [
       'dewarp scan.png --texture photo.png -o page.png --trim',

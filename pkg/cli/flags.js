@@ -2,15 +2,57 @@
 import { parseArgs } from 'node:util';
 import { messageOf } from '../errors.js';
 import { nearest } from '../nearest.js';
+import { sampleMesh } from '../schema/file.js';
+import { occlusions, solver } from '../schema/fit.js';
+import { drawing } from '../schema/pattern.js';
+import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
+import { meshPatches, rulings } from '../schema/shape.js';
 import { Problem, status } from './problem.js';
 
 /**
+ * @typedef {import('../schema/kinds.js').Options} Options
+ *
  * @typedef {object} FlagInfo
  * @property {string} help
  * @property {string} [value] what follows it; without one it is there or not
  * @property {string} [short]
- * @property {string} [option] the option of the library that it stands for, where that has another name
+ * @property {string} [section] of the help, for the flag of an option
+ * @property {string} [name] of the flag of an option, where that is not the option's in lower case with hyphens
  */
+
+/**
+ * An option's name in lower case with hyphens.
+ * @template {string} S
+ * @typedef {S extends `${infer First}${infer Rest}` ? `${First extends Lowercase<First> ? First : `-${Lowercase<First>}`}${Kebab<Rest>}` : ''} Kebab
+ */
+
+/**
+ * The flag of an option.
+ * @param {string} name
+ * @param {Pick<import('../schema/kinds.js').Option, 'flag'>} option
+ */
+export const flagName = (name, { flag }) => flag?.name ?? name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+
+/**
+ * The flags that some options have in a section, or in all.
+ * @template {Options} O
+ * @param {O} options
+ * @param {string} [section]
+ * @returns {Record<Kebab<keyof O & string>, FlagInfo>}
+ */
+function flagsFor(options, section) {
+  const found = Object.entries(options).flatMap(([name, option]) =>
+    (option.flag && (section ?? option.flag.section) === option.flag.section ? [[flagName(name, option), option.flag]] : []));
+  return Object.fromEntries(found);
+}
+
+/**
+ * Their names.
+ * @template {Options} O
+ * @param {O} options
+ * @param {string} [section]
+ */
+export const flagNames = (options, section) => /** @type {Kebab<keyof O & string>[]} */ (Object.keys(flagsFor(options, section)));
 
 /** @satisfies {Record<string, { title: string, flags: Record<string, FlagInfo> }>} */
 export const sections = {
@@ -27,57 +69,11 @@ export const sections = {
   },
   energy: {
     title: 'What to minimise',
-    flags: {
-      paper: {
-        help: "the paper's setting, --lambda medium --energy nuclear, for what is not given otherwise: few large flat sheets",
-      },
-      lambda: {
-        value: 'L',
-        help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), any number above zero, or auto: by the noise of ' +
-          'the input, and medium where it has none, as a design (default: auto)',
-      },
-      energy: {
-        value: 'E',
-        help: 'huber (smooth bends and sharp creases), nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm (default: ' +
-          'huber; nuclear for a design)',
-      },
-      reweighting: {
-        value: 'N',
-        help: 'passes that undo a part of the shrinking of curvature, for any energy but huber (default 0)',
-      },
-      'bend-radius': {
-        value: 'R',
-        help: 'huber: bends of a larger radius, as a share of the longer side, cost their square (default: from the noise with ' +
-          '--lambda auto, else 0.1)',
-      },
-      flatness: {
-        value: 'A',
-        help: 'huber: from 0 (nothing is quite flat) to 1 (the nuclear norm) (default: from the noise; 0.3 where --lambda is a ' +
-          'number that suits it)',
-      },
-      'crease-radius': {
-        value: 'R',
-        help: 'huber: what bends more tightly, as a share of the longer side, is a crease (default: from the noise with ' +
-          '--lambda auto, else 0.1)',
-      },
-      'crease-passes': {
-        value: 'N',
-        help: 'huber: most passes that give creases their angle back (default: 2, or 0 where lambda is too large for the noise)',
-      },
-      'tie-break': { value: 'E', help: 'weight that keeps free vertices near a thin plate, where there are any (default 0.01)' },
-      'no-normalize': {
-        option: 'normalize',
-        help: 'take the coordinates as they are, instead of scaling them to the unit square, for which lambda is meant',
-      },
-    },
+    flags: flagsFor(solver, 'energy'),
   },
   stop: {
     title: 'When to stop',
-    flags: {
-      gap: { value: 'G', help: 'certified relative gap to stop at (default 0.01), which the paper\'s schedule has not' },
-      schedule: { value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
-      'max-iterations': { value: 'N', help: 'most iterations (default 20000); with --surface of each linearised problem (default 1000)' },
-    },
+    flags: flagsFor(solver, 'stop'),
   },
   heights: {
     title: 'How to read the heights',
@@ -87,11 +83,7 @@ export const sections = {
         help: 'square (the default): INPUT is an image; hex: its values are on the hexagonal lattice already (odd rows ' +
           'half a spacing to the left, 0 or NaN is no data), and so are those of OUTPUT',
       },
-      spacing: {
-        value: 'S',
-        help: "distance of neighbours on the lattice (default: the size of a pixel: 1 unless the file says otherwise), " +
-          "for a mesh in the place of --resolution, in the mesh's unit",
-      },
+      ...flagsFor(sampleMesh, 'heights'),
       'pixel-size': {
         value: 'P',
         help: 'width of a pixel in the unit of the heights (default: what the file says, or else 1)',
@@ -122,15 +114,7 @@ export const sections = {
           'same mesh (.obj, .ply, .stl or .glb), its vertices moved; lambda is auto unless it is given, and radii are shares ' +
           'of the diameter of a ball about it',
       },
-      view: {
-        value: 'V',
-        help: 'the direction to look in: -x, +x, -y, +y, -z (the default: what has the largest z is in front), +z, a ' +
-          'vector as 0,-1,-1, or best-fit: straight at the plane that fits best. Up is near +y (along -y it is -z)',
-      },
-      resolution: {
-        value: 'N',
-        help: 'vertices along the longer side (default 200; of a point cloud fewer, to leave each some points)',
-      },
+      ...flagsFor(sampleMesh, 'mesh'),
       intrinsics: {
         value: 'fx,fy,cx,cy[,scale]|FILE',
         help: 'INPUT holds the depths that a camera with these numbers (in pixels; the centre of the top left one is ' +
@@ -162,16 +146,8 @@ export const sections = {
       },
       free: { value: 'V', help: 'value of the constraints that means free, besides' },
       occlusions: { value: 'FILE', help: 'not 0 where the surface is torn' },
-      'occlusion-threshold': {
-        value: 'T',
-        help: "look for more such places: where it bends by more than T; auto is the authors' value, 4e4",
-      },
-      bridge: {
-        value: 'N',
-        help: 'holes are bridged that are up to so many pixels across their narrow side, 1 to 16 (default 4), or none; ' +
-          'not between two levels of depth',
-      },
-      threshold: { value: 'T', help: 'where it bends by more than T, it is torn (default 4e4)' },
+      ...flagsFor(solver, 'known'),
+      ...flagsFor(occlusions, 'known'),
     },
   },
   colours: {
@@ -188,11 +164,7 @@ export const sections = {
         help: 'the camera of the photo, if it is another than that of the depths: JSON with fx, fy, cx, cy, width, height, ' +
           'lens distortion k1 to k3, p1, p2, and rotation (three rows) and translation from the depths to it',
       },
-      crop: {
-        value: 'x,y,x,y,x,y...',
-        help: 'corners of the part of the photo that is wanted, in its pixels from the upper left; the sheet is continued ' +
-          'up to there and ends there, and depths beside it are left out',
-      },
+      ...flagsFor(dewarp, 'colours'),
       mtl: { value: 'FILE', help: '.mtl file to be written, too, through which an .obj has that picture as its texture' },
     },
   },
@@ -200,70 +172,22 @@ export const sections = {
     title: 'What is made of the surface',
     flags: {
       'as-is': { help: 'take the heights as they are, without a fit' },
-      bend: {
-        value: 'A',
-        help: 'angle, in radians, by which the surface bends from one vertex to the next on a crease (default: six ' +
-          'times its median, and at least 0.035)',
-      },
-      fold: { value: 'A', help: 'patches that fold by less, in radians, are one (default 0.15)' },
-      smallest: { value: 'S', help: 'share of all vertices that a patch has at least (default 0.005)' },
-      separation: { value: 'D', help: 'distance between lines, as seen from above, with --surface in space (default: ten lattice spacings, or lengths of an edge)' },
-      'min-confidence': {
-        value: 'C',
-        option: 'confidence',
-        help: 'a line ends where its direction is trusted by less, from 0 to 1 (default 0.3)',
-      },
-      crease: {
-        value: 'A',
-        help: 'a line ends where the surface bends by more from one vertex to the next, in radians (default 0.2)',
-      },
-      scale: { value: 'MM', help: 'millimetres of the pattern for each unit of length (default 1)' },
-      'max-strain': {
-        value: 'S',
-        help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)',
-      },
-      tabs: { value: 'MM', help: 'depth of tabs to glue along creases that are cut (default: none)' },
-      marks: { value: 'MM', help: 'marks along seams that are joined, so far apart, the same on both sides (default: none)' },
-      kerf: { value: 'MM', help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)' },
-      allowance: { value: 'MM', help: 'what is left outside of all edges to be sewn or bent over (default 0)' },
-      thickness: { value: 'MM', help: 'thickness of metal: sheets get what its bends take; folds must be straight from edge to edge (default: none)' },
-      'inner-radius': { value: 'MM', help: 'inner radius of bends (default: the thickness)' },
-      'k-factor': { value: 'K', help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)' },
-      assembly: {
-        value: 'FILE',
-        help: '.glb: the sheets going from flat to built, one after the other, as an animation; or .svg: the surface from above, ' +
-          'with their numbers and the letters of seams. The order of joints is in --report',
-      },
+      ...flagsFor(meshPatches),
+      ...flagsFor(rulings),
+      ...flagsFor(drawing),
       explore: {
         help: 'try several lambda and sizes of patches, and tell for each how many sheets, folds and cuts it takes, how far the ' +
           'surface is from the input, and what time it took: as a table, or as OUTPUT.json',
       },
       sheets: { value: 'N', help: 'the same, to write the pattern nearest to the input that has at most N sheets' },
-      smoothing: {
-        value: 'CELLS',
-        help: 'how far smooth lines may be from those that were found, in cells of the lattice; 0 takes these (default 0.5)',
-      },
-      stock: {
-        value: 'P',
-        help: 'a4, letter, WIDTHxHEIGHT of plates or WIDTHx of a roll, in millimetres: lay the sheets on pages of that size, each ' +
-          'whole on one where it fits; on a4 and letter larger ones on pages that are put together by the crosses on them ' +
-          '(default: none, all beside each other)',
-      },
       shape: {
         value: 'S',
         help: 'what is fitted: cylinder (bent about parallel rulings, as curled sheets, pages of books and parallel folds are), developable, ' +
           'or auto: of depths and meshes a cylinder where what it leaves of them is noise, and where the options of the energy ' +
           'are the defaults (default: auto)',
       },
-      dots: { value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' },
-      quality: { value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
-      trim: { help: 'a clean rectangle: without the margins where there is no sheet, or that of the four corners of --crop' },
-      deskew: { help: 'turn the flat image upright, by the sides of --crop, or by the smallest rectangle around the sheet' },
-      map: {
-        value: 'FILE',
-        help: '.npy (height, width, 2): for each pixel of the flat image its place x, y in the photo; or .json: the same for the ' +
-          'points of a grid, between which it is bilinear to a quarter of a pixel',
-      },
+      ...flagsFor(dewarp, 'shape'),
+      ...flagsFor(writePhoto),
     },
   },
   page: {
@@ -276,20 +200,7 @@ export const sections = {
           'photo, with corners at the ends. Of the two pages of a spread, a list of two of these. Lines of text are found ' +
           'in the photo, unless lines says where they are',
       },
-      'focal-length': {
-        value: 'PIXELS',
-        help: "the camera's focal length, in pixels of the photo (default: what the photo's Exif data tell, or else " +
-          'what the perspective tells)',
-      },
-      'field-of-view': {
-        value: 'DEGREES',
-        help: "the same as the angle that the photo's longer side covers",
-      },
-      page: {
-        value: 'P',
-        help: "the page's format, each page's of a spread: a4, letter or WIDTHxHEIGHT in millimetres, in which lengths " +
-          "are then (default: in the page's width)",
-      },
+      ...flagsFor(dewarpPage, 'page'),
     },
   },
   general: {
@@ -302,7 +213,7 @@ export const sections = {
 };
 
 /**
- * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections]} Flag
+ * @typedef {{ [S in keyof typeof sections]: keyof (typeof sections)[S]['flags'] }[keyof typeof sections] | 'min-confidence' | 'no-normalize'} Flag
  * @typedef {'force' | 'paper' | 'no-normalize' | 'surface' | 'ray' | 'as-is' | 'explore' | 'trim' | 'deskew' | 'help' | 'version'} PlainFlag those without a value
  * @typedef {Partial<Record<Exclude<Flag, PlainFlag>, string> & Record<PlainFlag, boolean>>} Values
  */
@@ -312,14 +223,15 @@ const flags = /** @type {Record<Flag, FlagInfo>} */ (
 );
 
 /** Flags by the names of their options, where those differ. */
-const renamed = new Map(Object.entries(flags).flatMap(([flag, { option }]) => (option ? [[option, flag]] : [])));
+const renamed = new Map([solver, rulings].flatMap((options) =>
+  Object.entries(/** @type {Options} */ (options)).flatMap(([name, { flag }]) => (flag?.name ? [[name, flag.name]] : []))));
 
 /**
  * How an option of the library is called here: `maxIterations` is `--max-iterations`. Nothing for those that have no flag.
  * @param {string} option
  */
 export function flagOf(option) {
-  const flag = renamed.get(option) ?? option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+  const flag = renamed.get(option) ?? flagName(option, {});
   return flag in flags ? `--${flag}` : undefined;
 }
 

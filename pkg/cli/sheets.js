@@ -81,10 +81,12 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
   );
 }
 
-/** @param {PatternTask} task */
-function drawingOptions({ maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, stock, assembly, report }) {
-  const told = assembly !== undefined || report !== undefined;
-  return { maxStrain, scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, stock, assembly: told };
+/**
+ * The options of a pattern.
+ * @param {Pick<PatternTask, 'drawing' | 'assembly' | 'report'>} task
+ */
+export function drawingOptions({ drawing, assembly, report }) {
+  return { ...drawing, assembly: assembly !== undefined || report !== undefined };
 }
 
 /**
@@ -97,7 +99,7 @@ async function drawnOnce(task, signal) {
   if (task.sheets === undefined) {
     const { surface, options } = await flattened(task, signal);
     const refold = task.report !== undefined;
-    return { drawing: await developable.pattern(surface, { ...options, ...task.patching, ...drawingOptions(task), refold }) };
+    return { drawing: await developable.pattern(surface, { ...options, ...drawingOptions(task), refold }) };
   }
   return chosenOf(task, await explored(task, signal));
 }
@@ -128,8 +130,7 @@ export function chosenOf(task, { plans, chosen }) {
 async function explored(task, signal) {
   const input = await readForFit(task, signal);
   const { lambda, ...solver } = { ...task.options, ...spacing(task) };
-  const { smallest, ...patching } = task.patching;
-  const pattern = { ...patching, ...drawingOptions(task) };
+  const { smallest, ...pattern } = drawingOptions(task);
   return withPlans((onPlan) => developable.explorePattern(input, { solver, pattern, sheets: task.sheets, signal, onPlan }));
 }
 

@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { readMesh } from './inputs.js';
-import { chosenOf, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
+import { chosenOf, drawingOptions, flatObj, json, linesObj, patternFiles, plainArrays, reportPattern, tellPlans, withPlans } from './sheets.js';
 import { announceMesh, percent, print, progressLine } from './terminal.js';
 
 /**
@@ -60,24 +60,19 @@ const made = {
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: report }])];
   },
 
-  async unroll({ output, extension, report: path, laying }, surface) {
-    const sheets = await developable.unrollMesh(surface, laying);
+  async unroll({ output, extension, report: path }, surface) {
+    const sheets = await developable.unrollMesh(surface);
     const { patches, creases, report } = sheets;
     const bytes = extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
     return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
   },
 
   async pattern(task, surface) {
-    const pattern = await developable.patternMesh(surface, patternOptions(task));
+    const pattern = await developable.patternMesh(surface, drawingOptions(task));
     reportPattern(pattern);
     return patternFiles(task, pattern);
   },
 };
-
-/** @param {MeshTask} task */
-function patternOptions({ laying, drawing, assembly, report }) {
-  return { ...laying, ...drawing, assembly: assembly !== undefined || report !== undefined };
-}
 
 /**
  * Patterns at several λ: all are told, or the first one with few enough sheets is written.
@@ -87,7 +82,7 @@ function patternOptions({ laying, drawing, assembly, report }) {
  */
 async function planned(task, mesh, signal) {
   const { lambda, ...solver } = task.options;
-  const { smallest, ...pattern } = patternOptions(task);
+  const { smallest, ...pattern } = drawingOptions(task);
   const { sheets } = task;
   const found = await withPlans((onPlan) => developable.explorePatternMesh(mesh, { solver, pattern, sheets, signal, onPlan }));
   if (task.explore) return tellPlans(task, found.plans, signal);

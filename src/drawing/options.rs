@@ -5,6 +5,11 @@ use crate::error::{Error, Result};
 
 /// Options of a drawing: its scale, and what is added to sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct DrawingOptions {
     /// Millimetres for each unit of the surface. Default 1.
@@ -22,6 +27,7 @@ pub struct DrawingOptions {
     pub allowance: f64,
     /// Thickness of metal and how it is bent: the bend allowance is added to sheets or taken from them. Folds
     /// have to be straight and go from edge to edge. Default: no thickness.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub bending: Option<Bending>,
     /// Maximum distance of smooth lines from those that were found on the lattice, in spacings; 0 takes these
     /// as they are. The two sides of joints are moved by up to as much again to become equally long. Default

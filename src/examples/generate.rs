@@ -59,6 +59,11 @@ impl Example {
 
 /// How to generate an [`Example`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 pub struct ExampleOptions {
     /// Pixels along the longer side, 8 to 4096. Default 200.
     pub size: usize,

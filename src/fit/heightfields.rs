@@ -39,8 +39,12 @@ impl Problem {
         let operator = LatticeOperator::new(domain.clone(), coordinates);
         let spacing = operator.spacing;
         check_range(&domain, input.field().heights(), &target, largest, spacing)?;
-        let mut problem =
-            Problem::under(operator, options.lambda.value(), target, Kind::of(options));
+        let mut problem = Problem::under(
+            operator,
+            options.lambda_or_default().value(),
+            target,
+            Kind::of(options),
+        );
         problem.set_fidelity(
             |cell| input.weight(domain.lattice_index(cell)),
             |cell| input.is_constrained(domain.lattice_index(cell)),

@@ -75,6 +75,44 @@ impl From<f64> for Lambda {
     }
 }
 
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Lambda {
+    fn deserialize<D: serde::Deserializer<'de>>(
+        deserializer: D,
+    ) -> std::result::Result<Self, D::Error> {
+        deserializer.deserialize_any(LambdaVisitor)
+    }
+}
+
+/// Reads a number, or the name of one.
+#[cfg(feature = "serde")]
+struct LambdaVisitor;
+
+#[cfg(feature = "serde")]
+impl serde::de::Visitor<'_> for LambdaVisitor {
+    type Value = Lambda;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("small, medium, big, auto or a number above zero")
+    }
+
+    fn visit_f64<E>(self, value: f64) -> std::result::Result<Lambda, E> {
+        Ok(Lambda::Value(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> std::result::Result<Lambda, E> {
+        Ok(Lambda::Value(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> std::result::Result<Lambda, E> {
+        Ok(Lambda::Value(value as f64))
+    }
+
+    fn visit_str<E: serde::de::Error>(self, name: &str) -> std::result::Result<Lambda, E> {
+        Lambda::named(name).ok_or_else(|| E::invalid_value(serde::de::Unexpected::Str(name), &self))
+    }
+}
+
 impl FromStr for Lambda {
     type Err = Error;
 
@@ -93,6 +131,11 @@ impl FromStr for Lambda {
 
 /// How the iterations are run and when they stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(rename_all = "camelCase")
+)]
 #[non_exhaustive]
 pub enum Schedule {
     /// A fixed handful of conjugate-gradient iterations in each z-step,
@@ -123,7 +166,7 @@ impl FromStr for Schedule {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize),
+    derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "camelCase")
 )]
 #[non_exhaustive]
@@ -251,11 +294,17 @@ impl Bending {
 /// assert!(options.gap(0.0).validate().is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 pub struct Options {
-    pub(crate) lambda: Lambda,
+    pub(crate) lambda: Option<Lambda>,
     pub(crate) schedule: Schedule,
     pub(crate) gap: Option<f64>,
     pub(crate) max_iterations: usize,
+    #[cfg_attr(feature = "serde", serde(rename = "normalize"))]
     pub(crate) normalization: Normalization,
     pub(crate) energy: Option<Energy>,
     pub(crate) reweighting: usize,
@@ -264,13 +313,14 @@ pub struct Options {
     pub(crate) flatness: Option<f64>,
     pub(crate) crease_radius: Option<f64>,
     pub(crate) crease_passes: Option<usize>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) border: Option<Border>,
 }
 
 impl Default for Options {
     fn default() -> Self {
         Options {
-            lambda: Lambda::Auto,
+            lambda: None,
             schedule: Schedule::Default,
             gap: None,
             max_iterations: 20_000,
@@ -291,14 +341,19 @@ impl Options {
     /// The paper's setting: [`Energy::Nuclear`] at [`Lambda::Medium`]. Everything else is as by
     /// default; [`Schedule::Paper`] is a choice of its own.
     pub fn paper() -> Self {
-        Options::default()
-            .lambda(Lambda::Medium)
-            .energy(Energy::Nuclear)
+        Options::default().or_paper()
+    }
+
+    /// These options with the [paper's setting](Options::paper) for what is not given.
+    pub fn or_paper(mut self) -> Self {
+        self.lambda.get_or_insert(Lambda::Medium);
+        self.energy.get_or_insert(Energy::Nuclear);
+        self
     }
 
     /// Weight of the fidelity term; default [`Lambda::Auto`].
     pub fn lambda(mut self, lambda: impl Into<Lambda>) -> Self {
-        self.lambda = lambda.into();
+        self.lambda = Some(lambda.into());
         self
     }
 
@@ -390,6 +445,11 @@ impl Options {
         self
     }
 
+    /// The weight of the fidelity term: the given one or the default.
+    pub(crate) fn lambda_or_default(&self) -> Lambda {
+        self.lambda.unwrap_or_default()
+    }
+
     /// The certified gap to stop at: the given one or the default.
     pub(crate) fn gap_or_default(&self) -> f64 {
         self.gap.unwrap_or(DEFAULT_GAP)
@@ -435,10 +495,11 @@ impl Options {
     }
 
     fn check_ranges(&self) -> Result<()> {
-        if !LAMBDA_RANGE.contains(&self.lambda.value()) {
+        let lambda = self.lambda_or_default().value();
+        if !LAMBDA_RANGE.contains(&lambda) {
             return Err(Error::option(
                 "lambda",
-                self.lambda.value(),
+                lambda,
                 "must lie between 1e-12 and 1e15",
             ));
         }
@@ -579,6 +640,40 @@ mod tests {
         assert_eq!("huge".parse::<Lambda>().unwrap_err().code(), "OPTION");
         assert_eq!("small".parse::<Lambda>().unwrap(), Lambda::Small);
         assert!("tiny".parse::<Lambda>().is_err());
+    }
+
+    #[test]
+    #[cfg(feature = "serde")]
+    fn options_are_read_from_json() {
+        let read = |json: &str| serde_json::from_str::<Options>(json);
+        assert_eq!(read("{}").unwrap(), Options::default());
+        let given = r#"{"lambda": "big", "maxIterations": 7, "normalize": false, "energy": "secondFormOfInput", "schedule": "paper"}"#;
+        let expected = Options::default()
+            .lambda(Lambda::Big)
+            .max_iterations(7)
+            .normalization(Normalization::Off)
+            .energy(Energy::SecondFormOfInput)
+            .schedule(Schedule::Paper);
+        assert_eq!(read(given).unwrap(), expected);
+        for number in ["300000", "3e5"] {
+            let options = read(&format!(r#"{{"lambda": {number}}}"#)).unwrap();
+            assert_eq!(options, Options::default().lambda(3e5));
+        }
+        for wrong in [
+            r#"{"lambda": "huge"}"#,
+            r#"{"lamda": 1}"#,
+            r#"{"gap": "x"}"#,
+        ] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_paper_fills_in_what_is_not_given() {
+        assert_eq!(Options::default().or_paper(), Options::paper());
+        let auto = Options::default().lambda(Lambda::Auto).or_paper();
+        assert_eq!(auto.lambda_or_default(), Lambda::Auto);
+        assert_eq!(auto.energy_or_default(), Energy::Nuclear);
     }
 
     #[test]

@@ -148,7 +148,7 @@ impl Partwise {
                 domain: self.domain.clone(),
                 components: self.components.clone(),
                 answers: self.answers.clone(),
-                lambda: self.options.lambda.value(),
+                lambda: self.options.lambda_or_default().value(),
             }))
         } else {
             // What was overtaken is no answer yet.
@@ -396,7 +396,7 @@ impl Partwise {
             nuclear_norm: total.nuclear_norm,
             dual_bound: total.dual_bound,
             gap: self.known_gap(&total),
-            lambda: self.options.lambda.value(),
+            lambda: self.options.lambda_or_default().value(),
             lambda_choice: None,
             rho: answers().next().map_or(0.0, |answer| answer.state.rho),
             scale: self.scale,

@@ -62,7 +62,7 @@ impl Solver {
         let known = Known::of(&solvable.input, &asked)?;
         let Known { scale, noise } = known;
         let (mut options, mut choice, mut search) = (asked, None, None);
-        if asked.lambda == Lambda::Auto {
+        if asked.lambda_or_default() == Lambda::Auto {
             let (first, found) = tuning::first(&asked, noise, scale);
             if found.reason == LambdaReason::Noise {
                 search = Search::new(&solvable.input, &asked, &first, known)?;

@@ -4,6 +4,7 @@ use super::heightfield::Heightfield;
 
 /// How the input's coordinates become the energy's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(from = "bool"))]
 #[non_exhaustive]
 pub enum Normalization {
     /// One factor for x, y and z that makes the longer side of the valid
@@ -12,6 +13,16 @@ pub enum Normalization {
     UnitSquare,
     /// None: the coordinates are taken as they are.
     Off,
+}
+
+impl From<bool> for Normalization {
+    /// Whether coordinates are normalised.
+    fn from(normalize: bool) -> Self {
+        match normalize {
+            true => Normalization::UnitSquare,
+            false => Normalization::Off,
+        }
+    }
 }
 
 impl Normalization {

@@ -4,6 +4,11 @@ use crate::unroll::UnrollOptions;
 
 /// Options of a pattern: how well sides must fit and how much strain is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct PatternOptions {
     /// Maximum distance between the two sides of a fold on the flat sheet (root of the mean square), as a
@@ -12,6 +17,7 @@ pub struct PatternOptions {
     /// Maximum strain of a sheet (root of the mean square over its area). Default 0.01.
     pub max_strain: f64,
     /// Options for laying patches flat.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub unrolling: UnrollOptions,
     /// Whether sheets are folded back, to see how near they come to the surface; that takes about as long as
     /// laying them flat. Default `false`.

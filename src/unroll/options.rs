@@ -2,6 +2,11 @@
 
 /// Options of [`unroll`](super::unroll): when its iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct UnrollOptions {
     /// Change of the energy over the area (the mean of the squared strains, without unit) in one iteration, below which

@@ -1,6 +1,6 @@
 /**
- * One meaning for each option: an option that is given changes that option alone, and an option that is given its
- * documented default changes nothing.
+ * One meaning for each option of the schema: Rust knows it, an option that is given changes that option alone, and one that is
+ * given its documented default changes nothing.
  */
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
@@ -8,9 +8,12 @@ import { before, test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
 import { OPTIONS } from '../../pkg/options.js';
 import { wasmFile } from './support/paths.mjs';
-import { image, noisy } from './support/shapes.mjs';
+import { gridMesh, image, noisy } from './support/shapes.mjs';
 
-/** @typedef {import('../../pkg/types.js').SolverOptions} SolverOptions */
+/**
+ * @typedef {import('../../pkg/types.js').SolverOptions} SolverOptions
+ * @typedef {import('../../pkg/schema/kinds.js').Options} Options
+ */
 
 /** A roof with a round ridge, and noise. @param {number} x @param {number} y */
 const roof = (x, y) => 12 - 8 * Math.hypot((x - 24) / 24, 0.2) + 0.02 * y;
@@ -23,23 +26,7 @@ const design = {
 };
 
 /** A mesh of the same roof. */
-const mesh = (() => {
-  const [cols, rows] = [24, 18];
-  const at = (/** @type {number} */ i) => [i % cols, Math.floor(i / cols)];
-  const positions = Float64Array.from({ length: 3 * cols * rows }, (_, k) => {
-    const [col, row] = at(Math.floor(k / 3));
-    return [2 * col, 2 * row, scan.data[2 * row * 48 + 2 * col]][k % 3];
-  });
-  /** @type {number[]} */
-  const triangles = [];
-  for (let row = 0; row + 1 < rows; row++) {
-    for (let col = 0; col + 1 < cols; col++) {
-      const a = row * cols + col;
-      triangles.push(a, a + 1, a + cols, a + 1, a + cols + 1, a + cols);
-    }
-  }
-  return { positions, triangles: Uint32Array.from(triangles) };
-})();
+const mesh = gridMesh(24, 18, (col, row) => [2 * col, 2 * row, scan.data[2 * row * 48 + 2 * col]]);
 
 before(async () => {
   await direct.init(readFile(wasmFile));
@@ -48,6 +35,16 @@ before(async () => {
     files: file('files'), meshes: file('meshes'), fitmesh: file('fitmesh'), unroll: file('unroll'), patterns: file('patterns'),
   });
 });
+
+/**
+ * The defaults that the schema documents.
+ * @param {Options} options
+ * @returns {Record<string, any>}
+ */
+function documented(options) {
+  const entries = Object.entries(options).map(([name, option]) => [name, option.default]);
+  return Object.fromEntries(entries.filter(([, value]) => value !== undefined));
+}
 
 /**
  * What was minimised: the figures of a report that options decide.
@@ -76,11 +73,10 @@ test('a solver option that is given its default changes nothing', () => {
   const plain = direct.fit(scan);
   const { huber } = plain.report;
   assert.ok(huber && plain.report.energy === 'huber' && plain.report.lambdaChoice);
-  /** @type {Required<Omit<SolverOptions, 'tieBreak' | 'occlusionThreshold'>>} */
-  const defaults = {
-    paper: false, lambda: 'auto', schedule: 'default', gap: 0.01, maxIterations: 20000, normalize: true, energy: 'huber', reweighting: 0,
-    spacing: 1, bridge: true, bendRadius: huber.bendRadius, flatness: huber.flatness, creaseRadius: huber.creaseRadius, creasePasses: 2,
-  };
+  // What else it has without them.
+  const { bendRadius, flatness, creaseRadius } = huber;
+  /** @type {Record<string, unknown>} */
+  const defaults = { ...documented(OPTIONS.solver), spacing: 1, bendRadius, flatness, creaseRadius, creasePasses: 2 };
   for (const [name, value] of Object.entries(defaults)) alike(direct.fit(scan, { [name]: value }), plain, name);
   alike(direct.fit(scan, { bridge: 4 }), plain, 'bridge');
   alike(direct.fit(scan, defaults), plain, 'all at once');
@@ -148,10 +144,7 @@ test('options without an effect are refused by name', () => {
 
 test('an option over a whole mesh that is given its default changes nothing, and another value nothing else', () => {
   const plain = direct.fitMesh(mesh);
-  const defaults = {
-    lambda: 'auto', gap: 0.01, maxIterations: 1000, bendRadius: 0.1, flatness: 0.3, creaseRadius: 0.1, creasePasses: 2,
-    held: new Uint8Array(mesh.positions.length / 3),
-  };
+  const defaults = { ...documented(OPTIONS.meshSolver), creasePasses: 2, held: new Uint8Array(mesh.positions.length / 3) };
   for (const [name, value] of Object.entries(defaults)) alike(direct.fitMesh(mesh, { [name]: value }), plain, name);
   assert.deepEqual(Object.keys(OPTIONS.meshSolver).sort(), Object.keys(defaults).sort());
   const others = { gap: 0.1, maxIterations: 20, bendRadius: 0.2, flatness: 0.6, creaseRadius: 0.03, creasePasses: 1 };
@@ -161,78 +154,70 @@ test('an option over a whole mesh that is given its default changes nothing, and
   }
 });
 
-/**
- * The documented defaults of the calls that take a surface or a mesh; `undefined` for options that have none: what they name is not there without
- * them.
- * @type {Record<string, { call: (options?: object) => unknown, defaults: Record<string, unknown> }>}
- */
-const calls = (() => {
-  /** @type {import('../../pkg/types.js').HeightImage | undefined} */
-  let heights;
-  const surface = () => (heights ??= direct.fit(image(48, 36, roof), { lambda: 1e7 }).image);
-  const patching = { bend: undefined, fold: 0.15, smallest: 0.005 };
-  const unrolling = { tolerance: 1e-10, maxIterations: 500 };
-  const drawing = {
-    scale: 1, tabs: 0, marks: 0, kerf: 0, allowance: 0, thickness: undefined, innerRadius: undefined, kFactor: undefined, smoothing: 0.5,
-    stock: undefined, assembly: false,
-  };
-  const photo = { width: 48, height: 36, data: new Uint8ClampedArray(4 * 48 * 36).fill(200) };
-  return {
-    occlusions: { call: (options) => direct.occlusions(scan, options), defaults: { threshold: 4e4, normalize: true, spacing: 1 } },
-    analyze: { call: (options) => direct.analyze(surface(), options), defaults: { threshold: 1, reference: undefined, spacing: 1 } },
-    patches: { call: (options) => direct.patches(surface(), options), defaults: { ...patching, spacing: 1 } },
-    picture: {
-      call: (options) => direct.picture(surface(), options),
-      defaults: {
-        ...patching, spacing: 1, style: 'shaded', light: undefined, curvature: 'gaussian', limit: undefined, width: undefined, extent: undefined,
-      },
-    },
-    rulings: { call: (options) => direct.rulings(surface(), options), defaults: { separation: 10, confidence: 0.3, crease: 0.2, spacing: 1 } },
-    unroll: { call: (options) => direct.unroll(surface(), options), defaults: { ...unrolling, spacing: 1 } },
-    pattern: {
-      call: (options) => direct.pattern(surface(), options),
-      defaults: { ...patching, ...unrolling, ...drawing, gap: 0.005, maxStrain: 0.01, refold: false, spacing: 1 },
-    },
-    analyzeMesh: { call: (options) => direct.analyzeMesh(mesh, options), defaults: { threshold: 1 } },
-    meshRulings: { call: (options) => direct.meshRulings(mesh, options), defaults: { separation: undefined, confidence: 0.3, crease: 0.2 } },
-    unrollMesh: {
-      call: (options) => direct.unrollMesh(flatMesh, options),
-      defaults: { ...patching, ...unrolling, gap: 0.005, maxStrain: 0.01 },
-    },
-    patternMesh: {
-      call: (options) => direct.patternMesh(flatMesh, options),
-      defaults: { ...patching, ...unrolling, ...drawing, gap: 0.005, maxStrain: 0.01 },
-    },
-    sampleMesh: { call: (options) => direct.sampleMesh(mesh, options), defaults: { view: '-z', resolution: 200, spacing: undefined } },
-    dewarp: {
-      call: (options) => direct.dewarp(surface(), photo, options),
-      defaults: {
-        ...unrolling, spacing: 1, dots: undefined, map: true, grid: false, transfer: false, trim: false, deskew: false, crop: undefined, extent: undefined,
-        camera: undefined,
-      },
-    },
-    writePhoto: {
-      call: (options) => direct.writePhoto(photo, options),
-      defaults: { format: 'png', quality: undefined, dotsPerMillimetre: undefined, transfer: false },
-    },
-    writePdf: { call: (options) => direct.writePdf(direct.pattern(surface()), options), defaults: { stock: undefined } },
-    example: { call: (options) => direct.example('cone', options), defaults: { size: 200, noise: 0.02, seed: 1 } },
-  };
-})();
-
 /** A folded card, which lies flat. */
 const flatMesh = {
   positions: Float64Array.from([0, 0, 0, 9, 0, 4, 18, 0, 0, 0, 9, 0, 9, 9, 4, 18, 9, 0]),
   triangles: Uint32Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]),
 };
 
-for (const [name, { call, defaults }] of Object.entries(calls)) {
+/** @type {import('../../pkg/types.js').HeightImage | undefined} */
+let heights;
+const surface = () => (heights ??= direct.fit(image(48, 36, roof), { lambda: 1e7 }).image);
+const photo = { width: 48, height: 36, data: new Uint8ClampedArray(4 * 48 * 36).fill(200) };
+
+/** Calls by the names of their options. @type {Partial<Record<keyof typeof OPTIONS, (options?: any) => unknown>>} */
+const calls = {
+  occlusions: (options) => direct.occlusions(scan, options),
+  analyze: (options) => direct.analyze(surface(), options),
+  patches: (options) => direct.patches(surface(), options),
+  picture: (options) => direct.picture(surface(), options),
+  rulings: (options) => direct.rulings(surface(), options),
+  unroll: (options) => direct.unroll(surface(), options),
+  pattern: (options) => direct.pattern(surface(), options),
+  analyzeMesh: (options) => direct.analyzeMesh(mesh, options),
+  meshRulings: (options) => direct.meshRulings(mesh, options),
+  unrollMesh: (options) => direct.unrollMesh(flatMesh, options),
+  patternMesh: (options) => direct.patternMesh(flatMesh, options),
+  sampleMesh: (options) => direct.sampleMesh(mesh, options),
+  dewarp: (options) => direct.dewarp(surface(), photo, options),
+  writePhoto: (options) => direct.writePhoto(photo, options),
+  writePdf: (options) => direct.writePdf(direct.pattern(surface()), options),
+  example: (options) => direct.example('cone', options),
+};
+
+/** What follows from the input: the lattice is as fine as the pixels, and the rulings are ten of their lengths apart. */
+const found = { spacing: 1, resolution: 200, separation: 10 };
+
+for (const [name, call] of Object.entries(calls)) {
+  /** @type {Options} */
+  const options = OPTIONS[/** @type {keyof typeof OPTIONS} */ (name)];
   test(`${name}: an option that is given its default changes nothing`, () => {
     const plain = call();
-    for (const [option, value] of Object.entries(defaults)) {
-      if (value !== undefined) alike(call({ [option]: value }), plain, option);
+    const own = Object.entries(found).filter(([option]) => option in options && !/[mM]esh/.test(name));
+    for (const [option, value] of [...Object.entries(documented(options)), ...own]) {
+      alike(call({ [option]: value }), plain, option);
     }
-    const table = /** @type {Record<string, object>} */ (OPTIONS);
-    assert.deepEqual(Object.keys(defaults).sort(), Object.keys(table[name]).sort(), 'an option is missing from this test');
   });
 }
+
+test('Rust knows each option of the schema', () => {
+  const fits = { solver: (/** @type {any} */ options) => direct.fit(scan, options), meshSolver: (/** @type {any} */ options) => direct.fitMesh(mesh, options) };
+  const samples = [1, true, 'a4', 'png', 'auto', 'nuclear', 'default', 'shaded', 'gaussian', '-z', [1, 1, 1], [0, 0, 9, 9], [[0, 0], [9, 0], [0, 9]], [true]];
+  let count = 0;
+  for (const [name, call] of Object.entries({ ...fits, ...calls })) {
+    for (const [option, { kind }] of Object.entries(/** @type {Record<string, Options>} */ (OPTIONS)[name])) {
+      // What any value is good for is checked and taken by JS.
+      if (kind.must === '' || kind.type === 'object') continue;
+      const value = samples.find((sample) => kind.take(sample) !== undefined);
+      assert.notEqual(value, undefined, `${name}.${option}`);
+      count += 1;
+      try {
+        call({ [option]: value });
+      } catch (error) {
+        // Other options or the input may be in its way.
+        assert.ok(error instanceof direct.DevelopableError && !/there is no option/.test(error.message), `${name}.${option}: ${error}`);
+      }
+    }
+  }
+  assert.ok(count > 90, `${count} options`);
+});

@@ -3,6 +3,7 @@ import { readdir } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { stripVTControlCharacters } from 'node:util';
+import { buildOptionTypes } from '../build/option-types.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { Skip, check } from './step.mjs';
@@ -11,6 +12,7 @@ import { Skip, check } from './step.mjs';
 /** @typedef {import('./step.mjs').Env} Env */
 
 export async function types() {
+  await buildOptionTypes();
   await check(process.execPath, [join(root, 'node_modules/typescript/bin/tsc')], process.env);
 }
 

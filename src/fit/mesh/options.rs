@@ -10,6 +10,11 @@ const CLEAR_BEND_EXCESS: f64 = 0.1;
 /// Options of [`fit_mesh`](super::fit_mesh), as for heightfields where these are the same. The energy is
 /// [`Energy::Huber`](crate::Energy::Huber).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 pub struct MeshOptions {
     pub(super) lambda: Lambda,
     pub(super) gap: f64,

@@ -87,7 +87,8 @@ pub(crate) struct Known {
 
 impl Known {
     pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
-        let wanted = options.lambda == Lambda::Auto || options.energy_or_default() == Energy::Huber;
+        let wanted = options.lambda_or_default() == Lambda::Auto
+            || options.energy_or_default() == Energy::Huber;
         Ok(Known {
             scale: options.normalization.factor(&input.field),
             noise: if wanted { Noise::of(input)? } else { None },
@@ -127,7 +128,7 @@ pub(crate) fn first(
 /// The options with what is not given filled in.
 pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let loudness = noise.map_or(0.0, |noise| {
-        options.lambda.value() * noise.product * scale * scale / FIRST_LAMBDA_NOISE
+        options.lambda_or_default().value() * noise.product * scale * scale / FIRST_LAMBDA_NOISE
     });
     at_loudness(options, Bending::SMOOTH, loudness)
 }
@@ -251,7 +252,7 @@ impl Search {
             }
         }
         let now = (0, 0);
-        let compared = compared(asked, first.lambda);
+        let compared = compared(asked, first.lambda_or_default());
         let options = of(&compared, &bendings, now);
         let solve = trial(&held_out[0], &options, known, None)?;
         Ok(Some(Search {
@@ -391,7 +392,7 @@ impl Search {
 /// The options of a candidate.
 fn of(first: &Options, bendings: &[Choice], (bending, step): Candidate) -> Options {
     let factor = LAMBDA_STEP_FACTOR.powi(step);
-    let options = first.lambda(first.lambda.value() * factor);
+    let options = first.lambda(first.lambda_or_default().value() * factor);
     at_loudness(&options, bendings[bending].0, factor)
 }
 

@@ -9,6 +9,11 @@ const DEFAULT_SMALLEST: f64 = 0.005;
 
 /// Options of the segmentation into patches: what counts as a crease and as a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct PatchOptions {
     /// Bend angle, in radians from one vertex to the next, above which a vertex belongs to a crease.

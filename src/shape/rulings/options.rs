@@ -7,6 +7,11 @@ const DEFAULT_SEPARATION_SPACINGS: f64 = 10.0;
 
 /// Options of tracing rulings: how far apart they are and where they end.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Deserialize),
+    serde(default, rename_all = "camelCase", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct TraceOptions {
     /// Distance between rulings, in the surface's units: as seen from above on a heightfield, in space on a mesh.

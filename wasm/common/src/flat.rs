@@ -1,12 +1,12 @@
 //! Flat images out, and their warp maps, in full and on a grid.
 
 use js_sys::{Float32Array, Uint8ClampedArray};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
 use super::Result;
-use super::options::{option, renamed};
+use super::options::renamed;
 use developable::checks::try_filled;
 use developable::dewarp::{Photo, WarpGrid, WarpMap};
 
@@ -30,43 +30,30 @@ pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray>
 }
 
 /// What of the warp map is wanted besides the image.
+#[derive(Deserialize)]
+#[serde(default)]
 pub struct MapOptions {
     map: bool,
-    grid: bool,
-    tolerance: f64,
+    #[serde(with = "preserve")]
+    grid: JsValue,
 }
 
 impl Default for MapOptions {
     fn default() -> Self {
         MapOptions {
             map: true,
-            grid: false,
-            tolerance: 0.25,
+            grid: JsValue::FALSE,
         }
     }
 }
+
+/// Largest error between nodes of a grid, unless one is given: in pixels of the photo.
+const DEFAULT_GRID_TOLERANCE: f64 = 0.25;
 
 /// Most nodes of a grid.
 const NODES: usize = 40_000;
 
 impl MapOptions {
-    /// Takes the option, if it is one of these.
-    pub fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
-        let flag = "must be true or false";
-        match name {
-            "map" => self.map = option("map", value.clone(), flag)?,
-            "grid" => match value.as_f64() {
-                Some(tolerance) => (self.grid, self.tolerance) = (true, tolerance),
-                None => {
-                    let requirement = "must be true, false or the largest error in pixels";
-                    self.grid = option("grid", value.clone(), requirement)?;
-                }
-            },
-            _ => return Ok(false),
-        }
-        Ok(true)
-    }
-
     /// The places of all pixels, if they are wanted.
     pub fn places(&self, map: &WarpMap) -> Float32Array {
         let places = if self.map { map.places() } else { &[] };
@@ -74,9 +61,12 @@ impl MapOptions {
     }
 
     pub fn grid(&self, map: &WarpMap) -> Result<Option<GridOutput>> {
-        let found = self
-            .grid
-            .then(|| map.grid(self.tolerance, NODES))
+        let tolerance = match self.grid.as_bool() {
+            Some(wanted) => wanted.then_some(DEFAULT_GRID_TOLERANCE),
+            None => self.grid.as_f64(),
+        };
+        let found = tolerance
+            .map(|tolerance| map.grid(tolerance, NODES))
             .transpose()
             .map_err(|error| renamed(error, "tolerance", "grid"))?;
         Ok(found.as_ref().map(GridOutput::new))

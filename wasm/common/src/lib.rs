@@ -14,7 +14,6 @@ pub mod mesh;
 pub mod options;
 pub mod photo;
 pub mod scene;
-pub mod tracing;
 pub mod triangulation;
 
 use developable::Error;

@@ -1,23 +1,115 @@
-//! Options from plain JS objects, with errors that name the option. (Derived
-//! deserialisers would pass over unknown names and not say which value is wrong.)
+//! Options from plain JS objects, into the structures of the library.
 
 use js_sys::{Array, JsString, Object};
-use serde::de::DeserializeOwned;
+use serde::de::value::Error as NoValue;
+use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
+use serde::{Deserialize, forward_to_deserialize_any};
 use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
 use super::{Failure, Result};
-use developable::{Error, Lambda};
+use developable::Error;
+use developable::analysis::DEFAULT_GAUSSIAN_THRESHOLD;
 
-/// What an options object says, without what is undefined in it.
-pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
-    if options.is_undefined() {
-        return Ok(Vec::new());
+/// The options of a call, to be read into one or more structures whose fields have their names. Ranges and kinds of values
+/// that JavaScript tells apart are checked there, by `pkg/schema/`.
+pub struct Given {
+    options: Object,
+    /// Names of options that have been read.
+    known: Vec<&'static str>,
+}
+
+impl Given {
+    pub fn new(options: &JsValue) -> Result<Self> {
+        let options = match options.is_undefined() {
+            true => Some(Object::new()),
+            false => options.dyn_ref().cloned(),
+        };
+        let known = Vec::new();
+        match options {
+            Some(options) => Ok(Given { options, known }),
+            None => Err(Failure::option("the options must be an object")),
+        }
     }
-    let Some(options) = options.dyn_ref::<Object>() else {
-        return Err(Failure::option("the options must be an object"));
-    };
-    Ok(Object::entries(options)
+
+    /// A structure with what is given of its fields; the others have their defaults.
+    pub fn read<T: DeserializeOwned>(&mut self) -> Result<T> {
+        let mut names: &[&str] = &[];
+        // Fails by design: all that is wanted are the names.
+        let _ = T::deserialize(FieldNames(&mut names));
+        self.known.extend(names);
+        Ok(from_value(self.options.clone().into())?)
+    }
+
+    /// Refuses options that are no field of what was read.
+    pub fn finish(self) -> Result<()> {
+        let names = Object::keys(&self.options);
+        let mut names = names.iter().map(|name| String::from(JsString::from(name)));
+        match names.find(|name| !self.known.contains(&name.as_str())) {
+            Some(name) => Err(unknown(&name, &self.known.join(", "))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// All options of a call that are the fields of one structure.
+pub fn read<T: DeserializeOwned>(options: &JsValue) -> Result<T> {
+    let mut given = Given::new(options)?;
+    let found = given.read()?;
+    given.finish()?;
+    Ok(found)
+}
+
+/// A deserialiser that keeps the names of a structure's fields, and has no values.
+struct FieldNames<'a>(&'a mut &'static [&'static str]);
+
+impl<'de> Deserializer<'de> for FieldNames<'_> {
+    type Error = NoValue;
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        fields: &'static [&'static str],
+        _: V,
+    ) -> std::result::Result<V::Value, NoValue> {
+        *self.0 = fields;
+        Err(NoValue::custom(""))
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> std::result::Result<V::Value, NoValue> {
+        Err(NoValue::custom(""))
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct seq
+        tuple tuple_struct map enum identifier ignored_any
+    }
+}
+
+/// The spacing of the lattice that an image is resampled to.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub struct Resampling {
+    pub spacing: Option<f64>,
+}
+
+/// What is told of curvatures: the Gaussian curvature above which a vertex counts.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub struct Analyzing {
+    threshold: Option<f64>,
+}
+
+impl Analyzing {
+    pub fn threshold(&self) -> f64 {
+        self.threshold.unwrap_or(DEFAULT_GAUSSIAN_THRESHOLD)
+    }
+}
+
+/// What an options object says, without what is undefined in it, for options whose values need checks of their own.
+pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
+    let Given { options, .. } = Given::new(options)?;
+    Ok(Object::entries(&options)
         .iter()
         .map(|entry| Array::from(&entry))
         .filter(|entry| !entry.get(1).is_undefined())
@@ -25,6 +117,7 @@ pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
         .collect())
 }
 
+/// One of these values.
 pub fn option<T: DeserializeOwned>(
     name: &'static str,
     value: JsValue,
@@ -43,17 +136,6 @@ pub fn option<T: DeserializeOwned>(
             requirement,
         ))
     })
-}
-
-/// A number, or the name of one.
-pub fn lambda(value: JsValue) -> Result<Lambda> {
-    const REQUIREMENT: &str = "must be small, medium, big, auto or a number above zero";
-    if let Some(number) = value.as_f64() {
-        return Ok(Lambda::Value(number));
-    }
-    let name: String = option("lambda", value, REQUIREMENT)?;
-    Lambda::named(&name)
-        .ok_or_else(|| Error::option("lambda", format!("{name:?}"), REQUIREMENT).into())
 }
 
 /// The error of a Rust option as one of the JS option that it stands for, where that has another name.

@@ -6,11 +6,9 @@ use wasm_bindgen::prelude::*;
 
 use super::Result;
 use super::fields::{ImageInput, LatticeInput};
-use super::options::option;
 use developable::Error;
 use developable::Heightfield;
 use developable::dewarp::Extent;
-use developable::unroll::UnrollOptions;
 
 /// Heights to be looked at, and what a photo of them shows.
 pub struct Scene {
@@ -57,32 +55,5 @@ impl Scene {
             extent: Extent::from_heightfield(&surface),
             surface,
         })
-    }
-}
-
-/// `UnrollOptions` of `types.d.ts`.
-#[derive(Default)]
-pub struct Settings {
-    pub unrolling: UnrollOptions,
-    pub spacing: Option<f64>,
-}
-
-impl Settings {
-    /// Whether an option is one of these; its value is taken then.
-    pub fn take(&mut self, name: &str, value: &JsValue) -> Result<bool> {
-        let value = value.clone();
-        match name {
-            "tolerance" => {
-                let tolerance = option("tolerance", value, "must be a number")?;
-                self.unrolling = self.unrolling.tolerance(tolerance);
-            }
-            "maxIterations" => {
-                let most = option("maxIterations", value, "must be a whole number")?;
-                self.unrolling = self.unrolling.max_iterations(most);
-            }
-            "spacing" => self.spacing = Some(option("spacing", value, "must be a number")?),
-            _ => return Ok(false),
-        }
-        Ok(true)
     }
 }

@@ -1,19 +1,18 @@
 //! Surfaces fitted to meshes as they are, without a view.
 
 use js_sys::{Float64Array, Uint8Array};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::analysis::{DEFAULT_GAUSSIAN_THRESHOLD, MeshCurvatures, Summary};
+use developable::analysis::{MeshCurvatures, Summary};
 use developable::rulings::{MeshRulings, Ruling, TraceOptions};
 use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{entries, lambda, option, unknown};
-use developable_wasm::tracing::{TRACING, take_tracing};
+use developable_wasm::options::{Analyzing, Given, read};
 
 /// What `MeshSurface` of `types.d.ts` has besides its mesh.
 #[derive(Serialize)]
@@ -21,6 +20,14 @@ struct Output<'a> {
     #[serde(with = "preserve")]
     positions: Float64Array,
     report: &'a MeshReport,
+}
+
+/// Vertices that stay where they are, which is no option of the library but known of its input.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Held {
+    #[serde(with = "preserve")]
+    held: JsValue,
 }
 
 /// A solve over a mesh that runs in steps.
@@ -41,35 +48,13 @@ impl MeshSolver {
             known = known.with_confidence(confidence.collect())?;
         }
         let mesh = mesh.into_mesh()?;
-        let mut settings = MeshOptions::default();
-        const NUMBER: &str = "must be a number";
-        for (name, value) in entries(&options)? {
-            match name.as_str() {
-                "lambda" => settings = settings.lambda(lambda(value)?),
-                "gap" => settings = settings.gap(option("gap", value, NUMBER)?),
-                "maxIterations" => {
-                    settings = settings.max_iterations(option("maxIterations", value, NUMBER)?);
-                }
-                "bendRadius" => {
-                    settings = settings.bend_radius(option("bendRadius", value, NUMBER)?);
-                }
-                "flatness" => settings = settings.flatness(option("flatness", value, NUMBER)?),
-                "creaseRadius" => {
-                    settings = settings.crease_radius(option("creaseRadius", value, NUMBER)?);
-                }
-                "creasePasses" => {
-                    settings = settings.crease_passes(option("creasePasses", value, NUMBER)?);
-                }
-                "held" => {
-                    let held = copied(value.unchecked_ref::<Uint8Array>())?;
-                    known = known.with_held(held.into_iter().map(|held| held != 0).collect());
-                }
-                _ => {
-                    let known = "lambda, gap, maxIterations, bendRadius, flatness, creaseRadius, \
-                                 creasePasses and held";
-                    return Err(unknown(&name, known));
-                }
-            }
+        let mut given = Given::new(&options)?;
+        let settings: MeshOptions = given.read()?;
+        let Held { held } = given.read()?;
+        given.finish()?;
+        if let Some(held) = held.dyn_ref::<Uint8Array>() {
+            let held = copied(held)?;
+            known = known.with_held(held.into_iter().map(|held| held != 0).collect());
         }
         Ok(MeshSolver {
             solver: developable::MeshSolver::new(mesh, known, &settings)?,
@@ -121,13 +106,7 @@ struct AnalysisOutput {
 /// How developable a mesh is.
 #[wasm_bindgen(js_name = analyzeMesh)]
 pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut threshold = DEFAULT_GAUSSIAN_THRESHOLD;
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "threshold" => threshold = option("threshold", value, "must be a number")?,
-            _ => return Err(unknown(&name, "threshold")),
-        }
-    }
+    let threshold = read::<Analyzing>(&options)?.threshold();
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let found = MeshCurvatures::new(&mesh)?;
     Ok(to_value(&AnalysisOutput {
@@ -153,12 +132,7 @@ struct RulingsOutput<'a> {
 /// The rulings of a mesh, as directions and as lines.
 #[wasm_bindgen(js_name = meshRulings)]
 pub fn mesh_rulings(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut wanted = TraceOptions::default();
-    for (name, value) in entries(&options)? {
-        if !take_tracing(&mut wanted, &name, &value)? {
-            return Err(unknown(&name, TRACING));
-        }
-    }
+    let wanted: TraceOptions = read(&options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let found = MeshRulings::new(&mesh)?;
     Ok(to_value(&RulingsOutput {

@@ -7,14 +7,33 @@ use wasm_bindgen::prelude::*;
 
 use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
+use developable::explore::ExploreOptions;
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{MeshPattern, Missing, PatternOptions, Sheet, pattern, pattern_mesh};
+use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{entries, option, unknown};
-use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
+use developable_wasm::options::{Given, Resampling, read};
+use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
+
+/// How metal is bent.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct Metal {
+    thickness: Option<f64>,
+    inner_radius: Option<f64>,
+    k_factor: Option<f64>,
+}
+
+/// What is made of sheets, besides the options of the library.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Sheets {
+    stock: Option<Paper>,
+    assembly: bool,
+}
 
 /// What is asked for of a pattern.
 #[derive(Default)]
@@ -29,53 +48,31 @@ struct Wanted {
 
 impl Wanted {
     fn of(options: &JsValue) -> Result<Self> {
-        let mut settings = Settings::default();
-        let (mut wanted, mut sheets) = (PatchOptions::default(), PatternOptions::default());
-        let mut drawing = DrawingOptions::default();
-        let (mut stock, mut assembled) = (None, false);
-        let (mut thickness, mut radius, mut factor) = (None, None, None);
-        const NUMBER: &str = "must be a number";
-        for (name, value) in entries(options)? {
-            match name.as_str() {
-                "scale" => drawing = drawing.scale(option("scale", value, NUMBER)?),
-                "smoothing" => drawing = drawing.smoothing(option("smoothing", value, NUMBER)?),
-                "stock" => stock = Some(stock_option(value)?),
-                // 0 is none.
-                "marks" | "tabs" if value.as_f64() == Some(0.0) => {}
-                "marks" => drawing = drawing.marks(option("marks", value, NUMBER)?),
-                "kerf" => drawing = drawing.kerf(option("kerf", value, NUMBER)?),
-                "allowance" => drawing = drawing.allowance(option("allowance", value, NUMBER)?),
-                "thickness" => thickness = Some(option("thickness", value, NUMBER)?),
-                "innerRadius" => radius = Some(option("innerRadius", value, NUMBER)?),
-                "kFactor" => factor = Some(option("kFactor", value, NUMBER)?),
-                "assembly" => assembled = option("assembly", value, "must be true or false")?,
-                "tabs" => drawing = drawing.tabs(option("tabs", value, NUMBER)?),
-                "gap" => sheets = sheets.gap(option("gap", value, NUMBER)?),
-                "maxStrain" => sheets = sheets.max_strain(option("maxStrain", value, NUMBER)?),
-                "refold" => {
-                    sheets = sheets.refold(option("refold", value, "must be true or false")?);
-                }
-                "bend" => wanted = wanted.bend(option("bend", value, NUMBER)?),
-                "fold" => wanted = wanted.fold(option("fold", value, NUMBER)?),
-                "smallest" => wanted = wanted.smallest(option("smallest", value, NUMBER)?),
-                _ if settings.take(&name, &value)? => {}
-                _ => {
-                    let known = "scale, tabs, marks, kerf, allowance, thickness, innerRadius, kFactor, smoothing, stock, assembly, gap, maxStrain, refold, bend, fold, smallest, \
-                                 tolerance, maxIterations and spacing";
-                    return Err(unknown(&name, known));
-                }
-            }
-        }
-        if let Some(bending) = bending(thickness, radius, factor)? {
+        let mut given = Given::new(options)?;
+        let unrolling: UnrollOptions = given.read()?;
+        let (patches, sheets): (PatchOptions, PatternOptions) = (given.read()?, given.read()?);
+        let mut drawing: DrawingOptions = given.read()?;
+        let Metal {
+            thickness,
+            inner_radius,
+            k_factor,
+        } = given.read()?;
+        let Sheets { stock, assembly } = given.read()?;
+        let Resampling { spacing } = given.read()?;
+        given.finish()?;
+        // 0 is none.
+        drawing.tabs = drawing.tabs.filter(|depth| *depth != 0.0);
+        drawing.marks = drawing.marks.filter(|distance| *distance != 0.0);
+        if let Some(bending) = bending(thickness, inner_radius, k_factor)? {
             drawing = drawing.bending(bending);
         }
         Ok(Wanted {
-            patches: wanted,
-            sheets: sheets.unrolling(settings.unrolling),
+            patches,
+            sheets: sheets.unrolling(unrolling),
             drawing,
-            stock,
-            assembled,
-            spacing: settings.spacing,
+            stock: stock.map(Stock::from),
+            assembled: assembly,
+            spacing,
         })
     }
 
@@ -110,6 +107,38 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let patches = Patches::new(&surface, &wanted.patches)?;
     let found = pattern(&surface, &patches, &wanted.sheets)?;
     wanted.draw(&found.sheets, &found.missing)
+}
+
+/// What is told of plans to try: λ and sizes, or the λ that a mesh's noise asks for.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct TrialsInput {
+    lambdas: Option<Vec<f64>>,
+    smallest: Option<Vec<f64>>,
+    mesh_lambda: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct TrialsOutput {
+    lambdas: Vec<f64>,
+    smallest: Vec<f64>,
+}
+
+/// The λ and sizes of patches of an exploration, in the order in which they are tried.
+#[wasm_bindgen]
+pub fn trials(given: JsValue) -> Result<JsValue> {
+    let given: TrialsInput = read(&given)?;
+    let default =
+        (given.mesh_lambda).map_or_else(ExploreOptions::default, ExploreOptions::for_mesh);
+    let ExploreOptions {
+        lambdas, smallest, ..
+    } = ExploreOptions {
+        lambdas: given.lambdas.unwrap_or(default.lambdas),
+        smallest: given.smallest.unwrap_or(default.smallest),
+        ..Default::default()
+    }
+    .in_order();
+    Ok(to_value(&TrialsOutput { lambdas, smallest })?)
 }
 
 /// The same of a mesh as it is.
@@ -238,14 +267,22 @@ enum Named {
     Letter,
 }
 
-fn stock_option(value: JsValue) -> Result<Stock> {
-    const SIZES: &str = "must be a4, letter, [width, height] of plates or [width] of a roll";
-    Ok(match option("stock", value, SIZES)? {
-        Paper::Named(Named::A4) => Stock::A4,
-        Paper::Named(Named::Letter) => Stock::Letter,
-        Paper::Plate(sides) => Stock::Plate(sides),
-        Paper::Roll([width]) => Stock::Roll(width),
-    })
+impl From<Paper> for Stock {
+    fn from(paper: Paper) -> Self {
+        match paper {
+            Paper::Named(Named::A4) => Stock::A4,
+            Paper::Named(Named::Letter) => Stock::Letter,
+            Paper::Plate(sides) => Stock::Plate(sides),
+            Paper::Roll([width]) => Stock::Roll(width),
+        }
+    }
+}
+
+/// `WritePdfOptions` of the types.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct PdfOptions {
+    stock: Option<Paper>,
 }
 
 /// SVG file of a drawing.
@@ -257,14 +294,10 @@ pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
 /// PDF file of a drawing, on one page or on those of a stock.
 #[wasm_bindgen(js_name = writePdf)]
 pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
-    let mut stock = None;
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "stock" => stock = Some(stock_option(value)?),
-            _ => return Err(unknown(&name, "stock")),
-        }
-    }
-    Ok(write_pdf(&drawn(drawing)?, stock)?.as_slice().into())
+    let PdfOptions { stock } = read(&options)?;
+    Ok(write_pdf(&drawn(drawing)?, stock.map(Stock::from))?
+        .as_slice()
+        .into())
 }
 
 /// DXF file of a drawing.

@@ -25,7 +25,7 @@ struct CylinderOutput {
 /// The cylinder next to heights on the lattice.
 #[wasm_bindgen(js_name = fitCylinder)]
 pub fn cylinder(field: JsValue) -> Result<JsValue> {
-    let settings = Settings::new(&JsValue::UNDEFINED)?;
+    let settings = Settings::default();
     let (input, _) = Source::lattice(field)?.input(&settings)?;
     let found = fit_cylinder(input)?;
     let lattice = found.heightfield().lattice();

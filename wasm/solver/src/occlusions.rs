@@ -23,7 +23,7 @@ pub fn occlusions_of_lattice(field: JsValue, options: JsValue) -> Result<JsValue
 }
 
 fn detect(source: &Source, options: &JsValue) -> Result<JsValue> {
-    let settings = Settings::of_detection(options)?;
+    let settings = Settings::new(options)?;
     let field = source.heights(&settings)?;
     let lattice = field.lattice();
     let threshold = settings.occlusion_threshold.unwrap_or(OCCLUSION_THRESHOLD);

@@ -4,26 +4,25 @@ mod page;
 mod picture;
 
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8ClampedArray, Uint32Array};
-use serde::Serialize;
-use serde_wasm_bindgen::{from_value, preserve, to_value};
+use serde::{Deserialize, Serialize};
+use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::Frame;
-use developable::analysis::{Curvatures, DEFAULT_GAUSSIAN_THRESHOLD, Deviation, Summary};
+use developable::analysis::{Curvatures, Deviation, Summary};
 use developable::checks::try_filled;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
 use developable::rulings::{Ruling, Rulings, TraceOptions};
-use developable::unroll::{UnrollReport, Unrolling, unroll};
+use developable::unroll::{UnrollOptions, UnrollReport, Unrolling, unroll};
+use developable::{Frame, Heightfield};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::frame::FrameFields;
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::{Analyzing, Given, Resampling};
 use developable_wasm::photo::{Pixels, extent_from};
-use developable_wasm::scene::{Scene, Settings, check_spacing, is_image};
-use developable_wasm::tracing::{TRACING, take_tracing};
+use developable_wasm::scene::{Scene, check_spacing, is_image};
 
 /// `Analysis` of `types.d.ts`.
 #[derive(Serialize)]
@@ -46,17 +45,26 @@ struct AnalysisOutput {
     deviation: Option<Deviation>,
 }
 
+/// The spacing among the last options of a call.
+fn spacing_of(mut given: Given) -> Result<Option<f64>> {
+    let Resampling { spacing } = given.read()?;
+    given.finish()?;
+    Ok(spacing)
+}
+
+/// Heights to be looked at, resampled as the last options of a call say.
+fn surface_of(field: JsValue, given: Given) -> Result<Heightfield> {
+    let spacing = spacing_of(given)?;
+    check_spacing(spacing, is_image(&field)?)?;
+    Ok(Scene::new(field, spacing)?.surface)
+}
+
 /// Curvatures of a surface, what they come to, and how far it is from another one.
 #[wasm_bindgen]
 pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<JsValue> {
-    let (mut threshold, mut spacing) = (DEFAULT_GAUSSIAN_THRESHOLD, None);
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "threshold" => threshold = option("threshold", value, "must be a number")?,
-            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
-            _ => return Err(unknown(&name, "threshold, reference and spacing")),
-        }
-    }
+    let mut given = Given::new(&options)?;
+    let threshold = given.read::<Analyzing>()?.threshold();
+    let spacing = spacing_of(given)?;
     check_spacing(spacing, is_image(&field)? || is_image(&reference)?)?;
     let Scene { surface, .. } = Scene::new(field, spacing)?;
     let deviation = if reference.is_undefined() {
@@ -110,15 +118,10 @@ struct UnrollingOutput {
 /// A surface laid flat.
 #[wasm_bindgen(js_name = unroll)]
 pub fn unroll_surface(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut settings = Settings::default();
-    for (name, value) in entries(&options)? {
-        if !settings.take(&name, &value)? {
-            return Err(unknown(&name, "tolerance, maxIterations and spacing"));
-        }
-    }
-    check_spacing(settings.spacing, is_image(&field)?)?;
-    let Scene { surface, .. } = Scene::new(field, settings.spacing)?;
-    let sheet = unroll(&surface, &settings.unrolling)?;
+    let mut given = Given::new(&options)?;
+    let wanted: UnrollOptions = given.read()?;
+    let surface = surface_of(field, given)?;
+    let sheet = unroll(&surface, &wanted)?;
     let (mesh, lattice) = (sheet.mesh(), surface.lattice());
     Ok(to_value(&UnrollingOutput {
         rows: lattice.rows(),
@@ -154,43 +157,58 @@ struct DewarpedOutput {
     report: UnrollReport,
 }
 
+/// `DewarpOptions` of the types, and what `placeOf` adds to them.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct DewarpInput {
+    dots: Option<f64>,
+    trim: bool,
+    deskew: bool,
+    crop: Option<Vec<[f64; 2]>>,
+    #[serde(with = "preserve")]
+    extent: JsValue,
+    #[serde(with = "preserve")]
+    camera: JsValue,
+    frame: Option<FrameFields>,
+    #[serde(with = "preserve")]
+    uvs: JsValue,
+}
+
+/// A value that is there.
+fn some(value: JsValue) -> Option<JsValue> {
+    (!value.is_undefined()).then_some(value)
+}
+
 /// A photo of a surface, made flat.
 #[wasm_bindgen]
 pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValue> {
-    let mut settings = Settings::default();
-    let mut wanted = DewarpOptions::default();
-    let (mut extent, mut camera, mut uvs) = (None, None, JsValue::UNDEFINED);
-    let mut frame = Frame::default();
-    let (mut crop, mut deskew, mut trim) = (None, false, false);
-    let mut maps = MapOptions::default();
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "camera" => camera = Some(photo_camera(&value)?),
-            "frame" => frame = from_value::<FrameFields>(value)?.into(),
-            "uvs" => uvs = value,
-            "crop" => {
-                crop = Some(option::<Vec<[f64; 2]>>(
-                    "crop",
-                    value,
-                    "must be a list of corners [x, y]",
-                )?)
-            }
-            "dots" => wanted = wanted.dots(option("dots", value, "must be a number")?),
-            "deskew" => deskew = option("deskew", value, "must be true or false")?,
-            "trim" => trim = option("trim", value, "must be true or false")?,
-            "extent" => extent = Some(extent_from(value)?),
-            _ if settings.take(&name, &value)? || maps.take(&name, &value)? => {}
-            _ => {
-                let known = "dots, trim, deskew, crop, camera, extent, map, grid, tolerance, maxIterations and spacing";
-                return Err(unknown(&name, known));
-            }
-        }
-    }
-    check_spacing(settings.spacing, is_image(&field)?)?;
-    let scene = Scene::new(field, settings.spacing)?;
+    let mut given = Given::new(&options)?;
+    let unrolling: UnrollOptions = given.read()?;
+    let maps: MapOptions = given.read()?;
+    let DewarpInput {
+        dots,
+        trim,
+        deskew,
+        crop,
+        extent,
+        camera,
+        frame,
+        uvs,
+    } = given.read()?;
+    let spacing = spacing_of(given)?;
+    check_spacing(spacing, is_image(&field)?)?;
+    let camera = some(camera)
+        .map(|camera| photo_camera(&camera))
+        .transpose()?;
+    let extent = some(extent).map(extent_from).transpose()?;
+    let frame = frame.map_or_else(Frame::default, Frame::from);
+    let wanted = dots.map_or_else(DewarpOptions::default, |dots| {
+        DewarpOptions::default().dots(dots)
+    });
+    let scene = Scene::new(field, spacing)?;
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
-    let sheet: Unrolling = unroll(&scene.surface, &settings.unrolling)?;
+    let sheet: Unrolling = unroll(&scene.surface, &unrolling)?;
     let uvs: Option<Vec<[f32; 2]>> = groups(&uvs)?;
     let registration = match (camera, &uvs) {
         (Some(camera), _) => Registration::Camera(camera, frame),
@@ -234,18 +252,9 @@ struct PatchesOutput<'a> {
 /// The patches of a surface, and the creases between them.
 #[wasm_bindgen]
 pub fn patches(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let (mut wanted, mut spacing) = (PatchOptions::default(), None);
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "bend" => wanted = wanted.bend(option("bend", value, "must be a number")?),
-            "fold" => wanted = wanted.fold(option("fold", value, "must be a number")?),
-            "smallest" => wanted = wanted.smallest(option("smallest", value, "must be a number")?),
-            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
-            _ => return Err(unknown(&name, "bend, fold, smallest and spacing")),
-        }
-    }
-    check_spacing(spacing, is_image(&field)?)?;
-    let Scene { surface, .. } = Scene::new(field, spacing)?;
+    let mut given = Given::new(&options)?;
+    let wanted: PatchOptions = given.read()?;
+    let surface = surface_of(field, given)?;
     let found = Patches::new(&surface, &wanted)?;
     // No patch is −1 there.
     let mut labels = try_filled("patches", found.labels().len(), -1)?;
@@ -282,16 +291,9 @@ struct RulingsOutput<'a> {
 /// The rulings of a surface, as directions and as lines.
 #[wasm_bindgen]
 pub fn rulings(field: JsValue, options: JsValue) -> Result<JsValue> {
-    let (mut wanted, mut spacing) = (TraceOptions::default(), None);
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "spacing" => spacing = Some(option("spacing", value, "must be a number")?),
-            _ if take_tracing(&mut wanted, &name, &value)? => {}
-            _ => return Err(unknown(&name, &format!("{TRACING} and spacing"))),
-        }
-    }
-    check_spacing(spacing, is_image(&field)?)?;
-    let Scene { surface, .. } = Scene::new(field, spacing)?;
+    let mut given = Given::new(&options)?;
+    let wanted: TraceOptions = given.read()?;
+    let surface = surface_of(field, given)?;
     let found = Rulings::new(&surface)?;
     let lines = found.trace(&wanted)?;
     let lattice = surface.lattice();

@@ -10,7 +10,7 @@ use developable::page::{
     CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
-use developable_wasm::options::{entries, option, renamed, unknown};
+use developable_wasm::options::{Given, entries, option, renamed, unknown};
 use developable_wasm::photo::Pixels;
 use developable_wasm::{Failure, Result};
 
@@ -118,7 +118,8 @@ struct MeshOutput {
 #[wasm_bindgen(js_name = dewarpPage)]
 pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
-    let mut maps = MapOptions::default();
+    let mut given = Given::new(&options)?;
+    let maps: MapOptions = given.read()?;
     let mut focal = Vec::new();
     let mut finding = None;
     for (name, value) in entries(&options)? {
@@ -146,7 +147,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             "centre" => known = known.centre(option("centre", value, "must be two numbers")?),
             "findLines" => finding = Some(option("findLines", value, "must be true or false")?),
             "accuracy" => known = known.accuracy(option("accuracy", value, number)?),
-            _ if maps.take(&name, &value)? => {}
+            "map" | "grid" => {}
             _ => {
                 let names = "dots, map, grid, focalLength, fieldOfView, film35, page, ruler, centre, accuracy and findLines";
                 return Err(unknown(&name, names));

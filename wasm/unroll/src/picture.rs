@@ -1,6 +1,8 @@
 //! Surfaces as pictures, and pictures on a canvas.
 
 use js_sys::{Object, Reflect, Uint8ClampedArray, global};
+use serde::Deserialize;
+use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 use web_sys::{
     CanvasRenderingContext2d, HtmlCanvasElement, ImageData, OffscreenCanvas,
@@ -9,10 +11,12 @@ use web_sys::{
 
 use developable::patches::PatchOptions;
 use developable::picture::{Curvature, Picture, PictureOptions, Style};
-use developable_wasm::options::{entries, option, unknown};
+use developable_wasm::options::Given;
 use developable_wasm::photo::extent_from;
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
+
+use super::{some, spacing_of};
 
 /// A surface as pixels: an `ImageData` where there are such, else a plain object that says the same.
 #[wasm_bindgen]
@@ -40,34 +44,39 @@ pub fn draw(canvas: JsValue, field: JsValue, options: JsValue) -> Result<()> {
     canvas.put(&drawn(field, options)?)
 }
 
-/// The picture that the options of `types.d.ts` ask for.
+/// `PictureOptions` of the types, without those of patches.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct PictureInput {
+    style: Option<String>,
+    light: Option<[f64; 3]>,
+    curvature: Option<String>,
+    limit: Option<f64>,
+    width: Option<usize>,
+    #[serde(with = "preserve")]
+    extent: JsValue,
+}
+
+/// The picture that options ask for.
 fn drawn(field: JsValue, options: JsValue) -> Result<Picture> {
-    let (mut style, mut light, mut kind, mut limit) = (String::from("shaded"), None, None, None);
-    let (mut wanted, mut patching) = (PictureOptions::default(), PatchOptions::default());
-    let (mut spacing, number) = (None, "must be a number");
-    for (name, value) in entries(&options)? {
-        match name.as_str() {
-            "style" => style = option("style", value, "must be a text")?,
-            "light" => light = Some(option("light", value, "must be three numbers")?),
-            "curvature" => kind = Some(option::<String>("curvature", value, "must be a text")?),
-            "limit" => limit = Some(option("limit", value, number)?),
-            "width" => wanted = wanted.width(option("width", value, "must be a whole number")?),
-            "extent" => wanted = wanted.extent(extent_from(value)?),
-            "bend" => patching = patching.bend(option("bend", value, number)?),
-            "fold" => patching = patching.fold(option("fold", value, number)?),
-            "smallest" => patching = patching.smallest(option("smallest", value, number)?),
-            "spacing" => spacing = Some(option("spacing", value, number)?),
-            _ => {
-                let known = "style, light, curvature, limit, width, extent, bend, fold, smallest \
-                             and spacing";
-                return Err(unknown(&name, known));
-            }
-        }
-    }
-    let style = match style.as_str() {
+    let mut given = Given::new(&options)?;
+    let patching: PatchOptions = given.read()?;
+    let PictureInput {
+        style,
+        light,
+        curvature,
+        limit,
+        width,
+        extent,
+    } = given.read()?;
+    let spacing = spacing_of(given)?;
+    let mut wanted = PictureOptions::default();
+    wanted.width = width;
+    wanted.extent = some(extent).map(extent_from).transpose()?;
+    let style = match style.as_deref().unwrap_or("shaded") {
         "shaded" => light.map_or(Style::shaded(), |light| Style::Shaded { light }),
         "curvature" => Style::Curvature {
-            kind: match kind.as_deref() {
+            kind: match curvature.as_deref() {
                 None | Some("gaussian") => Curvature::Gaussian,
                 Some("kappa2") => Curvature::Kappa2,
                 Some(_) => return Err(Failure::option("curvature is gaussian or kappa2")),

@@ -1,0 +1,77 @@
+/** Options of files that are read, of meshes seen from one side, and of examples. Each comment is what the types say; the default is added there. */
+import { anything, choice, either, number, numbers, text, whole } from './kinds.js';
+
+/** @typedef {import('./kinds.js').Options} Options */
+
+/** @satisfies {Options} */
+export const read = {
+  /** Taken from the bytes where it is not given. */
+  format: { kind: choice('png', 'npy', 'tiff', 'exr', 'pfm', 'npz', 'jpeg', 'webp'), type: 'Format' },
+  /** Of an NPZ file, the name of the array; may be left out where there is only one. */
+  array: { kind: text },
+};
+
+/** @satisfies {Options} */
+export const readMesh = {
+  /** Taken from the bytes where it is not given. */
+  format: { kind: choice('obj', 'ply', 'stl', 'gltf', 'glb') },
+  /**
+   * What lies beside the file, by name: the materials (MTL) and textures of an OBJ, the texture of a
+   * PLY, the buffers and textures of a glTF. A name is looked for as it is and then without its
+   * folders; what is not there is listed in the mesh's `missing`, but a glTF needs its buffers.
+   */
+  files: { kind: anything, type: 'Map<string, Uint8Array | ArrayBuffer> | Record<string, Uint8Array | ArrayBuffer>' },
+};
+
+/** @satisfies {Options} */
+export const sampleMesh = {
+  /** Distance of neighbours on the lattice, in the place of `resolution`. */
+  spacing: {
+    kind: number,
+    flag: {
+      section: 'heights',
+      value: 'S',
+      help: 'distance of neighbours on the lattice (default: the size of a pixel: 1 unless the file says otherwise), ' +
+        "for a mesh in the place of --resolution, in the mesh's unit",
+    },
+  },
+  /**
+   * A direction to look in, by name or as a vector; or `'best-fit'`, straight at the plane that
+   * fits the triangles best, from the side that more of their area faces (of a point cloud: that
+   * fits the points, its largest component towards the viewer). Up is as close to +y as
+   * it can be; along `-y` it is -z, along `+y` +z.
+   */
+  view: {
+    kind: either(choice('-x', '+x', '-y', '+y', '-z', '+z', 'best-fit'), numbers(3, 'a vector of three numbers')),
+    type: 'ViewName | readonly [number, number, number]',
+    default: '-z',
+    flag: {
+      section: 'mesh',
+      value: 'V',
+      help: 'the direction to look in: -x, +x, -y, +y, -z (the default: what has the largest z is in front), +z, a ' +
+        'vector as 0,-1,-1, or best-fit: straight at the plane that fits best. Up is near +y (along -y it is -z)',
+    },
+  },
+  /**
+   * Vertices along the longer side of what is seen, at least 2. Default 200; of a point cloud fewer,
+   * where that leaves less than four points for each vertex.
+   */
+  resolution: {
+    kind: whole,
+    flag: {
+      section: 'mesh',
+      value: 'N',
+      help: 'vertices along the longer side (default 200; of a point cloud fewer, to leave each some points)',
+    },
+  },
+};
+
+/** @satisfies {Options} */
+export const example = {
+  /** Pixels along the longer side. */
+  size: { kind: whole, default: 200 },
+  /** Standard deviation of the noise, as a share of the example's height range. */
+  noise: { kind: number, default: 0.02 },
+  /** Seed of the noise: an integer from 0 to 2^32 - 1. */
+  seed: { kind: whole, default: 1 },
+};

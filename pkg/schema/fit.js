@@ -1,0 +1,239 @@
+/** Options of fits, and of the search for occlusions. Each comment is what the types say; the default is added there. */
+import { bridging, choice, either, flag, flags, number, threshold, whole } from './kinds.js';
+
+/** @typedef {import('./kinds.js').Options} Options */
+
+/** The lattice that an image is resampled to. @satisfies {Options} */
+export const resampling = {
+  /** Lattice spacing for an image input, in units of length. Default: its pixel size. */
+  spacing: { kind: number },
+};
+
+/** @satisfies {Options} */
+export const solver = {
+  /**
+   * The paper's setting, `lambda: 'medium'` and `energy: 'nuclear'`, for what is not given otherwise.
+   * It suits shapes that are to be approximated by few large sheets; the smaller `lambda`, the fewer.
+   */
+  paper: {
+    kind: flag,
+    default: false,
+    flag: {
+      section: 'energy',
+      help: "the paper's setting, --lambda medium --energy nuclear, for what is not given otherwise: few large flat sheets",
+    },
+  },
+  /**
+   * Weight of the fidelity term, for coordinates normalised to the unit square:
+   * `'small'` 1e5 (heavy noise, few large patches), `'medium'` 1e6, `'big'` 1e7
+   * (nearly developable input), a number from 1e-12 to 1e15, or `'auto'`.
+   *
+   * `'auto'` finds it from the noise of the heights: a first value from the size of the noise, then the value that predicts
+   * held-out heights best, by some solves on a lattice of twice the spacing. With the energy `'huber'` the parameters of the
+   * energy are found likewise. An input whose noise cannot be measured, as a design, has 1e6. `report.lambdaChoice` tells
+   * what was found. It costs about as much as two solves, or several where there are few heights.
+   */
+  lambda: {
+    kind: either(choice('small', 'medium', 'big', 'auto'), number),
+    default: 'auto',
+    flag: {
+      section: 'energy',
+      value: 'L',
+      help: 'how closely to follow the input: small (1e5), medium (1e6), big (1e7), any number above zero, or auto: by the noise of ' +
+        'the input, and medium where it has none, as a design (default: auto)',
+    },
+  },
+  /** What is minimised besides the fidelity term. For a design the default is `'nuclear'`. */
+  energy: {
+    kind: choice('nuclear', 'frobenius', 'squaredNuclear', 'secondFormOfInput', 'secondForm', 'huber'),
+    type: 'Energy',
+    default: 'huber',
+    flag: {
+      section: 'energy',
+      value: 'E',
+      help: 'huber (smooth bends and sharp creases), nuclear, frobenius, squaredNuclear, secondFormOfInput or secondForm (default: ' +
+        'huber; nuclear for a design)',
+    },
+  },
+  /**
+   * Reweighting passes: each solves again with every vertex's penalty divided by its size before, which undoes a
+   * part of the shrinkage of large curvatures. A whole number up to 20. Refused with the energy `'huber'`,
+   * which has crease passes.
+   */
+  reweighting: {
+    kind: whole,
+    default: 0,
+    flag: {
+      section: 'energy',
+      value: 'N',
+      help: 'passes that undo a part of the shrinking of curvature, for any energy but huber (default 0)',
+    },
+  },
+  /**
+   * For the energy `'huber'`, and refused with others: bends of a larger radius cost their square, others their size, in
+   * normalised coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
+   */
+  bendRadius: {
+    kind: number,
+    flag: {
+      section: 'energy',
+      value: 'R',
+      help: 'huber: bends of a larger radius, as a share of the longer side, cost their square (default: from the noise with ' +
+        '--lambda auto, else 0.1)',
+    },
+  },
+  /**
+   * For the energy `'huber'`, and refused with others: the slope that the cost of bends begins with, from 0 (nothing is quite
+   * flat) to 1 (the nuclear norm). Default: found with `lambda: 'auto'`, else 0.3, and more where lambda is large
+   * for the noise of the input.
+   */
+  flatness: {
+    kind: number,
+    flag: {
+      section: 'energy',
+      value: 'A',
+      help: 'huber: from 0 (nothing is quite flat) to 1 (the nuclear norm) (default: from the noise; 0.3 where --lambda is a ' +
+        'number that suits it)',
+    },
+  },
+  /**
+   * For the energy `'huber'`, and refused with others: tighter bends than this radius are creases, in normalised
+   * coordinates, from 1e-6 to 1e6. Default: found with `lambda: 'auto'`, else 0.1.
+   */
+  creaseRadius: {
+    kind: number,
+    flag: {
+      section: 'energy',
+      value: 'R',
+      help: 'huber: what bends more tightly, as a share of the longer side, is a crease (default: from the noise with ' +
+        '--lambda auto, else 0.1)',
+    },
+  },
+  /**
+   * For the energy `'huber'`, and refused with others: maximum number of crease passes after the first solve, a whole number
+   * up to 20. They end where they change next to nothing. Default: 2, or 0 where lambda is large for the noise of the input,
+   * of which passes would make creases.
+   */
+  creasePasses: {
+    kind: whole,
+    flag: {
+      section: 'energy',
+      value: 'N',
+      help: 'huber: most passes that give creases their angle back (default: 2, or 0 where lambda is too large for the noise)',
+    },
+  },
+  /**
+   * Weight, in place of lambda, of the squared distance from the thin plate through the
+   * constraints, at vertices without a fidelity term, where the surface need not be unique
+   * otherwise. From 1e-12 to 1e15. Default 0.01. Refused where there is no such vertex.
+   */
+  tieBreak: {
+    kind: number,
+    flag: { section: 'energy', value: 'E', help: 'weight that keeps free vertices near a thin plate, where there are any (default 0.01)' },
+  },
+  /** Scale x, y and z by one factor to the unit square before solving (and back after). */
+  normalize: {
+    kind: flag,
+    default: true,
+    flag: {
+      section: 'energy',
+      name: 'no-normalize',
+      help: 'take the coordinates as they are, instead of scaling them to the unit square, for which lambda is meant',
+    },
+  },
+  /**
+   * Certified relative duality gap to stop at, between 0 and 1 (exclusive). The objective is then at most
+   * 1 / (1 - gap) times the optimum. Refused with the paper's schedule, which stops on residuals.
+   */
+  gap: {
+    kind: number,
+    default: 0.01,
+    flag: { section: 'stop', value: 'G', help: "certified relative gap to stop at (default 0.01), which the paper's schedule has not" },
+  },
+  /** `'default'` stops on the certified gap; `'paper'` follows Sec. 4.1 and stops on residuals. */
+  schedule: {
+    kind: choice('default', 'paper'),
+    default: 'default',
+    flag: { section: 'stop', value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
+  },
+  /** Most ADMM iterations. */
+  maxIterations: {
+    kind: whole,
+    default: 20000,
+    flag: {
+      section: 'stop',
+      value: 'N',
+      help: 'most iterations (default 20000); with --surface of each linearised problem (default 1000)',
+    },
+  },
+  ...resampling,
+  /**
+   * Looks for occlusions first, as {@link OcclusionOptions.threshold} says; they come to those
+   * that the input names. `'auto'` is the authors' value, 4e4. Default: none are looked for. A design
+   * has no heights to find any in.
+   */
+  occlusionThreshold: {
+    kind: threshold,
+    flag: {
+      section: 'known',
+      value: 'T',
+      help: "look for more such places: where it bends by more than T; auto is the authors' value, 4e4",
+    },
+  },
+  /**
+   * Holes up to this width are bridged, in pixels of an image or vertices of a lattice, 1 to 16:
+   * dead pixels, speckle, lost rows and columns. What counts is a hole's narrow side; large holes,
+   * what a mask takes out, and gaps between two levels of depth stay. Bridged places are part of
+   * the surface and of its image; `report.bridged` counts them. `true` is the default, 4; `false`,
+   * 0, `'none'` and `'off'` bridge none. A design has none.
+   */
+  bridge: {
+    kind: bridging,
+    default: true,
+    flag: {
+      section: 'known',
+      value: 'N',
+      help: 'holes are bridged that are up to so many pixels across their narrow side, 1 to 16 (default 4), or none; ' +
+        'not between two levels of depth',
+    },
+  },
+};
+
+/**
+ * Options of a fit over a whole mesh. The energy is `huber`; a mesh is scaled so that the ball about it has diameter 1.
+ * @satisfies {Options}
+ */
+export const meshSolver = {
+  /** How closely to follow the input, in those coordinates. `'auto'`: by the noise of the mesh. */
+  lambda: { kind: solver.lambda.kind, default: 'auto', flag: solver.lambda.flag },
+  /** Certified relative gap of each linearised problem to stop at. */
+  gap: { kind: number, default: 0.01, flag: solver.gap.flag },
+  /** Most ADMM iterations for each linearisation. */
+  maxIterations: { kind: whole, default: 1000, flag: solver.maxIterations.flag },
+  /** Bends of a larger radius cost their square, others their size. */
+  bendRadius: { kind: number, default: 0.1, flag: solver.bendRadius.flag },
+  /** The slope that the cost of bends begins with, from 0 (nothing is quite flat) to 1. */
+  flatness: { kind: number, default: 0.3, flag: solver.flatness.flag },
+  /** What bends more tightly is a crease. */
+  creaseRadius: { kind: number, default: 0.1, flag: solver.creaseRadius.flag },
+  /** Number of crease passes, each of another linearisation. Default: 2, or 0 where lambda is large for the noise. */
+  creasePasses: { kind: whole, flag: solver.creasePasses.flag },
+  /** Which vertices stay where they are. */
+  held: { kind: flags },
+};
+
+/** @satisfies {Options} */
+export const occlusions = {
+  /**
+   * Least magnitude of curvature, in normalised coordinates, that counts as a jump: larger than
+   * any fold has, and growing as the lattice gets finer. Above 0. The default is the authors' value.
+   */
+  threshold: {
+    kind: number,
+    default: 4e4,
+    flag: { section: 'known', value: 'T', help: 'where it bends by more than T, it is torn (default 4e4)' },
+  },
+  ...resampling,
+  /** Whether the threshold is meant for the unit square. */
+  normalize: { kind: flag, default: true },
+};

@@ -1,0 +1,164 @@
+/** Options of patterns and their drawings. Each comment is what the types say; the default is added there. */
+import { choice, either, flag, number, numbers } from './kinds.js';
+import { meshPatches, meshUnrolling, unroll } from './shape.js';
+
+/** @typedef {import('./kinds.js').Options} Options */
+
+const paper = either(
+  choice('a4', 'letter'),
+  either(numbers(2, '[width, height] of plates'), numbers(1, '[width] of a roll, in millimetres')),
+);
+
+/** How sheets may be strained. @satisfies {Options} */
+export const limits = {
+  /**
+   * The most strain that a sheet may be laid flat with, as a share (root of the mean square); what is strained by more
+   * is cut.
+   */
+  maxStrain: {
+    kind: number,
+    default: 0.01,
+    flag: {
+      section: 'shape',
+      value: 'S',
+      help: 'the most strain that a sheet may be laid flat with, as a share; what has more is cut (default 0.01)',
+    },
+  },
+};
+
+/** @satisfies {Options} */
+export const drawing = {
+  /** Millimetres for each unit of length. */
+  scale: {
+    kind: number,
+    default: 1,
+    flag: { section: 'shape', value: 'MM', help: 'millimetres of the pattern for each unit of length (default 1)' },
+  },
+  ...limits,
+  /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. 0 for none. */
+  tabs: {
+    kind: number,
+    default: 0,
+    flag: { section: 'shape', value: 'MM', help: 'depth of tabs to glue along creases that are cut (default: none)' },
+  },
+  /** Distance of marks along seams that are joined, in millimetres: the same on both sides. 0 for none. */
+  marks: {
+    kind: number,
+    default: 0,
+    flag: { section: 'shape', value: 'MM', help: 'marks along seams that are joined, so far apart, the same on both sides (default: none)' },
+  },
+  /** Width that a laser or a saw burns away, in millimetres: lines are cut half of it further out. */
+  kerf: {
+    kind: number,
+    default: 0,
+    flag: {
+      section: 'shape',
+      value: 'MM',
+      help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)',
+    },
+  },
+  /** What is left outside of all edges to be sewn or bent over, in millimetres. */
+  allowance: {
+    kind: number,
+    default: 0,
+    flag: { section: 'shape', value: 'MM', help: 'what is left outside of all edges to be sewn or bent over (default 0)' },
+  },
+  /**
+   * Thickness of metal, in millimetres: sheets get what bends take along the neutral line, and lose what they save
+   * beside the crease. The surface is the upper side of the metal. Folds have to be straight and go from edge to edge.
+   * Default: none is taken into account.
+   */
+  thickness: {
+    kind: number,
+    flag: {
+      section: 'shape',
+      value: 'MM',
+      help: 'thickness of metal: sheets get what its bends take; folds must be straight from edge to edge (default: none)',
+    },
+  },
+  /** Inner radius of bends, in millimetres. Default: the thickness. */
+  innerRadius: { kind: number, flag: { section: 'shape', value: 'MM', help: 'inner radius of bends (default: the thickness)' } },
+  /** Where the neutral line is, from the inside of a bend, as a share of the thickness. Default 0.44. */
+  kFactor: {
+    kind: number,
+    flag: {
+      section: 'shape',
+      value: 'K',
+      help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)',
+    },
+  },
+  /** How far smooth lines may be from those that were found on the lattice, in cells; 0 takes them as they are. */
+  smoothing: {
+    kind: number,
+    default: 0.5,
+    flag: {
+      section: 'shape',
+      value: 'CELLS',
+      help: 'how far smooth lines may be from those that were found, in cells of the lattice; 0 takes these (default 0.5)',
+    },
+  },
+  /**
+   * Pages to lay the sheets on, each whole on one where it fits, turned if it fits better so; paper that it is too
+   * large for is put together. Default: no pages, the sheets beside each other.
+   */
+  stock: {
+    kind: paper,
+    type: 'Stock',
+    flag: {
+      section: 'shape',
+      value: 'P',
+      help: 'a4, letter, WIDTHxHEIGHT of plates or WIDTHx of a roll, in millimetres: lay the sheets on pages of that size, each ' +
+        'whole on one where it fits; on a4 and letter larger ones on pages that are put together by the crosses on them ' +
+        '(default: none, all beside each other)',
+    },
+  },
+  /** Whether to tell how the sheets are put together. */
+  assembly: {
+    kind: flag,
+    default: false,
+    flag: {
+      section: 'shape',
+      value: 'FILE',
+      help: '.glb: the sheets going from flat to built, one after the other, as an animation; or .svg: the surface from above, ' +
+        'with their numbers and the letters of seams. The order of joints is in --report',
+    },
+  },
+};
+
+/** @satisfies {Options} */
+export const pattern = {
+  ...meshPatches,
+  ...unroll,
+  ...drawing,
+  /**
+   * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
+   * length; a quarter of the lattice's spacing is always allowed.
+   */
+  gap: { kind: number, default: 0.005 },
+  /**
+   * Whether sheets are folded back to see how near they come to the surface (`summary.refolding`). Takes about as long
+   * as laying them flat.
+   */
+  refold: { kind: flag, default: false },
+};
+
+/** Options of a mesh laid flat as it is. `bend` is the angle between triangles, by default at most 0.35. @satisfies {Options} */
+export const unrollMesh = {
+  ...meshPatches,
+  ...meshUnrolling,
+  /**
+   * How far the two sides of a fold may be from each other on the flat sheet, as a share of its
+   * length; a quarter of the mean length of edges is always allowed.
+   */
+  gap: { kind: number, default: 0.005 },
+  ...limits,
+};
+
+/** Options of the drawing of a mesh as it is laid flat. @satisfies {Options} */
+export const patternMesh = { ...unrollMesh, ...drawing };
+
+/** @satisfies {Options} */
+export const writePdf = {
+  /** Lay it on pages of this size first. Default: the drawing's own pages, or one as large as it is. */
+  stock: { kind: paper, type: 'Stock' },
+};

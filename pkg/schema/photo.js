@@ -1,0 +1,211 @@
+/** Options of photos, and of cameras that have taken them. Each comment is what the types say; the default is added there. */
+import { anything, choice, corners, either, extent, flag, number, numbers, optionsIn, percentage, positive, rows, whole } from './kinds.js';
+import { unroll } from './shape.js';
+
+/** @typedef {import('./kinds.js').Options} Options */
+
+/** Numbers of a camera, which `Intrinsics` and `PhotoCamera` describe. @satisfies {Options} */
+const seeing = {
+  fx: { kind: number },
+  fy: { kind: number },
+  cx: { kind: number },
+  cy: { kind: number },
+  width: { kind: whole },
+  height: { kind: whole },
+  k1: { kind: number },
+  k2: { kind: number },
+  p1: { kind: number },
+  p2: { kind: number },
+  k3: { kind: number },
+  depthScale: { kind: number },
+  depth: { kind: choice('planar', 'ray') },
+  margin: { kind: whole },
+};
+
+/** @satisfies {Options} */
+export const camera = { ...seeing, unit: { kind: choice('mm', 'm') } };
+
+/** @satisfies {Options} */
+export const photoCamera = {
+  ...seeing,
+  rotation: { kind: rows(3, numbers(3, 'three numbers'), 'three rows of three numbers: a rotation matrix') },
+  translation: { kind: numbers(3, 'three numbers') },
+};
+
+/** The camera of a photo. */
+const otherCamera = optionsIn(photoCamera, 'must be a camera: { fx, fy, cx, cy, width, height }');
+
+/**
+ * What is known of depths besides. Images may be finer or coarser than the depths, but must show the same.
+ * @satisfies {Options}
+ */
+export const depths = {
+  /**
+   * How far each depth is to be trusted. Whole numbers up to 2 are the levels that ARKit tells: 0 takes the depth out, 1
+   * gives it a fourth of the weight, 2 all of it. Others are shares of the largest of their type (255 of bytes, as
+   * ARCore tells), floats are factors from 0 to 1 themselves; 0 takes the depth out. It goes along to `fit`.
+   */
+  confidence: { kind: anything, type: 'Pixels' },
+  /** 0 takes out; of the depths, or of the photo. */
+  mask: { kind: anything, type: 'Pixels' },
+  /**
+   * Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it are taken out, and what of the
+   * rest is small and apart, as what is seen behind a bent edge.
+   */
+  crop: { kind: corners },
+  /** The size of the photo that `crop` is about. */
+  photo: { kind: anything, type: '{ width: number; height: number }' },
+  /**
+   * The camera of the photo, which `mask` (unless it is as large as the depths) and `crop` are seen through. Default: the
+   * depths' own.
+   */
+  camera: { kind: otherCamera, type: 'PhotoCamera' },
+  /**
+   * Degrees by which the depths are turned clockwise first, with all that is about them (the camera's numbers, the
+   * confidence, a mask of their size), to lie as the photo does: phones store depths as the sensor lies.
+   */
+  turn: { kind: whole, type: '0 | 90 | 180 | 270', default: 0 },
+};
+
+/** @satisfies {Options} */
+export const paint = {
+  /**
+   * The part of the plane that the picture shows: left, bottom, right, top. Default: the picture is where the surface's
+   * camera sees its points, or else where its texture coordinates say; without any, as for `dewarp`.
+   */
+  extent: { kind: extent },
+  /**
+   * The camera that took the picture, for heights that were sampled from a mesh in a camera's axes, as for `dewarp`.
+   * What it does not see keeps its colour.
+   */
+  camera: { kind: otherCamera, type: 'PhotoCamera' },
+};
+
+/** The warp map of a flat image. @satisfies {Options} */
+export const mapping = {
+  /** Pixels of the flat image per unit of length. Default: as many as the photo has of the sheet or the page. */
+  dots: { kind: positive, flag: { section: 'shape', value: 'D', help: 'pixels of the flat image per unit of length (default: as many as the photo has)' } },
+  /** Whether the warp map is wanted in full, which takes eight bytes for each pixel. */
+  map: {
+    kind: flag,
+    default: true,
+    flag: {
+      section: 'shape',
+      value: 'FILE',
+      help: '.npy (height, width, 2): for each pixel of the flat image its place x, y in the photo; or .json: the same for the ' +
+        'points of a grid, between which it is bilinear to a quarter of a pixel',
+    },
+  },
+  /**
+   * Whether it is wanted on a grid of points, too; a number is the largest error that is allowed between
+   * them, in pixels of the photo, which is 0.25 for true.
+   */
+  grid: { kind: either(flag, positive), default: false },
+};
+
+/** @satisfies {Options} */
+export const dewarp = {
+  ...unroll,
+  ...mapping,
+  /**
+   * Cut off the margins: keep the largest upright rectangle that is all sheet, or, of a `crop` with four corners, the
+   * rectangle that these are on the flat sheet.
+   */
+  trim: {
+    kind: flag,
+    default: false,
+    flag: { section: 'shape', help: 'a clean rectangle: without the margins where there is no sheet, or that of the four corners of --crop' },
+  },
+  /** Turn the flat image upright: the sides of `crop`, or the smallest rectangle around the sheet. */
+  deskew: {
+    kind: flag,
+    default: false,
+    flag: { section: 'shape', help: 'turn the flat image upright, by the sides of --crop, or by the smallest rectangle around the sheet' },
+  },
+  /**
+   * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
+   * The sheet is continued up to there, by 6 % at most, and the flat image ends there. Default: all of it.
+   */
+  crop: {
+    kind: corners,
+    flag: {
+      section: 'colours',
+      value: 'x,y,x,y,x,y...',
+      help: 'corners of the part of the photo that is wanted, in its pixels from the upper left; the sheet is continued ' +
+        'up to there and ends there, and depths beside it are left out',
+    },
+  },
+  /**
+   * The part of the plane that the photo shows: left, bottom, right, top. Default: that of the
+   * height image, also of the one that a surface was made from; of heights on a lattice, what their
+   * vertices cover.
+   */
+  extent: { kind: extent },
+  /**
+   * The camera that took the photo, for heights that were sampled from a mesh in a camera's axes. Default: the one that
+   * has seen the depths; of other meshes, their texture coordinates say where in the photo they are.
+   */
+  camera: { kind: otherCamera, type: 'PhotoCamera' },
+};
+
+/** @satisfies {Options} */
+export const dewarpPage = {
+  /** The camera's focal length, in pixels of the photo. */
+  focalLength: {
+    kind: positive,
+    flag: {
+      section: 'page',
+      value: 'PIXELS',
+      help: "the camera's focal length, in pixels of the photo (default: what the photo's Exif data tell, or else " +
+        'what the perspective tells)',
+    },
+  },
+  /** The same as the angle, in degrees, that the photo's longer side covers. */
+  fieldOfView: {
+    kind: positive,
+    flag: { section: 'page', value: 'DEGREES', help: "the same as the angle that the photo's longer side covers" },
+  },
+  /**
+   * The same in millimetres, as for a film of 36 by 24 mm. Default: what `readPhoto` has found in the
+   * file. With none of the three it is found from the perspective, if that is strong enough.
+   */
+  film35: { kind: positive },
+  /** The format of the page, or of each page of a spread: by name, or width and height in millimetres. */
+  page: {
+    kind: either(choice('a4', 'letter'), numbers(2, 'width and height in millimetres')),
+    flag: {
+      section: 'page',
+      value: 'P',
+      help: "the page's format, each page's of a spread: a4, letter or WIDTHxHEIGHT in millimetres, in which lengths " +
+        "are then (default: in the page's width)",
+    },
+  },
+  /** A known distance on the page, in millimetres, between two places in the photo. */
+  ruler: { kind: anything, type: '{ from: readonly [number, number]; to: readonly [number, number]; length: number }' },
+  /** Where the camera's axis meets the photo, in its pixels. Default: the middle. Of a cropped photo, the whole one's. */
+  centre: { kind: numbers(2, 'two numbers: x and y in the photo') },
+  /** How near to the edge traced points are meant to be, in pixels. Default: 1/2500 of the photo's diagonal. */
+  accuracy: { kind: positive },
+  /**
+   * Whether lines of text are looked for in the photo: where print stands on lines that agree with the edges, they make
+   * the page more exact, and where they do not, the verdict says so. Default: if `lines` are given of no page.
+   */
+  findLines: { kind: flag },
+  ...mapping,
+};
+
+/** @satisfies {Options} */
+export const writePhoto = {
+  /** The kind of file. */
+  format: { kind: choice('png', 'jpeg', 'pdf'), default: 'png' },
+  /** Quality of JPEG, and of the picture in a PDF, from 1 to 100. Default 90. */
+  quality: {
+    kind: percentage,
+    flag: { section: 'shape', value: 'Q', help: 'of a .jpg, and of the picture in a .pdf: from 1 to 100 (default 90)' },
+  },
+  /**
+   * Pixels for each millimetre of what is shown. Default: by the photo's own `resolution` and `unit`. It makes the
+   * page of a PDF, and is stated in PNG (in whole pixels per metre) and JPEG (in whole pixels per inch or centimetre).
+   */
+  dotsPerMillimetre: { kind: positive },
+};

@@ -1,0 +1,144 @@
+/** Options of what is found in a surface, and of pictures of it. Each comment is what the types say; the default is added there. */
+import { anything, choice, extent, number, numbers, positive, whole } from './kinds.js';
+import { resampling } from './fit.js';
+
+/** @typedef {import('./kinds.js').Options} Options */
+
+/** @satisfies {Options} */
+export const analyze = {
+  /**
+   * Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts.
+   * The default is that of a sphere whose radius is the longer side.
+   */
+  threshold: { kind: number, default: 1 },
+  /** Another surface on the same lattice, such as the input, to tell the deviation from. */
+  reference: { kind: anything, type: 'HeightImage | Heightfield' },
+  ...resampling,
+};
+
+/** Options of the figures of a mesh as it is. @satisfies {Options} */
+export const analyzeMesh = {
+  /** Gaussian curvature, in coordinates in which the ball about the mesh has the diameter 1, above which a vertex counts. */
+  threshold: { kind: number, default: 1 },
+};
+
+/** @satisfies {Options} */
+export const meshPatches = {
+  /**
+   * Angle, in radians, by which the surface bends from one vertex to the next on a crease. Default:
+   * six times its median, and at least 0.035.
+   */
+  bend: {
+    kind: number,
+    flag: {
+      section: 'shape',
+      value: 'A',
+      help: 'angle, in radians, by which the surface bends from one vertex to the next on a crease (default: six ' +
+        'times its median, and at least 0.035)',
+    },
+  },
+  /** Angle between the two sides of a crease: patches that fold by less are one. */
+  fold: {
+    kind: number,
+    default: 0.15,
+    flag: { section: 'shape', value: 'A', help: 'patches that fold by less, in radians, are one (default 0.15)' },
+  },
+  /** Share of all vertices that a patch has at least. */
+  smallest: {
+    kind: number,
+    default: 0.005,
+    flag: { section: 'shape', value: 'S', help: 'share of all vertices that a patch has at least (default 0.005)' },
+  },
+};
+
+/** @satisfies {Options} */
+export const patches = { ...meshPatches, ...resampling };
+
+/** @satisfies {Options} */
+export const rulings = {
+  /** Distance between lines, as seen from above. Default: ten lattice spacings. */
+  separation: {
+    kind: number,
+    flag: {
+      section: 'shape',
+      value: 'D',
+      help: 'distance between lines, as seen from above, with --surface in space (default: ten lattice spacings, or lengths of an edge)',
+    },
+  },
+  /** A line ends where its direction is trusted by less, from 0 to 1. */
+  confidence: {
+    kind: number,
+    default: 0.3,
+    flag: {
+      section: 'shape',
+      name: 'min-confidence',
+      value: 'C',
+      help: 'a line ends where its direction is trusted by less, from 0 to 1 (default 0.3)',
+    },
+  },
+  /** A line ends where the surface bends by more from one vertex to the next, in radians. */
+  crease: {
+    kind: number,
+    default: 0.2,
+    flag: {
+      section: 'shape',
+      value: 'A',
+      help: 'a line ends where the surface bends by more from one vertex to the next, in radians (default 0.2)',
+    },
+  },
+  ...resampling,
+};
+
+/** @satisfies {Options} */
+export const meshRulings = {
+  /** Distance between lines, in space. Default: ten times the mean length of an edge. */
+  separation: { kind: number, flag: rulings.separation.flag },
+  confidence: rulings.confidence,
+  crease: rulings.crease,
+};
+
+/** @satisfies {Options} */
+export const meshUnrolling = {
+  /** Stop when an iteration changes the mean of the squared strains by less than this. */
+  tolerance: { kind: positive, default: 1e-10 },
+  /** Most iterations. */
+  maxIterations: { kind: whole, default: 500 },
+};
+
+/** @satisfies {Options} */
+export const unroll = { ...meshUnrolling, ...resampling };
+
+/** @satisfies {Options} */
+export const picture = {
+  ...patches,
+  /**
+   * - `'shaded'`: matt steel under one light;
+   * - `'curvature'`: from blue (below 0) over white to red (above 0); grey where there is none, beside
+   *   borders;
+   * - `'patches'`: a colour for each patch, darker where they meet; `bend`, `fold` and `smallest` are
+   *   for this one.
+   *
+   */
+  style: { kind: choice('shaded', 'curvature', 'patches'), default: 'shaded' },
+  /**
+   * For `'shaded'`, towards the light: x to the right, y up, z towards the viewer and above 0; of any
+   * length. Brightness is 0.15 + 0.85 times the cosine of the angle to the normal. Default: above to
+   * the left.
+   */
+  light: { kind: numbers(3, 'three numbers: a vector towards the light') },
+  /** Which one: `'gaussian'`, or `'kappa2'`, as `analyze` gives them. */
+  curvature: { kind: choice('gaussian', 'kappa2'), default: 'gaussian' },
+  /**
+   * The curvature at the ends of the colours, in units of the surface; beyond it they stay the same.
+   * Default: that of a sphere as wide as the longer side of the surface.
+   */
+  limit: { kind: number },
+  /** Pixels across; those down follow. Default: one for each lattice spacing. */
+  width: { kind: whole },
+  /**
+   * The part of the plane that is drawn: left, bottom, right, top. Default: that of the height
+   * image, also of the one that a surface was made from; of other lattices, half a spacing around
+   * their vertices.
+   */
+  extent: { kind: extent },
+};

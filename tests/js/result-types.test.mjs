@@ -1,0 +1,124 @@
+/** What calls return has the properties that the types declare: all that are required, and no others. */
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { test } from 'node:test';
+import * as direct from '../../pkg/direct.js';
+import { gridMesh, image, lattice, noisy } from './support/shapes.mjs';
+
+/** @typedef {Map<string, { optional: boolean, type: string }>} Members */
+
+/** What the types say, without comments. */
+const declarations = (await readFile(new URL('../../pkg/types.d.ts', import.meta.url), 'utf8')).replace(/\/\*[^]*?\*\//g, '');
+
+/** The end of what begins at a place, where its brackets are closed. @param {string} text @param {number} start @param {string} ends */
+function endOf(text, start, ends) {
+  for (let i = start, depth = 0; i < text.length; i++) {
+    if (depth === 0 && ends.includes(text[i])) return i;
+    if ('{[(<'.includes(text[i])) depth++;
+    if ('}])'.includes(text[i]) || (text[i] === '>' && text[i - 1] !== '=')) depth--;
+  }
+  return text.length;
+}
+
+/** The members of an object type, from what stands between its braces. @param {string} body @returns {Members} */
+function membersOf(body) {
+  /** @type {Members} */
+  const members = new Map();
+  for (let rest = body.trim(); rest !== ''; ) {
+    const end = endOf(rest, 0, ';,');
+    const [, name, optional, type] = /^(?:readonly )?(\w+)(\?)?:\s*([^]*)$/.exec(rest.slice(0, end)) ?? [];
+    if (name !== undefined) members.set(name, { optional: optional !== undefined, type: type.trim() });
+    rest = rest.slice(end + 1).trim();
+  }
+  return members;
+}
+
+/** The members of a named interface, with those that it extends. @param {string} name @returns {Members | undefined} */
+function interfaceOf(name) {
+  const [head, bases = ''] = new RegExp(`^export interface ${name}\\b(?:<.*?>)? ?(?:extends (.*?) )?\\{`, 'm').exec(declarations) ?? [];
+  if (head === undefined) return undefined;
+  const start = declarations.indexOf(head) + head.length;
+  const own = membersOf(declarations.slice(start, endOf(declarations, start, '}')));
+  const inherited = bases.split(/, (?![^<]*>)/).filter(Boolean).flatMap((base) => {
+    const [, omitted, names = ''] = /^Omit<(\w+), (.*)>$/.exec(base) ?? [];
+    return [...(interfaceOf(omitted ?? base) ?? [])].filter(([member]) => !names.includes(`'${member}'`));
+  });
+  return new Map([...inherited, ...own]);
+}
+
+/** @param {string} type @returns {Members | undefined} */
+function shapeOf(type) {
+  if (type.startsWith('{') && endOf(type, 1, '}') === type.length - 1) return membersOf(type.slice(1, -1));
+  return /^\w+$/.test(type) ? interfaceOf(type) : undefined;
+}
+
+let compared = 0;
+
+/**
+ * Compares a value with its type, and what is in it.
+ * @param {unknown} value
+ * @param {string} type
+ * @param {string} path
+ */
+function compare(value, type, path) {
+  const list = /^([^]*)\[\]$/.exec(type)?.[1];
+  if (list !== undefined && Array.isArray(value)) {
+    for (const one of value.slice(0, 3)) compare(one, list, `${path}[]`);
+    return;
+  }
+  const members = shapeOf(type);
+  if (members === undefined || typeof value !== 'object' || value === null) return;
+  compared += 1;
+  const entries = Object.entries(value).filter(([, one]) => one !== undefined);
+  const names = entries.map(([name]) => name);
+  assert.deepEqual(names.filter((name) => !members.has(name)), [], `${path} has what ${type} does not declare`);
+  const required = [...members].filter(([, { optional }]) => !optional).map(([name]) => name);
+  assert.deepEqual(required.filter((name) => !names.includes(name)), [], `${path} lacks what ${type} declares`);
+  for (const [name, one] of entries) compare(one, members.get(name)?.type ?? '', `${path}.${name}`);
+}
+
+await direct.init();
+await direct.load('files', 'images', 'meshes', 'fitmesh', 'unroll', 'patterns');
+
+const roof = (/** @type {number} */ x) => 12 - 0.6 * Math.abs(x - 20);
+const scan = image(40, 32, noisy(roof, 0.1));
+const field = lattice(24, 24, (x) => 3 - 0.4 * Math.abs(x - 12));
+const mesh = gridMesh(13, 9, (col, row) => [col, row, -0.5 * Math.abs(col - 6)]);
+const photo = { width: 40, height: 32, data: new Uint8ClampedArray(4 * 40 * 32).fill(200) };
+
+const page = { width: 480, height: 640, data: new Uint8ClampedArray(4 * 480 * 640).fill(200) };
+/** The edge of a curled page. @param {number} y */
+const edge = (y) => Array.from({ length: 21 }, (_, i) => /** @type {[number, number]} */ ([60 + 18 * i, y - 20 * Math.sin((Math.PI * i) / 20)]));
+
+/** Results by the names of their types. @type {[string, () => unknown][]} */
+const results = [
+  ['ImageSurface', () => direct.fit(scan)],
+  ['LatticeSurface', () => direct.fit(field, { paper: true, schedule: 'paper', maxIterations: 20 })],
+  ['ImageSurface', () => direct.fit({ ...scan, data: undefined, constraints: Float64Array.from(scan.data, (z, i) => (i % 7 ? NaN : z)) })],
+  ['MeshSurface', () => direct.fitMesh(mesh)],
+  ['DetectedOcclusions', () => direct.occlusions(scan)],
+  ['FittedCylinder', () => direct.fitCylinder(field)],
+  ['Analysis', () => direct.analyze(scan, { reference: scan })],
+  ['MeshAnalysis', () => direct.analyzeMesh(mesh)],
+  ['PatchMap', () => direct.patches(scan)],
+  ['RulingField', () => direct.rulings(field)],
+  ['MeshRulings', () => direct.meshRulings(mesh)],
+  ['Unrolling', () => direct.unroll(field)],
+  ['MeshUnrolling', () => direct.unrollMesh(mesh)],
+  ['Drawing', () => direct.pattern(field, { assembly: true, stock: 'a4', tabs: 2, marks: 5, refold: true })],
+  ['Drawing', () => direct.patternMesh(mesh)],
+  ['Dewarped', () => direct.dewarp(image(40, 32, roof), photo, { grid: true })],
+  ['DewarpedPage', () => direct.dewarpPage(page, { top: edge(100), bottom: edge(560) }, { focalLength: 480, page: 'a4', grid: true })],
+  ['SampledMesh', () => direct.sampleMesh(mesh)],
+  ['ReadResult', () => direct.read(direct.writeNpy(scan))],
+  ['DecodedPhoto', () => direct.readPhoto(direct.writePhoto(photo))],
+  ['Example', () => direct.example('cone', { size: 20 })],
+];
+
+test('results have the properties that the types declare', () => {
+  for (const [type, result] of results) {
+    assert.ok(interfaceOf(type), `there is no interface ${type}`);
+    compare(result(), type, type);
+  }
+  assert.ok(compared > 60, `${compared} objects`);
+});

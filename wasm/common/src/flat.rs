@@ -1,12 +1,11 @@
 //! Flat images out, and their warp maps, in full and on a grid.
 
 use js_sys::{Float32Array, Uint8ClampedArray};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_wasm_bindgen::preserve;
-use wasm_bindgen::prelude::*;
 
 use super::Result;
-use super::options::renamed;
+use super::options::{Given, renamed};
 use developable::checks::try_filled;
 use developable::dewarp::{Photo, WarpGrid, WarpMap};
 
@@ -30,21 +29,10 @@ pub fn flat_image(map: &WarpMap, photo: &Photo<'_>) -> Result<Uint8ClampedArray>
 }
 
 /// What of the warp map is wanted besides the image.
-#[derive(Deserialize)]
-#[serde(default)]
 pub struct MapOptions {
     map: bool,
-    #[serde(with = "preserve")]
-    grid: JsValue,
-}
-
-impl Default for MapOptions {
-    fn default() -> Self {
-        MapOptions {
-            map: true,
-            grid: JsValue::FALSE,
-        }
-    }
+    /// The largest error between nodes, if a grid is wanted.
+    grid: Option<f64>,
 }
 
 /// Largest error between nodes of a grid, unless one is given: in pixels of the photo.
@@ -54,6 +42,17 @@ const DEFAULT_GRID_TOLERANCE: f64 = 0.25;
 const NODES: usize = 40_000;
 
 impl MapOptions {
+    pub fn new(given: &mut Given) -> Self {
+        let grid = given.value("grid");
+        MapOptions {
+            map: given.flag("map").unwrap_or(true),
+            grid: match grid.as_bool() {
+                Some(wanted) => wanted.then_some(DEFAULT_GRID_TOLERANCE),
+                None => grid.as_f64(),
+            },
+        }
+    }
+
     /// The places of all pixels, if they are wanted.
     pub fn places(&self, map: &WarpMap) -> Float32Array {
         let places = if self.map { map.places() } else { &[] };
@@ -61,11 +60,7 @@ impl MapOptions {
     }
 
     pub fn grid(&self, map: &WarpMap) -> Result<Option<GridOutput>> {
-        let tolerance = match self.grid.as_bool() {
-            Some(wanted) => wanted.then_some(DEFAULT_GRID_TOLERANCE),
-            None => self.grid.as_f64(),
-        };
-        let found = tolerance
+        let found = (self.grid)
             .map(|tolerance| map.grid(tolerance, NODES))
             .transpose()
             .map_err(|error| renamed(error, "tolerance", "grid"))?;

@@ -1,15 +1,14 @@
 //! Options from plain JS objects, into the structures of the library.
 
-use js_sys::{Array, JsString, Object};
+use js_sys::{Array, JsString, Object, Reflect};
 use serde::de::value::Error as NoValue;
 use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
-use serde::{Deserialize, forward_to_deserialize_any};
+use serde::forward_to_deserialize_any;
 use serde_wasm_bindgen::from_value;
 use wasm_bindgen::prelude::*;
 
 use super::{Failure, Result};
 use developable::Error;
-use developable::analysis::DEFAULT_GAUSSIAN_THRESHOLD;
 
 /// The options of a call, to be read into one or more structures whose fields have their names. Ranges and kinds of values
 /// that JavaScript tells apart are checked there, by `pkg/schema/`.
@@ -41,7 +40,24 @@ impl Given {
         Ok(from_value(self.options.clone().into())?)
     }
 
-    /// Refuses options that are no field of what was read.
+    /// The value of one option, `undefined` where it is not given.
+    pub fn value(&mut self, name: &'static str) -> JsValue {
+        self.known.push(name);
+        // Cannot fail: `options.js` has made the object, without getters.
+        Reflect::get(&self.options, &name.into()).unwrap_or_default()
+    }
+
+    /// An option that is a number.
+    pub fn number(&mut self, name: &'static str) -> Option<f64> {
+        self.value(name).as_f64()
+    }
+
+    /// An option that is true or false.
+    pub fn flag(&mut self, name: &'static str) -> Option<bool> {
+        self.value(name).as_bool()
+    }
+
+    /// Refuses options that nothing has read.
     pub fn finish(self) -> Result<()> {
         let names = Object::keys(&self.options);
         let mut names = names.iter().map(|name| String::from(JsString::from(name)));
@@ -83,26 +99,6 @@ impl<'de> Deserializer<'de> for FieldNames<'_> {
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit unit_struct newtype_struct seq
         tuple tuple_struct map enum identifier ignored_any
-    }
-}
-
-/// The spacing of the lattice that an image is resampled to.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-pub struct Resampling {
-    pub spacing: Option<f64>,
-}
-
-/// What is told of curvatures: the Gaussian curvature above which a vertex counts.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-pub struct Analyzing {
-    threshold: Option<f64>,
-}
-
-impl Analyzing {
-    pub fn threshold(&self) -> f64 {
-        self.threshold.unwrap_or(DEFAULT_GAUSSIAN_THRESHOLD)
     }
 }
 

@@ -1,18 +1,18 @@
 //! Surfaces fitted to meshes as they are, without a view.
 
 use js_sys::{Float64Array, Uint8Array};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::analysis::{MeshCurvatures, Summary};
+use developable::analysis::{DEFAULT_GAUSSIAN_THRESHOLD, MeshCurvatures, Summary};
 use developable::rulings::{MeshRulings, Ruling, TraceOptions};
 use developable::{MeshKnown, MeshOptions, MeshReport, Status};
 use developable_wasm::Result;
 use developable_wasm::arrays::groups;
 use developable_wasm::bytes::copied;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{Analyzing, Given, read};
+use developable_wasm::options::{Given, read};
 
 /// What `MeshSurface` of `types.d.ts` has besides its mesh.
 #[derive(Serialize)]
@@ -20,14 +20,6 @@ struct Output<'a> {
     #[serde(with = "preserve")]
     positions: Float64Array,
     report: &'a MeshReport,
-}
-
-/// Vertices that stay where they are, which is no option of the library but known of its input.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Held {
-    #[serde(with = "preserve")]
-    held: JsValue,
 }
 
 /// A solve over a mesh that runs in steps.
@@ -50,7 +42,7 @@ impl MeshSolver {
         let mesh = mesh.into_mesh()?;
         let mut given = Given::new(&options)?;
         let settings: MeshOptions = given.read()?;
-        let Held { held } = given.read()?;
+        let held = given.value("held");
         given.finish()?;
         if let Some(held) = held.dyn_ref::<Uint8Array>() {
             let held = copied(held)?;
@@ -106,11 +98,13 @@ struct AnalysisOutput {
 /// How developable a mesh is.
 #[wasm_bindgen(js_name = analyzeMesh)]
 pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
-    let threshold = read::<Analyzing>(&options)?.threshold();
+    let mut given = Given::new(&options)?;
+    let threshold = given.number("threshold");
+    given.finish()?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let found = MeshCurvatures::new(&mesh)?;
     Ok(to_value(&AnalysisOutput {
-        summary: found.summary(&mesh, threshold)?,
+        summary: found.summary(&mesh, threshold.unwrap_or(DEFAULT_GAUSSIAN_THRESHOLD))?,
         gaussian: found.gaussian.as_slice().into(),
         kappa1: found.kappa1.as_slice().into(),
         kappa2: found.kappa2.as_slice().into(),

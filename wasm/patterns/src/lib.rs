@@ -14,26 +14,9 @@ use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{MeshPattern, Missing, PatternOptions, Sheet, pattern, pattern_mesh};
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
-use developable_wasm::options::{Given, Resampling, read};
+use developable_wasm::options::{Given, read};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 use developable_wasm::{Failure, Result};
-
-/// How metal is bent.
-#[derive(Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct Metal {
-    thickness: Option<f64>,
-    inner_radius: Option<f64>,
-    k_factor: Option<f64>,
-}
-
-/// What is made of sheets, besides the options of the library.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Sheets {
-    stock: Option<Paper>,
-    assembly: bool,
-}
 
 /// What is asked for of a pattern.
 #[derive(Default)]
@@ -52,26 +35,27 @@ impl Wanted {
         let unrolling: UnrollOptions = given.read()?;
         let (patches, sheets): (PatchOptions, PatternOptions) = (given.read()?, given.read()?);
         let mut drawing: DrawingOptions = given.read()?;
-        let Metal {
-            thickness,
-            inner_radius,
-            k_factor,
-        } = given.read()?;
-        let Sheets { stock, assembly } = given.read()?;
-        let Resampling { spacing } = given.read()?;
+        let metal = bending(
+            given.number("thickness"),
+            given.number("innerRadius"),
+            given.number("kFactor"),
+        );
+        let stock = stock_from(given.value("stock"))?;
+        let assembled = given.flag("assembly").unwrap_or_default();
+        let spacing = given.number("spacing");
         given.finish()?;
         // 0 is none.
         drawing.tabs = drawing.tabs.filter(|depth| *depth != 0.0);
         drawing.marks = drawing.marks.filter(|distance| *distance != 0.0);
-        if let Some(bending) = bending(thickness, inner_radius, k_factor)? {
+        if let Some(bending) = metal? {
             drawing = drawing.bending(bending);
         }
         Ok(Wanted {
             patches,
             sheets: sheets.unrolling(unrolling),
             drawing,
-            stock: stock.map(Stock::from),
-            assembled: assembly,
+            stock,
+            assembled,
             spacing,
         })
     }
@@ -267,22 +251,15 @@ enum Named {
     Letter,
 }
 
-impl From<Paper> for Stock {
-    fn from(paper: Paper) -> Self {
-        match paper {
-            Paper::Named(Named::A4) => Stock::A4,
-            Paper::Named(Named::Letter) => Stock::Letter,
-            Paper::Plate(sides) => Stock::Plate(sides),
-            Paper::Roll([width]) => Stock::Roll(width),
-        }
-    }
-}
-
-/// `WritePdfOptions` of the types.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct PdfOptions {
-    stock: Option<Paper>,
+/// The option `stock`, if it is given.
+fn stock_from(value: JsValue) -> Result<Option<Stock>> {
+    let paper: Option<Paper> = from_value(value)?;
+    Ok(paper.map(|paper| match paper {
+        Paper::Named(Named::A4) => Stock::A4,
+        Paper::Named(Named::Letter) => Stock::Letter,
+        Paper::Plate(sides) => Stock::Plate(sides),
+        Paper::Roll([width]) => Stock::Roll(width),
+    }))
 }
 
 /// SVG file of a drawing.
@@ -294,10 +271,10 @@ pub fn write_svg_file(drawing: JsValue) -> Result<Uint8Array> {
 /// PDF file of a drawing, on one page or on those of a stock.
 #[wasm_bindgen(js_name = writePdf)]
 pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
-    let PdfOptions { stock } = read(&options)?;
-    Ok(write_pdf(&drawn(drawing)?, stock.map(Stock::from))?
-        .as_slice()
-        .into())
+    let mut given = Given::new(&options)?;
+    let stock = stock_from(given.value("stock"))?;
+    given.finish()?;
+    Ok(write_pdf(&drawn(drawing)?, stock)?.as_slice().into())
 }
 
 /// DXF file of a drawing.

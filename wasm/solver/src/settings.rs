@@ -1,7 +1,5 @@
 //! What may be chosen about a solve, and about how it is resampled.
 
-use serde::Deserialize;
-use serde_wasm_bindgen::preserve;
 use wasm_bindgen::prelude::*;
 
 use developable::checks::positive;
@@ -20,33 +18,23 @@ pub struct Settings {
     pub bridging: Bridging,
 }
 
-/// Those of the options that are about the input.
-#[derive(Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct InputOptions {
-    paper: bool,
-    normalize: Normalization,
-    spacing: Option<f64>,
-    occlusion_threshold: Option<f64>,
-    #[serde(with = "preserve")]
-    bridge: JsValue,
-}
-
 impl Settings {
     pub fn new(options: &JsValue) -> Result<Settings> {
         let mut given = Given::new(options)?;
-        let (options, input): (Options, InputOptions) = (given.read()?, given.read()?);
-        given.finish()?;
-        Ok(Settings {
-            options: match input.paper {
-                true => options.or_paper(),
-                false => options,
+        let options: Options = given.read()?;
+        let settings = Settings {
+            options: match given.flag("paper") {
+                Some(true) => options.or_paper(),
+                _ => options,
             },
-            normalization: input.normalize,
-            spacing: input.spacing,
-            occlusion_threshold: input.occlusion_threshold,
-            bridging: bridging(input.bridge)?,
-        })
+            normalization: (given.flag("normalize"))
+                .map_or_else(Normalization::default, Normalization::from),
+            spacing: given.number("spacing"),
+            occlusion_threshold: given.number("occlusionThreshold"),
+            bridging: bridging(given.value("bridge"))?,
+        };
+        given.finish()?;
+        Ok(settings)
     }
 
     /// Whether they are right, as far as that does not depend on the input.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::analysis::{Curvatures, Deviation, Summary};
+use developable::analysis::{Curvatures, DEFAULT_GAUSSIAN_THRESHOLD, Deviation, Summary};
 use developable::checks::try_filled;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
 use developable::patches::{Crease, Patch, PatchOptions, Patches};
@@ -20,7 +20,7 @@ use developable_wasm::arrays::groups;
 use developable_wasm::camera::photo_camera;
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::frame::FrameFields;
-use developable_wasm::options::{Analyzing, Given, Resampling};
+use developable_wasm::options::Given;
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
 
@@ -47,7 +47,7 @@ struct AnalysisOutput {
 
 /// The spacing among the last options of a call.
 fn spacing_of(mut given: Given) -> Result<Option<f64>> {
-    let Resampling { spacing } = given.read()?;
+    let spacing = given.number("spacing");
     given.finish()?;
     Ok(spacing)
 }
@@ -63,7 +63,7 @@ fn surface_of(field: JsValue, given: Given) -> Result<Heightfield> {
 #[wasm_bindgen]
 pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
-    let threshold = given.read::<Analyzing>()?.threshold();
+    let threshold = given.number("threshold");
     let spacing = spacing_of(given)?;
     check_spacing(spacing, is_image(&field)? || is_image(&reference)?)?;
     let Scene { surface, .. } = Scene::new(field, spacing)?;
@@ -84,7 +84,11 @@ pub fn analyze(field: JsValue, reference: JsValue, options: JsValue) -> Result<J
         kappa1: curvatures.kappa1.as_slice().into(),
         kappa2: curvatures.kappa2.as_slice().into(),
         nuclear_norm: curvatures.nuclear_norm.as_slice().into(),
-        summary: Summary::new(&surface, &curvatures, threshold)?,
+        summary: Summary::new(
+            &surface,
+            &curvatures,
+            threshold.unwrap_or(DEFAULT_GAUSSIAN_THRESHOLD),
+        )?,
         deviation,
     })?)
 }
@@ -184,7 +188,7 @@ fn some(value: JsValue) -> Option<JsValue> {
 pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValue> {
     let mut given = Given::new(&options)?;
     let unrolling: UnrollOptions = given.read()?;
-    let maps: MapOptions = given.read()?;
+    let maps = MapOptions::new(&mut given);
     let DewarpInput {
         dots,
         trim,

@@ -119,7 +119,7 @@ struct MeshOutput {
 pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
     let mut given = Given::new(&options)?;
-    let maps: MapOptions = given.read()?;
+    let maps = MapOptions::new(&mut given);
     let mut focal = Vec::new();
     let mut finding = None;
     for (name, value) in entries(&options)? {

@@ -119,7 +119,7 @@ impl Both {
         for cell in domain.active().cells() {
             target[domain.lattice_index(cell)] = lattice.target[cell];
         }
-        let lambda = options.lambda.value();
+        let lambda = options.lambda_or_default().value();
         let mut sparse = Problem::under(operator, lambda, target, Kind::of(options));
         let weight = |vertex| input.weight(vertex);
         let constrained = |vertex| input.is_constrained(vertex);

@@ -5,11 +5,11 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use super::admm::schedule::Plan;
-use super::cascade::Answer;
 use super::components::Components;
 use super::heightfields::{Problem, State};
+use super::multilevel::Answer;
 use super::operator::lattice::position;
-use super::plate::Guess;
+use super::thin_plate::InitialGuess;
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
@@ -28,7 +28,7 @@ pub(super) struct WarmStart {
 impl WarmStart {
     /// Sets `z̃` at the free vertices of a problem to what it was there, if that is known for each of them.
     /// `corner` as in [`state`](Self::state).
-    pub(super) fn plate(&self, problem: &mut Problem, corner: (usize, usize)) -> Guess {
+    pub(super) fn thin_plate(&self, problem: &mut Problem, corner: (usize, usize)) -> InitialGuess {
         let domain = &problem.operator.domain;
         let known = problem.free.iter().map(|cell| {
             let cell = *cell as usize;
@@ -52,9 +52,9 @@ impl WarmStart {
                 for (cell, z) in heights {
                     problem.target[cell] = z;
                 }
-                Guess::Earlier
+                InitialGuess::Earlier
             }
-            None => Guess::Plane,
+            None => InitialGuess::Plane,
         }
     }
 

@@ -30,7 +30,7 @@ use crate::fit::energy::load::bearing;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
-use crate::fit::partwise::Status;
+use crate::fit::component_solver::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;

@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::cascade::{Answer, Cascade, SET_UP};
+use super::component_setup::{ComponentSetup, SetupStep};
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
+use super::extrapolate_omitted::extrapolate_omitted;
 use super::heightfields::Problem;
 use super::input::Input;
+use super::multilevel::{Answer, Multilevel, SET_UP};
 use super::options::{Bending, Energy, Options};
-use super::preparation::{Preparation, Prepared};
 use super::report::{HuberReport, LevelReport, Progress, Report, Seconds, StopReason};
-use super::restore::restore_omitted;
 use super::surface::Surface;
 use super::totals::{Totals, add_levels};
 use super::warm_start::WarmStart;
@@ -33,24 +33,24 @@ pub enum Status {
 
 /// An input that can be solved: its small holes bridged, its parts held in place.
 #[derive(Debug, Clone)]
-pub(super) struct Solvable {
+pub(super) struct PreparedInput {
     pub input: Input,
     pub domain: Arc<Domain>,
 }
 
-impl Solvable {
+impl PreparedInput {
     /// # Errors
     /// [`Error::NoInterior`], [`Error::Underdetermined`], [`Error::OutOfMemory`].
     pub(super) fn new(input: Input) -> Result<Self> {
         let input = input.bridge()?;
         let domain = Arc::new(input.domain()?);
         check_held(&input, &domain)?;
-        Ok(Solvable { input, domain })
+        Ok(PreparedInput { input, domain })
     }
 }
 
 #[derive(Debug, Clone)]
-pub(super) struct Partwise {
+pub(super) struct ComponentSolver {
     input: Input,
     /// As they are used.
     options: Options,
@@ -61,12 +61,12 @@ pub(super) struct Partwise {
     /// Of the first parts.
     answers: Vec<Answer>,
     /// The part after those: before its first iteration, and then.
-    preparing: Option<Preparation>,
-    running: Option<Cascade>,
+    preparing: Option<ComponentSetup>,
+    running: Option<Multilevel>,
     /// `P(z̃)` of each part, if there are several.
     energies: Vec<f64>,
     /// The last answer: what the parts to come, and the next restart, may start from.
-    memory: Option<Arc<WarmStart>>,
+    warm_start: Option<Arc<WarmStart>>,
     status: Status,
     started: Instant,
     setup: f64,
@@ -74,28 +74,28 @@ pub(super) struct Partwise {
 
 /// When a solve begins with its first part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Beginning {
-    AtOnce,
+pub(super) enum StartMode {
+    Immediate,
     /// When its options are known.
-    Later,
+    Deferred,
 }
 
-impl Partwise {
+impl ComponentSolver {
     /// `started`: when the user's wait began.
     ///
     /// # Errors
     /// [`Error::Overflow`], [`Error::Underflow`], [`Error::OutOfMemory`].
     pub(super) fn new(
-        Solvable { input, domain }: Solvable,
+        PreparedInput { input, domain }: PreparedInput,
         options: &Options,
         scale: f64,
-        memory: Option<Arc<WarmStart>>,
-        beginning: Beginning,
+        warm_start: Option<Arc<WarmStart>>,
+        start_mode: StartMode,
         started: Instant,
     ) -> Result<Self> {
         let components = Components::new(&domain)?;
         let energies = match components.list.len() {
-            1 if beginning == Beginning::AtOnce => Vec::new(),
+            1 if start_mode == StartMode::Immediate => Vec::new(),
             n => {
                 let coordinates = Coordinates::new(&input, &domain, scale);
                 let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
@@ -107,7 +107,7 @@ impl Partwise {
                 spacing: input.field.lattice().spacing(),
             });
         }
-        let mut solve = Partwise {
+        let mut solve = ComponentSolver {
             input,
             options: *options,
             scale,
@@ -117,12 +117,12 @@ impl Partwise {
             preparing: None,
             running: None,
             energies,
-            memory,
+            warm_start,
             status: Status::Running,
             started,
             setup: 0.0,
         };
-        if beginning == Beginning::AtOnce {
+        if start_mode == StartMode::Immediate {
             solve.next_part()?;
         }
         solve.setup = started.elapsed().as_secs_f64();
@@ -139,7 +139,7 @@ impl Partwise {
     }
 
     /// What a solve of heights on a lattice may start from.
-    pub(super) fn memory(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
+    pub(super) fn warm_start(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
         let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
         if shape(lattice) != shape(self.input.field.lattice()) {
             None
@@ -152,7 +152,7 @@ impl Partwise {
             }))
         } else {
             // What was overtaken is no answer yet.
-            self.memory.clone()
+            self.warm_start.clone()
         }
     }
 
@@ -167,7 +167,7 @@ impl Partwise {
     /// Begins with the next part, if there is one left.
     fn next_part(&mut self) -> Result<()> {
         let Some(number) = self.next_number() else {
-            self.memory = None;
+            self.warm_start = None;
             self.status = Status::Stopped(self.reason());
             return Ok(());
         };
@@ -180,14 +180,17 @@ impl Partwise {
             }
         };
         let corner = self.components.corner(number);
-        let memory = self.memory.as_deref().map(|memory| (memory, corner));
-        let part = Preparation::new(input, domain, self.scale, &self.options, memory)?;
+        let warm_start = self
+            .warm_start
+            .as_deref()
+            .map(|warm_start| (warm_start, corner));
+        let part = ComponentSetup::new(input, domain, self.scale, &self.options, warm_start)?;
         self.preparing = Some(part);
         Ok(())
     }
 
     /// Goes on to what is prepared.
-    fn begin(&mut self, part: Cascade) -> Result<()> {
+    fn begin(&mut self, part: Multilevel) -> Result<()> {
         match part.reason() {
             Some(reason) => {
                 self.answers.push(part.into_answer(reason));
@@ -241,8 +244,8 @@ impl Partwise {
                 let prepared = preparing.step()?;
                 self.setup += start.elapsed().as_secs_f64();
                 match prepared {
-                    Prepared::Partly(part) => self.preparing = Some(part),
-                    Prepared::Fully(part) => self.begin(*part)?,
+                    SetupStep::Partly(part) => self.preparing = Some(part),
+                    SetupStep::Fully(part) => self.begin(*part)?,
                 }
                 continue;
             }
@@ -284,7 +287,7 @@ impl Partwise {
         let pending = self.energies.iter().skip(pending);
         total.nuclear_norm += pending.sum::<f64>();
         let level = match &self.preparing {
-            None => self.running.as_ref().map_or(0, Cascade::levels_left),
+            None => self.running.as_ref().map_or(0, Multilevel::levels_left),
             Some(_) => 1,
         };
         Progress {
@@ -324,7 +327,7 @@ impl Partwise {
     pub(super) fn surface(&self) -> Result<Surface> {
         let unfinished = match (&self.preparing, &self.running) {
             (Some(preparing), _) => Some(preparing.answer()?),
-            (None, running) => running.as_ref().map(Cascade::answer).transpose()?,
+            (None, running) => running.as_ref().map(Multilevel::answer).transpose()?,
         };
         let answers = || self.answers.iter().chain(&unfinished);
         let lattice = *self.input.field.lattice();
@@ -352,7 +355,7 @@ impl Partwise {
                 heights[vertex] = self.input.field.heights()[vertex];
             }
         }
-        restore_omitted(&self.domain, &self.input, &mut heights);
+        extrapolate_omitted(&self.domain, &self.input, &mut heights);
         let constrained = (0..lattice.len()).filter(|v| self.input.is_constrained(*v));
         for vertex in constrained.clone() {
             // To the last bit.

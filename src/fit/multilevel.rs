@@ -19,7 +19,7 @@ use crate::lattice::domain::Domain;
 pub(crate) const SET_UP: usize = 10;
 
 #[derive(Debug, Clone)]
-pub(crate) struct Cascade {
+pub(crate) struct Multilevel {
     /// The level under way; the finest one at the end.
     level: Level,
     /// The problems of the finer levels, the finest first.
@@ -61,7 +61,7 @@ pub(crate) struct Answer {
     pub seconds: Seconds,
 }
 
-impl Cascade {
+impl Multilevel {
     /// From its first level, and a reason to stop that at once.
     pub(crate) fn new(
         level: Level,
@@ -78,7 +78,7 @@ impl Cascade {
             }
             _ => (None, options.reweighting),
         };
-        let mut cascade = Cascade {
+        let mut multilevel = Multilevel {
             level,
             finer,
             carried: None,
@@ -96,9 +96,9 @@ impl Cascade {
             reason: None,
         };
         if let Some(reason) = reason {
-            cascade.finish_level(reason)?;
+            multilevel.finish_level(reason)?;
         }
-        Ok(cascade)
+        Ok(multilevel)
     }
 
     /// Runs until `left` conjugate-gradient iterations are used up or it is

@@ -9,13 +9,13 @@ use super::linear::precise::Precise;
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// What the search for a plate starts from, at free vertices, and how far it goes.
+/// What the search for a thin plate starts from, at free vertices, and how far it goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Guess {
+pub(crate) enum InitialGuess {
     /// Nothing: the plane that the coordinates have taken away. Each pass ends at a share of its own
     /// first residual, for where little is held the last digits count.
     Plane,
-    /// `z̃` as it is, the plate of an earlier solve: for surfaces that are changed while they are watched
+    /// `z̃` as it is, the thin plate of an earlier solve: for surfaces that are changed while they are watched
     /// and need not be exact. One pass, which ends at a share of the residual about the plane.
     Earlier,
 }
@@ -26,21 +26,21 @@ const PASS_RESIDUAL: f64 = 1e-10;
 /// Residual at which a pass is done, relative to that about the plane.
 const PLANE_RESIDUAL: f64 = 1e-7;
 
-/// Number of passes in which the tie break pulls towards the last one's plate: then it has no say.
+/// Number of passes in which the tie break pulls towards the last one's thin plate: then it has no say.
 const TIE_BREAK_PASSES: usize = 3;
 
 /// Largest number of iterations in a pass.
 const MAX_PASS_ITERATIONS: usize = 200;
 
 /// Sets `z̃` at the free vertices of a problem to the minimiser of
-/// `λ Σ w(z − z̃)² + ρ/2 Σ ‖H‖_F²` over what is given: the plate that ties are
+/// `λ Σ w(z − z̃)² + ρ/2 Σ ‖H‖_F²` over what is given: the thin plate that ties are
 /// broken towards, and the surface that the solve starts from. It is the z-step
 /// about `H = Y = 0`, solved to the end. Returns how many iterations that took.
 pub(crate) fn fill(
     problem: &mut Problem,
     domains: &[Arc<Domain>],
     plan: &Plan,
-    guess: Guess,
+    guess: InitialGuess,
 ) -> Result<usize> {
     let rho = plan.first_rho(problem);
     let mut multigrid = Multigrid::new(problem, domains, rho)?;
@@ -53,8 +53,8 @@ pub(crate) fn fill(
     precise.start(problem, rho, &z);
     let rough = PLANE_RESIDUAL * precise.distance(problem, &multigrid);
     let passes = match guess {
-        Guess::Plane => TIE_BREAK_PASSES,
-        Guess::Earlier => {
+        InitialGuess::Plane => TIE_BREAK_PASSES,
+        InitialGuess::Earlier => {
             z.copy_from_slice(&given);
             problem.target = given;
             1
@@ -64,8 +64,8 @@ pub(crate) fn fill(
     for _ in 0..passes {
         precise.start(problem, rho, &z);
         let goal = match guess {
-            Guess::Plane => PASS_RESIDUAL * precise.distance(problem, &multigrid),
-            Guess::Earlier => rough,
+            InitialGuess::Plane => PASS_RESIDUAL * precise.distance(problem, &multigrid),
+            InitialGuess::Earlier => rough,
         };
         steps += precise.solve(
             problem,
@@ -116,15 +116,15 @@ mod tests {
     #[test]
     fn a_plate_whose_pin_is_moved_is_found_from_the_last_one() {
         let (mut problem, domains, plan) = tent(10.0);
-        let first = fill(&mut problem, &domains, &plan, Guess::Plane).unwrap();
+        let first = fill(&mut problem, &domains, &plan, InitialGuess::Plane).unwrap();
         let last = problem.target;
         let (mut cold, ..) = tent(10.4);
-        fill(&mut cold, &domains, &plan, Guess::Plane).unwrap();
+        fill(&mut cold, &domains, &plan, InitialGuess::Plane).unwrap();
         let (mut warm, ..) = tent(10.4);
         for cell in warm.free.clone() {
             warm.target[cell as usize] = last[cell as usize];
         }
-        let steps = fill(&mut warm, &domains, &plan, Guess::Earlier).unwrap();
+        let steps = fill(&mut warm, &domains, &plan, InitialGuess::Earlier).unwrap();
         assert!(2 * steps < first, "{steps} instead of {first}");
         let off = |a: &[f64], b: &[f64]| {
             let pairs = a.iter().zip(b);

@@ -12,7 +12,7 @@ use crate::lattice::stencil::Quadratic;
 /// over valid vertices. Where none is within reach in that way, as on an island
 /// without one or far out on a thin strip, where a quadratic says nothing any
 /// more, the input's own height stays, if it means anything. Linear cost.
-pub(crate) fn restore_omitted(domain: &Domain, input: &Input, heights: &mut [f64]) {
+pub(crate) fn extrapolate_omitted(domain: &Domain, input: &Input, heights: &mut [f64]) {
     if domain.omitted_len() == 0 {
         return;
     }
@@ -126,7 +126,7 @@ mod tests {
                 }
             })
             .collect();
-        restore_omitted(&domain, &field.clone().into(), &mut restored);
+        extrapolate_omitted(&domain, &field.clone().into(), &mut restored);
         for (i, (a, b)) in restored.iter().zip(field.heights()).enumerate() {
             assert_eq!(a.is_nan(), b.is_nan(), "vertex {i}");
             assert!(

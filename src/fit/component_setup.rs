@@ -6,40 +6,40 @@ use std::sync::Arc;
 
 use super::admm::best::Best;
 use super::admm::schedule::Plan;
-use super::cascade::{Answer, Cascade};
 use super::coarsen::coarsen;
 use super::coordinates::Coordinates;
 use super::energy::creases::Creases;
 use super::heightfields::{Level, Problem, State};
 use super::input::Input;
 use super::linear::cg::ConjugateGradients;
+use super::multilevel::{Answer, Multilevel};
 use super::operator::lattice::position;
 use super::options::Options;
-use super::plate::{self, Guess};
 use super::report::{Seconds, StopReason};
+use super::thin_plate::{self, InitialGuess};
 use super::warm_start::WarmStart;
 use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
-/// Relative duality gap from which on a surface is only looked at, and an earlier plate is good enough for
+/// Relative duality gap from which on a surface is only looked at, and an earlier thin plate is good enough for
 /// it.
 const PREVIEW_GAP: f64 = 0.05;
 
 /// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
 const COARSEST_GRID: usize = 20;
 
-/// One connected part on the way to its [`Cascade`].
+/// One connected part on the way to its [`Multilevel`].
 #[derive(Debug, Clone)]
-pub(crate) enum Preparation {
+pub(crate) enum ComponentSetup {
     Lattices(Box<Lattices>),
     FirstLevel(Box<FirstLevel>),
 }
 
 /// What a step leads to.
-pub(crate) enum Prepared {
-    Partly(Preparation),
-    Fully(Box<Cascade>),
+pub(crate) enum SetupStep {
+    Partly(ComponentSetup),
+    Fully(Box<Multilevel>),
 }
 
 /// The problem on the finest lattice, and coarser lattices as they are found.
@@ -52,7 +52,7 @@ pub(crate) struct Lattices {
     problem: Problem,
     /// The state to start from on the finest lattice, if there is one, and the heights of free vertices.
     warm: Option<State>,
-    guess: Guess,
+    guess: InitialGuess,
     /// The domains of all lattices so far, the finest first, and the inputs of the coarser ones.
     domains: Vec<Arc<Domain>>,
     coarse: Vec<Input>,
@@ -84,15 +84,15 @@ pub(crate) struct FirstLevel {
     domains: Vec<Arc<Domain>>,
 }
 
-impl Preparation {
-    /// `memory`: what to start from on the finest lattice, if there is anything, and the vertex of the
+impl ComponentSetup {
+    /// `warm_start`: what to start from on the finest lattice, if there is anything, and the vertex of the
     /// whole lattice that is `(0, 0)` of the input's.
     pub(crate) fn new(
         input: Input,
         domain: Arc<Domain>,
         scale: f64,
         options: &Options,
-        memory: Option<(&WarmStart, (usize, usize))>,
+        warm_start: Option<(&WarmStart, (usize, usize))>,
     ) -> Result<Self> {
         let plan = Plan::new(options);
         let coordinates = Coordinates::new(&input, &domain, scale);
@@ -104,17 +104,17 @@ impl Preparation {
             });
         }
         let trivial = energy <= problem.rounding && problem.free.is_empty();
-        let (guess, warm) = match memory {
-            Some((memory, corner)) => (
+        let (guess, warm) = match warm_start {
+            Some((warm_start, corner)) => (
                 match options.gap_or_default() >= PREVIEW_GAP {
-                    true => memory.plate(&mut problem, corner),
-                    false => Guess::Plane,
+                    true => warm_start.thin_plate(&mut problem, corner),
+                    false => InitialGuess::Plane,
                 },
-                memory.state(&problem, &plan, corner)?,
+                warm_start.state(&problem, &plan, corner)?,
             ),
-            None => (Guess::Plane, None),
+            None => (InitialGuess::Plane, None),
         };
-        Ok(Preparation::Lattices(Box::new(Lattices {
+        Ok(ComponentSetup::Lattices(Box::new(Lattices {
             warm,
             guess,
             input,
@@ -128,30 +128,32 @@ impl Preparation {
         })))
     }
 
-    /// One step, of about what [`SET_UP`](super::cascade::SET_UP) says.
-    pub(crate) fn step(self) -> Result<Prepared> {
+    /// One step, of about what [`SET_UP`](super::multilevel::SET_UP) says.
+    pub(crate) fn step(self) -> Result<SetupStep> {
         Ok(match self {
-            Preparation::Lattices(mut lattices) => Prepared::Partly(match lattices.step()? {
-                true => Preparation::Lattices(lattices),
-                false => Preparation::FirstLevel(Box::new(lattices.into_level()?)),
+            ComponentSetup::Lattices(mut lattices) => SetupStep::Partly(match lattices.step()? {
+                true => ComponentSetup::Lattices(lattices),
+                false => ComponentSetup::FirstLevel(Box::new(lattices.into_level()?)),
             }),
-            Preparation::FirstLevel(level) => Prepared::Fully(Box::new(level.into_cascade()?)),
+            ComponentSetup::FirstLevel(level) => {
+                SetupStep::Fully(Box::new(level.into_multilevel()?))
+            }
         })
     }
 
     /// On the finest lattice.
     pub(crate) fn problem(&self) -> &Problem {
         match self {
-            Preparation::Lattices(lattices) => &lattices.problem,
-            Preparation::FirstLevel(level) => level.finer.first().unwrap_or(&level.problem),
+            ComponentSetup::Lattices(lattices) => &lattices.problem,
+            ComponentSetup::FirstLevel(level) => level.finer.first().unwrap_or(&level.problem),
         }
     }
 
     /// The input as it is.
     pub(crate) fn answer(&self) -> Result<Answer> {
         let plan = match self {
-            Preparation::Lattices(lattices) => &lattices.plan,
-            Preparation::FirstLevel(level) => &level.plan,
+            ComponentSetup::Lattices(lattices) => &lattices.plan,
+            ComponentSetup::FirstLevel(level) => &level.plan,
         };
         let problem = self.problem().clone();
         let first_rho = plan.first_rho(&problem);
@@ -180,7 +182,7 @@ impl Lattices {
                 }
             }
             Next::Fill => {
-                plate::fill(&mut self.problem, &self.domains, &self.plan, self.guess)?;
+                thin_plate::fill(&mut self.problem, &self.domains, &self.plan, self.guess)?;
                 self.problem
                     .take_first_normals(self.options.energy_or_default())?;
                 give_back(&mut self.input, &self.problem)?;
@@ -249,10 +251,10 @@ impl Lattices {
 }
 
 impl FirstLevel {
-    fn into_cascade(self) -> Result<Cascade> {
+    fn into_multilevel(self) -> Result<Multilevel> {
         let plan = self.plan.on_level(!self.finer.is_empty(), 0);
         let (level, reason) = Level::new(self.problem, self.state, self.cg, plan, 0, true)?;
-        Cascade::new(
+        Multilevel::new(
             level,
             reason,
             self.finer,

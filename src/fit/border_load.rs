@@ -1,6 +1,6 @@
-//! Which moments load the border of a heightfield: see [`energy::load`](crate::fit::energy::load).
+//! Which moments load the border of a heightfield: see [`energy::moment_load`](crate::fit::energy::moment_load).
 
-use super::energy::load::{Rings, bearing};
+use super::energy::moment_load::{Rings, bearing};
 use super::heightfields::{Problem, State};
 use crate::error::{Result, try_filled};
 use crate::lattice::domain::Role;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::admm::{iteration, state};
 use super::coordinates::Coordinates;
-use super::energy::law::Kind;
 use super::energy::problem;
+use super::energy::spectral_penalty::PenaltyKind;
 use super::input::Input;
 use super::operator::lattice::{LatticeOperator, position};
 use super::options::Options;
@@ -39,8 +39,12 @@ impl Problem {
         let operator = LatticeOperator::new(domain.clone(), coordinates);
         let spacing = operator.spacing;
         check_range(&domain, input.field().heights(), &target, largest, spacing)?;
-        let mut problem =
-            Problem::under(operator, options.lambda.value(), target, Kind::of(options));
+        let mut problem = Problem::under(
+            operator,
+            options.lambda.value(),
+            target,
+            PenaltyKind::of(options),
+        );
         problem.set_fidelity(
             |cell| input.weight(domain.lattice_index(cell)),
             |cell| input.is_constrained(domain.lattice_index(cell)),

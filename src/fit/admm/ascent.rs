@@ -12,8 +12,8 @@
 
 use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
-use crate::fit::energy::law::{HuberStep, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
+use crate::fit::energy::spectral_penalty::{HuberStep, NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::zstep::Solvable;
 use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
 use crate::lattice::per_cell::PerCell;
@@ -154,7 +154,7 @@ impl<O: Solvable> Ascent<O> {
     /// once the search is over.
     pub(crate) fn look(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Option<f64> {
         match problem.kind {
-            Kind::Huber(bends) => {
+            PenaltyKind::Huber(bends) => {
                 let unit = problem.operator.spacing().powi(4);
                 let tau = 2.0 * problem.lambda * unit / f64::from(problem.operator.norm());
                 self.steps(&problem.operator, bends.single(tau));
@@ -184,7 +184,7 @@ impl<O: Solvable> Ascent<O> {
     /// From the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
     /// a step need not be smaller.
     fn start(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Result<()> {
-        let law = state.law(problem);
+        let penalty = state.penalty(problem);
         problem.weight.narrow_into(&mut self.weight)?;
         let spacing = problem.operator.spacing();
         let unit = 2.0 * problem.lambda * spacing * spacing;
@@ -203,7 +203,7 @@ impl<O: Solvable> Ascent<O> {
             let weight = problem.weight.run(*run);
             let [mean, diff, off] = row_of(&mut self.row, weight.len());
             for i in 0..weight.len() {
-                let dual = law.dual(v.get(i), weight[i]);
+                let dual = penalty.dual(v.get(i), weight[i]);
                 (mean[i], diff[i], off[i]) = dual.coordinates().into();
             }
             for to in [&mut self.last, &mut self.ahead] {
@@ -267,13 +267,13 @@ impl<O: Solvable> Ascent<O> {
         let Ascent {
             last, row: wide, ..
         } = self;
-        let law = state.law(problem);
+        let penalty = state.penalty(problem);
         let State {
             z, scratch, terms, ..
         } = state;
         let [[conjugates, ..], [inners, quadratics, ..]] = terms;
         let (mut inner, mut quadratic, mut conjugate) = (0.0, 0.0, 0.0);
-        let costs = problem.kind != Kind::Nuclear;
+        let costs = problem.kind != PenaltyKind::Nuclear;
         // Of the Hessians of `z` there is no use here.
         problem.operator.sweep(
             scratch,
@@ -290,11 +290,11 @@ impl<O: Solvable> Ascent<O> {
                 for i in 0..n {
                     let (mean, diff, off) = (mean[i], diff[i], off[i]);
                     // Single precision may have ended just outside.
-                    let dual = Nuclear.dual(Sym2 { mean, diff, off }, weight[i]);
+                    let dual = NuclearNorm.dual(Sym2 { mean, diff, off }, weight[i]);
                     matrices.set(i, dual.coordinates());
                     if costs {
                         let area = problem.operator.area(run.start + i);
-                        conjugates[i] = area * law.conjugate(dual, weight[i]);
+                        conjugates[i] = area * penalty.conjugate(dual, weight[i]);
                     }
                 }
                 if costs {

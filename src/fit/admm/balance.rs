@@ -9,8 +9,8 @@
 
 use super::state::{State, dual_bound};
 use crate::error::{Result, try_filled};
-use crate::fit::energy::law::Law;
 use crate::fit::energy::problem::Problem;
+use crate::fit::energy::spectral_penalty::SpectralPenalty;
 use crate::fit::linear::zstep::{Solvable, Solver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::sym2::Sym2;
@@ -52,9 +52,9 @@ impl<O: Solvable> State<O> {
         stiffness: f64,
         Balanced { q, .. }: &Balanced,
     ) {
-        let law = self.law(problem);
+        let penalty = self.penalty(problem);
         problem.operator.hessians(q, |stencil, hessian| {
-            let dual = law.dual(self.v.get(stencil), problem.weight.at(stencil));
+            let dual = penalty.dual(self.v.get(stencil), problem.weight.at(stencil));
             self.v.set(stencil, dual + hessian.scale(stiffness));
         });
     }
@@ -69,7 +69,7 @@ impl<O: Solvable> State<O> {
         stiffness: f64,
         residual: &mut [f64],
     ) -> f64 {
-        let law = self.law(problem);
+        let penalty = self.penalty(problem);
         let State { v, scratch, .. } = self;
         let fidelity = 2.0 * problem.lambda;
         let (mut excess, mut conjugate) = (0.0f64, 0.0);
@@ -83,10 +83,11 @@ impl<O: Solvable> State<O> {
                 let weight = problem.weight.run(run);
                 for (i, weight) in weight.iter().enumerate() {
                     let change = Sym2::from_coordinates(hessians.at(i)).scale(stiffness);
-                    let y = law.dual(v.get(i), *weight) + change;
+                    let y = penalty.dual(v.get(i), *weight) + change;
                     matrices.set(i, y.coordinates());
-                    excess = excess.max(law.size(y, *weight));
-                    conjugate += problem.operator.area(run.start + i) * law.conjugate(y, *weight);
+                    excess = excess.max(penalty.size(y, *weight));
+                    conjugate +=
+                        problem.operator.area(run.start + i) * penalty.conjugate(y, *weight);
                 }
             },
             |_, run, sums| {
@@ -103,7 +104,7 @@ impl<O: Solvable> State<O> {
             },
         );
         let largest = if excess > 0.0 {
-            law.largest() / excess
+            penalty.largest() / excess
         } else {
             f64::INFINITY
         };

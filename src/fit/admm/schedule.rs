@@ -3,8 +3,8 @@
 
 use super::best::{Best, MAX_AFFINE_GAP};
 use super::state::Certificate;
-use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem::Problem;
+use crate::fit::energy::spectral_penalty::PenaltyKind;
 use crate::fit::linear::zstep::Solvable;
 use crate::fit::options::{Energy, Options, Schedule};
 use crate::fit::report::StopReason;
@@ -287,7 +287,7 @@ impl Plan {
     /// Whether an iterate of such a gap is worth the search for a better bound.
     pub(crate) fn climbs<O: Solvable>(&self, problem: &Problem<O>, gap: f64) -> bool {
         self.schedule == Schedule::Default
-            && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
+            && matches!(problem.kind, PenaltyKind::Nuclear | PenaltyKind::Huber(_))
             && !problem.loose
             && gap > self.gap
             && gap < self.climbable * self.gap
@@ -297,7 +297,7 @@ impl Plan {
     /// have stopped: those of a smaller gap have it.
     pub(crate) fn reduces_rank<O: Solvable>(&self, problem: &Problem<O>) -> bool {
         self.schedule == Schedule::Default
-            && matches!(problem.kind, Kind::Nuclear | Kind::Huber(_))
+            && matches!(problem.kind, PenaltyKind::Nuclear | PenaltyKind::Huber(_))
             && !problem.loose
             && !self.follows_normals
             && self.gap >= FULL_RANK

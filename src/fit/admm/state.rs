@@ -3,12 +3,12 @@
 //!
 //! Paper, Eq. 18 and 19, in the form of one matrix `V = Y + ρH` per stencil, from which both follow: for the nuclear norm, the dual `Y = ρU` is the
 //! projection of `V` onto the dual ball, and `ρH = V − Y` its soft threshold
-//! (`law` has the other energies). So `Y` is feasible by construction, and
+//! (`penalty` has the other energies). So `Y` is feasible by construction, and
 //! nothing else has to be stored.
 
 use crate::error::{Result, try_filled};
-use crate::fit::energy::law::{Any, Kind, Law, Nuclear};
 use crate::fit::energy::problem::Problem;
+use crate::fit::energy::spectral_penalty::{AnyPenalty, NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::zstep::{Solvable, Solver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::lattice::runs::Run;
@@ -85,13 +85,18 @@ impl MatrixField {
     }
 
     /// From `V = Y + ρH` to `Y + factor · ρH`.
-    fn rescale<O: Solvable>(&mut self, problem: &Problem<O>, law: impl Law, factor: f64) {
+    fn rescale<O: Solvable>(
+        &mut self,
+        problem: &Problem<O>,
+        penalty: impl SpectralPenalty,
+        factor: f64,
+    ) {
         for run in problem.operator.stencils().all() {
             let weight = problem.weight.run(*run);
             let mut v = self.run(*run);
             for (i, weight) in weight.iter().enumerate() {
                 let value = v.get(i);
-                let dual = law.dual(value, *weight);
+                let dual = penalty.dual(value, *weight);
                 v.set(i, dual + (value - dual).scale(factor));
             }
         }
@@ -181,7 +186,8 @@ impl<O: Solvable> State<O> {
 
     /// Changes ρ, leaving `H` and `Y` as they are.
     pub(crate) fn set_rho(&mut self, problem: &Problem<O>, rho: f64) {
-        self.v.rescale(problem, self.law(problem), rho / self.rho);
+        self.v
+            .rescale(problem, self.penalty(problem), rho / self.rho);
         self.rho = rho;
     }
 
@@ -195,7 +201,7 @@ impl<O: Solvable> State<O> {
         ] {
             to.copy_from_slice(from);
         }
-        v.rescale(problem, self.law(problem), rho / self.rho);
+        v.rescale(problem, self.penalty(problem), rho / self.rho);
         Ok(v)
     }
 
@@ -203,8 +209,8 @@ impl<O: Solvable> State<O> {
     pub(crate) fn matrices(&self, problem: &Problem<O>, cell: usize) -> (Sym2, Sym2) {
         let v = self.v.get(cell);
         let weight = problem.weight.at(cell);
-        let dual = self.law(problem).dual(v, weight);
-        let rho = self.rho * problem.operator.penalty(cell);
+        let dual = self.penalty(problem).dual(v, weight);
+        let rho = self.rho * problem.operator.rho_share(cell);
         (dual, (v - dual).scale(1.0 / rho))
     }
 
@@ -220,8 +226,8 @@ impl<O: Solvable> State<O> {
         cell: usize,
         [dual, hessian]: [Sym2; 2],
     ) {
-        let penalty = problem.operator.penalty(cell);
-        self.set_matrices(cell, dual, hessian.scale(penalty));
+        let rho_share = problem.operator.rho_share(cell);
+        self.set_matrices(cell, dual, hessian.scale(rho_share));
     }
 
     /// H-step and dual update with the given over-relaxation, then the residual
@@ -229,9 +235,11 @@ impl<O: Solvable> State<O> {
     /// from, in one pass. Relaxation 0 leaves `H` and `Y` as they are.
     pub(crate) fn update(&mut self, problem: &Problem<O>, relaxation: f64, solver: &mut O::Solver) {
         match problem.kind {
-            Kind::Nuclear => self.update_of::<false>(Nuclear, problem, relaxation, solver),
-            Kind::Huber(bends) => {
-                self.update_of::<false>(bends.law(self.rho), problem, relaxation, solver)
+            PenaltyKind::Nuclear => {
+                self.update_of::<false>(NuclearNorm, problem, relaxation, solver)
+            }
+            PenaltyKind::Huber(bends) => {
+                self.update_of::<false>(bends.penalty(self.rho), problem, relaxation, solver)
             }
             // One kernel for all the others: less code, and measuring costs little.
             _ => self.update_and_measure(problem, relaxation, solver),
@@ -245,16 +253,16 @@ impl<O: Solvable> State<O> {
         relaxation: f64,
         solver: &mut O::Solver,
     ) -> f64 {
-        self.update_of::<true>(self.law(problem), problem, relaxation, solver)
+        self.update_of::<true>(self.penalty(problem), problem, relaxation, solver)
     }
 
-    pub(super) fn law(&self, problem: &Problem<O>) -> Any {
-        Any::new(problem.kind, self.rho)
+    pub(super) fn penalty(&self, problem: &Problem<O>) -> AnyPenalty {
+        AnyPenalty::new(problem.kind, self.rho)
     }
 
     fn update_of<const MEASURE: bool>(
         &mut self,
-        law: impl Law,
+        penalty: impl SpectralPenalty,
         problem: &Problem<O>,
         relaxation: f64,
         solver: &mut O::Solver,
@@ -281,14 +289,14 @@ impl<O: Solvable> State<O> {
                 let weight = problem.weight.run(run);
                 let n = run.end - run.start;
                 for i in 0..n {
-                    let rho = rho * problem.operator.penalty(run.start + i);
+                    let rho = rho * problem.operator.rho_share(run.start + i);
                     let hessian = Sym2::from_coordinates(hessians.at(i)).scale(rho);
                     let old = v.get(i);
-                    let old_dual = law.dual(old, weight[i]);
+                    let old_dual = penalty.dual(old, weight[i]);
                     let step = hessian - old + old_dual;
                     let new = old + step.scale(relaxation);
                     v.set(i, new);
-                    let dual = law.dual(new, weight[i]);
+                    let dual = penalty.dual(new, weight[i]);
                     if MEASURE {
                         let moved = new - dual - old + old_dual;
                         squares[i] = problem.operator.area(run.start + i) * moved.dot(moved);
@@ -319,12 +327,12 @@ impl<O: Solvable> State<O> {
     /// Objective, dual bound and residuals, in one pass.
     pub(crate) fn certify(&mut self, problem: &Problem<O>) -> Certificate {
         match problem.kind {
-            Kind::Nuclear => self.certify_of(Nuclear, problem),
-            _ => self.certify_of(self.law(problem), problem),
+            PenaltyKind::Nuclear => self.certify_of(NuclearNorm, problem),
+            _ => self.certify_of(self.penalty(problem), problem),
         }
     }
 
-    fn certify_of(&mut self, law: impl Law, problem: &Problem<O>) -> Certificate {
+    fn certify_of(&mut self, penalty: impl SpectralPenalty, problem: &Problem<O>) -> Certificate {
         let State {
             z,
             v,
@@ -349,18 +357,18 @@ impl<O: Solvable> State<O> {
                 for i in 0..n {
                     let hessian = Sym2::from_coordinates(hessians.at(i));
                     let value = v.get(i);
-                    let y = law.dual(value, weight[i]);
+                    let y = penalty.dual(value, weight[i]);
                     matrices.set(i, y.coordinates());
-                    let penalty = problem.operator.penalty(run.start + i);
-                    let h = (value - y).scale(inverse_rho / penalty);
+                    let rho_share = problem.operator.rho_share(run.start + i);
+                    let h = (value - y).scale(inverse_rho / rho_share);
                     let gap = hessian - h;
                     let area = problem.operator.area(run.start + i);
-                    t1[i] = area * law.value(hessian, weight[i]);
+                    t1[i] = area * penalty.value(hessian, weight[i]);
                     t2[i] = area * gap.dot(gap);
                     t3[i] = area * hessian.dot(hessian);
                     t4[i] = area * h.dot(h);
                     t5[i] = area * y.dot(y);
-                    t6[i] = area * law.conjugate(y, weight[i]);
+                    t6[i] = area * penalty.conjugate(y, weight[i]);
                 }
                 add_sums(&mut stencil_sums, [t1, t2, t3, t4, t5, t6]);
             },
@@ -390,7 +398,7 @@ impl<O: Solvable> State<O> {
         );
         let [nuclear, primal, image, split, dual_norm, conjugate] = stencil_sums;
         let [distance, inner, quadratic, dual, dual_size, cost] = vertex_sums;
-        let bound = dual_bound(problem, inner, quadratic, conjugate, law.largest());
+        let bound = dual_bound(problem, inner, quadratic, conjugate, penalty.largest());
         Certificate {
             fidelity: problem.lambda * distance - problem.offset,
             nuclear_norm: nuclear,

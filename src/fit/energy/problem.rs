@@ -1,6 +1,6 @@
 //! The energy of heights under any operator, in normalised coordinates.
 
-use super::law::{Any, Kind, Law};
+use super::spectral_penalty::{AnyPenalty, PenaltyKind, SpectralPenalty};
 use crate::error::{Result, try_filled};
 use crate::fit::coordinates::Plane;
 use crate::fit::operator::Operator;
@@ -44,7 +44,7 @@ pub(crate) struct Problem<O> {
     pub free: Vec<u32>,
     /// Whether there are vertices with next to no fidelity, where `CᵀY` must all but vanish.
     pub loose: bool,
-    pub kind: Kind,
+    pub kind: PenaltyKind,
     /// `ω`, and what it was before any reweighting.
     pub weight: PerCell<f64>,
     first_weight: PerCell<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct Problem<O> {
 
 impl<O: Operator> Problem<O> {
     /// With all weights 1.
-    pub(crate) fn under(operator: O, lambda: f64, target: Vec<f64>, kind: Kind) -> Self {
+    pub(crate) fn under(operator: O, lambda: f64, target: Vec<f64>, kind: PenaltyKind) -> Self {
         let ones = || PerCell::same(operator.longest_run(), 1.0);
         Problem {
             lambda,
@@ -143,12 +143,12 @@ impl<O: Operator> Problem<O> {
     pub(crate) fn set_rounding(&mut self, norm: f64) {
         let count = self.operator.stencils().len() as f64;
         self.rounding = match self.kind {
-            Kind::SquaredNuclear => {
+            PenaltyKind::SquaredNuclear => {
                 // Σ (s + δ)² − s² by Cauchy and Schwarz.
                 let squares = self.smoothness(&self.target);
                 norm * (2.0 * (count * squares).sqrt() + count * norm)
             }
-            Kind::Huber(bends) => {
+            PenaltyKind::Huber(bends) => {
                 let mut slopes = 0.0;
                 self.operator.hessians(&self.target, |_, hessian| {
                     slopes += bends.slope(hessian.nuclear_norm() + norm);
@@ -227,9 +227,9 @@ impl<O: Operator> Problem<O> {
     /// Calls `visit` with each stencil and its term of that.
     pub(crate) fn each_cost(&self, z: &[f64], mut visit: impl FnMut(usize, f64)) {
         // For values, which do not depend on ρ.
-        let law = Any::new(self.kind, f64::NAN);
+        let penalty = AnyPenalty::new(self.kind, f64::NAN);
         self.operator.hessians(z, |stencil, hessian| {
-            let value = law.value(hessian, self.weight.at(stencil));
+            let value = penalty.value(hessian, self.weight.at(stencil));
             visit(stencil, self.operator.area(stencil) * value);
         });
     }

@@ -1,7 +1,7 @@
 //! The base of the first linearisation.
 
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
-use super::given::Given;
+use super::input::MeshInput;
 
 /// Number of smoothing steps for the places of vertices across the viewing rays, with which the first base
 /// begins.
@@ -11,7 +11,7 @@ const BASE_PLACE_STEPS: usize = 3;
 const BASE_SURFACE_STEPS: usize = 10;
 
 /// The noisy mesh smoothed, its vertices across the rays where less smoothing has them.
-pub(super) fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
+pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
     let mut places = given.noisy.clone();
     smooth(topology, &mut places, BASE_PLACE_STEPS);

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::geometry::Point;
-use super::sides::Sides;
+use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 
 /// Number of vertices on either side along a curve that the fairing quadratic is fitted to.
@@ -14,7 +14,7 @@ const MAX_VARIANCE_RATIO: f64 = 0.95;
 
 /// The borders and creases of a surface: of each vertex the ones before and after it. At their ends, and
 /// elsewhere, there are none.
-pub(super) fn curves(topology: &Topology, sides: &Sides) -> Vec<Option<[u32; 2]>> {
+pub(super) fn curves(topology: &Topology, sides: &SmoothRegions) -> Vec<Option<[u32; 2]>> {
     let mut curves = sides.creases(topology);
     for (vertex, beside) in curves.iter_mut().enumerate() {
         let rim: Vec<usize> = topology.along_rim(vertex).collect();

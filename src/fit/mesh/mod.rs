@@ -4,33 +4,33 @@
 //! Hessian is the second fundamental form by a quadratic fit over its neighbours, linearised about a
 //! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
 
-mod ball;
 mod base;
-mod border;
-mod crossing;
-mod curve;
+mod border_extrapolation;
+mod bounding_sphere;
+mod crease_directions;
+mod crease_vertices;
+mod edge_load;
 mod fairing;
-mod fans;
 pub(crate) mod geometry;
-mod given;
+mod input;
 mod known;
-pub(crate) mod linear;
-mod load;
-mod noise;
+pub(crate) mod linearisation;
+mod morton_order;
+mod noise_level;
 mod options;
-mod penalty;
 mod quadratic;
 mod report;
-mod shape;
-mod sharpen;
-mod sides;
+mod rho_shares;
+mod self_intersections;
+mod shape_measures;
+mod smooth_regions;
 mod solver;
 #[cfg(test)]
 mod tests;
 pub(crate) mod topology;
-mod ways;
+mod vertex_fans;
 
-pub(crate) use ball::scale_of;
+pub(crate) use bounding_sphere::scale_of;
 pub use known::MeshKnown;
 pub use options::MeshOptions;
 pub use report::{MeshPass, MeshReport, Repairs};

@@ -2,35 +2,35 @@
 
 use web_time::Instant;
 
-use super::ball::Ball;
 use super::base::first_base;
-use super::border::restore;
-use super::crossing::uncross;
+use super::border_extrapolation::extrapolate_border;
+use super::bounding_sphere::BoundingSphere;
+use super::crease_vertices::move_crease_vertices;
+use super::edge_load::load_border;
 use super::fairing::{curves, fair};
-use super::fans::Fans;
 use super::geometry::{Frame, Point, areas, normals, unfold};
-use super::given::Given;
+use super::input::MeshInput;
 use super::known::MeshKnown;
-use super::linear::{Linearised, spacing_of};
-use super::load::load_border;
-use super::noise::noise;
+use super::linearisation::{Linearisation, spacing_of};
+use super::noise_level::noise;
 use super::options::MeshOptions;
-use super::penalty::penalise;
 use super::report::{MeshPass, MeshReport};
-use super::shape::Shape;
-use super::sharpen::sharpen;
-use super::sides::Sides;
+use super::rho_shares::set_rho_shares;
+use super::self_intersections::separate_self_intersections;
+use super::shape_measures::ShapeMeasures;
+use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
+use super::vertex_fans::VertexFans;
 use crate::error::{Result, try_filled};
 use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
 use crate::fit::admm::state::State;
-use crate::fit::energy::law::Bends;
-use crate::fit::energy::load::bearing;
+use crate::fit::component_solver::Status;
+use crate::fit::energy::moment_load::bearing;
+use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
-use crate::fit::component_solver::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
@@ -84,18 +84,18 @@ impl MeshSurface {
 pub struct MeshSolver {
     mesh: Mesh,
     options: MeshOptions,
-    given: Given,
-    bounds: Ball,
+    given: MeshInput,
+    bounds: BoundingSphere,
     lambda: f64,
     sigma: Option<f64>,
     /// The linearisation under way.
     level: Option<Level<SparseOperator>>,
-    linear: Linearised,
+    linear: Linearisation,
     creases: usize,
     /// The surface so far.
     surface: Vec<Point>,
     passes: Vec<MeshPass>,
-    before: Shape,
+    before: ShapeMeasures,
     reason: Option<StopReason>,
     seconds: Seconds,
     start: Instant,
@@ -130,14 +130,14 @@ impl MeshSolver {
         let start = Instant::now();
         options.validate()?;
         let topology = Topology::in_order_of_place(&mesh)?;
-        let bounds = Ball::around(&mesh)?;
+        let bounds = BoundingSphere::around(&mesh)?;
         let noisy: Vec<Point> = topology
             .source
             .iter()
             .map(|vertex| bounds.inward(mesh.positions()[*vertex as usize]))
             .collect();
         let (confidence, held) = known.of(&mesh, &topology)?;
-        let given = Given {
+        let given = MeshInput {
             topology,
             noisy,
             confidence,
@@ -162,8 +162,8 @@ impl MeshSolver {
         if lambda > MAX_CREASE_LAMBDA_RATIO * auto {
             options.crease_passes.get_or_insert(0);
         }
-        let before = Shape::of(topology, &given.noisy, &base);
-        let linear = linearised(&given, base, frames, &options, lambda, None)?;
+        let before = ShapeMeasures::new(topology, &given.noisy, &base);
+        let linear = linearise(&given, base, frames, &options, lambda, None)?;
         let mut solver = MeshSolver {
             mesh,
             options,
@@ -241,7 +241,10 @@ impl MeshSolver {
     }
 
     /// Starts to solve the linearised problem, where there is one before from its dual.
-    fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised, Sides)>) -> Result<()> {
+    fn begin(
+        &mut self,
+        warm: Option<(State<SparseOperator>, Linearisation, SmoothRegions)>,
+    ) -> Result<()> {
         let mut options = self.options.common();
         if warm.is_none() && self.options.crease_passes_or_default() > 0 {
             options = options.gap(self.options.gap.max(FIRST_SOLVE_GAP));
@@ -258,7 +261,7 @@ impl MeshSolver {
             let centres = self.linear.centres.iter();
             let known: Vec<bool> = centres.map(|v| sides.meet_at(*v as usize)).collect();
             self.creases = creases.vertices + problem.free_creases(&known);
-            penalise(problem);
+            set_rho_shares(problem);
             state.rho = old.rho;
             for (stencil, centre) in self.linear.centres.iter().enumerate() {
                 let from = before.about[*centre as usize];
@@ -299,7 +302,7 @@ impl MeshSolver {
         let last = self.passes.len() >= self.options.crease_passes_or_default();
         let z = &level.best.z;
         let mut next = self.linear.moved(z);
-        restore(&self.given, &mut next, &self.linear.frames, None);
+        extrapolate_border(&self.given, &mut next, &self.linear.frames, None);
         let topology = &self.given.topology;
         let old: Vec<Point> = self.linear.frames.iter().map(|f| f.normal).collect();
         let up = normals(topology, &next, Some(&old));
@@ -327,9 +330,9 @@ impl MeshSolver {
         let (topology, held) = (&self.given.topology, &self.given.held);
         let surface = &mut self.surface;
         if done && self.options.crease_passes_or_default() > 0 {
-            let sides = Sides::new(topology, surface)?;
-            restore(&self.given, surface, &self.linear.frames, Some(&sides));
-            sharpen(&self.given, &sides, surface, &self.linear.frames);
+            let sides = SmoothRegions::new(topology, surface)?;
+            extrapolate_border(&self.given, surface, &self.linear.frames, Some(&sides));
+            move_crease_vertices(&self.given, &sides, surface, &self.linear.frames);
             if let Some(sigma) = self.sigma {
                 fair(
                     surface,
@@ -341,9 +344,17 @@ impl MeshSolver {
             // Normals beside creases are others now.
             let up = normals(topology, surface, Some(&old));
             unfold(topology, surface, &up, held);
-            uncross(topology, &sides.fans, surface, held, &|v| sides.meet_at(v));
+            separate_self_intersections(topology, &sides.vertex_fans, surface, held, &|v| {
+                sides.meet_at(v)
+            });
         } else {
-            uncross(topology, &Fans::new(topology), surface, held, &|_| false);
+            separate_self_intersections(
+                topology,
+                &VertexFans::new(topology),
+                surface,
+                held,
+                &|_| false,
+            );
         }
         if done {
             self.reason = Some(reason);
@@ -356,9 +367,9 @@ impl MeshSolver {
             .map(|(normal, hint)| Frame::about(normal, hint.tangents[0]))
             .collect();
         let base = self.surface.clone();
-        let sides = Sides::new(&self.given.topology, &base)?;
+        let sides = SmoothRegions::new(&self.given.topology, &base)?;
         let (options, lambda) = (&self.options, self.lambda);
-        let next = linearised(&self.given, base, frames, options, lambda, Some(&sides))?;
+        let next = linearise(&self.given, base, frames, options, lambda, Some(&sides))?;
         let before = std::mem::replace(&mut self.linear, next);
         self.begin(Some((level.state, before, sides)))?;
         self.seconds.setup += start.elapsed().as_secs_f64();
@@ -379,7 +390,7 @@ impl MeshSolver {
                 positions[*corner as usize] = self.bounds.outward(self.surface[joined as usize]);
             }
         }
-        let after = Shape::of(topology, &self.surface, &self.surface);
+        let after = ShapeMeasures::new(topology, &self.surface, &self.surface);
         let (length, closed) = (1.0 / self.bounds.scale, topology.closed);
         let interior = self.linear.centres.len();
         let inside = topology.vertices_inside().count();
@@ -410,14 +421,14 @@ impl MeshSolver {
     }
 }
 
-fn linearised(
-    given: &Given,
+fn linearise(
+    given: &MeshInput,
     base: Vec<Point>,
     frames: Vec<Frame>,
     options: &MeshOptions,
     lambda: f64,
-    sides: Option<&Sides>,
-) -> Result<Linearised> {
-    let bends = Bends::of(&options.common());
-    Linearised::about(given, base, frames, bends, |_| lambda, sides)
+    sides: Option<&SmoothRegions>,
+) -> Result<Linearisation> {
+    let bends = HuberParameters::of(&options.common());
+    Linearisation::new(given, base, frames, bends, |_| lambda, sides)
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::{Frame, Point, normals};
-use super::given::Given;
-use super::linear::Linearised;
+use super::input::MeshInput;
+use super::linearisation::Linearisation;
 use super::quadratic::{Neighbour, Quadratic};
 use super::topology::Topology;
 use super::{MeshOptions, fit_mesh};
@@ -13,7 +13,7 @@ use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
 use crate::fit::admm::state::State;
 use crate::fit::coordinates::Coordinates;
-use crate::fit::energy::law::Bends;
+use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
 use crate::fit::linear::zstep::Solvable;
@@ -24,7 +24,7 @@ use crate::scene::view::Frame as Frame3;
 use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 
 mod creases;
-mod crossing;
+mod self_intersections;
 
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut random = oorandom::Rand64::new(seed.into());
@@ -117,14 +117,14 @@ fn noisy(mesh: &Mesh, sigma: f64) -> Mesh {
     with_positions(mesh, &x)
 }
 
-const BENDS: Bends = Bends {
+const BENDS: HuberParameters = HuberParameters {
     flatness: 0.3,
     delta: 10.0,
 };
 
-fn given(mesh: &Mesh) -> Given {
+fn given(mesh: &Mesh) -> MeshInput {
     let topology = Topology::new(mesh).unwrap();
-    Given {
+    MeshInput {
         noisy: points(mesh),
         confidence: Vec::new(),
         held: vec![false; topology.len()],
@@ -133,14 +133,14 @@ fn given(mesh: &Mesh) -> Given {
 }
 
 /// About the mesh itself.
-fn linearised(mesh: &Mesh) -> Linearised {
+fn linearise(mesh: &Mesh) -> Linearisation {
     let given = given(mesh);
     let up = normals(&given.topology, &given.noisy, None);
     let frames = up
         .into_iter()
         .map(|n| Frame::about(n, Point::x()))
         .collect();
-    Linearised::about(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
+    Linearisation::new(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn a_plane_of_hexagons_has_the_papers_stencil() {
     let flat = Heightfield::from_fn(lattice, |_, _| 0.0).unwrap();
     let flat = Triangulation::new(&flat, &Frame3::default()).unwrap();
     let mesh = Mesh::new(flat.positions().to_vec(), flat.triangles().to_vec()).unwrap();
-    let linear = linearised(&mesh);
+    let linear = linearise(&mesh);
     assert!((linear.spacing / h - 1.0).abs() < 1e-12);
     let mut random = random(1);
     let heights: Vec<f64> = linear.base.iter().map(|_| random()).collect();
@@ -251,7 +251,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let topology = Topology::new(&mesh).unwrap();
     let areas = super::geometry::areas(&topology, &base);
     let whole = areas.iter().copied().fold(0.0, f64::max);
-    let given = Given {
+    let given = MeshInput {
         topology,
         noisy: places.clone(),
         confidence: areas.iter().map(|area| whole / area).collect(),
@@ -261,10 +261,10 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         .iter()
         .map(|_| Frame::about(Point::z(), Point::x()))
         .collect();
-    let bends = Bends::of(&options);
-    let linear = Linearised::about(&given, base, frames, bends, |_| 1e4, None).unwrap();
+    let bends = HuberParameters::of(&options);
+    let linear = Linearisation::new(&given, base, frames, bends, |_| 1e4, None).unwrap();
     let jacobi =
-        |problem: &super::linear::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
+        |problem: &super::linearisation::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
     let b = solve(
         linear.problem.clone(),
         &options,
@@ -300,7 +300,7 @@ fn curvature_is_that_of_spheres_and_pipes() {
         [r * phi.cos() * radius, r * phi.sin() * radius, y * radius]
     }));
     for (mesh, other) in [(ball, 1.0 / radius), (pipe(60, radius, 2.0), 0.0)] {
-        let linear = linearised(&mesh);
+        let linear = linearise(&mesh);
         let mut count = 0;
         linear
             .problem

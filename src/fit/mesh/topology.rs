@@ -6,7 +6,7 @@ use crate::error::{Error, Result, rounded, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::scene::mesh::Mesh;
 
-use super::curve;
+use super::morton_order;
 use super::report::Repairs;
 use crate::scene::half_edges::{next_half_edge, twin_half_edges};
 
@@ -55,7 +55,7 @@ impl Topology {
     /// As [`Self::new`].
     pub(crate) fn in_order_of_place(mesh: &Mesh) -> Result<Self> {
         let (mut joined, mut source) = join(mesh)?;
-        let order = curve::order(source.iter().map(|i| mesh.positions()[*i as usize]));
+        let order = morton_order::order(source.iter().map(|i| mesh.positions()[*i as usize]));
         let mut place = try_filled("vertices", source.len(), 0)?;
         for (new, old) in (0..).zip(&order) {
             place[*old as usize] = new;

@@ -48,7 +48,7 @@ pub(crate) trait Operator: Clone + Debug + 'static {
     }
     /// What a stencil counts in `‖Cz − H‖²`, besides its area: its share of ρ.
     #[inline(always)]
-    fn penalty(&self, _stencil: usize) -> f64 {
+    fn rho_share(&self, _stencil: usize) -> f64 {
         1.0
     }
     /// The coordinates of a vertex, whose linear functions `C` does not see.

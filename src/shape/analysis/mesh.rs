@@ -8,7 +8,7 @@ use super::curvature::eigenvalues_by_magnitude;
 use super::summary::{CurvatureMagnitudes, Summary};
 use crate::error::{Result, positive, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
-use crate::fit::mesh::linear::fit_at;
+use crate::fit::mesh::linearisation::fit_at;
 use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
 use crate::error::{Result, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
-use crate::fit::mesh::linear::fit_at;
+use crate::fit::mesh::linearisation::fit_at;
 use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;

@@ -83,7 +83,7 @@ impl Precision for f32 {
         lanes::double(self)
     }
     fn rows(operator: &SparseOperator) -> (&Rows<f32>, &[f32]) {
-        (&operator.single, &operator.single_penalised)
+        (&operator.single, &operator.single_rho_weights)
     }
     fn unit(operator: &SparseOperator) -> f64 {
         operator.spacing.powi(2)
@@ -110,7 +110,7 @@ impl Precision for f64 {
         self
     }
     fn rows(operator: &SparseOperator) -> (&Rows<f64>, &[f64]) {
-        (&operator.double, &operator.penalised)
+        (&operator.double, &operator.rho_weights)
     }
     fn unit(_: &SparseOperator) -> f64 {
         1.0

@@ -171,9 +171,9 @@ pub(crate) struct SparseOperator {
     weights: Vec<f64>,
     single_weights: Vec<f32>,
     /// The share of ρ at each stencil, and the weights times that.
-    penalties: Vec<f64>,
-    penalised: Vec<f64>,
-    single_penalised: Vec<f32>,
+    rho_shares: Vec<f64>,
+    rho_weights: Vec<f64>,
+    single_rho_weights: Vec<f32>,
     vertices: RowRuns,
     stencils: RowRuns,
     beside: Arc<Vec<Vec<u32>>>,
@@ -225,9 +225,9 @@ impl SparseOperator {
                 first: rows.first.clone(),
                 fours: rows.fours.iter().map(narrow).collect(),
             }),
-            penalties: try_filled("penalties", rows.len(), 1.0)?,
-            penalised: weights.clone(),
-            single_penalised: single_weights.clone(),
+            rho_shares: try_filled("rho_shares", rows.len(), 1.0)?,
+            rho_weights: weights.clone(),
+            single_rho_weights: single_weights.clone(),
             double: Arc::new(rows),
             single_weights,
             weights,
@@ -266,19 +266,19 @@ impl SparseOperator {
     }
 
     /// Sets what the penalty counts at each stencil.
-    pub(crate) fn penalise(&mut self, share: impl Fn(usize) -> f64) {
+    pub(crate) fn set_rho_shares(&mut self, share: impl Fn(usize) -> f64) {
         for stencil in 0..self.weights.len() {
-            let penalty = share(stencil);
-            self.penalties[stencil] = penalty;
-            self.penalised[stencil] = penalty * self.weights[stencil];
-            self.single_penalised[stencil] = lanes::single(self.penalised[stencil]);
+            let rho_share = share(stencil);
+            self.rho_shares[stencil] = rho_share;
+            self.rho_weights[stencil] = rho_share * self.weights[stencil];
+            self.single_rho_weights[stencil] = lanes::single(self.rho_weights[stencil]);
         }
     }
 
     /// The diagonal of `CᵀC`, with the penalty's weights.
     fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
-        for (stencil, weight) in self.penalised.iter().enumerate() {
+        for (stencil, weight) in self.rho_weights.iter().enumerate() {
             for Four { vertices, entries } in self.double.row(stencil) {
                 for (lane, vertex) in vertices.iter().enumerate() {
                     let squares = entries.iter().map(|row| row[lane] * row[lane]);
@@ -383,8 +383,8 @@ impl Operator for SparseOperator {
     }
 
     #[inline(always)]
-    fn penalty(&self, stencil: usize) -> f64 {
-        self.penalties[stencil]
+    fn rho_share(&self, stencil: usize) -> f64 {
+        self.rho_shares[stencil]
     }
 
     fn place(&self, vertex: usize) -> [f64; 2] {

@@ -11,8 +11,8 @@ use crate::fit::admm::iteration::Level;
 use crate::fit::admm::schedule::Plan;
 use crate::fit::admm::state::State;
 use crate::fit::coordinates::Coordinates;
-use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem;
+use crate::fit::energy::spectral_penalty::PenaltyKind;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
 use crate::fit::linear::zstep::Solvable;
@@ -120,7 +120,7 @@ impl Both {
             target[domain.lattice_index(cell)] = lattice.target[cell];
         }
         let lambda = options.lambda.value();
-        let mut sparse = Problem::under(operator, lambda, target, Kind::of(options));
+        let mut sparse = Problem::under(operator, lambda, target, PenaltyKind::of(options));
         let weight = |vertex| input.weight(vertex);
         let constrained = |vertex| input.is_constrained(vertex);
         sparse
@@ -203,18 +203,20 @@ fn the_answer_does_not_depend_on_the_penalties() {
     let (lattice, _) = solve(&both.lattice, multigrid, &options);
     let (usual, _) = solve(&both.sparse, JacobiGradients::new, &options);
     let mut noise = noise(8);
-    let penalties: Vec<f64> = (0..both.sparse.operator.stencil_cells())
+    let rho_shares: Vec<f64> = (0..both.sparse.operator.stencil_cells())
         .map(|_| 10f64.powf(noise()))
         .collect();
-    both.sparse.operator.penalise(|stencil| penalties[stencil]);
+    both.sparse
+        .operator
+        .set_rho_shares(|stencil| rho_shares[stencil]);
     let (own, reason) = solve(&both.sparse, JacobiGradients::new, &options);
     assert_eq!(reason, StopReason::Gap);
     assert_alike(&both, &lattice, &own);
     assert_ne!(own.best.z, usual.best.z);
     // Dual and Hessian are what the iterate is made of.
-    for (stencil, penalty) in penalties.iter().enumerate() {
+    for (stencil, rho_share) in rho_shares.iter().enumerate() {
         let (dual, hessian) = own.state.matrices(&both.sparse, stencil);
-        let v = dual + hessian.scale(own.state.rho * penalty);
+        let v = dual + hessian.scale(own.state.rho * rho_share);
         let [found, expected] = [v, own.state.v.get(stencil)].map(|m| m.coordinates());
         for (a, b) in found.into_iter().zip(expected) {
             assert!((a - b).abs() <= 1e-12 * (1.0 + b.abs()), "{a} and {b}");

@@ -7,7 +7,9 @@ use clarabel::solver::{
 use nalgebra::{DMatrix, DVector};
 use sprs::TriMat;
 
-use super::{JacobiGradients, Kind, Problem, StopReason, noise, operator_of, options, solve};
+use super::{
+    JacobiGradients, PenaltyKind, Problem, StopReason, noise, operator_of, options, solve,
+};
 
 /// Scattered points, each but those at the border with a quadratic through the eight around it.
 fn scattered(side: usize) -> (sprs::CsMat<f64>, Vec<usize>, Vec<[f64; 2]>) {
@@ -117,7 +119,7 @@ fn scattered_points_have_the_optimum_of_a_conic_solver() {
     let (optimum, z) = conic(&matrix, &target, lambda);
     let operator = operator_of(&matrix, &centres, places, 1.0 / side as f64);
     // The input is no plane: the affine functions are looked for among all of them.
-    let problem = Problem::under(operator, lambda, target, Kind::Nuclear);
+    let problem = Problem::under(operator, lambda, target, PenaltyKind::Nuclear);
     let (level, reason) = solve(&problem, JacobiGradients::new, &options(lambda).gap(1e-7));
     assert_eq!(reason, StopReason::Gap);
     let best = &level.best;

@@ -4,15 +4,15 @@
 //! the Hessian is large and its cost next to nothing: there the usual ρ holds on to what the Hessian was
 //! before, and the fold takes many iterations to move.
 
-use super::linear::Problem;
-use crate::fit::energy::law::Kind;
+use super::linearisation::Problem;
+use crate::fit::energy::spectral_penalty::PenaltyKind;
 
 /// Adapts the penalty to the weights.
-pub(super) fn penalise(problem: &mut Problem) {
-    if let Kind::Huber(bends) = problem.kind {
+pub(super) fn set_rho_shares(problem: &mut Problem) {
+    if let PenaltyKind::Huber(bends) = problem.kind {
         let weight = &problem.weight;
         let of = |stencil| share(weight.at(stencil), bends.flatness);
-        problem.operator.penalise(of);
+        problem.operator.set_rho_shares(of);
     }
 }
 
@@ -26,21 +26,21 @@ fn share(weight: f64, flatness: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::energy::law::{Bends, Law};
+    use crate::fit::energy::spectral_penalty::{HuberParameters, SpectralPenalty};
     use crate::math::sym2::Sym2;
 
-    /// `Y` follows from `V` without ρ wherever ρ has a share: so one law does for all stencils.
+    /// `Y` follows from `V` without ρ wherever ρ has a share: so one penalty does for all stencils.
     #[test]
     fn the_dual_does_not_depend_on_the_penalty_where_it_is_less() {
         let (flatness, delta) = (0.3, 0.07);
-        let bends = Bends { flatness, delta };
+        let bends = HuberParameters { flatness, delta };
         let mut shared = 0;
         for weight in [0.01, 0.05, 0.2, 0.299, 0.31, 0.6, 1.0] {
             let rho = 0.8;
             let own = rho * share(weight, flatness);
             shared += usize::from(own < rho);
             for v in [Sym2::new(0.3, 0.1, -0.2), Sym2::new(2.0, -0.7, 0.4)] {
-                let duals = [rho, own].map(|rho| bends.law(rho).dual(v, weight));
+                let duals = [rho, own].map(|rho| bends.penalty(rho).dual(v, weight));
                 let [a, b] = duals.map(|dual| dual.entries());
                 assert_eq!(a, b, "of {weight}");
             }

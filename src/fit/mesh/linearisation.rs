@@ -4,15 +4,15 @@
 //! all of them. What the second fundamental form is before anything moves is the column of one more
 //! vertex, which is held at 1.
 
+use super::crease_directions::CreaseDirections;
 use super::geometry::{Frame, Point, areas};
-use super::given::Given;
+use super::input::MeshInput;
 use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT};
-use super::sides::Sides;
+use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
-use super::ways::Ways;
 use crate::error::{Error, Result, try_filled};
-use crate::fit::energy::law::{Bends, Kind};
 use crate::fit::energy::problem;
+use crate::fit::energy::spectral_penalty::{HuberParameters, PenaltyKind};
 use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
 use crate::lattice::per_cell::PerCell;
 use crate::math::index::NO_INDEX;
@@ -40,7 +40,7 @@ const LEAST_CONFIDENCE: f64 = 1e-4;
 
 /// About a base.
 #[derive(Debug, Clone)]
-pub(super) struct Linearised {
+pub(super) struct Linearisation {
     pub problem: Problem,
     pub base: Vec<Point>,
     pub frames: Vec<Frame>,
@@ -50,7 +50,7 @@ pub(super) struct Linearised {
     /// From the unknowns to distances along the rays.
     pub scales: Vec<f64>,
     /// Unknowns behind those of vertices and the constant.
-    pub ways: Ways,
+    pub directions: CreaseDirections,
     /// Spacing of a hexagonal lattice with so many vertices.
     pub spacing: f64,
 }
@@ -60,27 +60,29 @@ pub(super) fn spacing_of(area: f64) -> f64 {
     (2.0 * area / 3f64.sqrt()).sqrt()
 }
 
-impl Linearised {
+impl Linearisation {
     /// About vertices at `base`, which move along the normals of their frames; on creases, where `sides` meet,
     /// across them as well.
     ///
     /// # Errors
     /// [`Error::Topology`] if no vertex has triangles all around, or out of memory.
-    pub(super) fn about(
-        given: &Given,
+    pub(super) fn new(
+        given: &MeshInput,
         base: Vec<Point>,
         frames: Vec<Frame>,
-        bends: Bends,
+        bends: HuberParameters,
         lambda: impl Fn(f64) -> f64,
-        sides: Option<&Sides>,
+        sides: Option<&SmoothRegions>,
     ) -> Result<Self> {
-        let Given { topology, .. } = given;
+        let MeshInput { topology, .. } = given;
         let count = topology.len();
         let constant = count as u32;
         let areas = areas(topology, &base);
-        let ways = sides.map_or_else(Ways::default, |s| Ways::new(given, s, &base, &frames));
+        let directions = sides.map_or_else(CreaseDirections::default, |s| {
+            CreaseDirections::new(given, s, &base, &frames)
+        });
         let across = constant + 1;
-        let unknowns = count + 1 + ways.all.len();
+        let unknowns = count + 1 + directions.all.len();
         let mut about = try_filled("stencils", count, NO_INDEX)?;
         let (mut centres, mut rows) = (Vec::new(), Rows::new());
         rows.reserve(count, STENCIL_ROW_CAPACITY);
@@ -100,11 +102,11 @@ impl Linearised {
                 let change = fit.change(&frame, k, frames[*other as usize].normal);
                 row.push((*other, change.coordinates()));
                 own = own - fit.change(&frame, k, ray.normal);
-                for (way, along) in ways.of(*other as usize) {
+                for (way, along) in directions.of(*other as usize) {
                     row.push((across + way, fit.change(&frame, k, along).coordinates()));
                 }
             }
-            for (way, along) in ways.of(vertex) {
+            for (way, along) in directions.of(vertex) {
                 let all = (0..vertices.len()).map(|k| fit.change(&frame, k, along));
                 let own = all.fold(Sym2::default(), |sum, change| sum - change);
                 row.push((across + way, own.coordinates()));
@@ -147,7 +149,7 @@ impl Linearised {
             *scale = (share(vertex) * trust).sqrt().recip();
         }
         rows.scale_columns(|unknown| match unknown.checked_sub(across) {
-            Some(way) => scales[ways.all[way as usize].0 as usize],
+            Some(way) => scales[directions.all[way as usize].0 as usize],
             None => scales.get(unknown as usize).copied().unwrap_or(1.0),
         });
         let beside = centres.iter().map(|vertex| {
@@ -172,11 +174,12 @@ impl Linearised {
             let off = given.noisy[vertex] - base[vertex];
             target[vertex] = off.dot(&frames[vertex].normal) / scales[vertex];
         }
-        for (target, (vertex, along)) in target[count + 1..].iter_mut().zip(&ways.all) {
+        for (target, (vertex, along)) in target[count + 1..].iter_mut().zip(&directions.all) {
             let vertex = *vertex as usize;
             *target = (given.noisy[vertex] - base[vertex]).dot(along) / scales[vertex];
         }
-        let mut problem = Problem::under(operator, lambda(spacing), target, Kind::Huber(bends));
+        let mut problem =
+            Problem::under(operator, lambda(spacing), target, PenaltyKind::Huber(bends));
         problem.constrained.push(constant);
         let mut inverse = try_filled("fidelity", unknowns, 1.0)?;
         inverse[count] = 0.0;
@@ -190,14 +193,14 @@ impl Linearised {
         let sizes = given.noisy.iter().map(|x| x.norm());
         let largest = sizes.fold(0.0, f64::max);
         problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
-        Ok(Linearised {
+        Ok(Linearisation {
             problem,
             base,
             frames,
             centres,
             about,
             scales,
-            ways,
+            directions,
             spacing,
         })
     }
@@ -222,7 +225,7 @@ impl Linearised {
         let mut x: Vec<Point> = all
             .map(|((base, frame), (z, scale))| base + frame.normal * (scale * z))
             .collect();
-        for (z, (vertex, along)) in z[self.base.len() + 1..].iter().zip(&self.ways.all) {
+        for (z, (vertex, along)) in z[self.base.len() + 1..].iter().zip(&self.directions.all) {
             let vertex = *vertex as usize;
             x[vertex] += along * (self.scales[vertex] * z);
         }
@@ -250,7 +253,7 @@ fn fit_beside(
     x: &[Point],
     frame: &Frame,
     vertex: usize,
-    sides: Option<&Sides>,
+    sides: Option<&SmoothRegions>,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
     let offset = |other: &u32, weight| Neighbour {
         offset: x[*other as usize] - x[vertex],

@@ -4,24 +4,29 @@
 //! sides: what it is off across the ray would stay a dent in both.
 
 use super::geometry::{Frame, Point};
-use super::given::Given;
-use super::sides::Sides;
+use super::input::MeshInput;
+use super::smooth_regions::SmoothRegions;
 
-/// Ways across the rays, each an unknown of its own.
+/// Directions across the rays, each an unknown of its own.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Ways {
+pub(super) struct CreaseDirections {
     /// Which vertex goes along each, and the way.
     pub all: Vec<(u32, Point)>,
     /// Where those of each vertex begin.
     first: Vec<u32>,
 }
 
-impl Ways {
+impl CreaseDirections {
     /// Across the crease where two sides meet, and everywhere where three do.
-    pub(super) fn new(given: &Given, sides: &Sides, base: &[Point], frames: &[Frame]) -> Ways {
+    pub(super) fn new(
+        given: &MeshInput,
+        sides: &SmoothRegions,
+        base: &[Point],
+        frames: &[Frame],
+    ) -> CreaseDirections {
         let topology = &given.topology;
         let creases = sides.creases(topology);
-        let mut ways = Ways {
+        let mut directions = CreaseDirections {
             all: Vec::new(),
             first: vec![0],
         };
@@ -34,7 +39,7 @@ impl Ways {
                 (2, Some([a, b])) => {
                     let along = base[b as usize] - base[a as usize];
                     let way = frame.normal.cross(&along).try_normalize(0.0);
-                    ways.all.extend(way.map(|way| (vertex as u32, way)));
+                    directions.all.extend(way.map(|way| (vertex as u32, way)));
                 }
                 (3.., _) => {
                     let ring = topology.around(vertex).iter();
@@ -43,16 +48,18 @@ impl Ways {
                         .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
                     let hint = longest.unwrap_or(frame.tangents[0]);
                     let [a, b] = Frame::about(frame.normal, hint).tangents;
-                    ways.all.extend([(vertex as u32, a), (vertex as u32, b)]);
+                    directions
+                        .all
+                        .extend([(vertex as u32, a), (vertex as u32, b)]);
                 }
                 _ => {}
             }
-            ways.first.push(ways.all.len() as u32);
+            directions.first.push(directions.all.len() as u32);
         }
-        ways
+        directions
     }
 
-    /// The numbers of a vertex's ways, and these.
+    /// The numbers of a vertex's directions, and these.
     pub(super) fn of(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
         let own = match self.first.get(vertex..vertex + 2) {
             Some([first, end]) => *first..*end,

@@ -1,14 +1,14 @@
 //! Which moments load the border of a mesh, and creases, which bear none either: see
-//! [`energy::load`](crate::fit::energy::load).
+//! [`energy::moment_load`](crate::fit::energy::moment_load).
 
 use nalgebra::Matrix3;
 
 use super::geometry::Frame;
-use super::linear::Linearised;
+use super::linearisation::Linearisation;
 use super::options::MeshOptions;
 use super::topology::Topology;
 use crate::error::{Result, try_filled};
-use crate::fit::energy::load::Rings;
+use crate::fit::energy::moment_load::Rings;
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
@@ -24,7 +24,7 @@ const LOAD_REACH_RINGS: u32 = 3;
 /// Out of memory.
 pub(super) fn load_border(
     topology: &Topology,
-    linear: &mut Linearised,
+    linear: &mut Linearisation,
     moments: &[Sym2],
     options: &MeshOptions,
     known: &[bool],
@@ -57,10 +57,10 @@ pub(super) fn load_border(
             false => moment,
         })
         .collect();
-    let (across, ways) = (topology.len() + 1, &linear.ways.all);
+    let (across, directions) = (topology.len() + 1, &linear.directions.all);
     linear.problem.load(&planar, |unknown| {
         let vertex = match unknown.checked_sub(across) {
-            Some(way) => ways[way].0 as usize,
+            Some(way) => directions[way].0 as usize,
             None => unknown,
         };
         rings.are_within(vertex, LOAD_REACH_RINGS)

@@ -5,18 +5,18 @@ use super::topology::Topology;
 
 /// Figures of a shape.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Shape {
+pub(super) struct ShapeMeasures {
     pub volume: f64,
     pub area: f64,
     pub flipped: usize,
 }
 
-impl Shape {
+impl ShapeMeasures {
     /// Triangles are flipped that face away from the vertex normals of the `smooth` surface.
-    pub(super) fn of(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
+    pub(super) fn new(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
         let up = normals(topology, smooth, None);
         let flipped = (topology.triangles.iter()).filter(|triangle| faces_away(x, &up, triangle));
-        Shape {
+        ShapeMeasures {
             volume: volume(topology, x),
             area: topology
                 .triangles

@@ -1,8 +1,8 @@
 use nalgebra::Matrix3;
 
 use super::*;
-use crate::fit::mesh::crossing::uncross;
-use crate::fit::mesh::fans::Fans;
+use crate::fit::mesh::self_intersections::separate_self_intersections;
+use crate::fit::mesh::vertex_fans::VertexFans;
 
 /// A cube leant over, so that four of its edges are sharp.
 fn leaning(cols: usize, by: f64) -> Mesh {
@@ -84,7 +84,7 @@ fn vertices_that_passed_each_other_on_a_crease_go_back() {
     let truth = cube(8);
     let given = given(&truth);
     let topology = &given.topology;
-    let fans = Fans::new(topology);
+    let vertex_fans = VertexFans::new(topology);
     let edge = |x: &Point| x.x == 1.0 && x.y == 1.0;
     let at = |z: f64| {
         let all = given.noisy.iter();
@@ -98,7 +98,9 @@ fn vertices_that_passed_each_other_on_a_crease_go_back() {
     x[other].z -= 0.2;
     assert!(crossings(&with_positions(&truth, &x)) > 0);
     let held = vec![false; topology.len()];
-    uncross(topology, &fans, &mut x, &held, &|v| edge(&given.noisy[v]));
+    separate_self_intersections(topology, &vertex_fans, &mut x, &held, &|v| {
+        edge(&given.noisy[v])
+    });
     assert_eq!(crossings(&with_positions(&truth, &x)), 0);
     assert!(x[at(-0.25)].z < x[one].z && x[one].z < x[other].z && x[other].z < x[at(0.5)].z);
     // What is not near stays, and what is on the edge slides along it.
@@ -120,7 +122,9 @@ fn bodies_put_through_each_other_stay() {
     assert!(crossings(&both) > 0);
     let given = given(&both);
     let mut x = given.noisy.clone();
-    let fans = Fans::new(&given.topology);
-    uncross(&given.topology, &fans, &mut x, &given.held, &|_| false);
+    let vertex_fans = VertexFans::new(&given.topology);
+    separate_self_intersections(&given.topology, &vertex_fans, &mut x, &given.held, &|_| {
+        false
+    });
     assert_eq!(x, given.noisy);
 }

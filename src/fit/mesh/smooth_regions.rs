@@ -1,8 +1,8 @@
 //! The sides of creases: smooth parts of a surface, and vertices where these meet.
 
-use super::fans::Fans;
 use super::geometry::Point;
 use super::topology::Topology;
+use super::vertex_fans::VertexFans;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
@@ -15,28 +15,28 @@ pub(super) const MIN_FOLD_ANGLE_RADIANS: f64 = 0.2;
 const MIN_SIDE_AREA_SHARE: f64 = 0.003;
 
 /// Which sides of creases vertices are on.
-pub(super) struct Sides {
+pub(super) struct SmoothRegions {
     /// The one label of the triangles around a vertex, or [`NO_INDEX`].
     pub of: Vec<u32>,
-    pub fans: Fans,
+    pub vertex_fans: VertexFans,
     labels: Vec<u32>,
 }
 
-impl Sides {
+impl SmoothRegions {
     /// Of the surface `x`.
     ///
     /// # Errors
     /// Out of memory.
-    pub(super) fn new(topology: &Topology, x: &[Point]) -> Result<Sides> {
+    pub(super) fn new(topology: &Topology, x: &[Point]) -> Result<SmoothRegions> {
         let facets = Facets::new(x.to_vec(), topology.triangles.clone())?;
         let labels = facets.parted(
             facets.usual_bend(),
             MIN_SIDE_AREA_SHARE,
             MIN_FOLD_ANGLE_RADIANS,
         )?;
-        let mut sides = Sides {
+        let mut sides = SmoothRegions {
             of: vec![NO_INDEX; topology.len()],
-            fans: Fans::new(topology),
+            vertex_fans: VertexFans::new(topology),
             labels,
         };
         for vertex in 0..topology.len() {
@@ -54,7 +54,7 @@ impl Sides {
 
     /// Whether a vertex has triangles of one side.
     pub(super) fn touch(&self, vertex: usize, side: u32) -> bool {
-        let own = self.fans.around(vertex).iter();
+        let own = self.vertex_fans.around(vertex).iter();
         own.map(|t| self.labels[*t as usize]).any(|s| s == side)
     }
 
@@ -64,7 +64,7 @@ impl Sides {
             if !topology.inside[vertex] || !self.meet_at(vertex) {
                 return None;
             }
-            let own = self.fans.around(vertex);
+            let own = self.vertex_fans.around(vertex);
             let folds = |other: &u32| {
                 let both = own.iter().map(|t| *t as usize);
                 let mut labels = both
@@ -83,7 +83,7 @@ impl Sides {
 
     /// The sides that a vertex is on.
     pub(super) fn around(&self, vertex: usize) -> Vec<u32> {
-        let own = self.fans.around(vertex).iter();
+        let own = self.vertex_fans.around(vertex).iter();
         let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();
         found.sort_unstable();
         found.dedup();

@@ -3,13 +3,13 @@
 use super::topology::Topology;
 
 /// For each vertex the numbers of its triangles, in order.
-pub(super) struct Fans {
+pub(super) struct VertexFans {
     first: Vec<u32>,
     triangles: Vec<u32>,
 }
 
-impl Fans {
-    pub(super) fn new(topology: &Topology) -> Fans {
+impl VertexFans {
+    pub(super) fn new(topology: &Topology) -> VertexFans {
         let mut first = vec![0u32; topology.len() + 1];
         for corner in topology.triangles.as_flattened() {
             first[*corner as usize + 1] += 1;
@@ -25,7 +25,7 @@ impl Fans {
                 next[*corner as usize] += 1;
             }
         }
-        Fans { first, triangles }
+        VertexFans { first, triangles }
     }
 
     pub(super) fn around(&self, vertex: usize) -> &[u32] {

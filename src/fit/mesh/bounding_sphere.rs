@@ -6,12 +6,12 @@ use crate::scene::mesh::Mesh;
 
 /// The way from the user's coordinates: `scale (x − centre)`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ball {
+pub(super) struct BoundingSphere {
     centre: Point,
     pub scale: f64,
 }
 
-impl Ball {
+impl BoundingSphere {
     /// About the centre of its area. It does not depend on how the mesh is turned.
     pub(super) fn around(mesh: &Mesh) -> Result<Self> {
         let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
@@ -30,7 +30,7 @@ impl Ball {
         if !centre.iter().all(|x| x.is_finite()) || !scale.is_normal() || !radius.is_normal() {
             return Err(Error::mesh_size(radius));
         }
-        Ok(Ball { centre, scale })
+        Ok(BoundingSphere { centre, scale })
     }
 
     pub(super) fn inward(self, x: [f64; 3]) -> Point {
@@ -47,5 +47,5 @@ impl Ball {
 /// # Errors
 /// [`Error::Topology`] if it has no size.
 pub(crate) fn scale_of(mesh: &Mesh) -> Result<f64> {
-    Ok(Ball::around(mesh)?.scale)
+    Ok(BoundingSphere::around(mesh)?.scale)
 }

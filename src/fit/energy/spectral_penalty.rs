@@ -10,8 +10,8 @@ use crate::math::lanes::single;
 use crate::math::real::{Real, larger, smaller};
 use crate::math::sym2::{Sym2, clamp};
 
-pub(crate) trait Law: Copy {
-    /// The largest [`Law::size`] of a feasible dual: 1, or infinity if all are.
+pub(crate) trait SpectralPenalty: Copy {
+    /// The largest [`SpectralPenalty::size`] of a feasible dual: 1, or infinity if all are.
     fn largest(self) -> f64 {
         1.0
     }
@@ -28,9 +28,9 @@ pub(crate) trait Law: Copy {
 
 /// `‖H‖_*`: the projection onto eigenvalues within ±ω (paper, App. D).
 #[derive(Clone, Copy)]
-pub(crate) struct Nuclear;
+pub(crate) struct NuclearNorm;
 
-impl Law for Nuclear {
+impl SpectralPenalty for NuclearNorm {
     #[inline(always)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
         v.clamp(weight)
@@ -51,9 +51,9 @@ impl Law for Nuclear {
 
 /// `‖H‖_F`: the projection onto the ball of radius ω.
 #[derive(Clone, Copy)]
-pub(crate) struct Frobenius;
+pub(crate) struct FrobeniusNorm;
 
-impl Law for Frobenius {
+impl SpectralPenalty for FrobeniusNorm {
     #[inline(always)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
         let size = v.dot(v).sqrt();
@@ -77,11 +77,11 @@ impl Law for Frobenius {
 /// `2ωs/ρ`, where `s = ‖H‖_*`, so that `Y` is `V` with eigenvalues cut off at
 /// `2ωs`; `s` follows by summing over the eigenvalues that are left, both or one.
 #[derive(Clone, Copy)]
-pub(crate) struct SquaredNuclear {
+pub(crate) struct SquaredNuclearNorm {
     pub rho: f64,
 }
 
-impl Law for SquaredNuclear {
+impl SpectralPenalty for SquaredNuclearNorm {
     fn largest(self) -> f64 {
         f64::INFINITY
     }
@@ -111,21 +111,21 @@ impl Law for SquaredNuclear {
 /// `φ(‖H‖_*)`, where `φ` has the slope `min(α + s/δ, ω)`: the weight is no factor, it is where the
 /// slope ends. A Huber function for `α = 0`, and `ω` times the nuclear norm for `α ≥ ω`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Bends {
+pub(crate) struct HuberParameters {
     /// `α`, the slope at 0.
     pub flatness: f64,
     /// `δ`, a curvature.
     pub delta: f64,
 }
 
-impl Bends {
+impl HuberParameters {
     pub(crate) fn of(options: &Options) -> Self {
         let Bending {
             bend_radius,
             flatness,
             ..
         } = Bending::SMOOTH.within(options);
-        Bends {
+        HuberParameters {
             flatness,
             delta: 1.0 / bend_radius,
         }
@@ -136,8 +136,8 @@ impl Bends {
         smaller(self.flatness + s / self.delta, 1.0)
     }
 
-    pub(crate) fn law(self, rho: f64) -> Huber {
-        Huber {
+    pub(crate) fn penalty(self, rho: f64) -> HuberPenalty {
+        HuberPenalty {
             bends: self,
             steps: self.steps(rho),
         }
@@ -170,9 +170,9 @@ impl Bends {
     }
 }
 
-/// The step of [`Huber`] at one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues cut off at
+/// The step of [`HuberPenalty`] at one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues cut off at
 /// `φ′(‖H‖_*)`, which follows by summing over the eigenvalues that are left, both or one, as for
-/// [`SquaredNuclear`].
+/// [`SquaredNuclearNorm`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HuberStep<T> {
     flatness: T,
@@ -196,14 +196,14 @@ impl<T: Real> HuberStep<T> {
     }
 }
 
-/// The law of [`Bends`] at one ρ.
+/// The penalty of [`HuberParameters`] at one ρ.
 #[derive(Clone, Copy)]
-pub(crate) struct Huber {
-    bends: Bends,
+pub(crate) struct HuberPenalty {
+    bends: HuberParameters,
     steps: HuberStep<f64>,
 }
 
-impl Law for Huber {
+impl SpectralPenalty for HuberPenalty {
     #[inline(always)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
         let [mean, diff, off] = self.steps.dual([v.mean, v.diff, v.off], weight);
@@ -211,7 +211,7 @@ impl Law for Huber {
     }
     #[inline(always)]
     fn value(self, hessian: Sym2, weight: f64) -> f64 {
-        let Bends { flatness, delta } = self.bends;
+        let HuberParameters { flatness, delta } = self.bends;
         let s = hessian.nuclear_norm();
         let least = smaller(flatness, weight);
         // Beyond `(ω − a)δ` the slope is ω.
@@ -225,92 +225,94 @@ impl Law for Huber {
     }
     #[inline(always)]
     fn conjugate(self, dual: Sym2, weight: f64) -> f64 {
-        let Bends { flatness, delta } = self.bends;
+        let HuberParameters { flatness, delta } = self.bends;
         let above = larger(dual.spectral_norm() - smaller(flatness, weight), 0.0);
         0.5 * delta * above * above
     }
 }
 
-/// Which law an energy follows; its weights ω are another matter.
+/// Which penalty an energy follows; its weights ω are another matter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum PenaltyKind {
     Nuclear,
     Frobenius,
     SquaredNuclear,
-    Huber(Bends),
+    Huber(HuberParameters),
 }
 
-impl Kind {
+impl PenaltyKind {
     pub(crate) fn of(options: &Options) -> Self {
         match options.energy_or_default() {
-            Energy::Nuclear | Energy::SecondFormOfInput | Energy::SecondForm => Kind::Nuclear,
-            Energy::Frobenius => Kind::Frobenius,
-            Energy::SquaredNuclear => Kind::SquaredNuclear,
-            Energy::Huber => Kind::Huber(Bends::of(options)),
+            Energy::Nuclear | Energy::SecondFormOfInput | Energy::SecondForm => {
+                PenaltyKind::Nuclear
+            }
+            Energy::Frobenius => PenaltyKind::Frobenius,
+            Energy::SquaredNuclear => PenaltyKind::SquaredNuclear,
+            Energy::Huber => PenaltyKind::Huber(HuberParameters::of(options)),
         }
     }
 }
 
-/// The law of a kind, looked up at every vertex. Kernels that are seldom run, or
+/// The penalty of a kind, looked up at every vertex. Kernels that are seldom run, or
 /// seldom for another energy than the nuclear norm, are compiled for this alone:
-/// a version for each law, which is what inlining comes to, would make the wasm a
+/// a version for each penalty, which is what inlining comes to, would make the wasm a
 /// quarter larger.
 #[derive(Clone, Copy)]
-pub(crate) enum Any {
+pub(crate) enum AnyPenalty {
     Nuclear,
     Frobenius,
-    SquaredNuclear(SquaredNuclear),
-    Huber(Huber),
+    SquaredNuclear(SquaredNuclearNorm),
+    Huber(HuberPenalty),
 }
 
-impl Any {
-    pub(crate) fn new(kind: Kind, rho: f64) -> Self {
+impl AnyPenalty {
+    pub(crate) fn new(kind: PenaltyKind, rho: f64) -> Self {
         match kind {
-            Kind::Nuclear => Any::Nuclear,
-            Kind::Frobenius => Any::Frobenius,
-            Kind::SquaredNuclear => Any::SquaredNuclear(SquaredNuclear { rho }),
-            Kind::Huber(bends) => Any::Huber(bends.law(rho)),
+            PenaltyKind::Nuclear => AnyPenalty::Nuclear,
+            PenaltyKind::Frobenius => AnyPenalty::Frobenius,
+            PenaltyKind::SquaredNuclear => AnyPenalty::SquaredNuclear(SquaredNuclearNorm { rho }),
+            PenaltyKind::Huber(bends) => AnyPenalty::Huber(bends.penalty(rho)),
         }
     }
 }
 
-/// Calls the same method of the law itself.
-macro_rules! the_law {
-    ($any:expr, |$law:ident| $call:expr) => {
+/// Calls the same method of the penalty itself.
+macro_rules! the_penalty {
+    ($any:expr, |$penalty:ident| $call:expr) => {
         match $any {
-            Any::Nuclear => {
-                let $law = Nuclear;
+            AnyPenalty::Nuclear => {
+                let $penalty = NuclearNorm;
                 $call
             }
-            Any::Frobenius => {
-                let $law = Frobenius;
+            AnyPenalty::Frobenius => {
+                let $penalty = FrobeniusNorm;
                 $call
             }
-            Any::SquaredNuclear($law) => $call,
-            Any::Huber($law) => $call,
+            AnyPenalty::SquaredNuclear($penalty) => $call,
+            AnyPenalty::Huber($penalty) => $call,
         }
     };
 }
 
-impl Law for Any {
+impl SpectralPenalty for AnyPenalty {
     fn largest(self) -> f64 {
-        the_law!(self, |law| law.largest())
+        the_penalty!(self, |penalty| penalty.largest())
     }
     #[inline(never)]
     fn dual(self, v: Sym2, weight: f64) -> Sym2 {
-        the_law!(self, |law| law.dual(v, weight))
+        the_penalty!(self, |penalty| penalty.dual(v, weight))
     }
     #[inline(never)]
     fn value(self, hessian: Sym2, weight: f64) -> f64 {
-        the_law!(self, |law| law.value(hessian, weight))
+        the_penalty!(self, |penalty| penalty.value(hessian, weight))
     }
     #[inline(never)]
     fn size(self, dual: Sym2, weight: f64) -> f64 {
-        the_law!(self, |law| law.size(dual, weight))
+        the_penalty!(self, |penalty| penalty.size(dual, weight))
     }
     #[inline(never)]
     fn conjugate(self, dual: Sym2, weight: f64) -> f64 {
-        the_law!(self, |law| law.conjugate(dual, weight))
+        the_penalty!(self, |penalty| penalty.conjugate(dual, weight))
     }
 }
 
@@ -322,21 +324,22 @@ mod tests {
     /// `H` minimises `ω f(H) + ρ/2 ‖H − V/ρ‖²`, and Fenchel's inequality is an
     /// equality for `(H, Y)` and holds for every other pair.
     fn check(
-        law: impl Law,
+        penalty: impl SpectralPenalty,
         [v, other]: [Sym2; 2],
         weight: f64,
         rho: f64,
     ) -> Result<(), TestCaseError> {
-        let dual = law.dual(v, weight);
+        let dual = penalty.dual(v, weight);
         let hessian = (v - dual).scale(1.0 / rho);
         let energy = |h: Sym2| {
             let distance = h - v.scale(1.0 / rho);
-            law.value(h, weight) + 0.5 * rho * distance.dot(distance)
+            penalty.value(h, weight) + 0.5 * rho * distance.dot(distance)
         };
         let size = 1.0 + energy(hessian) + energy(other);
         prop_assert!(energy(hessian) <= energy(hessian + other) + 1e-12 * size);
         prop_assert!(energy(hessian) <= energy(other) + 1e-12 * size);
-        let slack = |h: Sym2| law.value(h, weight) + law.conjugate(dual, weight) - h.dot(dual);
+        let slack =
+            |h: Sym2| penalty.value(h, weight) + penalty.conjugate(dual, weight) - h.dot(dual);
         prop_assert!(slack(hessian).abs() <= 1e-11 * size, "{}", slack(hessian));
         prop_assert!(slack(other) >= -1e-11 * size);
         Ok(())
@@ -357,11 +360,11 @@ mod tests {
             v in matrix(), other in matrix(), weight in 0.01..3.0f64, rho in 0.01..10.0f64,
             delta in 0.01..10.0f64,
         ) {
-            check(Nuclear, [v, other], weight, rho)?;
-            check(Frobenius, [v, other], weight, rho)?;
-            check(SquaredNuclear { rho }, [v, other], weight, rho)?;
+            check(NuclearNorm, [v, other], weight, rho)?;
+            check(FrobeniusNorm, [v, other], weight, rho)?;
+            check(SquaredNuclearNorm { rho }, [v, other], weight, rho)?;
             for flatness in [0.0, 0.3, 1.0] {
-                check(Bends { flatness, delta }.law(rho), [v, other], weight, rho)?;
+                check(HuberParameters { flatness, delta }.penalty(rho), [v, other], weight, rho)?;
             }
         }
     }

@@ -4,9 +4,9 @@
 //! other on their way, and the triangles between them turn over together, so that normals do not tell. Parts of
 //! a surface that meet far from each other along it, as those of bodies put through each other, stay.
 
-use super::fans::Fans;
 use super::geometry::{Point, twice_area};
 use super::topology::Topology;
+use super::vertex_fans::VertexFans;
 
 /// Cosine of the angle between a triangle's normal and its vertex's normal above which no triangles there
 /// cross.
@@ -31,15 +31,15 @@ const WIDENING_ROUNDS: usize = 10;
 
 /// Moves the vertices of such triangles towards the mean of their neighbours, those on creases along these
 /// first; `held` ones stay.
-pub(super) fn uncross(
+pub(super) fn separate_self_intersections(
     topology: &Topology,
-    fans: &Fans,
+    vertex_fans: &VertexFans,
     x: &mut [Point],
     held: &[bool],
     creased: &dyn Fn(usize) -> bool,
 ) {
     let all: Vec<u32> = (0..topology.len() as u32).collect();
-    let mut bad = tangled(topology, fans, x, &all);
+    let mut bad = tangled(topology, vertex_fans, x, &all);
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
     let mut moving: Vec<u32> = Vec::new();
     for round in 0..MAX_MENDING_ROUNDS {
@@ -70,7 +70,7 @@ pub(super) fn uncross(
             near = around(topology, &near);
         }
         left = left.saturating_sub(near.len());
-        bad = tangled(topology, fans, x, &near);
+        bad = tangled(topology, vertex_fans, x, &near);
     }
 }
 
@@ -114,12 +114,17 @@ fn mean_beside(
 
 /// Triangles at these vertices that cross one near, those that they cross, and those that face away from the normals
 /// of their corners.
-fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> Vec<u32> {
+fn tangled(
+    topology: &Topology,
+    vertex_fans: &VertexFans,
+    x: &[Point],
+    vertices: &[u32],
+) -> Vec<u32> {
     let triangles = &topology.triangles;
     let mut bad = Vec::new();
     let mut suspects = Vec::new();
     for vertex in vertices {
-        let own = fans.around(*vertex as usize);
+        let own = vertex_fans.around(*vertex as usize);
         let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
         let up = sides.clone().sum::<Point>();
         if sides
@@ -132,7 +137,7 @@ fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> V
     suspects.sort_unstable();
     suspects.dedup();
     let up = |vertex: &u32| {
-        let own = fans.around(*vertex as usize).iter();
+        let own = vertex_fans.around(*vertex as usize).iter();
         let sum: Point = own.map(|t| twice_area(x, &triangles[*t as usize])).sum();
         sum.try_normalize(0.0).unwrap_or_default()
     };
@@ -147,7 +152,7 @@ fn tangled(topology: &Topology, fans: &Fans, x: &[Point], vertices: &[u32]) -> V
         }
         let mut others = Vec::new();
         for vertex in near {
-            others.extend_from_slice(fans.around(vertex as usize));
+            others.extend_from_slice(vertex_fans.around(vertex as usize));
         }
         others.sort_unstable();
         others.dedup();

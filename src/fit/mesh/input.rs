@@ -5,7 +5,7 @@ use super::topology::Topology;
 
 /// Mesh to be fitted, which stays the same from one linearisation to the next, in normalised coordinates.
 #[derive(Debug, Clone)]
-pub(super) struct Given {
+pub(super) struct MeshInput {
     pub topology: Topology,
     /// The vertices as they were given.
     pub noisy: Vec<Point>,

@@ -4,10 +4,10 @@
 //! vertex on a crease is moved, as little as may be, to where the continuations of both sides meet (or of all
 //! three in a corner), each found without what is beyond the crease.
 
-use super::border::continued;
+use super::border_extrapolation::continued;
 use super::geometry::{Frame, Point, faces_away, normals};
-use super::given::Given;
-use super::sides::{MIN_FOLD_ANGLE_RADIANS, Sides};
+use super::input::MeshInput;
+use super::smooth_regions::{MIN_FOLD_ANGLE_RADIANS, SmoothRegions};
 use super::topology::Topology;
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use nalgebra::Matrix3;
@@ -16,7 +16,12 @@ use nalgebra::Matrix3;
 const MAX_SHARPENING_SHARE: f64 = 0.7;
 
 /// Moves the vertices on creases, where `sides` meet; `rays` are their normals so far.
-pub(super) fn sharpen(given: &Given, sides: &Sides, x: &mut [Point], rays: &[Frame]) {
+pub(super) fn move_crease_vertices(
+    given: &MeshInput,
+    sides: &SmoothRegions,
+    x: &mut [Point],
+    rays: &[Frame],
+) {
     let topology = &given.topology;
     let old: Vec<Point> = rays.iter().map(|frame| frame.normal).collect();
     let up = normals(topology, x, Some(&old));
@@ -49,7 +54,7 @@ pub(super) fn sharpen(given: &Given, sides: &Sides, x: &mut [Point], rays: &[Fra
         x[vertex] = before[vertex] + step;
         // Nothing folds over that did not.
         let folds = |x: &[Point], t: &u32| faces_away(x, &up, &topology.triangles[*t as usize]);
-        let own = sides.fans.around(vertex);
+        let own = sides.vertex_fans.around(vertex);
         if own.iter().any(|t| folds(x, t) && !folds(&before, t)) {
             x[vertex] = before[vertex];
         }

@@ -1,9 +1,9 @@
 //! Vertices on the border, put where the surface inside goes on to.
 
 use super::geometry::{Frame, Point};
-use super::given::Given;
+use super::input::MeshInput;
 use super::quadratic::{Neighbour, Quadratic};
-use super::sides::Sides;
+use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 
 /// Number of rings around a border vertex in which an inner vertex is looked for.
@@ -14,7 +14,12 @@ const SECOND_RING_WEIGHT: f64 = 0.3;
 
 /// Puts each vertex that is not inside on the mean of the quadratics that fit at the vertices inside next
 /// to it; where `sides` are known, by nothing beyond creases. Where there are none it stays.
-pub(super) fn restore(given: &Given, x: &mut [Point], frames: &[Frame], sides: Option<&Sides>) {
+pub(super) fn extrapolate_border(
+    given: &MeshInput,
+    x: &mut [Point],
+    frames: &[Frame],
+    sides: Option<&SmoothRegions>,
+) {
     let topology = &given.topology;
     let old = x.to_vec();
     for vertex in 0..topology.len() {

@@ -1,15 +1,16 @@
-//! What comes before the first iteration, in steps: the energy, the coarser lattices, the system
-//! of the first z-step.
+//! Set-up of one component in steps, before its first iteration: the energy, the coarser lattices, and the
+//! solver of the first z-step.
 
 use std::mem;
 use std::sync::Arc;
 
-use super::admm::best::Best;
-use super::admm::schedule::Plan;
+use super::admm::incumbent::Incumbent;
+use super::admm::parameters::AdmmParameters;
+use super::admm::solver::initial_rho;
 use super::coarsen::coarsen;
 use super::coordinates::Coordinates;
 use super::energy::creases::Creases;
-use super::heightfields::{Level, Problem, State};
+use super::heightfields::{AdmmSolver, Iterate, Problem};
 use super::input::Input;
 use super::linear::cg::ConjugateGradients;
 use super::multilevel::{Answer, Multilevel};
@@ -22,62 +23,64 @@ use crate::error::{Error, Result};
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 
-/// Relative duality gap from which on a surface is only looked at, and an earlier thin plate is good enough for
-/// it.
+/// Requested gap from which on a surface is a preview, so that the thin plate of an earlier solve is good
+/// enough a start for it.
 const PREVIEW_GAP: f64 = 0.05;
 
-/// Lattices are coarsened, for multigrid, as long as so many interior vertices are left.
+/// Minimum number of interior vertices of a coarse lattice of the multigrid hierarchy.
 const COARSEST_GRID: usize = 20;
 
-/// One connected part on the way to its [`Multilevel`].
+/// The set-up of one component under way, which ends with its [`Multilevel`] solve.
 #[derive(Debug, Clone)]
 pub(crate) enum ComponentSetup {
     Lattices(Box<Lattices>),
     FirstLevel(Box<FirstLevel>),
 }
 
-/// What a step leads to.
+/// Outcome of one step of the set-up.
 pub(crate) enum SetupStep {
     Partly(ComponentSetup),
     Fully(Box<Multilevel>),
 }
 
-/// The problem on the finest lattice, and coarser lattices as they are found.
+/// The problem on the finest lattice, and the coarser lattices made so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Lattices {
     input: Input,
     options: Options,
     coordinates: Coordinates,
-    plan: Plan,
+    parameters: AdmmParameters,
     problem: Problem,
-    /// The state to start from on the finest lattice, if there is one, and the heights of free vertices.
-    warm: Option<State>,
+    /// The first iterate on the finest lattice, if there is a warm start.
+    warm: Option<Iterate>,
+    /// How the heights of free vertices are guessed first.
     guess: InitialGuess,
-    /// The domains of all lattices so far, the finest first, and the inputs of the coarser ones.
+    /// The domains of all lattices so far, the finest first.
     domains: Vec<Arc<Domain>>,
+    /// The inputs of the coarser lattices.
     coarse: Vec<Input>,
     next: Next,
 }
 
-/// What there is to be done.
+/// The next step of the set-up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Next {
     /// One more lattice.
     Coarsen,
-    /// Heights for free vertices, which the lattices help to find.
+    /// Heights of free vertices, for which the lattices are needed.
     Fill,
-    /// The same lattices again, for those heights.
+    /// The lattices once more, with these heights.
     CoarsenAgain,
     Done,
 }
 
-/// The first level, but for its first certificate.
+/// The first level, all but its first certificate.
 #[derive(Debug, Clone)]
 pub(crate) struct FirstLevel {
     options: Options,
-    plan: Plan,
+    parameters: AdmmParameters,
     problem: Problem,
-    state: State,
+    iterate: Iterate,
     cg: ConjugateGradients,
     /// The problems of the finer levels, the finest first.
     finer: Vec<Problem>,
@@ -85,8 +88,8 @@ pub(crate) struct FirstLevel {
 }
 
 impl ComponentSetup {
-    /// `warm_start`: what to start from on the finest lattice, if there is anything, and the vertex of the
-    /// whole lattice that is `(0, 0)` of the input's.
+    /// Begins the set-up of a component. A `warm_start` is an earlier solve, with the vertex of the whole
+    /// lattice that is `(0, 0)` of the component's.
     pub(crate) fn new(
         input: Input,
         domain: Arc<Domain>,
@@ -94,7 +97,7 @@ impl ComponentSetup {
         options: &Options,
         warm_start: Option<(&WarmStart, (usize, usize))>,
     ) -> Result<Self> {
-        let plan = Plan::new(options);
+        let parameters = AdmmParameters::new(options);
         let coordinates = Coordinates::new(&input, &domain, scale);
         let mut problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
         let energy = problem.smoothness(&problem.target);
@@ -110,7 +113,7 @@ impl ComponentSetup {
                     true => warm_start.thin_plate(&mut problem, corner),
                     false => InitialGuess::Plane,
                 },
-                warm_start.state(&problem, &plan, corner)?,
+                warm_start.iterate(&problem, &parameters, corner)?,
             ),
             None => (InitialGuess::Plane, None),
         };
@@ -120,7 +123,7 @@ impl ComponentSetup {
             input,
             options: *options,
             coordinates,
-            plan,
+            parameters,
             problem,
             domains: vec![domain],
             coarse: Vec::new(),
@@ -128,7 +131,7 @@ impl ComponentSetup {
         })))
     }
 
-    /// One step, of about what [`SET_UP`](super::multilevel::SET_UP) says.
+    /// Takes one step, which costs about [`SET_UP`](super::multilevel::SET_UP) conjugate-gradient iterations.
     pub(crate) fn step(self) -> Result<SetupStep> {
         Ok(match self {
             ComponentSetup::Lattices(mut lattices) => SetupStep::Partly(match lattices.step()? {
@@ -141,7 +144,7 @@ impl ComponentSetup {
         })
     }
 
-    /// On the finest lattice.
+    /// The problem on the finest lattice.
     pub(crate) fn problem(&self) -> &Problem {
         match self {
             ComponentSetup::Lattices(lattices) => &lattices.problem,
@@ -149,19 +152,19 @@ impl ComponentSetup {
         }
     }
 
-    /// The input as it is.
+    /// The input as the result of a solve that was cancelled before its first iteration.
     pub(crate) fn answer(&self) -> Result<Answer> {
-        let plan = match self {
-            ComponentSetup::Lattices(lattices) => &lattices.plan,
-            ComponentSetup::FirstLevel(level) => &level.plan,
+        let parameters = match self {
+            ComponentSetup::Lattices(lattices) => &lattices.parameters,
+            ComponentSetup::FirstLevel(level) => &level.parameters,
         };
         let problem = self.problem().clone();
-        let first_rho = plan.first_rho(&problem);
+        let initial_rho = initial_rho(parameters, &problem);
         Ok(Answer {
-            state: State::new(&problem, first_rho)?,
-            best: Best::of_input(&problem),
+            iterate: Iterate::new(&problem, initial_rho)?,
+            incumbent: Incumbent::from_input(&problem),
             problem,
-            first_rho,
+            initial_rho,
             reason: StopReason::Cancelled,
             levels: Vec::new(),
             passes: 0,
@@ -172,7 +175,7 @@ impl ComponentSetup {
 }
 
 impl Lattices {
-    /// Whether there is more to be done.
+    /// Takes one step; tells whether there is another one.
     fn step(&mut self) -> Result<bool> {
         match self.next {
             Next::Coarsen | Next::CoarsenAgain => {
@@ -182,9 +185,14 @@ impl Lattices {
                 }
             }
             Next::Fill => {
-                thin_plate::fill(&mut self.problem, &self.domains, &self.plan, self.guess)?;
+                thin_plate::fill(
+                    &mut self.problem,
+                    &self.domains,
+                    &self.parameters,
+                    self.guess,
+                )?;
                 self.problem
-                    .take_first_normals(self.options.energy_or_default())?;
+                    .set_input_normal_weights(self.options.energy_or_default())?;
                 give_back(&mut self.input, &self.problem)?;
                 self.domains.truncate(1);
                 self.coarse.clear();
@@ -195,9 +203,9 @@ impl Lattices {
         Ok(true)
     }
 
-    /// The next coarser lattice, unless that is of no use: as long as enough stencils are left, and
-    /// each stands for four of the finer ones, within a factor of 2. Where holes take most of them
-    /// away, or close, the next lattice says little about the last.
+    /// Adds the next coarser lattice and tells whether it is of use: it has enough stencils, and each stands
+    /// for four of the finer ones, within a factor of 2. Where holes take most of them away, or close, the
+    /// coarse lattice says little about the fine one.
     fn coarsen(&mut self) -> Result<bool> {
         let finer = &self.domains[self.domains.len() - 1];
         let next = coarsen(self.coarse.last().unwrap_or(&self.input), finer)?;
@@ -213,36 +221,36 @@ impl Lattices {
         Ok(is_of_use)
     }
 
-    /// The coarsest lattice that is worth a level of its own, or the finest where there is a state
-    /// to start from.
+    /// The first level: the coarsest lattice that is worth a level of its own, or the finest one with a warm
+    /// start.
     fn into_level(self) -> Result<FirstLevel> {
         let Lattices {
             mut problem,
             domains,
             options,
-            plan,
+            parameters,
             ..
         } = self;
         let mut finer = Vec::new();
-        let state = match self.warm {
-            Some(state) => state,
+        let iterate = match self.warm {
+            Some(iterate) => iterate,
             None => {
                 for (input, domain) in self.coarse.iter().zip(&domains[1..]) {
-                    if !plan.wants_level(domain.interior_len()) {
+                    if !parameters.wants_level(domain.interior_len()) {
                         break;
                     }
                     let coarse = Problem::new(input, domain.clone(), &self.coordinates, &options)?;
                     finer.push(mem::replace(&mut problem, coarse));
                 }
-                State::new(&problem, plan.first_rho(&problem))?
+                Iterate::new(&problem, initial_rho(&parameters, &problem))?
             }
         };
-        let cg = ConjugateGradients::new(&problem, &domains[finer.len()..], state.rho)?;
+        let cg = ConjugateGradients::new(&problem, &domains[finer.len()..], iterate.rho)?;
         Ok(FirstLevel {
             options,
-            plan,
+            parameters,
             problem,
-            state,
+            iterate,
             cg,
             finer,
             domains,
@@ -252,20 +260,21 @@ impl Lattices {
 
 impl FirstLevel {
     fn into_multilevel(self) -> Result<Multilevel> {
-        let plan = self.plan.on_level(!self.finer.is_empty(), 0);
-        let (level, reason) = Level::new(self.problem, self.state, self.cg, plan, 0, true)?;
+        let parameters = self.parameters.on_level(!self.finer.is_empty(), 0);
+        let (level, reason) =
+            AdmmSolver::new(self.problem, self.iterate, self.cg, parameters, 0, true)?;
         Multilevel::new(
             level,
             reason,
             self.finer,
             self.domains,
-            self.plan,
+            self.parameters,
             &self.options,
         )
     }
 }
 
-/// Puts the heights that were found for free vertices where the given ones are.
+/// Writes the heights that were found for free vertices into the input.
 fn give_back(input: &mut Input, problem: &Problem) -> Result<()> {
     let domain = &problem.operator.domain;
     let lattice = *input.field.lattice();

@@ -1,4 +1,4 @@
-//! A solve whose options are known, one connected part of the surface after the other.
+//! A solve whose options are known, one connected component of the surface after the other.
 
 use std::sync::Arc;
 
@@ -27,11 +27,11 @@ use crate::lattice::hexagonal::Lattice;
 pub enum Status {
     /// [`Solver::advance`](crate::Solver::advance) should be called again.
     Running,
-    /// Done; further calls change nothing.
+    /// The solve is done; further calls change nothing.
     Stopped(StopReason),
 }
 
-/// An input that can be solved: its small holes bridged, its parts held in place.
+/// An input that can be solved: its small holes are bridged, and each of its components is held in place.
 #[derive(Debug, Clone)]
 pub(super) struct PreparedInput {
     pub input: Input,
@@ -39,6 +39,8 @@ pub(super) struct PreparedInput {
 }
 
 impl PreparedInput {
+    /// Bridges small holes of the input and checks that it determines a surface.
+    ///
     /// # Errors
     /// [`Error::NoInterior`], [`Error::Underdetermined`], [`Error::OutOfMemory`].
     pub(super) fn new(input: Input) -> Result<Self> {
@@ -49,39 +51,42 @@ impl PreparedInput {
     }
 }
 
+/// A solve of all components under way.
 #[derive(Debug, Clone)]
 pub(super) struct ComponentSolver {
     input: Input,
-    /// As they are used.
+    /// The options, without anything left to be chosen.
     options: Options,
-    /// Factor from the user's units to the energy's.
+    /// Factor from the input's units to normalised coordinates.
     scale: f64,
     domain: Arc<Domain>,
     components: Components,
-    /// Of the first parts.
+    /// The results of the components that are done.
     answers: Vec<Answer>,
-    /// The part after those: before its first iteration, and then.
+    /// The set-up of the component under way, before its first iteration.
     preparing: Option<ComponentSetup>,
+    /// The solve of the component under way, after its set-up.
     running: Option<Multilevel>,
-    /// `P(z̃)` of each part, if there are several.
+    /// Energy `P(z̃)` of the input in each component, if there are several.
     energies: Vec<f64>,
-    /// The last answer: what the parts to come, and the next restart, may start from.
+    /// The last answer, from which components to come and the next restart may start.
     warm_start: Option<Arc<WarmStart>>,
     status: Status,
     started: Instant,
     setup: f64,
 }
 
-/// When a solve begins with its first part.
+/// When a solve begins with its first component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StartMode {
+    /// When it is made.
     Immediate,
     /// When its options are known.
     Deferred,
 }
 
 impl ComponentSolver {
-    /// `started`: when the user's wait began.
+    /// A solve of a prepared input. `started` is when the caller's wait began.
     ///
     /// # Errors
     /// [`Error::Overflow`], [`Error::Underflow`], [`Error::OutOfMemory`].
@@ -129,7 +134,7 @@ impl ComponentSolver {
         Ok(solve)
     }
 
-    /// Begins with these options.
+    /// Begins a deferred solve with the options that were chosen.
     pub(super) fn begin_with(&mut self, options: &Options) -> Result<()> {
         self.options = *options;
         if self.components.list.len() == 1 {
@@ -138,7 +143,7 @@ impl ComponentSolver {
         self.next_part()
     }
 
-    /// What a solve of heights on a lattice may start from.
+    /// The warm start for another solve on a lattice of the same shape; `None` for another shape.
     pub(super) fn warm_start(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
         let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
         if shape(lattice) != shape(self.input.field.lattice()) {
@@ -164,7 +169,7 @@ impl ComponentSolver {
         self.status
     }
 
-    /// Begins with the next part, if there is one left.
+    /// Begins with the next component, if there is one left.
     fn next_part(&mut self) -> Result<()> {
         let Some(number) = self.next_number() else {
             self.warm_start = None;
@@ -189,7 +194,7 @@ impl ComponentSolver {
         Ok(())
     }
 
-    /// Goes on to what is prepared.
+    /// Goes on from the set-up of a component to its solve.
     fn begin(&mut self, part: Multilevel) -> Result<()> {
         match part.reason() {
             Some(reason) => {
@@ -203,17 +208,18 @@ impl ComponentSolver {
         }
     }
 
+    /// Number of the component under way; `None` when all are done.
     fn next_number(&self) -> Option<usize> {
         let next = self.answers.len();
         (next < self.components.list.len()).then_some(next)
     }
 
-    /// The worst of the reasons why parts stopped. Rounding errors of some may be too large for the
-    /// gap of all.
+    /// The worst of the reasons why components stopped. Rounding errors of some components may be too large for
+    /// the gap of all.
     fn reason(&self) -> StopReason {
         let mut total = Totals::default();
         for answer in &self.answers {
-            total.add(&answer.best, 1.0);
+            total.add(&answer.incumbent, 1.0);
         }
         let certified = total
             .gap()
@@ -232,7 +238,7 @@ impl ComponentSolver {
         .unwrap_or(StopReason::Rounding)
     }
 
-    /// Goes on until `left` conjugate-gradient iterations are used up.
+    /// Continues until `left` conjugate-gradient iterations are used up.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`] on the way to the first level or a finer one.
@@ -263,11 +269,11 @@ impl ComponentSolver {
         Ok(self.status)
     }
 
-    /// Figures of the last check. Before the first one they are the input's, on a level above 0.
+    /// Figures of the last check. Before the first one they are those of the input, on a level above 0.
     pub(super) fn progress(&self) -> Progress {
         let mut total = Totals::default();
         for answer in &self.answers {
-            total.add(&answer.best, 1.0);
+            total.add(&answer.incumbent, 1.0);
             total.add_work(&answer.levels);
         }
         let mut pending = self.answers.len();
@@ -279,8 +285,8 @@ impl ComponentSolver {
         if let Some(running) = &self.running {
             let level = running.level();
             let share = running.problem().operator.domain.interior_len() as f64
-                / level.problem.operator.domain.interior_len() as f64;
-            total.add(&level.best, share);
+                / level.admm.problem.operator.domain.interior_len() as f64;
+            total.add(&level.admm.incumbent, share);
             total.add_work(&running.levels());
             pending += 1;
         }
@@ -302,25 +308,27 @@ impl ComponentSolver {
         }
     }
 
+    /// The relative duality gap of all components; `None` where rounding errors are all that is left of it.
     fn known_gap(&self, total: &Totals) -> Option<f64> {
         let rounding = self.status == Status::Stopped(StopReason::Rounding);
         total.gap().filter(|_| !rounding)
     }
 
-    /// Of the largest part.
+    /// ρ of the largest component.
     fn rho(&self) -> f64 {
-        let running = || self.running.as_ref().map(|c| c.level().state.rho);
-        let first = self.answers.first().map(|answer| answer.state.rho);
+        let running = || self.running.as_ref().map(|c| c.level().admm.iterate.rho);
+        let first = self.answers.first().map(|answer| answer.iterate.rho);
         first.or_else(running).unwrap_or(0.0)
     }
 
+    /// Stops a running solve.
     pub(super) fn cancel(&mut self) {
         if self.status == Status::Running {
             self.status = Status::Stopped(StopReason::Cancelled);
         }
     }
 
-    /// The best surface so far; how λ was chosen is left to be said.
+    /// The best surface so far, without how λ was chosen.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -339,10 +347,10 @@ impl ComponentSolver {
             let (top, left) = self.components.corner(number);
             answer
                 .problem
-                .write_heights(&answer.best.z, |(row, col), z| {
+                .write_heights(&answer.incumbent.z, |(row, col), z| {
                     heights[lattice.index(top + row, left + col)] = z;
                 });
-            total.add(&answer.best, 1.0);
+            total.add(&answer.incumbent, 1.0);
             total.add_work(&answer.levels);
             add_levels(&mut levels, &answer.levels);
             seconds = seconds + answer.seconds;
@@ -401,7 +409,7 @@ impl ComponentSolver {
             gap: self.known_gap(&total),
             lambda: self.options.lambda.value(),
             lambda_choice: None,
-            rho: answers().next().map_or(0.0, |answer| answer.state.rho),
+            rho: answers().next().map_or(0.0, |answer| answer.iterate.rho),
             scale: self.scale,
             stop_reason,
             seconds: Seconds {

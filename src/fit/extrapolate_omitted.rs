@@ -1,4 +1,4 @@
-//! Heights for the vertices that the solve left out.
+//! Heights of omitted vertices, which no stencil touches, by extrapolation (paper, Sec. 4.1 and Fig. 9).
 
 use std::collections::VecDeque;
 
@@ -6,12 +6,10 @@ use super::input::Input;
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::stencil::Quadratic;
 
-/// Gives every omitted vertex the value of the best-fit quadratic of an interior
-/// vertex close to it (paper, Sec. 4.1 and Fig. 9): the nearest one among those
-/// of its neighbours' choices, found by a search that spreads from the interior
-/// over valid vertices. Where none is within reach in that way, as on an island
-/// without one or far out on a thin strip, where a quadratic says nothing any
-/// more, the input's own height stays, if it means anything. Linear cost.
+/// Gives every omitted vertex the value of the best-fit quadratic of an interior vertex near it: the nearest
+/// one among those that its neighbours have taken, in a search that spreads from the interior over valid
+/// vertices. Where none is within reach, as on an island without interior vertices or far out on a thin strip,
+/// the input's own height stays, if there is one. The cost is linear in the number of vertices.
 pub(crate) fn extrapolate_omitted(domain: &Domain, input: &Input, heights: &mut [f64]) {
     if domain.omitted_len() == 0 {
         return;
@@ -31,7 +29,8 @@ pub(crate) fn extrapolate_omitted(domain: &Domain, input: &Input, heights: &mut 
 
     /// Mark of a vertex that no quadratic has reached.
     const NO_SOURCE: usize = usize::MAX;
-    /// Distance up to which a quadratic is trusted, in spacings.
+    /// Maximum distance at which a quadratic is evaluated, in spacings: further out its error exceeds that of
+    /// the input's own height.
     const QUADRATIC_REACH_SPACINGS: f64 = 4.0;
     let reach = QUADRATIC_REACH_SPACINGS * QUADRATIC_REACH_SPACINGS;
     let mut source = vec![NO_SOURCE; domain.cells()];

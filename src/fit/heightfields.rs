@@ -1,8 +1,8 @@
-//! The energy of a heightfield: that of the lattice's operator.
+//! The problem of a heightfield: the energy under the operator of the lattice.
 
 use std::sync::Arc;
 
-use super::admm::{iteration, state};
+use super::admm::{iterate, solver};
 use super::coordinates::Coordinates;
 use super::energy::problem;
 use super::energy::spectral_penalty::PenaltyKind;
@@ -13,16 +13,17 @@ use crate::error::{Error, Result, try_filled};
 use crate::lattice::domain::Domain;
 
 pub(crate) type Problem = problem::Problem<LatticeOperator>;
-pub(crate) type State = state::State<LatticeOperator>;
-pub(crate) type Level = iteration::Level<LatticeOperator>;
+pub(crate) type Iterate = iterate::Iterate<LatticeOperator>;
+pub(crate) type AdmmSolver = solver::AdmmSolver<LatticeOperator>;
 
-/// Largest magnitude of heights and Hessians.
+/// Maximum magnitude of heights and Hessians, whose squares are summed and multiplied by λ.
 const MAX_MAGNITUDE: f64 = 1e130;
 
-/// Largest spacing; the least is one over it.
+/// Maximum spacing; the minimum is one over it.
 const MAX_SPACING: f64 = 1e50;
 
 impl Problem {
+    /// The problem of an input on a domain, in normalised coordinates.
     pub(crate) fn new(
         input: &Input,
         domain: Arc<Domain>,
@@ -50,13 +51,13 @@ impl Problem {
             |cell| input.is_constrained(domain.lattice_index(cell)),
             options.tie_break_or_default(),
         )?;
-        problem.take_first_normals(options.energy_or_default())?;
+        problem.set_input_normal_weights(options.energy_or_default())?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
         problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
         Ok(problem)
     }
 
-    /// `Σ ω f(H)` of the input, by the parts that cells belong to.
+    /// The penalty `Σ ω f(H)` of the input, summed separately for each part that cells belong to.
     pub(crate) fn smoothness_by(&self, parts: usize, part: impl Fn(usize) -> usize) -> Vec<f64> {
         let mut sums = vec![0.0; parts];
         self.each_cost(&self.target, |cell, cost| sums[part(cell)] += cost);
@@ -77,8 +78,8 @@ impl Problem {
     }
 }
 
-/// Whether the squares of heights and Hessians, summed and times any λ, can be told from 0 and from
-/// infinity. Heights that differ from a plane by rounding errors only are fine.
+/// Checks that the squares of heights and Hessians, summed and times any λ, are neither rounding errors nor
+/// infinite. Heights that differ from a plane by rounding errors only are accepted.
 ///
 /// # Errors
 /// [`Error::Overflow`] or [`Error::Underflow`].

@@ -1,13 +1,15 @@
-//! One connected part: from its coarsest lattice to its finest, and through the
-//! reweighted passes there.
+//! The solve of one connected component: from its coarsest level to its finest, and through the reweighting
+//! passes there.
 
 use std::sync::Arc;
 
-use super::admm::best::Best;
-use super::admm::schedule::Plan;
+use super::admm::default_rho::refined_rho;
+use super::admm::incumbent::Incumbent;
+use super::admm::parameters::AdmmParameters;
+use super::admm::steps::Admm;
 use super::border_load::load_border;
 use super::energy::creases::Creases;
-use super::heightfields::{Level, Problem, State};
+use super::heightfields::{AdmmSolver, Iterate, Problem};
 use super::linear::cg::ConjugateGradients;
 use super::options::{Bending, Border, Energy, Options};
 use super::prolong::prolong;
@@ -15,45 +17,49 @@ use super::report::{LevelReport, Seconds, StopReason};
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// What a step of setting a level up costs, in conjugate-gradient iterations on it.
+/// Cost of one step of setting a level up, in conjugate-gradient iterations on it.
 pub(crate) const SET_UP: usize = 10;
 
+/// The solve of one component under way.
 #[derive(Debug, Clone)]
 pub(crate) struct Multilevel {
-    /// The level under way; the finest one at the end.
-    level: Level,
+    /// The level under way, and the finest one at the end.
+    level: AdmmSolver,
     /// The problems of the finer levels, the finest first.
     finer: Vec<Problem>,
-    /// The start of the next one of them, once the level under way is done, and then the system of
-    /// its z-steps.
-    carried: Option<(State, Option<ConjugateGradients>)>,
+    /// The first iterate of the next finer level once the level under way is done, and then the solver of its
+    /// z-steps as well.
+    carried: Option<(Iterate, Option<ConjugateGradients>)>,
     /// The domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
-    /// The levels done, the coarsest first.
+    /// Reports of the coarser levels, the coarsest first.
     coarser: Vec<LevelReport>,
-    plan: Plan,
-    /// Reweighted passes done and still to come.
+    parameters: AdmmParameters,
+    /// Number of reweighting passes so far.
     passes: usize,
+    /// Maximum number of reweighting passes still to come.
     passes_left: usize,
-    /// Those at creases: the radius, and what the last one was about.
+    /// Radius of bend below which a vertex is on a crease, for passes at creases; `None` for passes that
+    /// reweight all vertices.
     crease_radius: Option<f64>,
-    /// Of a border that is yet to be loaded: the radius that says how far it straightens.
+    /// Bend radius of a border that is to be loaded with moments, until that is done.
     loads_within: Option<f64>,
+    /// Creases of the last pass.
     creases: Creases,
-    /// Whether all that is left has begun.
+    /// Whether the rank reduction has begun, after which nothing follows.
     ends: bool,
     seconds: Seconds,
     reason: Option<StopReason>,
 }
 
-/// What is kept of a component that is done: its surface, and where to go on from.
+/// The result of a component that is done: its surface, and the iterate to start another solve from.
 #[derive(Debug, Clone)]
 pub(crate) struct Answer {
     pub problem: Problem,
-    pub state: State,
-    pub best: Best,
-    /// The penalty at the start.
-    pub first_rho: f64,
+    pub iterate: Iterate,
+    pub incumbent: Incumbent,
+    /// ρ at the start of the finest level.
+    pub initial_rho: f64,
     pub reason: StopReason,
     pub levels: Vec<LevelReport>,
     pub passes: usize,
@@ -62,13 +68,13 @@ pub(crate) struct Answer {
 }
 
 impl Multilevel {
-    /// From its first level, and a reason to stop that at once.
+    /// Starts with the first level, which may have a reason to stop at once.
     pub(crate) fn new(
-        level: Level,
+        level: AdmmSolver,
         reason: Option<StopReason>,
         finer: Vec<Problem>,
         domains: Vec<Arc<Domain>>,
-        plan: Plan,
+        parameters: AdmmParameters,
         options: &Options,
     ) -> Result<Self> {
         let (crease_radius, passes_left) = match options.energy_or_default() {
@@ -84,7 +90,7 @@ impl Multilevel {
             carried: None,
             domains,
             coarser: Vec::new(),
-            plan,
+            parameters,
             passes: 0,
             passes_left,
             crease_radius,
@@ -101,19 +107,19 @@ impl Multilevel {
         Ok(multilevel)
     }
 
-    /// Runs until `left` conjugate-gradient iterations are used up or it is
-    /// done; then tells why.
+    /// Continues until `left` conjugate-gradient iterations are used up, or until the solve is done; then
+    /// returns the reason.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 && self.reason.is_none() {
-            if let Some((state, cg)) = self.carried.take() {
+            if let Some((iterate, cg)) = self.carried.take() {
                 *left = left.saturating_sub(SET_UP);
                 match (cg, self.finer.last()) {
                     (None, Some(fine)) => {
                         let domains = &self.domains[self.finer.len() - 1..];
-                        let cg = ConjugateGradients::new(fine, domains, state.rho)?;
-                        self.carried = Some((state, Some(cg)));
+                        let cg = ConjugateGradients::new(fine, domains, iterate.rho)?;
+                        self.carried = Some((iterate, Some(cg)));
                     }
-                    (Some(cg), _) => self.enter_level(state, cg)?,
+                    (Some(cg), _) => self.enter_level(iterate, cg)?,
                     (None, None) => (),
                 }
             } else if let Some(reason) = self.level.advance(left)? {
@@ -123,13 +129,18 @@ impl Multilevel {
         Ok(self.reason)
     }
 
-    /// Goes on to the finer level, in steps of their own, or to further passes, as long as they have
-    /// nothing to do.
+    /// Goes on to the finer level, which is set up in steps of its own, or to further passes until one of them
+    /// has something to do.
     fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
         if let Some(fine) = self.finer.last() {
-            let rho = self.plan.finer_rho(self.level.state.rho, fine);
-            let state = prolong(&self.level.problem, &self.level.state, fine, rho)?;
-            self.carried = Some((state, None));
+            let rho = refined_rho(self.level.admm.iterate.rho, fine);
+            let iterate = prolong(
+                &self.level.admm.problem,
+                &self.level.admm.iterate,
+                fine,
+                rho,
+            )?;
+            self.carried = Some((iterate, None));
             return Ok(());
         }
         while !self.ends
@@ -162,7 +173,7 @@ impl Multilevel {
                 None => return Ok(()),
             }
         }
-        if !self.ends && self.level.begin_reduction(reason)? {
+        if !self.ends && self.level.begin_rank_reduction(reason)? {
             self.ends = true;
             return Ok(());
         }
@@ -170,28 +181,31 @@ impl Multilevel {
         Ok(())
     }
 
-    /// Loads the border, once.
+    /// Loads the border with moments, once; tells whether there are any.
     fn load_border(&mut self) -> Result<bool> {
-        let Level { problem, state, .. } = &mut self.level;
+        let Admm {
+            problem, iterate, ..
+        } = &mut self.level.admm;
         match self.loads_within.take() {
-            Some(radius) => load_border(problem, state, radius),
+            Some(radius) => load_border(problem, iterate, radius),
             None => Ok(false),
         }
     }
 
     /// Begins with the next finer level.
-    fn enter_level(&mut self, state: State, cg: ConjugateGradients) -> Result<()> {
+    fn enter_level(&mut self, iterate: Iterate, cg: ConjugateGradients) -> Result<()> {
         let Some(fine) = self.finer.pop() else {
             return Ok(());
         };
         self.coarser.push(self.level.report());
-        self.seconds = self.seconds + self.level.seconds;
+        self.seconds = self.seconds + self.level.admm.seconds;
         let done = self.coarser.iter().map(|level| level.iterations).sum();
-        let plan = self.plan.on_level(!self.finer.is_empty(), done);
+        let parameters = self.parameters.on_level(!self.finer.is_empty(), done);
         // Levels take about as many iterations as the one before.
         let next_climb = 2 * self.level.report().iterations / 3;
-        let may_be_affine = self.level.best.affine;
-        let (level, stop) = Level::new(fine, state, cg, plan, next_climb, may_be_affine)?;
+        let may_be_affine = self.level.admm.incumbent.is_affine;
+        let (level, stop) =
+            AdmmSolver::new(fine, iterate, cg, parameters, next_climb, may_be_affine)?;
         self.level = level;
         match stop {
             Some(reason) => self.finish_level(reason),
@@ -199,24 +213,24 @@ impl Multilevel {
         }
     }
 
-    /// Why it stopped, if it has.
+    /// The reason why the solve stopped; `None` while it runs.
     pub(crate) fn reason(&self) -> Option<StopReason> {
         self.reason
     }
 
-    /// How many finer levels are still to come.
+    /// Number of finer levels still to come.
     pub(crate) fn levels_left(&self) -> usize {
         self.finer.len()
     }
 
     /// The level under way.
-    pub(crate) fn level(&self) -> &Level {
+    pub(crate) fn level(&self) -> &AdmmSolver {
         &self.level
     }
 
     /// The problem on the finest lattice.
     pub(crate) fn problem(&self) -> &Problem {
-        self.finer.first().unwrap_or(&self.level.problem)
+        self.finer.first().unwrap_or(&self.level.admm.problem)
     }
 
     /// The levels that were worked on, the coarsest first.
@@ -226,33 +240,36 @@ impl Multilevel {
         levels
     }
 
-    /// What is there, whether it is done or not. From a coarse level it is
-    /// carried to the finest lattice and certified there.
+    /// The result so far, whether the solve is done or not. From a coarse level it is prolonged to the finest
+    /// lattice and certified there.
     pub(crate) fn answer(&self) -> Result<Answer> {
         let carried = self.carry_to_finest()?;
-        let (state, best) = carried.unwrap_or((self.level.state.clone(), self.level.best.clone()));
+        let (iterate, incumbent) = carried.unwrap_or((
+            self.level.admm.iterate.clone(),
+            self.level.admm.incumbent.clone(),
+        ));
         Ok(Answer {
             problem: self.problem().clone(),
-            state,
-            best,
-            first_rho: self.level.first_rho,
+            iterate,
+            incumbent,
+            initial_rho: self.level.admm.initial_rho,
             reason: self.reason.unwrap_or(StopReason::Cancelled),
             levels: self.levels(),
             passes: self.passes,
             creases: self.creases,
-            seconds: self.seconds + self.level.seconds,
+            seconds: self.seconds + self.level.admm.seconds,
         })
     }
 
-    /// The same, of one that is done.
+    /// The result of a solve that is done.
     pub(crate) fn into_answer(self, reason: StopReason) -> Answer {
         let levels = self.levels();
         Answer {
-            seconds: self.seconds + self.level.seconds,
-            first_rho: self.level.first_rho,
-            problem: self.level.problem,
-            state: self.level.state,
-            best: self.level.best,
+            seconds: self.seconds + self.level.admm.seconds,
+            initial_rho: self.level.admm.initial_rho,
+            problem: self.level.admm.problem,
+            iterate: self.level.admm.iterate,
+            incumbent: self.level.admm.incumbent,
             reason,
             levels,
             passes: self.passes,
@@ -260,30 +277,30 @@ impl Multilevel {
         }
     }
 
-    /// A coarse level's iterate on the finest lattice, or the input if that is better, or if there
-    /// has been no iteration yet.
-    fn carry_to_finest(&self) -> Result<Option<(State, Best)>> {
+    /// The iterate of a coarse level prolonged to the finest lattice, with the input as the incumbent where
+    /// that is better or where there was no iteration yet; `None` on the finest level.
+    fn carry_to_finest(&self) -> Result<Option<(Iterate, Incumbent)>> {
         if let Some(finest) = self.finer.first()
             && self.coarser.is_empty()
             && self.level.report().iterations == 0
         {
-            let start = State::new(finest, self.level.state.rho)?;
-            return Ok(Some((start, Best::of_input(finest))));
+            let start = Iterate::new(finest, self.level.admm.iterate.rho)?;
+            return Ok(Some((start, Incumbent::from_input(finest))));
         }
-        let mut state: Option<State> = None;
-        let mut coarse = &self.level.problem;
+        let mut iterate: Option<Iterate> = None;
+        let mut coarse = &self.level.admm.problem;
         for fine in self.finer.iter().rev() {
-            let from = state.as_ref().unwrap_or(&self.level.state);
-            let rho = self.plan.finer_rho(from.rho, fine);
-            state = Some(prolong(coarse, from, fine, rho)?);
+            let from = iterate.as_ref().unwrap_or(&self.level.admm.iterate);
+            let rho = refined_rho(from.rho, fine);
+            iterate = Some(prolong(coarse, from, fine, rho)?);
             coarse = fine;
         }
-        let Some(mut state) = state else {
+        let Some(mut iterate) = iterate else {
             return Ok(None);
         };
-        let certificate = state.certify(coarse);
-        let mut best = Best::of_input(coarse);
-        best.take(&state.z, &certificate);
-        Ok(Some((state, best)))
+        let certificate = iterate.certify(coarse);
+        let mut incumbent = Incumbent::from_input(coarse);
+        incumbent.update(&iterate.z, &certificate);
+        Ok(Some((iterate, incumbent)))
     }
 }

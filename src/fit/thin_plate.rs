@@ -1,48 +1,49 @@
-//! Heights for free vertices: those of the thin plate through what is given.
+//! Heights of free vertices before the solve: those of the thin plate through the given heights.
 
 use std::sync::Arc;
 
-use super::admm::schedule::Plan;
+use super::admm::parameters::AdmmParameters;
+use super::admm::solver::initial_rho;
 use super::heightfields::Problem;
 use super::linear::multigrid::Multigrid;
 use super::linear::precise::Precise;
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
-/// What the search for a thin plate starts from, at free vertices, and how far it goes.
+/// Initial guess of the thin plate at free vertices, which also says how exact the plate has to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum InitialGuess {
-    /// Nothing: the plane that the coordinates have taken away. Each pass ends at a share of its own
-    /// first residual, for where little is held the last digits count.
+    /// The plane that normalised coordinates have taken away. Each pass ends at a share of its own first
+    /// residual, because the last digits count where few heights are given.
     Plane,
-    /// `z̃` as it is, the thin plate of an earlier solve: for surfaces that are changed while they are watched
-    /// and need not be exact. One pass, which ends at a share of the residual about the plane.
+    /// The plate of an earlier solve, which is in `z̃`: for surfaces that are changed while they are watched
+    /// and need not be exact. There is one pass, which ends at a share of the residual of the plane.
     Earlier,
 }
 
-/// Residual at which a pass is done, relative to its first one.
+/// Residual at which a pass ends, relative to its first one.
 const PASS_RESIDUAL: f64 = 1e-10;
 
-/// Residual at which a pass is done, relative to that about the plane.
+/// Residual at which the pass from an earlier plate ends, relative to that of the plane.
 const PLANE_RESIDUAL: f64 = 1e-7;
 
-/// Number of passes in which the tie break pulls towards the last one's thin plate: then it has no say.
+/// Number of passes in which the tie break pulls towards the plate of the pass before: after that it has no
+/// influence.
 const TIE_BREAK_PASSES: usize = 3;
 
-/// Largest number of iterations in a pass.
+/// Maximum number of conjugate-gradient iterations in a pass.
 const MAX_PASS_ITERATIONS: usize = 200;
 
-/// Sets `z̃` at the free vertices of a problem to the minimiser of
-/// `λ Σ w(z − z̃)² + ρ/2 Σ ‖H‖_F²` over what is given: the thin plate that ties are
-/// broken towards, and the surface that the solve starts from. It is the z-step
-/// about `H = Y = 0`, solved to the end. Returns how many iterations that took.
+/// Sets `z̃` at the free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z − z̃)²
+/// + ρ/2 Σ ‖H‖_F²`: ties are broken towards it, and the solve starts from it. It is the z-step about `H = Y =
+/// 0`, solved to the end. Returns the number of conjugate-gradient iterations.
 pub(crate) fn fill(
     problem: &mut Problem,
     domains: &[Arc<Domain>],
-    plan: &Plan,
+    parameters: &AdmmParameters,
     guess: InitialGuess,
 ) -> Result<usize> {
-    let rho = plan.first_rho(problem);
+    let rho = initial_rho(parameters, problem);
     let mut multigrid = Multigrid::new(problem, domains, rho)?;
     let mut precise = Precise::new(problem)?;
     let given = problem.target.clone();
@@ -89,7 +90,7 @@ mod tests {
     use crate::{Heightfield, Input, Lattice, Options};
 
     /// A square sheet on the ground that a pin in its middle holds up.
-    fn tent(pin: f64) -> (Problem, Vec<Arc<Domain>>, Plan) {
+    fn tent(pin: f64) -> (Problem, Vec<Arc<Domain>>, AdmmParameters) {
         let n = 41;
         let lattice = Lattice::new(n, n, 1.0).unwrap();
         let rim = |i: usize| i == 0 || i == n - 1;
@@ -110,21 +111,21 @@ mod tests {
         // Planes are taken away from both alike.
         let coordinates = Coordinates::new(&input, &domains[0], 1.0 / n as f64);
         let problem = Problem::new(&input, domains[0].clone(), &coordinates, &options).unwrap();
-        (problem, domains, Plan::new(&options))
+        (problem, domains, AdmmParameters::new(&options))
     }
 
     #[test]
     fn a_plate_whose_pin_is_moved_is_found_from_the_last_one() {
-        let (mut problem, domains, plan) = tent(10.0);
-        let first = fill(&mut problem, &domains, &plan, InitialGuess::Plane).unwrap();
+        let (mut problem, domains, parameters) = tent(10.0);
+        let first = fill(&mut problem, &domains, &parameters, InitialGuess::Plane).unwrap();
         let last = problem.target;
         let (mut cold, ..) = tent(10.4);
-        fill(&mut cold, &domains, &plan, InitialGuess::Plane).unwrap();
+        fill(&mut cold, &domains, &parameters, InitialGuess::Plane).unwrap();
         let (mut warm, ..) = tent(10.4);
         for cell in warm.free.clone() {
             warm.target[cell as usize] = last[cell as usize];
         }
-        let steps = fill(&mut warm, &domains, &plan, InitialGuess::Earlier).unwrap();
+        let steps = fill(&mut warm, &domains, &parameters, InitialGuess::Earlier).unwrap();
         assert!(2 * steps < first, "{steps} instead of {first}");
         let off = |a: &[f64], b: &[f64]| {
             let pairs = a.iter().zip(b);

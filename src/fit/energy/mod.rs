@@ -1,4 +1,5 @@
-//! The energy, and its norm's proximal map, value and conjugate.
+//! The energy of a solve: fidelity, spectral penalty of the Hessians, weights at creases, and moments on
+//! borders.
 
 pub(crate) mod creases;
 pub(crate) mod moment_load;

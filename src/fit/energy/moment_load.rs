@@ -1,10 +1,10 @@
-//! Moments that the surface would exert on its border if it went on beyond it, as a load.
+//! Bending moments on the border as a load, as the surface would exert if it went on beyond it.
 //!
-//! A free border bears no bending moment, while what bends inside does (`Y`, the dual). So the least energy
-//! straightens a bent sheet along its border, over a length of about `(2/δλ)^¼`. The moments inside,
-//! continued to the border and put on it, undo this: where they are the same all over, `CᵀY` is nothing but
-//! the load, and a sheet that was measured without noise stays where it is. A load is linear in the heights
-//! and so moves the target and nothing else: each problem stays convex, with a certificate of its own.
+//! A free border bears no bending moment, while a bend inside does (`Y`, the dual). So the smallest energy
+//! straightens a bent sheet along its border, over a length of about `(2/δλ)^¼`. The moments inside, continued
+//! to the border and applied there, undo this: where they are alike everywhere, `CᵀY` is nothing but the load,
+//! and a sheet that was measured without noise stays where it is. A load is linear in the heights, so that it
+//! only moves the target: each problem stays convex, with a certificate of its own.
 
 use std::ops::{Add, Mul, Range};
 
@@ -13,25 +13,25 @@ use crate::error::{Result, try_filled};
 use crate::fit::operator::{Matrices, Operator, Sums};
 use crate::math::sym2::Sym2;
 
-/// Distance from the border, in lengths over which a border straightens, at which the moments are those
-/// inside.
-const BORDER_REACH: f64 = 2.3;
+/// Distance from the border beyond which moments are those inside, in lengths over which a border straightens.
+const BORDER_REACH_LENGTHS: f64 = 2.3;
 
-/// Largest moment of a load, as a share of the largest that a stencil bears, `ω`: a load as large as that
-/// would fold the sheet along its border without end.
+/// Maximum moment of a load, as a share of the largest that a stencil bears, `ω`: a larger one would fold the
+/// sheet along its border without end.
 const MAX_LOAD_MOMENT: f64 = 0.6;
 
-/// The vertices next to the border, in rings: those without a stencil, their neighbours, and so on.
+/// Vertices near the border in rings: those without a stencil, their neighbours, and so on.
 pub(crate) struct Rings {
-    /// As many as reach to where moments are those inside, and as many again.
+    /// The vertices of each ring: `reach` rings to where moments are those inside, and as many again.
     rings: Vec<Vec<u32>>,
-    /// Which ring a vertex is in; the largest number where it is in none.
+    /// Number of the ring that a vertex is in, or `u32::MAX`.
     depth: Vec<u32>,
+    /// Number of rings from the border to where moments are those inside.
     reach: u32,
 }
 
 impl Rings {
-    /// From the vertices of `outermost`, among `vertices`, to where moments are those inside.
+    /// Rings from the `outermost` of a number of `vertices` inwards. `around` gives the neighbours of a vertex.
     ///
     /// # Errors
     /// Out of memory.
@@ -62,14 +62,14 @@ impl Rings {
         })
     }
 
-    /// Whether a stencil is missing at a vertex, or at one so many rings from it.
+    /// Whether a vertex is at most this number of rings from one without a stencil.
     pub(crate) fn are_within(&self, vertex: usize, rings: u32) -> bool {
         // An operator may have room for more vertices than there are.
         self.depth.get(vertex).is_some_and(|depth| *depth <= rings)
     }
 
-    /// Continues what is inside to the border along the shortest ways; says whether anything is inside.
-    /// Beforehand each value becomes a mean of those around, so often that noise leaves nothing of it.
+    /// Smooths the values inside until no noise is left of them and continues them to the border along the
+    /// shortest paths; tells whether any vertex is inside.
     ///
     /// # Errors
     /// Out of memory.
@@ -122,13 +122,13 @@ impl Rings {
 }
 
 impl<O: Operator> Problem<O> {
-    /// How many rings reach from the border to where moments are those inside.
+    /// Number of rings from the border to where moments are those inside.
     pub(crate) fn reach(&self, bend_radius: f64) -> u32 {
         let length = (2.0 * bend_radius / self.lambda).powf(0.25);
-        ((BORDER_REACH * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32
+        ((BORDER_REACH_LENGTHS * length / self.operator.spacing()).ceil()).clamp(2.0, 1e6) as u32
     }
 
-    /// Loads the vertices that are `near` the border with `moments`, of all stencils, as far as these are
+    /// Loads the vertices that are `near` the border with the `moments` of all stencils, as far as these can be
     /// borne.
     ///
     /// # Errors
@@ -167,8 +167,8 @@ impl<O: Operator> Problem<O> {
     }
 }
 
-/// What bears the bend `hessian` of a `dual`: its part in the direction of the larger curvature. The other
-/// part is nothing that a bend would leave.
+/// The part of a `dual` that bears a bend, in the direction of the larger curvature of its `hessian`. A bend
+/// leaves no other part.
 pub(crate) fn bearing(dual: Sym2, hessian: Sym2) -> Sym2 {
     let [mean, diff, off] = hessian.coordinates();
     let radius = hessian.radius();

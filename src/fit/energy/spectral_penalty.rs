@@ -1,32 +1,32 @@
-//! The closed-form steps of each energy.
+//! Spectral penalties of the Hessian: proximal step, value and conjugate of each in closed form.
 //!
-//! An energy is a sum of `ω f(H)` over interior vertices. All that ADMM needs
-//! of `f` is the step `V = Y + ρH ↦ Y`, where `H` minimises
-//! `ω f(H) + ρ/2 ‖H − V/ρ‖²`: the dual `Y` is then a subgradient of `ω f` at `H`.
-//! All that the certificate needs is the conjugate `(ωf)*(Y)`.
+//! An energy is a sum of `ω f(H)` over interior vertices, where `f` depends on the eigenvalues of `H`. ADMM
+//! needs the step `V = Y + ρH ↦ Y` alone, where `H` minimises `ω f(H) + ρ/2 ‖H − V/ρ‖²`: the dual `Y` is then a
+//! subgradient of `ω f` at `H`. The certificate needs the value of `f` and the conjugate `(ωf)*(Y)`.
 
 use crate::fit::options::{Bending, Energy, Options};
 use crate::math::lanes::single;
 use crate::math::real::{Real, larger, smaller};
 use crate::math::sym2::{Sym2, clamp};
 
+/// A function of the Hessian's eigenvalues, with its proximal step and its conjugate.
 pub(crate) trait SpectralPenalty: Copy {
-    /// The largest [`SpectralPenalty::size`] of a feasible dual: 1, or infinity if all are.
+    /// Maximum of [`SpectralPenalty::size`] at which a dual is feasible: 1, or infinity if every dual is.
     fn largest(self) -> f64 {
         1.0
     }
 
-    /// `Y` from `V`, for the weight `ω`.
+    /// The dual `Y` of `V`, for the weight `ω`.
     fn dual(self, v: Sym2, weight: f64) -> Sym2;
-    /// `ω f(H)`.
+    /// The value `ω f(H)`.
     fn value(self, hessian: Sym2, weight: f64) -> f64;
-    /// In the dual norm, relative to the weight.
+    /// Size of a dual in the dual norm, relative to the weight.
     fn size(self, dual: Sym2, weight: f64) -> f64;
-    /// `(ωf)*(Y)`, where it is finite.
+    /// The conjugate `(ωf)*(Y)`, where it is finite.
     fn conjugate(self, dual: Sym2, weight: f64) -> f64;
 }
 
-/// `‖H‖_*`: the projection onto eigenvalues within ±ω (paper, App. D).
+/// The nuclear norm `‖H‖_*`. Its dual step projects onto matrices with eigenvalues within ±ω (paper, App. D).
 #[derive(Clone, Copy)]
 pub(crate) struct NuclearNorm;
 
@@ -49,7 +49,7 @@ impl SpectralPenalty for NuclearNorm {
     }
 }
 
-/// `‖H‖_F`: the projection onto the ball of radius ω.
+/// The Frobenius norm `‖H‖_F`. Its dual step projects onto the ball of radius ω.
 #[derive(Clone, Copy)]
 pub(crate) struct FrobeniusNorm;
 
@@ -73,9 +73,9 @@ impl SpectralPenalty for FrobeniusNorm {
     }
 }
 
-/// `‖H‖_*²`. At the minimiser every eigenvalue of `H` is that of `V/ρ` shrunk by
-/// `2ωs/ρ`, where `s = ‖H‖_*`, so that `Y` is `V` with eigenvalues cut off at
-/// `2ωs`; `s` follows by summing over the eigenvalues that are left, both or one.
+/// The squared nuclear norm `‖H‖_*²`. At the minimiser every eigenvalue of `H` is that of `V/ρ` shrunk by
+/// `2ωs/ρ`, where `s = ‖H‖_*`, so that `Y` is `V` with eigenvalues cut off at `2ωs`; `s` follows from the sum
+/// over the eigenvalues that are left, both or one.
 #[derive(Clone, Copy)]
 pub(crate) struct SquaredNuclearNorm {
     pub rho: f64,
@@ -108,17 +108,19 @@ impl SpectralPenalty for SquaredNuclearNorm {
     }
 }
 
-/// `φ(‖H‖_*)`, where `φ` has the slope `min(α + s/δ, ω)`: the weight is no factor, it is where the
-/// slope ends. A Huber function for `α = 0`, and `ω` times the nuclear norm for `α ≥ ω`.
+/// Parameters of the Huber penalty `φ(‖H‖_*)`, where `φ` has the slope `min(α + s/δ, ω)`: the weight `ω` is no
+/// factor, but where the slope ends. It is a Huber function for `α = 0`, and `ω` times the nuclear norm for `α
+/// ≥ ω`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HuberParameters {
-    /// `α`, the slope at 0.
+    /// Slope `α` at 0.
     pub flatness: f64,
-    /// `δ`, a curvature.
+    /// Curvature `δ` at which the slope would reach `α + 1`.
     pub delta: f64,
 }
 
 impl HuberParameters {
+    /// The parameters that the options say.
     pub(crate) fn of(options: &Options) -> Self {
         let Bending {
             bend_radius,
@@ -131,11 +133,12 @@ impl HuberParameters {
         }
     }
 
-    /// `φ′(s)` with `ω = 1`.
+    /// The slope `φ′(s)` for `ω = 1`.
     pub(crate) fn slope(self, s: f64) -> f64 {
         smaller(self.flatness + s / self.delta, 1.0)
     }
 
+    /// The penalty with these parameters at one ρ.
     pub(crate) fn penalty(self, rho: f64) -> HuberPenalty {
         HuberPenalty {
             bends: self,
@@ -143,6 +146,7 @@ impl HuberParameters {
         }
     }
 
+    /// The dual step at one ρ, in double precision.
     fn steps(self, rho: f64) -> HuberStep<f64> {
         let c = rho * self.delta;
         HuberStep {
@@ -153,7 +157,7 @@ impl HuberParameters {
         }
     }
 
-    /// The step `V ↦ Y` in single precision.
+    /// The dual step at one ρ, in single precision.
     pub(crate) fn single(self, rho: f64) -> HuberStep<f32> {
         let HuberStep {
             flatness,
@@ -170,19 +174,21 @@ impl HuberParameters {
     }
 }
 
-/// The step of [`HuberPenalty`] at one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues cut off at
-/// `φ′(‖H‖_*)`, which follows by summing over the eigenvalues that are left, both or one, as for
+/// Dual step of [`HuberPenalty`] at one ρ: with `c = ρδ`, `Y` is `V` with its eigenvalues cut off at
+/// `φ′(‖H‖_*)`, which follows from the sum over the eigenvalues that are left, both or one, as for
 /// [`SquaredNuclearNorm`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HuberStep<T> {
     flatness: T,
     c: T,
-    /// `2/(2 + c)` and `1/(1 + c)`.
+    /// The factor `2/(2 + c)` where both eigenvalues are left.
     both: T,
+    /// The factor `1/(1 + c)` where one eigenvalue is left.
     one: T,
 }
 
 impl<T: Real> HuberStep<T> {
+    /// The dual of the matrix with these coordinates, for the weight `ω`.
     #[inline(always)]
     pub(crate) fn dual(self, v: [T; 3], weight: T) -> [T; 3] {
         let [mean, diff, off] = v;
@@ -196,7 +202,7 @@ impl<T: Real> HuberStep<T> {
     }
 }
 
-/// The penalty of [`HuberParameters`] at one ρ.
+/// The Huber penalty of [`HuberParameters`] at one ρ.
 #[derive(Clone, Copy)]
 pub(crate) struct HuberPenalty {
     bends: HuberParameters,
@@ -231,7 +237,7 @@ impl SpectralPenalty for HuberPenalty {
     }
 }
 
-/// Which penalty an energy follows; its weights ω are another matter.
+/// Which penalty an energy has, without its weights and ρ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PenaltyKind {
     Nuclear,
@@ -253,9 +259,8 @@ impl PenaltyKind {
     }
 }
 
-/// The penalty of a kind, looked up at every vertex. Kernels that are seldom run, or
-/// seldom for another energy than the nuclear norm, are compiled for this alone:
-/// a version for each penalty, which is what inlining comes to, would make the wasm a
+/// The penalty of a kind, chosen at every vertex. Kernels that run seldom, or seldom for another energy than
+/// the nuclear norm, are compiled for this type only: one version for each penalty would make the wasm a
 /// quarter larger.
 #[derive(Clone, Copy)]
 pub(crate) enum AnyPenalty {
@@ -266,6 +271,7 @@ pub(crate) enum AnyPenalty {
 }
 
 impl AnyPenalty {
+    /// The penalty of a kind at one ρ.
     pub(crate) fn new(kind: PenaltyKind, rho: f64) -> Self {
         match kind {
             PenaltyKind::Nuclear => AnyPenalty::Nuclear,
@@ -276,7 +282,7 @@ impl AnyPenalty {
     }
 }
 
-/// Calls the same method of the penalty itself.
+/// Calls a method of the penalty that an [`AnyPenalty`] is.
 macro_rules! the_penalty {
     ($any:expr, |$penalty:ident| $call:expr) => {
         match $any {
@@ -306,6 +312,7 @@ impl SpectralPenalty for AnyPenalty {
     fn value(self, hessian: Sym2, weight: f64) -> f64 {
         the_penalty!(self, |penalty| penalty.value(hessian, weight))
     }
+    /// Size of a dual, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
     #[inline(never)]
     fn size(self, dual: Sym2, weight: f64) -> f64 {
         the_penalty!(self, |penalty| penalty.size(dual, weight))

@@ -1,16 +1,16 @@
-//! The base of the first linearisation.
+//! The base of the first linearisation: the input mesh, smoothed.
 
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
 use super::input::MeshInput;
 
-/// Number of smoothing steps for the places of vertices across the viewing rays, with which the first base
-/// begins.
+/// Number of smoothing steps after which the base takes the positions of vertices across the rays.
 const BASE_PLACE_STEPS: usize = 3;
 
-/// Number of smoothing steps for the first base surface, those for the places across the rays included.
+/// Number of smoothing steps after which the base takes the positions of vertices along the rays, the steps for
+/// those across included.
 const BASE_SURFACE_STEPS: usize = 10;
 
-/// The noisy mesh smoothed, its vertices across the rays where less smoothing has them.
+/// The smoothed mesh and its frames. Across the rays, vertices are where fewer smoothing steps leave them.
 pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
     let mut places = given.noisy.clone();

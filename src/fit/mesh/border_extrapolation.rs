@@ -1,4 +1,4 @@
-//! Vertices on the border, put where the surface inside goes on to.
+//! Extrapolation of border vertices from the surface inside.
 
 use super::geometry::{Frame, Point};
 use super::input::MeshInput;
@@ -6,14 +6,14 @@ use super::quadratic::{Neighbour, Quadratic};
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 
-/// Number of rings around a border vertex in which an inner vertex is looked for.
+/// Number of rings around a border vertex in which an interior vertex is searched for.
 const INNER_SEARCH_RINGS: usize = 3;
 
 /// Weight of a second-ring vertex relative to a first-ring vertex, where first-ring vertices are missing.
 const SECOND_RING_WEIGHT: f64 = 0.3;
 
-/// Puts each vertex that is not inside on the mean of the quadratics that fit at the vertices inside next
-/// to it; where `sides` are known, by nothing beyond creases. Where there are none it stays.
+/// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on the same side of
+/// every crease where `sides` are known. A vertex without interior neighbours stays.
 pub(super) fn extrapolate_border(
     given: &MeshInput,
     x: &mut [Point],
@@ -42,16 +42,18 @@ pub(super) fn extrapolate_border(
         let (mut sum, mut count) = (Point::zeros(), 0.0);
         for inner in ring.into_iter().map(|other| other as usize) {
             // Where sides meet, the border is on all of them.
-            let own = sides.filter(|sides| !sides.meet_at(vertex));
+            let own = sides.filter(|sides| !sides.is_on_crease(vertex));
             let inside = |other: usize| {
-                let fits = own.is_none_or(|sides| sides.of[other] == sides.of[vertex]);
+                let fits = own.is_none_or(|sides| sides.region[other] == sides.region[vertex]);
                 topology.inside[other] && fits
             };
             if !inside(inner) {
                 continue;
             }
             let frame = &frames[inner];
-            if let Some((rise, up)) = continued(topology, &old, frame, inner, inside, old[vertex]) {
+            if let Some((rise, up)) =
+                continue_surface(topology, &old, frame, inner, inside, old[vertex])
+            {
                 // Along the normal of the vertex inside, as far as that one's surface is above.
                 sum += frame.normal * (rise / up.dot(&frame.normal));
                 count += 1.0;
@@ -63,9 +65,9 @@ pub(super) fn extrapolate_border(
     }
 }
 
-/// How far a place is below the quadratic that fits at an inner vertex, by those around that are `usable`;
-/// along that quadratic's normal there, which comes with it.
-pub(super) fn continued(
+/// Continues the surface to a point by the quadratic fitted at an inner vertex to those of its neighbours that
+/// are `usable`. Returns how far the quadratic is above the point along its normal there, and that normal.
+pub(super) fn continue_surface(
     topology: &Topology,
     x: &[Point],
     frame: &Frame,

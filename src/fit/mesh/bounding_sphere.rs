@@ -1,10 +1,10 @@
-//! Coordinates in which the ball about a mesh has the diameter 1.
+//! Normalised coordinates of a mesh, in which its bounding sphere has the diameter 1.
 
 use super::geometry::Point;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 
-/// The way from the user's coordinates: `scale (x − centre)`.
+/// The map from the user's coordinates to normalised ones, `scale (x − centre)`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BoundingSphere {
     centre: Point,
@@ -12,7 +12,7 @@ pub(super) struct BoundingSphere {
 }
 
 impl BoundingSphere {
-    /// About the centre of its area. It does not depend on how the mesh is turned.
+    /// The sphere about the centroid of the mesh's area. It does not depend on how the mesh is rotated.
     pub(super) fn around(mesh: &Mesh) -> Result<Self> {
         let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
         let (mut sum, mut weight) = (Point::zeros(), 0.0);
@@ -33,19 +33,21 @@ impl BoundingSphere {
         Ok(BoundingSphere { centre, scale })
     }
 
+    /// Normalised coordinates of a point.
     pub(super) fn inward(self, x: [f64; 3]) -> Point {
         self.scale * (Point::from(x) - self.centre)
     }
 
+    /// A point in the user's coordinates.
     pub(super) fn outward(self, x: Point) -> [f64; 3] {
         (self.centre + x / self.scale).into()
     }
 }
 
-/// The factor to coordinates in which the ball about a mesh has the diameter 1.
+/// Factor to coordinates in which the bounding sphere of a mesh has the diameter 1.
 ///
 /// # Errors
 /// [`Error::Topology`] if it has no size.
-pub(crate) fn scale_of(mesh: &Mesh) -> Result<f64> {
+pub(crate) fn bounding_sphere_scale(mesh: &Mesh) -> Result<f64> {
     Ok(BoundingSphere::around(mesh)?.scale)
 }

@@ -1,23 +1,23 @@
-//! Where vertices on creases go besides along their normal.
+//! Directions in which vertices on creases move besides that of their normal.
 //!
-//! The surface has two normals there, and three in a corner. Along one ray a vertex cannot be on all of these
-//! sides: what it is off across the ray would stay a dent in both.
+//! The surface has two normals on a crease, and three in a corner. Along one ray alone a vertex cannot be on
+//! all of these sides, and its distance from them would stay a dent in both.
 
 use super::geometry::{Frame, Point};
 use super::input::MeshInput;
 use super::smooth_regions::SmoothRegions;
 
-/// Directions across the rays, each an unknown of its own.
+/// Directions across the rays, each with an unknown of its own.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CreaseDirections {
-    /// Which vertex goes along each, and the way.
+    /// The vertex and the direction of each unknown.
     pub all: Vec<(u32, Point)>,
-    /// Where those of each vertex begin.
+    /// Number of the first direction of each vertex.
     first: Vec<u32>,
 }
 
 impl CreaseDirections {
-    /// Across the crease where two sides meet, and everywhere where three do.
+    /// The direction across the crease where two sides meet, and two directions where three sides do.
     pub(super) fn new(
         given: &MeshInput,
         sides: &SmoothRegions,
@@ -59,7 +59,7 @@ impl CreaseDirections {
         directions
     }
 
-    /// The numbers of a vertex's directions, and these.
+    /// The directions of a vertex, with their numbers.
     pub(super) fn of(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
         let own = match self.first.get(vertex..vertex + 2) {
             Some([first, end]) => *first..*end,

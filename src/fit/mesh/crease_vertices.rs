@@ -1,10 +1,10 @@
-//! Vertices on creases, put where the surfaces on either side go on to.
+//! Vertices on creases, moved to the intersection of the surfaces on either side.
 //!
 //! The fit about a vertex next to a crease straddles it, and blunts it by a part of an edge's length. So each
-//! vertex on a crease is moved, as little as may be, to where the continuations of both sides meet (or of all
-//! three in a corner), each found without what is beyond the crease.
+//! vertex on a crease is moved, by the smallest step, to where the continuations of both sides intersect (or of
+//! all three in a corner), each found from vertices on its side alone.
 
-use super::border_extrapolation::continued;
+use super::border_extrapolation::continue_surface;
 use super::geometry::{Frame, Point, faces_away, normals};
 use super::input::MeshInput;
 use super::smooth_regions::{MIN_FOLD_ANGLE_RADIANS, SmoothRegions};
@@ -12,10 +12,10 @@ use super::topology::Topology;
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use nalgebra::Matrix3;
 
-/// Largest step of a vertex when creases are sharpened, as a share of the mean length of the edges around it.
+/// Maximum step of a vertex on a crease, as a share of the mean length of the edges around it.
 const MAX_SHARPENING_SHARE: f64 = 0.7;
 
-/// Moves the vertices on creases, where `sides` meet; `rays` are their normals so far.
+/// Moves the vertices on creases, where `sides` meet; `rays` are their frames so far.
 pub(super) fn move_crease_vertices(
     given: &MeshInput,
     sides: &SmoothRegions,
@@ -36,12 +36,12 @@ pub(super) fn move_crease_vertices(
         }
         let planes: Vec<(f64, Point)> = around
             .iter()
-            .filter_map(|label| plane(topology, &before, &frames, &sides.of, vertex, *label))
+            .filter_map(|label| plane(topology, &before, &frames, &sides.region, vertex, *label))
             .collect();
         if planes.len() < around.len() {
             continue;
         }
-        let Some(step) = meeting(&planes) else {
+        let Some(step) = intersect_planes(&planes) else {
             continue;
         };
         let ring = topology.around(vertex);
@@ -61,7 +61,7 @@ pub(super) fn move_crease_vertices(
     }
 }
 
-/// How far a side's continuation is above a vertex on average, and its normal there.
+/// The tangent plane of one side, continued to a vertex: its mean height above the vertex, and its normal.
 fn plane(
     topology: &Topology,
     x: &[Point],
@@ -79,7 +79,9 @@ fn plane(
     let (mut rise, mut normal, mut count) = (0.0, Point::zeros(), 0.0);
     for inner in near {
         let inner = *inner as usize;
-        if let Some((own, up)) = continued(topology, x, &frames[inner], inner, usable, x[vertex]) {
+        if let Some((own, up)) =
+            continue_surface(topology, x, &frames[inner], inner, usable, x[vertex])
+        {
             rise += own;
             normal += up;
             count += 1.0;
@@ -88,8 +90,9 @@ fn plane(
     (count > 0.0 && normal.norm() > 0.0).then(|| (rise / count, normal.normalize()))
 }
 
-/// The shortest way to where planes meet, each given by how far it is above and its normal.
-fn meeting(planes: &[(f64, Point)]) -> Option<Point> {
+/// The shortest step to the intersection of planes, each given by its height above the start and its normal;
+/// `None` if they are nearly parallel.
+fn intersect_planes(planes: &[(f64, Point)]) -> Option<Point> {
     let (mut matrix, mut right) = (Matrix3::zeros(), Point::zeros());
     for (rise, normal) in planes {
         matrix += normal * normal.transpose();

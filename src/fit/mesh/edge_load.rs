@@ -1,4 +1,4 @@
-//! Which moments load the border of a mesh, and creases, which bear none either: see
+//! Loads on the border and the creases of a mesh, neither of which bears bending moments: see
 //! [`energy::moment_load`](crate::fit::energy::moment_load).
 
 use nalgebra::Matrix3;
@@ -16,8 +16,8 @@ use crate::math::sym2::Sym2;
 /// that its stencils reach. Further inside equal moments cancel.
 const LOAD_REACH_RINGS: u32 = 3;
 
-/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside.
-/// Says whether there are any. What is less than the `flatness` is no moment of a bend: noise leaves so much on
+/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside;
+/// tells whether there are any. A moment smaller than the `flatness` is none of a bend: noise leaves so much on
 /// flat faces.
 ///
 /// # Errors
@@ -68,6 +68,7 @@ pub(super) fn load_border(
     Ok(true)
 }
 
+/// A moment in the plane of a frame as a matrix in space.
 fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
     let [xx, xy, yy] = moment.entries();
     let [a, b] = &frame.tangents;
@@ -75,6 +76,7 @@ fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
     xx * a * a.transpose() + xy * (mixed + mixed.transpose()) + yy * b * b.transpose()
 }
 
+/// The part of a matrix in space that is in the plane of a frame.
 fn in_plane(frame: &Frame, moment: &Matrix3<f64>) -> Sym2 {
     let [a, b] = &frame.tangents;
     let on = |u: &super::geometry::Point, v: &super::geometry::Point| u.dot(&(moment * v));

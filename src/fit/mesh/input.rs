@@ -1,16 +1,16 @@
-//! What a fit of a mesh is given.
+//! The input of a fit of a mesh.
 
 use super::geometry::Point;
 use super::topology::Topology;
 
-/// Mesh to be fitted, which stays the same from one linearisation to the next, in normalised coordinates.
+/// The mesh to be fitted, in normalised coordinates; it is the same for all linearisations.
 #[derive(Debug, Clone)]
 pub(super) struct MeshInput {
     pub topology: Topology,
-    /// The vertices as they were given.
+    /// Positions of the vertices as given.
     pub noisy: Vec<Point>,
-    /// What each vertex is trusted, 1 for all if empty.
+    /// Confidence of each vertex; empty for 1 each.
     pub confidence: Vec<f64>,
-    /// Which vertices stay where they are.
+    /// Whether each vertex stays where it is.
     pub held: Vec<bool>,
 }

@@ -1,8 +1,8 @@
-//! The energy of a mesh whose vertices move along rays, linearised about where they are.
+//! Linearisation of the energy of a mesh about a base, from which its vertices move along rays.
 //!
-//! With the unknowns `√w s`, `w` being each vertex's share of the area, the fidelity has the same weight at
-//! all of them. What the second fundamental form is before anything moves is the column of one more
-//! vertex, which is held at 1.
+//! The unknowns are `√w s`, where `s` is the distance along the ray and `w` each vertex's share of the area, so
+//! that the fidelity has the same weight at all of them. The second fundamental form of the base itself is the
+//! column of one more vertex, which is held at 1.
 
 use super::crease_directions::CreaseDirections;
 use super::geometry::{Frame, Point, areas};
@@ -20,49 +20,52 @@ use crate::math::sym2::Sym2;
 
 pub(super) type Problem = problem::Problem<SparseOperator>;
 
-/// Least share of the area, relative to the mean, that a vertex counts for.
-const LEAST_AREA: f64 = 0.1;
+/// Minimum area of a vertex, relative to the mean.
+const MIN_AREA_SHARE: f64 = 0.1;
 
-/// Largest noise amplification of a quadratic over the first ring, relative to a hexagonal one; above it the
-/// second ring is added. Including the second ring on all irregular meshes reduces the angle between normals
-/// of surface and truth by a third.
+/// Maximum noise amplification of a quadratic over the first ring, relative to a hexagonal one; above it the
+/// second ring is added. Including the second ring on all irregular meshes reduces the angle between normals of
+/// surface and truth by a third.
 const MAX_RING_AMPLIFICATION: f64 = 1.05;
 
-/// Smallest number of first-ring vertices at which the second ring may be left out.
+/// Minimum number of first-ring vertices at which the second ring may be left out.
 const MIN_RING_VERTICES: usize = 6;
 
 /// Number of entries reserved per matrix row: two rings of a hexagonal mesh, the vertex itself and the
 /// constant.
 const STENCIL_ROW_CAPACITY: usize = 20;
 
-/// The least confidence: what is next to none would need a system of its own.
-const LEAST_CONFIDENCE: f64 = 1e-4;
+/// Minimum confidence of a vertex: a smaller one would need a linear system of its own.
+const MIN_CONFIDENCE: f64 = 1e-4;
 
-/// About a base.
+/// The problem that is linearised about a base.
 #[derive(Debug, Clone)]
 pub(super) struct Linearisation {
     pub problem: Problem,
+    /// Positions of the vertices about which the energy is linearised.
     pub base: Vec<Point>,
+    /// Frames of the vertices, whose normals are the rays.
     pub frames: Vec<Frame>,
-    /// The vertices in the middle of stencils, and the stencil about each vertex, or [`NO_INDEX`].
+    /// Vertex in the middle of each stencil.
     pub centres: Vec<u32>,
+    /// Stencil about each vertex, or [`NO_INDEX`].
     pub about: Vec<u32>,
-    /// From the unknowns to distances along the rays.
+    /// Factor from each unknown to a distance along the ray.
     pub scales: Vec<f64>,
-    /// Unknowns behind those of vertices and the constant.
+    /// Further directions of vertices on creases; their unknowns follow those of the vertices and the constant.
     pub directions: CreaseDirections,
-    /// Spacing of a hexagonal lattice with so many vertices.
+    /// Spacing of a hexagonal lattice with vertices of the same mean area.
     pub spacing: f64,
 }
 
-/// Distance between the vertices of a hexagonal lattice where each has such an area.
-pub(super) fn spacing_of(area: f64) -> f64 {
+/// Spacing of a hexagonal lattice whose vertices have an area.
+pub(super) fn hexagonal_spacing(area: f64) -> f64 {
     (2.0 * area / 3f64.sqrt()).sqrt()
 }
 
 impl Linearisation {
-    /// About vertices at `base`, which move along the normals of their frames; on creases, where `sides` meet,
-    /// across them as well.
+    /// Linearises about vertices at `base`, which move along the normals of their frames, and across these as
+    /// well on creases, where `sides` meet.
     ///
     /// # Errors
     /// [`Error::Topology`] if no vertex has triangles all around, or out of memory.
@@ -92,7 +95,8 @@ impl Linearisation {
                 continue;
             }
             let ray = &frames[vertex];
-            let Some((fit, vertices, frame)) = fit_beside(topology, &base, ray, vertex, sides)
+            let Some((fit, vertices, frame)) =
+                fit_quadratic_on_side(topology, &base, ray, vertex, sides)
             else {
                 continue;
             };
@@ -132,20 +136,20 @@ impl Linearisation {
             });
         }
         let mean = centres.iter().map(|v| areas[*v as usize]).sum::<f64>() / centres.len() as f64;
-        let spacing = spacing_of(mean);
+        let spacing = hexagonal_spacing(mean);
         if !(mean > 0.0 && mean.is_finite()) {
             return Err(Error::Topology {
                 reason: "its triangles have no area".into(),
                 advice: "check its coordinates",
             });
         }
-        let share = |vertex: usize| (areas[vertex] / mean).max(LEAST_AREA);
+        let share = |vertex: usize| (areas[vertex] / mean).max(MIN_AREA_SHARE);
         let mut scales = try_filled("vertices", count, 0.0)?;
         for (vertex, scale) in scales.iter_mut().enumerate() {
             let trust = given
                 .confidence
                 .get(vertex)
-                .map_or(1.0, |c| c.max(LEAST_CONFIDENCE));
+                .map_or(1.0, |c| c.max(MIN_CONFIDENCE));
             *scale = (share(vertex) * trust).sqrt().recip();
         }
         rows.scale_columns(|unknown| match unknown.checked_sub(across) {
@@ -205,7 +209,7 @@ impl Linearisation {
         })
     }
 
-    /// The unknowns with nothing moved.
+    /// The unknowns of the base itself.
     pub(super) fn start(&self) -> Vec<f64> {
         let mut z = vec![0.0; self.problem.target.len()];
         z[self.base.len()] = 1.0;
@@ -215,7 +219,7 @@ impl Linearisation {
         z
     }
 
-    /// The vertices moved by what the unknowns say.
+    /// Positions of the vertices for these unknowns.
     pub(super) fn moved(&self, z: &[f64]) -> Vec<Point> {
         let all = self
             .base
@@ -233,22 +237,23 @@ impl Linearisation {
     }
 }
 
-/// Largest slope of a local quadratic fit against its frame. Above it the frame is turned into the fit's
+/// Maximum slope of a local quadratic fit against its frame. Above it the frame is rotated into the fit's
 /// tangent plane, because second derivatives over a slanting plane are not the second fundamental form.
 const MAX_FRAME_SLOPE: f64 = 0.02;
 
-/// The quadratic about a vertex, over its tangent plane, and the vertices that it goes by.
-pub(crate) fn fit_at(
+/// Fits the quadratic about a vertex over its tangent plane. Returns it with the vertices that it was fitted to
+/// and its frame.
+pub(crate) fn fit_quadratic(
     topology: &Topology,
     x: &[Point],
     frame: &Frame,
     vertex: usize,
 ) -> Option<(Quadratic, Vec<u32>, Frame)> {
-    fit_beside(topology, x, frame, vertex, None)
+    fit_quadratic_on_side(topology, x, frame, vertex, None)
 }
 
-/// The same by no vertex that is beyond a crease, for it says nothing of this side.
-fn fit_beside(
+/// Fits as [`fit_quadratic`] does, to vertices on the same side of every crease alone.
+fn fit_quadratic_on_side(
     topology: &Topology,
     x: &[Point],
     frame: &Frame,
@@ -272,9 +277,9 @@ fn fit_beside(
     if fit.is_none() {
         let mut second = Vec::with_capacity(8 * ring.len());
         topology.second_ring(vertex, &mut second);
-        if let Some(sides) = sides.filter(|sides| !sides.meet_at(vertex)) {
-            let own = sides.of[vertex];
-            second.retain(|other| sides.touch(*other as usize, own));
+        if let Some(sides) = sides.filter(|sides| !sides.is_on_crease(vertex)) {
+            let own = sides.region[vertex];
+            second.retain(|other| sides.touches(*other as usize, own));
         }
         neighbours.extend(
             second

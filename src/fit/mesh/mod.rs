@@ -1,8 +1,9 @@
-//! Meshes as they are, without a view: closed, overhanging, with borders or in parts.
+//! Fits of whole meshes, as surfaces in space and not as seen from one side: closed, overhanging, with borders
+//! or in components.
 //!
-//! The paper's energy needs heights. Here each vertex moves along a ray, and what takes the place of the
-//! Hessian is the second fundamental form by a quadratic fit over its neighbours, linearised about a
-//! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
+//! The paper's energy needs heights. Here each vertex moves along a ray, and the second fundamental form takes
+//! the place of the Hessian: that of a quadratic fitted to the neighbours, linearised about a smoothed base.
+//! The operator is a sparse matrix, and everything else is as for heightfields.
 
 mod base;
 mod border_extrapolation;
@@ -30,7 +31,7 @@ mod tests;
 pub(crate) mod topology;
 mod vertex_fans;
 
-pub(crate) use bounding_sphere::scale_of;
+pub(crate) use bounding_sphere::bounding_sphere_scale;
 pub use known::MeshKnown;
 pub use options::MeshOptions;
 pub use report::{MeshPass, MeshReport, Repairs};

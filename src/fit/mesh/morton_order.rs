@@ -1,10 +1,11 @@
-//! Places in space in the order of a curve that fills it, so that what is near on it is near.
+//! Order of points along a space-filling curve (Morton 1966), so that neighbours in the order are near each
+//! other.
 
 /// Number of bits of each coordinate in the key of the space-filling curve: three coordinates make a key of
 /// 63 bits.
 const AXIS_KEY_BITS: u32 = 21;
 
-/// The numbers of `places` along Morton's curve (1966).
+/// Numbers of the points in the order of the curve.
 pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for place in places.clone() {
@@ -30,7 +31,7 @@ pub(super) fn order(places: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<u32> 
     keys.into_iter().map(|(_, number)| number).collect()
 }
 
-/// Two zeros after each of the bits.
+/// Inserts two zeros after each bit.
 fn spread(step: u64) -> u64 {
     let mut x = step & 0x1f_ffff;
     for (shift, mask) in [

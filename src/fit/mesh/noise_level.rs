@@ -1,4 +1,4 @@
-//! How large the noise of a mesh is.
+//! Estimate of the noise of a mesh.
 
 use nalgebra::{Matrix6, Vector6};
 
@@ -6,14 +6,14 @@ use super::geometry::{Frame, Point};
 use super::topology::Topology;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Smallest number of samples from which noise is estimated.
+/// Minimum number of samples from which noise is estimated.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Largest number of samples from which noise is estimated: more do not make the estimate better.
+/// Maximum number of samples from which noise is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;
 
-/// Standard deviation of `noisy` along the normals of the base: by how much a vertex is off the quadratic
-/// that fits those around it, as a median, so that creases do not count.
+/// Standard deviation of the noise along the normals of the base, from the median distance of a vertex to the
+/// quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples.
 pub(super) fn noise(
     topology: &Topology,
     base: &[Point],

@@ -1,13 +1,13 @@
-//! What the penalty counts at creases.
+//! Shares of ρ at creases.
 //!
-//! One ρ fits all stencils whose dual and Hessian have about the same ratio. Where smooth parts of the surface meet,
-//! the Hessian is large and its cost next to nothing: there the usual ρ holds on to what the Hessian was
-//! before, and the fold takes many iterations to move.
+//! One ρ fits all stencils whose dual and Hessian have about the same ratio. Where smooth regions of the
+//! surface meet, the Hessian is large and its cost next to nothing: the usual ρ would hold on to the last
+//! Hessian there, and the fold would take many iterations to move.
 
 use super::linearisation::Problem;
 use crate::fit::energy::spectral_penalty::PenaltyKind;
 
-/// Adapts the penalty to the weights.
+/// Sets the shares of ρ by the weights of the stencils.
 pub(super) fn set_rho_shares(problem: &mut Problem) {
     if let PenaltyKind::Huber(bends) = problem.kind {
         let weight = &problem.weight;
@@ -16,8 +16,9 @@ pub(super) fn set_rho_shares(problem: &mut Problem) {
     }
 }
 
-/// The share of ρ for a weight ω. The dual is at most ω, and the weight was one over the Hessian, so that their ratio
-/// falls with ω². For more than the cost's slope at 0 the dual would depend on ρ, and the share is 1.
+/// Share of ρ for a weight ω. The dual is at most ω, and the weight was one over the Hessian, so that their
+/// ratio falls with ω². Where ω exceeds the slope of the penalty at 0, the dual would depend on ρ, and the
+/// share is 1.
 fn share(weight: f64, flatness: f64) -> f64 {
     let least = weight / flatness.min(1.0);
     if least < 1.0 { least * least } else { 1.0 }

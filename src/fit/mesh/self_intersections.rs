@@ -1,8 +1,8 @@
-//! Triangles that cross others near them, or are folded over, made to lie beside each other again.
+//! Self-intersections: triangles that cross others near them, or are folded over, are separated.
 //!
-//! Where the rays of vertices come together, as they do along creases in coarse noise, vertices can pass each
-//! other on their way, and the triangles between them turn over together, so that normals do not tell. Parts of
-//! a surface that meet far from each other along it, as those of bodies put through each other, stay.
+//! Where the rays of vertices converge, as they do along creases in coarse noise, vertices can pass each other,
+//! and the triangles between them turn over together, so that their normals do not tell. Parts of a surface
+//! that intersect far from each other along it, as those of bodies put through each other, stay.
 
 use super::geometry::{Point, twice_area};
 use super::topology::Topology;
@@ -15,11 +15,11 @@ const MIN_NORMAL_COSINE: f64 = 0.5;
 /// Number of rings around a vertex whose triangles are tested for crossing.
 const CROSSING_SEARCH_RINGS: usize = 3;
 
-/// Largest number of rounds in which crossing triangles are pulled apart.
+/// Maximum number of rounds in which crossing triangles are separated.
 const MAX_MENDING_ROUNDS: usize = 60;
 
-/// Largest number of crossing tests per vertex, on average over the mesh: bounds the time on a mesh that
-/// crosses itself everywhere.
+/// Maximum number of crossing tests per vertex, on average over the mesh: bounds the time on a mesh that
+/// intersects itself everywhere.
 const MAX_VISITS_PER_VERTEX: usize = 4;
 
 /// Number of crossing tests that are allowed on any mesh in addition to those per vertex, so that small
@@ -29,8 +29,8 @@ const EXTRA_VISITS: usize = 100_000;
 /// Number of mending rounds after which the neighbours of moved vertices are moved, too.
 const WIDENING_ROUNDS: usize = 10;
 
-/// Moves the vertices of such triangles towards the mean of their neighbours, those on creases along these
-/// first; `held` ones stay.
+/// Moves the vertices of crossing and folded triangles towards the mean of their neighbours, those on creases
+/// along these first. Vertices that are `held` stay.
 pub(super) fn separate_self_intersections(
     topology: &Topology,
     vertex_fans: &VertexFans,
@@ -39,7 +39,7 @@ pub(super) fn separate_self_intersections(
     creased: &dyn Fn(usize) -> bool,
 ) {
     let all: Vec<u32> = (0..topology.len() as u32).collect();
-    let mut bad = tangled(topology, vertex_fans, x, &all);
+    let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
     let mut moving: Vec<u32> = Vec::new();
     for round in 0..MAX_MENDING_ROUNDS {
@@ -70,11 +70,11 @@ pub(super) fn separate_self_intersections(
             near = around(topology, &near);
         }
         left = left.saturating_sub(near.len());
-        bad = tangled(topology, vertex_fans, x, &near);
+        bad = entangled_triangles(topology, vertex_fans, x, &near);
     }
 }
 
-/// These vertices and those around them, each once.
+/// These vertices and their neighbours, each once.
 fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
     let mut all = vertices.to_vec();
     for vertex in vertices {
@@ -85,8 +85,8 @@ fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
     all
 }
 
-/// The mean of a vertex's neighbours: on the border of the two along it, on a line of `creased` vertices of the two
-/// on that.
+/// Mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`
+/// vertices, where the vertex is on one.
 fn mean_beside(
     topology: &Topology,
     x: &[Point],
@@ -112,9 +112,9 @@ fn mean_beside(
     Some(along.unwrap_or_else(|| mean_of(&|_| true)).0)
 }
 
-/// Triangles at these vertices that cross one near, those that they cross, and those that face away from the normals
-/// of their corners.
-fn tangled(
+/// Triangles at these vertices that cross one near them, those that they cross, and those that face away from
+/// the normals of their corners.
+fn entangled_triangles(
     topology: &Topology,
     vertex_fans: &VertexFans,
     x: &[Point],
@@ -167,7 +167,7 @@ fn tangled(
     bad
 }
 
-/// Whether a side of one triangle goes through the other one, sides with a corner of both left out.
+/// Whether an edge of one triangle passes through the other one, except edges with a corner of both.
 fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
     let [a, b] = [one, other].map(|t| t.map(|i| x[i as usize]));
     let apart = |k: usize| {
@@ -186,7 +186,7 @@ fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
     through(one, &a, other, &b) || through(other, &b, one, &a)
 }
 
-/// Whether the way from `p` to `q` goes through a triangle's inside.
+/// Whether the segment from `p` to `q` passes through the inside of a triangle.
 fn pierces(p: Point, q: Point, [a, b, c]: &[Point; 3]) -> bool {
     let normal = (b - a).cross(&(c - a));
     if normal.dot(&(p - a)) * normal.dot(&(q - a)) >= 0.0 {

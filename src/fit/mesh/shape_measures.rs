@@ -3,7 +3,7 @@
 use super::geometry::{Point, faces_away, normals, twice_area, volume};
 use super::topology::Topology;
 
-/// Figures of a shape.
+/// Volume, area and number of folded triangles of a surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShapeMeasures {
     pub volume: f64,
@@ -12,7 +12,8 @@ pub(super) struct ShapeMeasures {
 }
 
 impl ShapeMeasures {
-    /// Triangles are flipped that face away from the vertex normals of the `smooth` surface.
+    /// Measures a surface. A triangle is folded if it faces away from the vertex normals of the `smooth`
+    /// surface.
     pub(super) fn new(topology: &Topology, x: &[Point], smooth: &[Point]) -> Self {
         let up = normals(topology, smooth, None);
         let flipped = (topology.triangles.iter()).filter(|triangle| faces_away(x, &up, triangle));

@@ -1,4 +1,4 @@
-//! The sides of creases: smooth parts of a surface, and vertices where these meet.
+//! Smooth regions of a mesh, whose borders are its creases.
 
 use super::geometry::Point;
 use super::topology::Topology;
@@ -7,23 +7,23 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
 
-/// Smallest angle between two sides of a crease, in radians, from which the place of their intersection is
-/// determined well.
+/// Minimum angle between two sides of a crease, in radians, for which their intersection is well determined.
 pub(super) const MIN_FOLD_ANGLE_RADIANS: f64 = 0.2;
 
-/// Smallest area of a side of a crease, as a share of the area of the mesh.
+/// Minimum area of a region, as a share of the area of the mesh.
 const MIN_SIDE_AREA_SHARE: f64 = 0.003;
 
-/// Which sides of creases vertices are on.
+/// The smooth regions, and those that each vertex is in.
 pub(super) struct SmoothRegions {
-    /// The one label of the triangles around a vertex, or [`NO_INDEX`].
-    pub of: Vec<u32>,
+    /// Region of a vertex, or [`NO_INDEX`] where regions meet.
+    pub region: Vec<u32>,
     pub vertex_fans: VertexFans,
+    /// Region of each triangle.
     labels: Vec<u32>,
 }
 
 impl SmoothRegions {
-    /// Of the surface `x`.
+    /// Finds the regions of the surface `x`.
     ///
     /// # Errors
     /// Out of memory.
@@ -35,33 +35,33 @@ impl SmoothRegions {
             MIN_FOLD_ANGLE_RADIANS,
         )?;
         let mut sides = SmoothRegions {
-            of: vec![NO_INDEX; topology.len()],
+            region: vec![NO_INDEX; topology.len()],
             vertex_fans: VertexFans::new(topology),
             labels,
         };
         for vertex in 0..topology.len() {
             if let [one] = sides.around(vertex)[..] {
-                sides.of[vertex] = one;
+                sides.region[vertex] = one;
             }
         }
         Ok(sides)
     }
 
-    /// Whether a vertex with triangles is on a crease.
-    pub(super) fn meet_at(&self, vertex: usize) -> bool {
-        self.of[vertex] == NO_INDEX
+    /// Whether regions meet at a vertex.
+    pub(super) fn is_on_crease(&self, vertex: usize) -> bool {
+        self.region[vertex] == NO_INDEX
     }
 
-    /// Whether a vertex has triangles of one side.
-    pub(super) fn touch(&self, vertex: usize, side: u32) -> bool {
+    /// Whether a vertex has triangles of a region.
+    pub(super) fn touches(&self, vertex: usize, side: u32) -> bool {
         let own = self.vertex_fans.around(vertex).iter();
         own.map(|t| self.labels[*t as usize]).any(|s| s == side)
     }
 
-    /// The creases as curves: of each vertex on one the two beside it, where it is the only one there.
+    /// The creases as curves: the two vertices beside each one on a crease, where it is on no other one.
     pub(super) fn creases(&self, topology: &Topology) -> Vec<Option<[u32; 2]>> {
         let beside = |vertex: usize| {
-            if !topology.inside[vertex] || !self.meet_at(vertex) {
+            if !topology.inside[vertex] || !self.is_on_crease(vertex) {
                 return None;
             }
             let own = self.vertex_fans.around(vertex);
@@ -81,7 +81,7 @@ impl SmoothRegions {
         (0..topology.len()).map(beside).collect()
     }
 
-    /// The sides that a vertex is on.
+    /// The regions that meet at a vertex.
     pub(super) fn around(&self, vertex: usize) -> Vec<u32> {
         let own = self.vertex_fans.around(vertex).iter();
         let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();

@@ -9,14 +9,14 @@ use super::linearisation::Linearisation;
 use super::quadratic::{Neighbour, Quadratic};
 use super::topology::Topology;
 use super::{MeshOptions, fit_mesh};
-use crate::fit::admm::iteration::Level;
-use crate::fit::admm::schedule::Plan;
-use crate::fit::admm::state::State;
+use crate::fit::admm::iterate::Iterate;
+use crate::fit::admm::parameters::AdmmParameters;
+use crate::fit::admm::solver::{AdmmSolver, initial_rho};
 use crate::fit::coordinates::Coordinates;
 use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::fit::linear::zstep::Solvable;
+use crate::fit::linear::zstep::SolvableOperator;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
@@ -215,19 +215,20 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let coordinates = Coordinates::new(&input, &domain, 1.0);
     let problem =
         heightfields::Problem::new(&input, domain.clone(), &coordinates, &options).unwrap();
-    fn solve<O: Solvable>(
+    fn solve<O: SolvableOperator>(
         problem: crate::fit::energy::problem::Problem<O>,
         options: &Options,
         solver: impl Fn(&crate::fit::energy::problem::Problem<O>, f64) -> O::Solver,
         start: Option<Vec<f64>>,
-    ) -> Level<O> {
-        let plan = Plan::new(options);
-        let mut state = State::new(&problem, plan.first_rho(&problem)).unwrap();
+    ) -> AdmmSolver<O> {
+        let parameters = AdmmParameters::new(options);
+        let mut iterate = Iterate::new(&problem, initial_rho(&parameters, &problem)).unwrap();
         if let Some(start) = start {
-            state.z = start;
+            iterate.z = start;
         }
-        let solver = solver(&problem, state.rho);
-        let (mut level, mut reason) = Level::new(problem, state, solver, plan, 0, false).unwrap();
+        let solver = solver(&problem, iterate.rho);
+        let (mut level, mut reason) =
+            AdmmSolver::new(problem, iterate, solver, parameters, 0, false).unwrap();
         while reason.is_none() {
             reason = level.advance(&mut 1000).unwrap();
         }
@@ -272,19 +273,22 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         Some(linear.start()),
     );
 
-    let bound = a.best.dual_bound.max(b.best.dual_bound);
-    for gap in [a.best.objective() - bound, b.best.objective() - bound] {
+    let bound = a.admm.incumbent.dual_bound.max(b.admm.incumbent.dual_bound);
+    for gap in [
+        a.admm.incumbent.objective() - bound,
+        b.admm.incumbent.objective() - bound,
+    ] {
         assert!(
             (-1e-12 * bound..2e-5 * bound).contains(&gap),
             "{gap:e} of {bound}"
         );
     }
-    let found = linear.moved(&b.best.z);
+    let found = linear.moved(&b.admm.incumbent.z);
     let radius = (2.0 * 1e-5 * bound / 1e4).sqrt();
     let mut square = 0.0f64;
     for cell in domain.active().cells() {
         let place = position(&domain, cell);
-        let height = coordinates.outward(place, a.best.z[cell]);
+        let height = coordinates.outward(place, a.admm.incumbent.z[cell]);
         let vertex = (places.iter()).position(|x| (x.x - place[0]).hypot(x.y - place[1]) < 1e-9);
         square += (found[vertex.unwrap()].z - height).powi(2);
     }

@@ -1,8 +1,8 @@
-//! The triangles around each vertex.
+//! The triangles around each vertex of a mesh.
 
 use super::topology::Topology;
 
-/// For each vertex the numbers of its triangles, in order.
+/// For each vertex the numbers of its triangles, in ascending order.
 pub(super) struct VertexFans {
     first: Vec<u32>,
     triangles: Vec<u32>,
@@ -28,6 +28,7 @@ impl VertexFans {
         VertexFans { first, triangles }
     }
 
+    /// The triangles around a vertex.
     pub(super) fn around(&self, vertex: usize) -> &[u32] {
         &self.triangles[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }

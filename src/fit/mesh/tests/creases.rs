@@ -32,7 +32,7 @@ fn fits_beside_a_crease_go_by_their_own_side() {
         let mut most = 0.0f64;
         let operator = &linear.problem.operator;
         operator.hessians(&linear.start(), |stencil, hessian| {
-            if !sides.meet_at(linear.centres[stencil] as usize) {
+            if !sides.is_on_crease(linear.centres[stencil] as usize) {
                 most = most.max(hessian.nuclear_norm());
             }
         });
@@ -52,14 +52,14 @@ fn a_border_ends_at_a_crease_by_the_side_that_it_is_on() {
     let mut random = random(5);
     let mut shaken = given.noisy.clone();
     for (vertex, x) in shaken.iter_mut().enumerate() {
-        if !topology.inside[vertex] && !sides.meet_at(vertex) {
+        if !topology.inside[vertex] && !sides.is_on_crease(vertex) {
             *x += 0.01 * random() * frames[vertex].normal;
         }
     }
     let worst = |sides: Option<&SmoothRegions>, of: &SmoothRegions| {
         let mut x = shaken.clone();
         extrapolate_border(&given, &mut x, &frames, sides);
-        let put = (0..x.len()).filter(|v| !of.meet_at(*v) && x[*v] != shaken[*v]);
+        let put = (0..x.len()).filter(|v| !of.is_on_crease(*v) && x[*v] != shaken[*v]);
         let far: Vec<f64> = put.map(|v| off(&x[v])).collect();
         assert!(far.len() > 80, "{}", far.len());
         far.into_iter().fold(0.0, f64::max)

@@ -122,17 +122,17 @@ fn scattered_points_have_the_optimum_of_a_conic_solver() {
     let problem = Problem::under(operator, lambda, target, PenaltyKind::Nuclear);
     let (level, reason) = solve(&problem, JacobiGradients::new, &options(lambda).gap(1e-7));
     assert_eq!(reason, StopReason::Gap);
-    let best = &level.best;
+    let incumbent = &level.admm.incumbent;
     let slack = 1e-9 * optimum;
-    assert!(best.dual_bound <= optimum + slack && optimum <= best.objective() + slack);
-    assert!(best.objective() - best.dual_bound <= 1.01e-7 * optimum);
+    assert!(incumbent.dual_bound <= optimum + slack && optimum <= incumbent.objective() + slack);
+    assert!(incumbent.objective() - incumbent.dual_bound <= 1.01e-7 * optimum);
     let distance = z
         .iter()
-        .zip(&best.z)
+        .zip(&incumbent.z)
         .map(|(a, b)| (a - b).powi(2))
         .sum::<f64>();
     assert!(
-        lambda * distance <= best.objective() - optimum + slack,
+        lambda * distance <= incumbent.objective() - optimum + slack,
         "{distance:e}"
     );
 }

@@ -1,20 +1,21 @@
-//! A better bound from the same iterate.
+//! Dual ascent: a better dual bound from the dual of an iterate, by accelerated projected gradients.
 //!
-//! The dual of ADMM is slow to follow the highest frequencies where the surface bends: the noise
-//! that a finer lattice adds costs the bound many iterations after the objective has settled. For
-//! gradient ascent it is the other way round. With `z_Y = z̃ − CᵀY/2λ`, which minimises the
+//! The dual of ADMM is slow to follow the highest frequencies where the surface bends: the noise that a finer
+//! lattice adds costs the bound many iterations after the objective has settled. Gradient ascent follows these
+//! frequencies fast and low ones slowly. With `z_Y = z̃ − CᵀY/2λ`, which minimises the
 //! Lagrangian, `∇D(Y) = C z_Y`, and `Y ← P(Y + τ C z_Y)` with `τ = 2λ/‖CᵀC‖` and momentum (Beck and
 //! Teboulle 2009) takes a few steps to what ADMM needs tens of iterations for. ADMM itself keeps its
 //! own dual: going on from the better one saves it no iteration.
 //!
-//! The steps run in single precision, heights in units of `1/2λh²`, in which `τC` has no units; what
-//! bound they come to is found out in double precision.
+//! The steps run in single precision, heights in units of `1/2λh²`, in which `τC` has no units; the bound is
+//! evaluated in double precision.
 
-use super::state::{State, dual_bound};
+use super::certificate::dual_bound;
+use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{HuberStep, NuclearNorm, PenaltyKind, SpectralPenalty};
-use crate::fit::linear::zstep::Solvable;
+use crate::fit::linear::zstep::SolvableOperator;
 use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
@@ -23,57 +24,72 @@ use crate::math::sym2::{Sym2, clamp};
 
 /// Number of ascent steps from one evaluation of the bound to the next; each costs a third to a fourth of an
 /// iteration of ADMM.
-const STEPS_PER_LOOK: usize = 8;
+const STEPS_PER_EVALUATION: usize = 8;
 
-/// Least and largest number of evaluations of the bound. After the least the missing gap must be in reach:
-/// each evaluation finds about half of what the last one did.
-const LOOK_LIMITS: [usize; 2] = [2, 8];
+/// Minimum number of evaluations of the bound before an ascent is given up.
+const MIN_EVALUATIONS: usize = 2;
 
-/// Factor by which the missing gap may exceed the last gain of the bound for the ascent to go on.
-const REACH_FACTOR: f64 = 1.5;
+/// Maximum number of evaluations of the bound in one ascent.
+const MAX_EVALUATIONS: usize = 8;
 
-/// Share of the last step that the `k`-th one starts ahead with. On a scan, ten steps come
-/// furthest with 0.7, fifty with what grows to 0.95.
+/// Factor by which the missing gap may exceed the last gain of the bound for the ascent to go on: each
+/// evaluation finds about half of what the last one did.
+const EXTRAPOLATION_FACTOR: f64 = 1.5;
+
+/// Minimum momentum, as a share of the last step: on a scan, ten steps come furthest with it.
+const MIN_MOMENTUM: f32 = 0.7;
+
+/// Maximum momentum, as a share of the last step: on a scan, fifty steps come furthest with it.
+const MAX_MOMENTUM: f32 = 0.95;
+
+/// Momentum of the `k`-th step (Beck and Teboulle), as a share of the step before.
 fn momentum(k: usize) -> f32 {
-    (k as f32 / (k as f32 + 3.0)).clamp(0.7, 0.95)
+    (k as f32 / (k as f32 + 3.0)).clamp(MIN_MOMENTUM, MAX_MOMENTUM)
 }
 
-/// Cost of one evaluation of the bound, in conjugate-gradient iterations.
-pub(crate) const LOOK_CG_ITERATIONS: usize = 5;
+/// Cost of the steps and of one evaluation of the bound, in conjugate-gradient iterations.
+pub(super) const EVALUATION_COST_CG_ITERATIONS: usize = 5;
 
-/// How far a search has come: bounds wanted, found, and found last, and looks so far.
+/// How far an ascent has come.
 #[derive(Debug, Clone, Default)]
 struct Search {
+    /// The bound at which the ascent ends.
     goal: f64,
+    /// The largest bound so far.
     best: f64,
+    /// The bound of the last evaluation.
     last: f64,
-    looks: usize,
+    evaluations: usize,
 }
 
+/// Dual ascent from the dual of an iterate, and its memory.
 #[derive(Debug, Clone)]
-pub(crate) struct Ascent<O: Solvable> {
+pub(super) struct DualAscent<O: SolvableOperator> {
     search: Search,
-    /// `Y` after the last step, and further on in its direction, where the next one starts.
+    /// `Y` after the last step.
     last: Matrices<f32>,
+    /// `Y` extrapolated by the momentum, from which the next step starts.
     ahead: Matrices<f32>,
-    /// `z_Y` for `Y = 0`, and of what lies ahead.
+    /// `z_Y` for `Y = 0`.
     base: Vec<f32>,
+    /// `z_Y` of the extrapolated dual.
     heights: Vec<f32>,
-    /// 0 at constrained vertices, which stay where they are.
+    /// 0 at constrained vertices, which stay where they are, and 1 elsewhere.
     mobility: PerCell<f32>,
     /// The energy's `ω`.
     weight: PerCell<f32>,
     scratch: O::Scratch<f32>,
-    /// A run in double precision.
+    /// Room for one run in double precision.
     row: Matrices<f64>,
 }
 
-/// What follows a gradient step: the proximal map of the conjugates.
+/// The proximal map of the penalty's conjugate, which follows a gradient step.
 trait Proximal: Copy {
+    /// Maps the coordinates of a matrix, for the weight `ω`.
     fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3];
 }
 
-/// Of the nuclear norm: the projection.
+/// The proximal map of the nuclear norm's conjugate: the projection onto the dual ball.
 #[derive(Clone, Copy)]
 struct Projection;
 
@@ -91,16 +107,22 @@ impl Proximal for HuberStep<f32> {
     }
 }
 
-/// Symmetric matrices, a vector for each coordinate of [`Sym2`].
+/// Symmetric matrices, one array for each coordinate of [`Sym2`].
 type Matrices<T> = [Vec<T>; 3];
+
+/// The matrices of one run.
 
 #[inline(always)]
 fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
     matrices.each_mut().map(|values| &mut values[start..end])
 }
 
-impl<O: Solvable> Ascent<O> {
-    pub(crate) fn new(problem: &Problem<O>) -> Result<Self> {
+impl<O: SolvableOperator> DualAscent<O> {
+    /// Memory for ascents on a problem.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(super) fn new(problem: &Problem<O>) -> Result<Self> {
         let operator = &problem.operator;
         let zeros = |cells| try_filled("bound", cells, 0.0);
         let matrices = || {
@@ -115,7 +137,7 @@ impl<O: Solvable> Ascent<O> {
             }
             mobility = PerCell::Each(each);
         }
-        Ok(Ascent {
+        Ok(DualAscent {
             search: Search::default(),
             last: matrices()?,
             ahead: matrices()?,
@@ -128,70 +150,74 @@ impl<O: Solvable> Ascent<O> {
         })
     }
 
-    /// Begins a search for a better bound, from the iterate's dual: until it reaches the `goal` or
-    /// will not. The `bound` is the best one so far.
+    /// Begins an ascent from the iterate's dual. It ends when the bound reaches the `goal`, or is not going to.
+    /// `bound` is the largest one so far.
     ///
     /// # Errors
     /// Out of memory.
-    pub(crate) fn begin(
+    pub(super) fn start_dual_ascent(
         &mut self,
-        state: &mut State<O>,
+        iterate: &mut Iterate<O>,
         problem: &Problem<O>,
         bound: f64,
         goal: f64,
     ) -> Result<()> {
-        self.start(state, problem)?;
+        self.set_dual(iterate, problem)?;
         self.search = Search {
             goal,
             best: bound,
             last: f64::NEG_INFINITY,
-            looks: 0,
+            evaluations: 0,
         };
         Ok(())
     }
 
-    /// A few steps more, which cost about [`LOOK_CG_ITERATIONS`] conjugate-gradient iterations; the best bound
-    /// once the search is over.
-    pub(crate) fn look(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Option<f64> {
+    /// Takes [`STEPS_PER_EVALUATION`] steps and evaluates the bound. Returns the largest bound once the ascent is
+    /// over.
+    pub(super) fn evaluate_bound(
+        &mut self,
+        iterate: &mut Iterate<O>,
+        problem: &Problem<O>,
+    ) -> Option<f64> {
         match problem.kind {
             PenaltyKind::Huber(bends) => {
                 let unit = problem.operator.spacing().powi(4);
                 let tau = 2.0 * problem.lambda * unit / f64::from(problem.operator.norm());
-                self.steps(&problem.operator, bends.single(tau));
+                self.take_steps(&problem.operator, bends.single(tau));
             }
-            _ => self.steps(&problem.operator, Projection),
+            _ => self.take_steps(&problem.operator, Projection),
         }
-        let next = self.bound(state, problem);
-        let [least, most] = LOOK_LIMITS;
+        let next = self.bound(iterate, problem);
         let search = &mut self.search;
-        search.looks += 1;
+        search.evaluations += 1;
         search.best = search.best.max(next);
-        let in_reach = search.goal - next <= REACH_FACTOR * (next - search.last);
+        let in_reach = search.goal - next <= EXTRAPOLATION_FACTOR * (next - search.last);
         search.last = next;
         let over = search.best >= search.goal
-            || search.looks >= least && !in_reach
-            || search.looks >= most;
+            || search.evaluations >= MIN_EVALUATIONS && !in_reach
+            || search.evaluations >= MAX_EVALUATIONS;
         over.then_some(search.best)
     }
 
-    fn steps(&mut self, operator: &O, proximal: impl Proximal) {
-        let before = self.search.looks * STEPS_PER_LOOK;
-        for step in before..before + STEPS_PER_LOOK {
-            self.step(operator, proximal, momentum(step));
+    /// Takes the steps up to the next evaluation.
+    fn take_steps(&mut self, operator: &O, proximal: impl Proximal) {
+        let before = self.search.evaluations * STEPS_PER_EVALUATION;
+        for step in before..before + STEPS_PER_EVALUATION {
+            self.take_step(operator, proximal, momentum(step));
         }
     }
 
-    /// From the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
+    /// Starts from the dual of ADMM. Where fidelity is weighted, part of `z` takes the place of `z̃`, so that
     /// a step need not be smaller.
-    fn start(&mut self, state: &mut State<O>, problem: &Problem<O>) -> Result<()> {
-        let penalty = state.penalty(problem);
+    fn set_dual(&mut self, iterate: &mut Iterate<O>, problem: &Problem<O>) -> Result<()> {
+        let penalty = iterate.penalty(problem);
         problem.weight.narrow_into(&mut self.weight)?;
         let spacing = problem.operator.spacing();
         let unit = 2.0 * problem.lambda * spacing * spacing;
         for run in problem.operator.vertices().all() {
             let Run { start, end } = *run;
             let weight = problem.fidelity.run(*run);
-            let (z, target) = (&state.z[start..end], &problem.target[start..end]);
+            let (z, target) = (&iterate.z[start..end], &problem.target[start..end]);
             let [base, ..] = row_of(&mut self.row, end - start);
             for i in 0..base.len() {
                 base[i] = unit * (z[i] + weight[i] * (target[i] - z[i]));
@@ -199,7 +225,7 @@ impl<O: Solvable> Ascent<O> {
             narrow(base, &mut self.base[start..end]);
         }
         for run in problem.operator.stencils().all() {
-            let v = state.v.run(*run);
+            let v = iterate.v.run(*run);
             let weight = problem.weight.run(*run);
             let [mean, diff, off] = row_of(&mut self.row, weight.len());
             for i in 0..weight.len() {
@@ -215,9 +241,9 @@ impl<O: Solvable> Ascent<O> {
         Ok(())
     }
 
-    /// One step, in one pass.
-    fn step(&mut self, operator: &O, proximal: impl Proximal, momentum: f32) {
-        let Ascent {
+    /// Takes one step in one pass over the vertices.
+    fn take_step(&mut self, operator: &O, proximal: impl Proximal, momentum: f32) {
+        let DualAscent {
             last,
             ahead,
             base,
@@ -262,19 +288,19 @@ impl<O: Solvable> Ascent<O> {
         );
     }
 
-    /// `D` of the dual after the last step.
-    fn bound(&mut self, state: &mut State<O>, problem: &Problem<O>) -> f64 {
-        let Ascent {
+    /// The bound `D` of the dual after the last step, in double precision.
+    fn bound(&mut self, iterate: &mut Iterate<O>, problem: &Problem<O>) -> f64 {
+        let DualAscent {
             last, row: wide, ..
         } = self;
-        let penalty = state.penalty(problem);
-        let State {
+        let penalty = iterate.penalty(problem);
+        let Iterate {
             z, scratch, terms, ..
-        } = state;
+        } = iterate;
         let [[conjugates, ..], [inners, quadratics, ..]] = terms;
         let (mut inner, mut quadratic, mut conjugate) = (0.0, 0.0, 0.0);
         let costs = problem.kind != PenaltyKind::Nuclear;
-        // Of the Hessians of `z` there is no use here.
+        // The Hessians of `z` are not used.
         problem.operator.sweep(
             scratch,
             z,
@@ -319,7 +345,7 @@ impl<O: Solvable> Ascent<O> {
     }
 }
 
-/// The first `n` values of each coordinate.
+/// The first `n` values of each coordinate of a row.
 #[inline(always)]
 fn row_of(row: &mut Matrices<f64>, n: usize) -> [&mut [f64]; 3] {
     row.each_mut().map(|values| &mut values[..n])
@@ -355,16 +381,18 @@ mod tests {
             &Options::paper().lambda(1.0),
         )
         .unwrap();
-        let mut state = State::new(&problem, 1.0).unwrap();
-        let mut ascent = Ascent::new(&problem).unwrap();
+        let mut iterate = Iterate::new(&problem, 1.0).unwrap();
+        let mut ascent = DualAscent::new(&problem).unwrap();
         let inside: f64 = domain
             .active()
             .cells()
             .map(|cell| problem.target[cell].powi(2))
             .sum();
-        ascent.begin(&mut state, &problem, 0.0, inside).unwrap();
+        ascent
+            .start_dual_ascent(&mut iterate, &problem, 0.0, inside)
+            .unwrap();
         let bound = loop {
-            if let Some(bound) = ascent.look(&mut state, &problem) {
+            if let Some(bound) = ascent.evaluate_bound(&mut iterate, &problem) {
                 break bound;
             }
         };

@@ -104,7 +104,7 @@ impl ComponentSolver {
             n => {
                 let coordinates = Coordinates::new(&input, &domain, scale);
                 let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
-                problem.smoothness_by(n, |cell| components.of(cell))
+                problem.smoothness_by(n, |cell| components.component(cell))
             }
         };
         if energies.iter().any(|energy| !energy.is_finite()) {
@@ -359,7 +359,7 @@ impl ComponentSolver {
         for cell in self.domain.active().cells() {
             let vertex = self.domain.lattice_index(cell);
             let given = self.input.weight(vertex) > 0.0;
-            if self.components.of(cell) >= pending && given {
+            if self.components.component(cell) >= pending && given {
                 heights[vertex] = self.input.field.heights()[vertex];
             }
         }

@@ -101,7 +101,7 @@ impl Components {
     }
 
     /// Number of the component of an active cell of the whole domain.
-    pub(crate) fn of(&self, cell: usize) -> usize {
+    pub(crate) fn component(&self, cell: usize) -> usize {
         self.labels.get(cell).map_or(0, |label| *label as usize)
     }
 
@@ -278,7 +278,9 @@ mod tests {
             // The same stencils as in the whole.
             let own = Domain::with_occlusions(&part.field, |v| part.is_occluded(v)).unwrap();
             let interior = domain.interior().cells();
-            let expected = interior.filter(|cell| parts.of(*cell) == number).count();
+            let expected = interior
+                .filter(|cell| parts.component(*cell) == number)
+                .count();
             assert_eq!(own.interior_len(), expected);
         }
         let active = domain.active().cells().count();
@@ -303,7 +305,7 @@ mod tests {
         assert_eq!(parts.list.len(), 3);
         let corners: Vec<_> = parts.list.iter().map(|part| part.corner).collect();
         assert_eq!(corners, [(0, 15), (0, 5), (0, 0)]);
-        let of = |row: isize, col: isize| parts.of(domain.cell((row, col)).unwrap());
+        let of = |row: isize, col: isize| parts.component(domain.cell((row, col)).unwrap());
         assert_eq!([of(4, 20), of(4, 8), of(4, 2)], [0, 1, 2]);
     }
 }

@@ -1,9 +1,10 @@
 //! Normalised coordinates: the way from the user's heights to those of the energy, and back.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::input::Input;
 use crate::lattice::domain::Domain;
+use crate::math::least_squares::LeastSquares;
 
 /// Normalised coordinates: lengths times `scale`, heights above the best-fit plane of a component. The energy
 /// does not depend on affine functions, and without them less is lost to rounding.
@@ -40,15 +41,13 @@ impl Plane {
         };
         // Of unit size, so that squares neither over- nor underflow.
         let size = away(x0, 0).max(away(y0, 1));
-        let mut normal = Matrix3::zeros();
-        let mut right = Vector3::zeros();
+        let mut plane = LeastSquares::<3>::new();
         for ([x, y, z], weight) in points.clone() {
             let row = Vector3::new(1.0, (x - x0) / size, (y - y0) / size);
-            normal += weight * row * row.transpose();
-            right += weight * (z - z0) * row;
+            plane.add(&row, [z - z0], weight);
         }
         // What holds a component in place spans a plane; zero is for overflow only.
-        let solution = normal.cholesky().map(|c| c.solve(&right));
+        let solution = plane.solve();
         let [constant, sx, sy] = solution.map_or([0.0; 3], |s| [s[0], s[1], s[2]]);
         Plane {
             centre: [x0, y0],

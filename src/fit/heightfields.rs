@@ -40,11 +40,11 @@ impl Problem {
         let operator = LatticeOperator::new(domain.clone(), coordinates);
         let spacing = operator.spacing;
         check_range(&domain, input.field().heights(), &target, largest, spacing)?;
-        let mut problem = Problem::under(
+        let mut problem = Problem::unweighted(
             operator,
             options.lambda.value(),
             target,
-            PenaltyKind::of(options),
+            PenaltyKind::from_options(options),
         );
         problem.set_fidelity(
             |cell| input.weight(domain.lattice_index(cell)),
@@ -53,7 +53,7 @@ impl Problem {
         )?;
         problem.set_input_normal_weights(options.energy_or_default())?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
-        problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
+        problem.set_rounding(largest);
         Ok(problem)
     }
 
@@ -95,7 +95,8 @@ fn check_range(
     let finite = cells().all(|cell| target[cell].is_finite());
     let bend = cells().fold(0.0f64, |m, cell| m.max(target[cell].abs()));
     let hessian = |height: f64| height / (h * h);
-    let affine = bend <= 16.0 * f64::EPSILON * largest && largest >= 1.0 / MAX_MAGNITUDE;
+    let affine = bend <= problem::HESSIAN_ROUNDING_UNITS * f64::EPSILON * largest
+        && largest >= 1.0 / MAX_MAGNITUDE;
     let zero = bend == 0.0 && cells().all(|cell| heights[domain.lattice_index(cell)] == 0.0);
     // As what a NaN is not.
     let small_enough = h >= 1.0 / MAX_SPACING && largest.max(hessian(largest)) <= MAX_MAGNITUDE;

@@ -35,8 +35,8 @@ const TIE_BREAK_PASSES: usize = 3;
 const MAX_PASS_ITERATIONS: usize = 200;
 
 /// Sets `z̃` at the free vertices to the thin plate through the given heights, the minimiser of `λ Σ w(z − z̃)²
-/// + ρ/2 Σ ‖H‖_F²`: ties are broken towards it, and the solve starts from it. It is the z-step about `H = Y =
-/// 0`, solved to the end. Returns the number of conjugate-gradient iterations.
+/// + ρ/2 Σ ‖H‖_F²`: ties are broken towards it, and the solve starts from it. It is the z-step with both `H`
+/// and `Y` zero, solved to the end. Returns the number of conjugate-gradient iterations.
 pub(crate) fn fill(
     problem: &mut Problem,
     domains: &[Arc<Domain>],

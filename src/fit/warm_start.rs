@@ -120,7 +120,7 @@ impl WarmStart {
         if !self.domain.roles()[cell].is_active() {
             return None;
         }
-        let number = self.components.of(cell);
+        let number = self.components.component(cell);
         let answer = self.answers.get(number)?;
         let (top, left) = self.components.corner(number);
         let own = ((row - top) as isize, (col - left) as isize);

@@ -258,7 +258,7 @@ impl Domain {
         occluded: impl Fn(usize) -> bool,
     ) -> Result<Self> {
         let heights = field.heights();
-        Domain::of(
+        Domain::from_validity(
             *field.lattice(),
             |vertex| !heights[vertex].is_nan(),
             occluded,

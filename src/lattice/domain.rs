@@ -60,7 +60,7 @@ impl Domain {
     ///
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
-    pub(crate) fn of(
+    pub(crate) fn from_validity(
         lattice: Lattice,
         valid: impl Fn(usize) -> bool,
         occluded: impl Fn(usize) -> bool,

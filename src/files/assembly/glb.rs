@@ -44,7 +44,7 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
     }
     let mut file = File::default();
     let places = beside(&in_millimetres(sheets, scale));
-    let ground = Ground::under(sheets);
+    let ground = Ground::from_sheets(sheets);
     let sizes = scale / 1000.0;
     for (step, part) in assembly.steps.iter().enumerate() {
         let Some(sheet) = sheets.get(part.sheet) else {
@@ -82,7 +82,7 @@ struct Ground {
 }
 
 impl Ground {
-    fn under(sheets: &[Sheet]) -> Self {
+    fn from_sheets(sheets: &[Sheet]) -> Self {
         let built = || sheets.iter().flat_map(|sheet| &sheet.faces.built);
         let low = |k: usize| built().map(|p| p[k]).fold(f64::INFINITY, f64::min);
         let high = built().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);

@@ -111,7 +111,6 @@ impl Proximal for HuberStep<f32> {
 type Matrices<T> = [Vec<T>; 3];
 
 /// The matrices of one run.
-
 #[inline(always)]
 fn run_of<T>(matrices: &mut Matrices<T>, Run { start, end }: Run) -> [&mut [T]; 3] {
     matrices.each_mut().map(|values| &mut values[start..end])

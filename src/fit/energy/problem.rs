@@ -21,6 +21,10 @@ const WEAK_FIDELITY_SHARE: f64 = 5e-3;
 /// Fidelity, as a share of the penalty of the input, below which constraints alone hold the surface.
 const NEGLIGIBLE_FIDELITY_SHARE: f64 = 0.1;
 
+/// Rounding error of a Hessian's norm, in those of the largest height over the squared spacing: a norm is a sum of
+/// about as many heights.
+pub(crate) const HESSIAN_ROUNDING_UNITS: f64 = 16.0;
+
 /// Number of times that norms are averaged with their neighbours before all weights are reweighted.
 const NORM_AVERAGING_STEPS: usize = 30;
 
@@ -57,7 +61,12 @@ pub(crate) struct Problem<O> {
 
 impl<O: Operator> Problem<O> {
     /// A problem with all weights 1 and without constraints.
-    pub(crate) fn under(operator: O, lambda: f64, target: Vec<f64>, kind: PenaltyKind) -> Self {
+    pub(crate) fn unweighted(
+        operator: O,
+        lambda: f64,
+        target: Vec<f64>,
+        kind: PenaltyKind,
+    ) -> Self {
         let ones = || PerCell::same(operator.longest_run(), 1.0);
         Problem {
             lambda,
@@ -142,8 +151,10 @@ impl<O: Operator> Problem<O> {
             < NEGLIGIBLE_FIDELITY_SHARE * self.smoothness(&self.target)
     }
 
-    /// Sets the rounding errors of an objective of 0 from those of a Hessian's norm.
-    pub(crate) fn set_rounding(&mut self, norm: f64) {
+    /// Sets the rounding errors of an objective of 0 from the largest magnitude of heights.
+    pub(crate) fn set_rounding(&mut self, largest: f64) {
+        let spacing = self.operator.spacing();
+        let norm = HESSIAN_ROUNDING_UNITS * f64::EPSILON * largest / (spacing * spacing);
         let count = self.operator.stencils().len() as f64;
         self.rounding = match self.kind {
             PenaltyKind::SquaredNuclear => {

@@ -121,7 +121,7 @@ pub(crate) struct HuberParameters {
 
 impl HuberParameters {
     /// The parameters that the options say.
-    pub(crate) fn of(options: &Options) -> Self {
+    pub(crate) fn from_options(options: &Options) -> Self {
         let Bending {
             bend_radius,
             flatness,
@@ -247,14 +247,14 @@ pub(crate) enum PenaltyKind {
 }
 
 impl PenaltyKind {
-    pub(crate) fn of(options: &Options) -> Self {
+    pub(crate) fn from_options(options: &Options) -> Self {
         match options.energy_or_default() {
             Energy::Nuclear | Energy::SecondFormOfInput | Energy::SecondForm => {
                 PenaltyKind::Nuclear
             }
             Energy::Frobenius => PenaltyKind::Frobenius,
             Energy::SquaredNuclear => PenaltyKind::SquaredNuclear,
-            Energy::Huber => PenaltyKind::Huber(HuberParameters::of(options)),
+            Energy::Huber => PenaltyKind::Huber(HuberParameters::from_options(options)),
         }
     }
 }

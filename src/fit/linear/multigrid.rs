@@ -113,7 +113,7 @@ impl Multigrid {
                 floor.grid.stencils = coarser_counts(counts, &finer.grid.domain, domain)?;
             }
             floor.shares = match floors.last_mut() {
-                None => Shares::of(problem)?,
+                None => Shares::from_problem(problem)?,
                 Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
             };
             floors.push(floor);
@@ -204,7 +204,7 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
 }
 
 impl Shares {
-    fn of(problem: &Problem) -> Result<Option<Self>> {
+    fn from_problem(problem: &Problem) -> Result<Option<Self>> {
         let PerCell::Each(weights) = &problem.fidelity else {
             return Ok(None);
         };

@@ -27,7 +27,7 @@ pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
     let rays = normals(topology, &base, Some(&rays));
     let frames = rays
         .into_iter()
-        .map(|normal| Frame::about(normal, Point::x()))
+        .map(|normal| Frame::from_normal(normal, Point::x()))
         .collect();
     (base, frames)
 }

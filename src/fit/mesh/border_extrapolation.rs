@@ -12,6 +12,10 @@ const INNER_SEARCH_RINGS: usize = 3;
 /// Weight of a second-ring vertex relative to a first-ring vertex, where first-ring vertices are missing.
 const SECOND_RING_WEIGHT: f64 = 0.3;
 
+/// Maximum noise amplification of a quadratic that a surface is continued by, relative to a hexagonal ring: one
+/// that amplifies more says nothing beyond its vertices.
+const MAX_CONTINUATION_AMPLIFICATION: f64 = 100.0;
+
 /// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on the same side of
 /// every crease where `sides` are known. A vertex without interior neighbours stays.
 pub(super) fn extrapolate_border(
@@ -89,7 +93,8 @@ pub(super) fn continue_surface(
     if neighbours.iter().filter(|n| n.weight == 1.0).count() < 2 {
         return None;
     }
-    let fit = Quadratic::fit(frame, &neighbours).filter(|fit| fit.amplification() <= 100.0)?;
+    let fit = Quadratic::fit(frame, &neighbours)
+        .filter(|fit| fit.amplification() <= MAX_CONTINUATION_AMPLIFICATION)?;
     let [a, b, height] = frame.coordinates(at - x[inner]);
     let [along, across] = fit.gradient([a, b]);
     let [t1, t2] = &frame.tangents;

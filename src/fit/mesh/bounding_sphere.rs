@@ -13,7 +13,7 @@ pub(super) struct BoundingSphere {
 
 impl BoundingSphere {
     /// The sphere about the centroid of the mesh's area. It does not depend on how the mesh is rotated.
-    pub(super) fn around(mesh: &Mesh) -> Result<Self> {
+    pub(super) fn from_mesh(mesh: &Mesh) -> Result<Self> {
         let corners = |triangle: &[u32; 3]| mesh.corners(*triangle).map(Point::from);
         let (mut sum, mut weight) = (Point::zeros(), 0.0);
         for triangle in mesh.triangles() {
@@ -49,5 +49,5 @@ impl BoundingSphere {
 /// # Errors
 /// [`Error::Topology`] if it has no size.
 pub(crate) fn bounding_sphere_scale(mesh: &Mesh) -> Result<f64> {
-    Ok(BoundingSphere::around(mesh)?.scale)
+    Ok(BoundingSphere::from_mesh(mesh)?.scale)
 }

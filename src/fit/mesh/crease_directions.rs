@@ -47,7 +47,7 @@ impl CreaseDirections {
                         .map(|other| base[*other as usize] - base[vertex])
                         .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
                     let hint = longest.unwrap_or(frame.tangents[0]);
-                    let [a, b] = Frame::about(frame.normal, hint).tangents;
+                    let [a, b] = Frame::from_normal(frame.normal, hint).tangents;
                     directions
                         .all
                         .extend([(vertex as u32, a), (vertex as u32, b)]);
@@ -60,7 +60,7 @@ impl CreaseDirections {
     }
 
     /// The directions of a vertex, with their numbers.
-    pub(super) fn of(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
+    pub(super) fn at_vertex(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
         let own = match self.first.get(vertex..vertex + 2) {
             Some([first, end]) => *first..*end,
             _ => 0..0,

@@ -26,7 +26,7 @@ pub(super) fn move_crease_vertices(
     let old: Vec<Point> = rays.iter().map(|frame| frame.normal).collect();
     let up = normals(topology, x, Some(&old));
     let frames: Vec<Frame> = (up.iter().zip(rays))
-        .map(|(normal, hint)| Frame::about(*normal, hint.tangents[0]))
+        .map(|(normal, hint)| Frame::from_normal(*normal, hint.tangents[0]))
         .collect();
     let before = x.to_vec();
     for vertex in 0..topology.len() {

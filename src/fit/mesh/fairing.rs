@@ -1,10 +1,11 @@
 //! Fairing: moves vertices on borders and creases to smooth curves.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::geometry::Point;
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
+use crate::math::least_squares::LeastSquares;
 
 /// Number of vertices on either side along a curve that the fairing quadratic is fairing_step to.
 const FAIRING_HALF_WINDOW: usize = 4;
@@ -55,15 +56,14 @@ fn fairing_step(
     let scale: f64 = (beside.iter())
         .map(|other| (x[*other as usize] - x[vertex]).norm())
         .sum();
-    let (mut matrix, mut right) = (Matrix3::zeros(), Matrix3::zeros());
-    matrix[(0, 0)] = 1.0;
+    // The vertex itself, which is at 0.
+    let mut quadratic = LeastSquares::<3, 3>::with_ridge([1.0, 0.0, 0.0]);
     for (first, sign) in beside.into_iter().zip([-1.0, 1.0]) {
         let (mut before, mut here, mut along) = (vertex, first as usize, 0.0);
         for _ in 0..FAIRING_HALF_WINDOW {
             along += sign * (x[here] - x[before]).norm() / scale;
             let powers = Vector3::new(1.0, along, along * along);
-            matrix += powers * powers.transpose();
-            right += powers * (x[here] - x[vertex]).transpose();
+            quadratic.add(&powers, (x[here] - x[vertex]).into(), 1.0);
             let Some([a, b]) = curves[here].filter(|_| !ends[here]) else {
                 break;
             };
@@ -74,11 +74,11 @@ fn fairing_step(
             }
         }
     }
-    let inverse = matrix.cholesky()?.inverse();
+    let inverse = quadratic.factor()?.inverse();
     if inverse[(0, 0)] > MAX_VARIANCE_RATIO {
         return None;
     }
-    let step = (inverse.row(0) * right).transpose();
+    let step = (inverse.row(0) * quadratic.right).transpose();
     step.iter().all(|v| v.is_finite()).then_some(step)
 }
 

@@ -10,6 +10,9 @@ pub(crate) type Point = Vector3<f64>;
 /// meshes alternate for ever.
 const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
+/// Squared length of a hint across a normal below which it gives no direction of a tangent.
+const MIN_HINT_SQUARE: f64 = 1e-6;
+
 /// An orthonormal frame at a vertex: its normal and two tangents.
 #[derive(Debug, Clone)]
 pub(crate) struct Frame {
@@ -19,9 +22,9 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The frame with a normal whose first tangent is nearest to a hint.
-    pub(crate) fn about(normal: Point, hint: Point) -> Self {
+    pub(crate) fn from_normal(normal: Point, hint: Point) -> Self {
         let mut along = hint - normal * normal.dot(&hint);
-        if along.norm_squared() < 1e-6 {
+        if along.norm_squared() < MIN_HINT_SQUARE {
             let least = normal.iamin();
             along = Point::ith(least, 1.0) - normal * normal[least];
         }

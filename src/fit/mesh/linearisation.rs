@@ -106,11 +106,11 @@ impl Linearisation {
                 let change = fit.change(&frame, k, frames[*other as usize].normal);
                 row.push((*other, change.coordinates()));
                 own = own - fit.change(&frame, k, ray.normal);
-                for (way, along) in directions.of(*other as usize) {
+                for (way, along) in directions.at_vertex(*other as usize) {
                     row.push((across + way, fit.change(&frame, k, along).coordinates()));
                 }
             }
-            for (way, along) in directions.of(vertex) {
+            for (way, along) in directions.at_vertex(vertex) {
                 let all = (0..vertices.len()).map(|k| fit.change(&frame, k, along));
                 let own = all.fold(Sym2::default(), |sum, change| sum - change);
                 row.push((across + way, own.coordinates()));
@@ -183,7 +183,7 @@ impl Linearisation {
             *target = (given.noisy[vertex] - base[vertex]).dot(along) / scales[vertex];
         }
         let mut problem =
-            Problem::under(operator, lambda(spacing), target, PenaltyKind::Huber(bends));
+            Problem::unweighted(operator, lambda(spacing), target, PenaltyKind::Huber(bends));
         problem.constrained.push(constant);
         let mut inverse = try_filled("fidelity", unknowns, 1.0)?;
         inverse[count] = 0.0;
@@ -196,7 +196,7 @@ impl Linearisation {
         problem.inverse_fidelity = PerCell::Each(inverse);
         let sizes = given.noisy.iter().map(|x| x.norm());
         let largest = sizes.fold(0.0, f64::max);
-        problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
+        problem.set_rounding(largest);
         Ok(Linearisation {
             problem,
             base,
@@ -293,7 +293,7 @@ fn fit_quadratic_on_side(
     let [a, b] = fit.slope();
     if a.hypot(b) > MAX_FRAME_SLOPE {
         let [t1, t2] = &frame.tangents;
-        let turned = Frame::about((frame.normal - a * t1 - b * t2).normalize(), *t1);
+        let turned = Frame::from_normal((frame.normal - a * t1 - b * t2).normalize(), *t1);
         if let Some(fit) = Quadratic::fit(&turned, &neighbours) {
             return Some((fit, vertices, turned));
         }

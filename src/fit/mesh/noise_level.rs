@@ -1,9 +1,10 @@
 //! Estimate of the noise of a mesh.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Vector6;
 
 use super::geometry::{Frame, Point};
 use super::topology::Topology;
+use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
 /// Minimum number of samples from which noise is estimated.
@@ -38,18 +39,17 @@ pub(super) fn noise(
             .iter()
             .map(|n| (base[*n as usize] - base[vertex]).norm());
         let scale = ring.sum::<f64>() / topology.around(vertex).len() as f64;
-        let (mut matrix, mut right) = (Matrix6::zeros(), Vector6::zeros());
+        let mut quadratic = LeastSquares::<6>::new();
         for other in all {
             let [x, y, _] = frame.coordinates((base[other] - base[vertex]) / scale);
             let q = Vector6::new(1.0, x, y, x * x, x * y, y * y);
-            matrix += q * q.transpose();
-            right += q * off(other);
+            quadratic.add(&q, [off(other)], 1.0);
         }
         // The variance of the prediction is that entry of the inverse, in units of the noise's.
-        let Some(inverse) = matrix.cholesky().map(|cholesky| cholesky.inverse()) else {
+        let Some(inverse) = quadratic.factor().map(|factor| factor.inverse()) else {
             continue;
         };
-        let predicted = (inverse * right)[0];
+        let predicted = (inverse * quadratic.right)[0];
         let sample = (off(vertex) - predicted).abs() / (1.0 + inverse[(0, 0)]).sqrt();
         if sample.is_finite() {
             samples.push(sample);

@@ -7,6 +7,13 @@ use crate::math::sym2::Sym2;
 /// Number of coefficients of a local quadratic: of `½x²`, `xy`, `½y²`, `x` and `y`.
 const COEFFICIENT_COUNT: usize = 5;
 
+/// Noise amplification of the second derivatives on the six-ring of a hexagonal lattice, in units of `h⁻⁴`.
+const HEXAGONAL_AMPLIFICATION: f64 = 20.0 / 3.0;
+
+/// Minimum pivot of a Cholesky factorisation, relative to the diagonal entry, for the neighbours to determine a
+/// quadratic: half of the digits of double precision are left.
+const MIN_PIVOT_SHARE: f64 = 1e-8;
+
 /// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex.
 pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
 
@@ -95,10 +102,9 @@ impl Quadratic {
 
     /// Noise of the second derivatives relative to that on the six-ring of a hexagonal lattice.
     pub(super) fn amplification(&self) -> f64 {
-        // 20/3 in units of h⁻⁴.
         let columns = self.samples.iter().map(|sample| sample.column);
         let squares = columns.map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
-        squares.sum::<f64>() / (20.0 / 3.0)
+        squares.sum::<f64>() / HEXAGONAL_AMPLIFICATION
     }
 
     /// Second derivatives at the vertex.
@@ -150,7 +156,7 @@ fn inverse(
         for j in 0..=i {
             let sum: f64 = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
             if i == j {
-                if sum.is_nan() || sum <= 1e-8 * matrix[i][i] {
+                if sum.is_nan() || sum <= MIN_PIVOT_SHARE * matrix[i][i] {
                     return None;
                 }
                 l[i][i] = sum.sqrt();

@@ -131,7 +131,7 @@ impl MeshSolver {
         let start = Instant::now();
         options.validate()?;
         let topology = Topology::in_spatial_order(&mesh)?;
-        let bounds = BoundingSphere::around(&mesh)?;
+        let bounds = BoundingSphere::from_mesh(&mesh)?;
         let noisy: Vec<Point> = topology
             .source
             .iter()
@@ -372,7 +372,7 @@ impl MeshSolver {
         let frames = normals(&self.given.topology, &self.surface, Some(&old))
             .into_iter()
             .zip(&self.linear.frames)
-            .map(|(normal, hint)| Frame::about(normal, hint.tangents[0]))
+            .map(|(normal, hint)| Frame::from_normal(normal, hint.tangents[0]))
             .collect();
         let base = self.surface.clone();
         let sides = SmoothRegions::new(&self.given.topology, &base)?;
@@ -438,6 +438,6 @@ fn linearise(
     lambda: f64,
     sides: Option<&SmoothRegions>,
 ) -> Result<Linearisation> {
-    let bends = HuberParameters::of(&options.common());
+    let bends = HuberParameters::from_options(&options.common());
     Linearisation::new(given, base, frames, bends, |_| lambda, sides)
 }

@@ -138,7 +138,7 @@ fn linearise(mesh: &Mesh) -> Linearisation {
     let up = normals(&given.topology, &given.noisy, None);
     let frames = up
         .into_iter()
-        .map(|n| Frame::about(n, Point::x()))
+        .map(|n| Frame::from_normal(n, Point::x()))
         .collect();
     Linearisation::new(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
 }
@@ -260,9 +260,9 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     };
     let frames = base
         .iter()
-        .map(|_| Frame::about(Point::z(), Point::x()))
+        .map(|_| Frame::from_normal(Point::z(), Point::x()))
         .collect();
-    let bends = HuberParameters::of(&options);
+    let bends = HuberParameters::from_options(&options);
     let linear = Linearisation::new(&given, base, frames, bends, |_| 1e4, None).unwrap();
     let jacobi =
         |problem: &super::linearisation::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
@@ -330,7 +330,7 @@ fn curvature_is_that_of_spheres_and_pipes() {
 fn the_change_of_a_fit_is_its_derivative() {
     let mut random = random(2);
     for valence in [5, 6, 7, 9] {
-        let frame = Frame::about(Point::new(0.1, 0.2, 1.0).normalize(), Point::x());
+        let frame = Frame::from_normal(Point::new(0.1, 0.2, 1.0).normalize(), Point::x());
         let offsets: Vec<Point> = (0..valence)
             .map(|k| {
                 let angle = std::f64::consts::TAU * (k as f64 + 0.2 * random()) / valence as f64;

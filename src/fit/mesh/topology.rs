@@ -46,7 +46,7 @@ impl Topology {
         let mut repairs = Repairs::default();
         let mut from = proper_triangles(mesh, &vertices.0, &mut repairs);
         from.sort_unstable();
-        Self::of(mesh, vertices, from, repairs)
+        Self::from_triangles(mesh, vertices, from, repairs)
     }
 
     /// The topology of a mesh, with vertices and triangles ordered along a space-filling curve, so that
@@ -67,10 +67,10 @@ impl Topology {
         }
         let mut repairs = Repairs::default();
         let from = proper_triangles(mesh, &joined, &mut repairs);
-        Self::of(mesh, (joined, source), from, repairs)
+        Self::from_triangles(mesh, (joined, source), from, repairs)
     }
 
-    fn of(
+    fn from_triangles(
         mesh: &Mesh,
         (joined, source): (Vec<u32>, Vec<u32>),
         from: Vec<u32>,

@@ -70,7 +70,7 @@ impl MeshCurvatures {
             }
             fields.gaussian[i] = (TAU - turns[vertex]) / areas[vertex];
             fields.areas[i] = areas[vertex];
-            let ray = Frame::about(up[vertex], Vector3::x());
+            let ray = Frame::from_normal(up[vertex], Vector3::x());
             let Some((fit, _, frame)) = fit_quadratic(&topology, &places, &ray, vertex) else {
                 continue;
             };

@@ -73,7 +73,7 @@ impl MeshRulings {
         let mut squares = try_filled("rulings", count, Matrix3::zeros())?;
         let mut bends = try_filled("rulings", count, f64::NAN)?;
         let mut frames: Vec<Frame> = (up.iter())
-            .map(|normal| Frame::about(*normal, Vector3::x()))
+            .map(|normal| Frame::from_normal(*normal, Vector3::x()))
             .collect();
         for vertex in topology.vertices_inside() {
             let Some((fit, _, frame)) = fit_quadratic(&topology, &places, &frames[vertex], vertex)

@@ -16,7 +16,7 @@ fn off(x: &Point) -> f64 {
 
 fn frames(given: &MeshInput) -> Vec<Frame> {
     let up = normals(&given.topology, &given.noisy, None);
-    let frame = |up| Frame::about(up, Point::new(0.3, 0.5, 0.7));
+    let frame = |up| Frame::from_normal(up, Point::new(0.3, 0.5, 0.7));
     up.into_iter().map(frame).collect()
 }
 

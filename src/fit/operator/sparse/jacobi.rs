@@ -63,7 +63,7 @@ struct Gradients<T> {
 
 /// A floating-point precision of conjugate gradients, with conversions from and to double precision.
 trait Precision: Real {
-    fn of(value: f64) -> Self;
+    fn from_f64(value: f64) -> Self;
     fn double(self) -> f64;
     /// Rows of the operator in this precision, and their weights times the shares of ρ.
     fn rows(operator: &SparseOperator) -> (&Rows<Self>, &[Self]);
@@ -75,7 +75,7 @@ trait Precision: Real {
 
 impl Precision for f32 {
     #[inline(always)]
-    fn of(value: f64) -> f32 {
+    fn from_f64(value: f64) -> f32 {
         lanes::single(value)
     }
     #[inline(always)]
@@ -103,7 +103,7 @@ impl Precision for f32 {
 }
 
 impl Precision for f64 {
-    fn of(value: f64) -> f64 {
+    fn from_f64(value: f64) -> f64 {
         value
     }
     fn double(self) -> f64 {
@@ -144,10 +144,10 @@ impl<T: Precision> Gradients<T> {
     /// Changes the matrix.
     fn take(&mut self, operator: &SparseOperator, system: &System) {
         let unit = T::unit(operator);
-        self.rho = T::of(system.rho / (system.diagonal * unit * unit));
+        self.rho = T::from_f64(system.rho / (system.diagonal * unit * unit));
         for vertex in 0..self.inverse.len() {
-            self.fidelity[vertex] = T::of(system.fidelity[vertex] / system.diagonal);
-            self.inverse[vertex] = T::of(system.inverse[vertex]);
+            self.fidelity[vertex] = T::from_f64(system.fidelity[vertex] / system.diagonal);
+            self.inverse[vertex] = T::from_f64(system.inverse[vertex]);
         }
     }
 
@@ -173,7 +173,7 @@ impl<T: Precision> Gradients<T> {
         } else {
             0.0
         };
-        let beta = T::of(beta);
+        let beta = T::from_f64(beta);
         for (i, direction) in self.direction.iter_mut().enumerate() {
             *direction = self.inverse[i] * self.residual[i] + beta * *direction;
         }
@@ -187,7 +187,7 @@ impl<T: Precision> Gradients<T> {
         if !(curvature > 0.0 && self.energy > 0.0) {
             return false;
         }
-        let alpha = T::of(self.energy / curvature);
+        let alpha = T::from_f64(self.energy / curvature);
         for (i, residual) in self.residual.iter_mut().enumerate() {
             self.solution[i] = self.solution[i] + alpha * self.direction[i];
             *residual = *residual - alpha * self.image[i];

@@ -120,7 +120,8 @@ impl Both {
             target[domain.lattice_index(cell)] = lattice.target[cell];
         }
         let lambda = options.lambda.value();
-        let mut sparse = Problem::under(operator, lambda, target, PenaltyKind::of(options));
+        let mut sparse =
+            Problem::unweighted(operator, lambda, target, PenaltyKind::from_options(options));
         let weight = |vertex| input.weight(vertex);
         let constrained = |vertex| input.is_constrained(vertex);
         sparse

@@ -119,7 +119,7 @@ fn scattered_points_have_the_optimum_of_a_conic_solver() {
     let (optimum, z) = conic(&matrix, &target, lambda);
     let operator = operator_of(&matrix, &centres, places, 1.0 / side as f64);
     // The input is no plane: the affine functions are looked for among all of them.
-    let problem = Problem::under(operator, lambda, target, PenaltyKind::Nuclear);
+    let problem = Problem::unweighted(operator, lambda, target, PenaltyKind::Nuclear);
     let (level, reason) = solve(&problem, JacobiGradients::new, &options(lambda).gap(1e-7));
     assert_eq!(reason, StopReason::Gap);
     let incumbent = &level.admm.incumbent;

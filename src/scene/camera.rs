@@ -73,13 +73,13 @@ impl Distortion {
 /// `(fx·x/z + cx, fy·y/z + cy)`, but for the lens's distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intrinsics {
-    /// Focal length in columns.
+    /// Focal length, in widths of a pixel.
     pub fx: f64,
-    /// Focal length in rows.
+    /// Focal length, in heights of a pixel.
     pub fy: f64,
-    /// Column of the axis.
+    /// Column of the camera's axis.
     pub cx: f64,
-    /// Row of the axis.
+    /// Row of the camera's axis.
     pub cy: f64,
     /// Width and height of the images that these numbers are for; images of other sizes show the same, finer or
     /// coarser. `None`: any image.

@@ -8,7 +8,7 @@
 use super::balance::balanced_bound;
 use super::steps::Admm;
 use crate::error::Result;
-use crate::fit::linear::zstep::{CgCriteria, SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 
 /// Maximum relative duality gap at which the affine surface may be the answer; with a larger one, the surface
 /// bends.

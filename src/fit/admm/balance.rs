@@ -10,7 +10,7 @@ use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::SpectralPenalty;
-use crate::fit::linear::zstep::{CgCriteria, SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::sym2::Sym2;
 

@@ -3,7 +3,7 @@
 use super::iterate::{CERTIFICATE_SUMS, Iterate, SumTerms};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{NuclearNorm, PenaltyKind, SpectralPenalty};
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::lanes;
 use crate::math::sym2::Sym2;

@@ -5,7 +5,7 @@
 use super::certificate::Certificate;
 use super::steps::Admm;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 
 /// Ratio by which one relative residual, both balanced, exceeds the other where ρ changes.
 const RESIDUAL_RATIO: f64 = 3.0;

@@ -18,7 +18,7 @@ use super::z_step::ZStepAccuracy;
 use crate::error::Result;
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::PenaltyKind;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::StopReason;
 
 /// Maximum number of conjugate-gradient iterations in a z-step.

@@ -15,7 +15,7 @@ use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{HuberStep, NuclearNorm, PenaltyKind, SpectralPenalty};
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;

@@ -2,7 +2,7 @@
 
 use super::certificate::Certificate;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::relative_gap;
 
 /// The surface of least objective so far and the largest dual bound so far; they may be those of different

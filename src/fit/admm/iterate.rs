@@ -8,7 +8,7 @@
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{AnyPenalty, NuclearNorm, PenaltyKind, SpectralPenalty};
-use crate::fit::linear::zstep::{SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::lattice::runs::Run;
 use crate::math::lanes;

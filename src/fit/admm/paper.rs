@@ -16,7 +16,7 @@ use super::certificate::Certificate;
 use super::steps::{Admm, Check};
 use super::z_step::ZStepAccuracy;
 use crate::error::Result;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::StopReason;
 
 /// ρ at the start, as in the authors' code.
@@ -40,8 +40,8 @@ const RELAXATION: f64 = 1.0;
 const CHECK_ITERATIONS: usize = 10;
 
 /// Absolute residual at which the iterations stop: that of the authors' own code, which measures both
-/// residuals among the Hessians, the dual one without the `Cᵀ` that the criterion of Boyd et al. has. With it
-/// the factors 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
+/// residuals among the Hessians, the dual one without the `Cᵀ` that the criterion of Boyd et al. has. With `Cᵀ`,
+/// factors of 1/h² dominate, and the schedule runs ten times longer to a tenth of the gap.
 const ABSOLUTE_TOLERANCE: f64 = 1e-4;
 
 /// Relative residual at which the iterations stop, measured as the absolute one.
@@ -119,7 +119,7 @@ fn accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
 
 /// Convergence (Boyd et al., Sec. 3.3.1): both residuals, `‖Cz − h‖` and the `change` `ρ‖Δh‖`, are below the
 /// tolerances.
-pub(super) fn stop_reason<O: SolvableOperator>(
+fn stop_reason<O: SolvableOperator>(
     admm: &Admm<O>,
     certificate: &Certificate,
     change: f64,

@@ -16,7 +16,7 @@
 use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::lanes;
 use crate::math::real::larger;

@@ -11,7 +11,7 @@ use super::steps::Admm;
 use crate::error::Result;
 use crate::fit::energy::creases::Creases;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::options::Schedule;
 use crate::fit::report::{LevelReport, StopReason};
 
@@ -140,6 +140,94 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         match &mut self.schedule {
             ScheduleState::Paper => Ok(false),
             ScheduleState::Default(schedule) => schedule.begin_rank_reduction(&self.admm, reason),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::fit::coordinates::Coordinates;
+    use crate::fit::heightfields;
+    use crate::fit::linear::cg::ConjugateGradients;
+    use crate::math::sym2::Sym2;
+    use crate::{Heightfield, Input, Lattice, Options};
+
+    /// A noisy roof under either schedule, after some iterations.
+    fn started(schedule: Schedule) -> heightfields::AdmmSolver {
+        let lattice = Lattice::new(20, 20, 0.05).unwrap();
+        let field = Heightfield::from_fn(lattice, |x, y| {
+            0.3 * (x - 0.4 * y - 0.6).abs() + 0.01 * (97.0 * x + 61.0 * y).sin()
+        })
+        .unwrap();
+        let input = Input::new(field);
+        let domain = Arc::new(input.domain().unwrap());
+        let coordinates = Coordinates::new(&input, &domain, 1.0);
+        let options = Options::paper().lambda(1e4).schedule(schedule);
+        let problem =
+            heightfields::Problem::new(&input, domain.clone(), &coordinates, &options).unwrap();
+        let parameters = AdmmParameters::new(&options);
+        let iterate = Iterate::new(&problem, initial_rho(&parameters, &problem)).unwrap();
+        let domains = std::slice::from_ref(&domain);
+        let cg = ConjugateGradients::new(&problem, domains, iterate.rho).unwrap();
+        let (mut solver, reason) =
+            AdmmSolver::new(problem, iterate, cg, parameters, usize::MAX, false).unwrap();
+        assert_eq!(reason, None);
+        assert_eq!(solver.advance(&mut 12).unwrap(), None);
+        solver
+    }
+
+    /// Makes the Hessians so large that no z-step brings the surface back before the next check.
+    fn spoil(solver: &mut heightfields::AdmmSolver) {
+        let Admm {
+            problem, iterate, ..
+        } = &mut solver.admm;
+        for (number, stencil) in problem.operator.domain.interior().cells().enumerate() {
+            let sign = if number % 3 == 0 { 1.0 } else { -1.0 };
+            let hessian = Sym2::new(sign * 1e9, 0.0, 1e9);
+            iterate.set_matrices(stencil, Sym2::default(), hessian);
+        }
+    }
+
+    #[test]
+    fn iterates_that_diverge_start_again_from_the_incumbent() {
+        for schedule in [Schedule::Default, Schedule::Paper] {
+            let mut solver = started(schedule);
+            let before = solver.admm.incumbent.objective();
+            spoil(&mut solver);
+            let mut reason = None;
+            while reason.is_none() {
+                reason = solver.advance(&mut 100).unwrap();
+            }
+            let end = match schedule {
+                Schedule::Default => StopReason::Gap,
+                Schedule::Paper => StopReason::Residuals,
+            };
+            assert_eq!(reason, Some(end));
+            assert!(solver.admm.divergence.has_restarted());
+            let incumbent = &solver.admm.incumbent;
+            assert!(incumbent.objective() <= before && incumbent.dual_bound > 0.0);
+        }
+    }
+
+    #[test]
+    fn iterates_that_diverge_again_and_again_end_the_solve() {
+        for schedule in [Schedule::Default, Schedule::Paper] {
+            let mut solver = started(schedule);
+            let mut reason = None;
+            while reason.is_none() {
+                spoil(&mut solver);
+                reason = solver.advance(&mut 20).unwrap();
+            }
+            assert_eq!(reason, Some(StopReason::Diverged));
+            let Admm {
+                incumbent, problem, ..
+            } = &solver.admm;
+            // The best surface from before is still there.
+            let objective = problem.distance(&incumbent.z) + problem.smoothness(&incumbent.z);
+            assert!((objective / incumbent.objective() - 1.0).abs() < 1e-12);
         }
     }
 }

@@ -12,7 +12,7 @@ use super::timing::{GrowingInterval, LoadWarmup};
 use super::z_step::{ZStep, ZStepAccuracy};
 use crate::error::Result;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::report::{Seconds, StopReason};
 
 /// Minimum number of iterations between two times that the dual is balanced, each of which costs about as much

@@ -2,7 +2,7 @@
 
 use super::iterate::Iterate;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 
 /// How exactly a z-step is solved.
 #[derive(Debug, Clone, Copy)]

@@ -224,7 +224,7 @@ impl SpectralPenalty for HuberPenalty {
         let bent = smaller(s, (weight - least) * delta);
         least * bent + 0.5 * bent * (bent / delta) + weight * (s - bent)
     }
-    /// At least 1: `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
+    /// Size of a dual, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
     #[inline(always)]
     fn size(self, dual: Sym2, weight: f64) -> f64 {
         larger(dual.spectral_norm() / weight, 1.0)
@@ -312,7 +312,6 @@ impl SpectralPenalty for AnyPenalty {
     fn value(self, hessian: Sym2, weight: f64) -> f64 {
         the_penalty!(self, |penalty| penalty.value(hessian, weight))
     }
-    /// Size of a dual, and at least 1, because `(ωf)*(tY) ≤ t² (ωf)*(Y)` for `t ≤ 1` only.
     #[inline(never)]
     fn size(self, dual: Sym2, weight: f64) -> f64 {
         the_penalty!(self, |penalty| penalty.size(dual, weight))

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use super::grid::{part, part_mut};
 use super::multigrid::Multigrid;
 use super::precise::Precise;
-use super::zstep::{CgCriteria, SolvableOperator, ZStepSolver};
+use super::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::error::{Result, try_filled};
 use crate::fit::heightfields::Problem;
 use crate::fit::operator::Operator;

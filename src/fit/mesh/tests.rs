@@ -16,7 +16,7 @@ use crate::fit::coordinates::Coordinates;
 use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;

@@ -3,7 +3,7 @@
 use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{CgCriteria, SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::fit::operator::Operator;
 use crate::math::lanes;
 use crate::math::real::Real;

@@ -15,7 +15,7 @@ use crate::fit::energy::problem;
 use crate::fit::energy::spectral_penalty::PenaltyKind;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::fit::linear::zstep::SolvableOperator;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
 use crate::fit::report::StopReason;
 use crate::lattice::domain::Domain;

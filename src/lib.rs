@@ -98,13 +98,13 @@ pub mod unroll;
 
 pub use error::{Error, MAX_CELLS, Result};
 pub use examples::{Example, ExampleOptions, Sample};
+pub use fit::component_solver::Status;
 pub use fit::cylinder::{Cylinder, CylinderReport, CylinderVerdict, fit_cylinder};
 pub use fit::input::Input;
 pub use fit::mesh::{
     MeshKnown, MeshOptions, MeshPass, MeshReport, MeshSolver, MeshSurface, Repairs, fit_mesh,
 };
 pub use fit::options::{Border, Energy, Lambda, Options, Schedule};
-pub use fit::partwise::Status;
 pub use fit::report::{
     HuberReport, LambdaChoice, LambdaReason, LevelReport, Progress, Report, Seconds, StopReason,
 };

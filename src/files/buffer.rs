@@ -1,9 +1,10 @@
-//! A growing file in memory, whose lack of memory is an error instead of an abort.
+//! A growing file in memory that reports lack of memory as an error.
 
 use std::io::{self, Write};
 
 use crate::error::{Error, Result};
 
+/// The bytes of a file that is written to memory.
 #[derive(Default)]
 pub(crate) struct Buffer(Vec<u8>);
 

@@ -1,4 +1,4 @@
-//! Files as bytes in memory: height images and photos, meshes, drawings to cut out.
+//! Files as bytes in memory: height images and photos, meshes, drawings, and pictures of an assembly.
 
 #[cfg(feature = "patterns")]
 pub mod assembly;

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: a mesh as text.
+//! Wavefront OBJ, written as text.
 
 use std::io::{self, Write};
 
@@ -40,8 +40,8 @@ pub fn write_obj_mesh(mesh: &Mesh) -> Result<Vec<u8>> {
     write_obj_textured(mesh, None)
 }
 
-/// The same with the name of a file of materials ([`write_mtl`]), if there is one, of which the mesh
-/// has the one there is. Its picture takes the place of colours, for readers would multiply the two.
+/// An OBJ file of a mesh as by [`write_obj_mesh`], with the name of its material file ([`write_mtl`]), if there
+/// is one. Its picture takes the place of colours, because readers would multiply the two.
 ///
 /// # Errors
 /// [`Error::Option`] for a name that is empty or of several lines,

@@ -1,18 +1,23 @@
-//! Which moments load the border of a heightfield: see [`energy::load`](crate::fit::energy::load).
+//! The load on the border of a heightfield: the moments of the vertices inside (see
+//! [`energy::moment_load`](crate::fit::energy::moment_load)).
 
-use super::energy::load::{Rings, bearing};
-use super::heightfields::{Problem, State};
+use super::energy::moment_load::{Rings, bearing};
+use super::heightfields::{Iterate, Problem};
 use crate::error::{Result, try_filled};
 use crate::lattice::domain::Role;
 use crate::math::sym2::Sym2;
 
-/// Loads the border with the moments inside. Says whether there are any.
+/// Loads the border with the moments inside, and tells whether there are any.
 ///
 /// # Errors
 /// Out of memory.
-pub(super) fn load_border(problem: &mut Problem, state: &State, bend_radius: f64) -> Result<bool> {
+pub(super) fn load_border(
+    problem: &mut Problem,
+    iterate: &Iterate,
+    bend_radius: f64,
+) -> Result<bool> {
     // Where next to nothing holds a vertex, a load would move it without end.
-    if problem.loose {
+    if problem.has_weak_fidelity {
         return Ok(false);
     }
     let domain = problem.operator.domain.clone();
@@ -34,7 +39,7 @@ pub(super) fn load_border(problem: &mut Problem, state: &State, bend_radius: f64
     )?;
     let mut moments = try_filled("moments", domain.cells(), Sym2::default())?;
     for cell in domain.interior().cells() {
-        let (dual, hessian) = state.matrices(problem, cell);
+        let (dual, hessian) = iterate.matrices(problem, cell);
         moments[cell] = bearing(dual, hessian);
     }
     if !rings.continue_outwards(&mut moments, around)? {

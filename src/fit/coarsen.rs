@@ -1,5 +1,5 @@
-//! Fine to coarse: what a solve is about, on the lattice of twice the spacing, which is the same kind
-//! of lattice. Since both terms of the energy are plain sums over vertices, λ stays.
+//! Coarsening: the input of a solve on the lattice of twice the spacing. λ stays the same, because both terms
+//! of the energy are plain sums over vertices.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -21,21 +21,20 @@ const NEIGHBOUR_OFFSETS: [[f64; 2]; 6] = [
     [0.5, -ROW_SPACING],
 ];
 
-/// Half of the weight that a coarse vertex stands for: that of one fine vertex, and of half of each
-/// neighbour's.
+/// Half of the number of fine vertices that a coarse vertex stands for: itself, and half of each of its six
+/// neighbours.
 const HALF_COARSE_WEIGHT: f64 = 2.0;
 
-/// The input on the lattice of twice the spacing, of which `domain` has the roles.
+/// The input on the lattice of twice the spacing. `domain` has the roles of the fine vertices.
 ///
-/// Whether a coarse vertex is there depends on all seven fine ones about it, so that a hole of one
-/// vertex, or a row of them, does not become one of four or nothing at all, as the sublattice
-/// happens to hit it. It is valid where its fine vertex is, or at least half of what it stands for.
-/// It has no stencil unless at least half of the fine ones are there; nor where its own surroundings
-/// or a neighbour's are torn.
+/// Whether a coarse vertex is valid depends on the seven fine vertices around it, so that a hole of one vertex,
+/// or a row of them, does not become a hole of four or vanish, depending on where the coarse lattice lies. A
+/// coarse vertex is valid where its fine vertex is, or at least half of what it stands for. It has a stencil if
+/// at least half of the fine ones have one, and if neither its own surroundings nor those of a neighbour are
+/// torn.
 ///
-/// Its height is the mean, by confidence, over the opposite neighbours that are both there, which
-/// leaves planes alone and halves the noise. It is constrained if its fine vertex is, or else to the
-/// mean of its constrained neighbours.
+/// Its height is the mean, by confidence, over pairs of opposite neighbours, which keeps planes and halves the
+/// noise. It is constrained if its fine vertex is, or else to the mean of its constrained neighbours.
 pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     let fine = input.field.lattice();
     let lattice = coarse_lattice(fine)?;
@@ -86,7 +85,7 @@ pub(crate) fn coarsen(input: &Input, domain: &Domain) -> Result<Input> {
     coarse.with_occlusions(Occlusions::from_vertices(&lattice, &torn)?)
 }
 
-/// What fine vertices come to on the coarse lattice.
+/// A coarse vertex, as made of fine ones.
 struct Merged {
     height: f64,
     confidence: f64,
@@ -104,8 +103,8 @@ impl Default for Merged {
 }
 
 impl Input {
-    /// A vertex and its neighbours, those that are there, as one: at least it itself or two opposite
-    /// neighbours.
+    /// Merges a vertex and its neighbours, those of them that are valid: at least the vertex itself or two
+    /// opposite neighbours.
     fn merged(&self, own: Option<usize>, ring: [Option<usize>; 6]) -> Merged {
         let heights = self.field.heights();
         // Weights 2 and 1: those of linear interpolation, transposed.
@@ -145,8 +144,8 @@ impl Input {
         }
     }
 
-    /// The height at the origin of the plane through vertices at places, that fits them best by
-    /// their shares and confidence, and the weight of what it says; `None` if that is nothing.
+    /// Height at the origin of the plane that fits the heights of vertices at given places best, weighted by
+    /// their shares and confidence, with the weight of that height; `None` if the weights vanish.
     fn plane(&self, terms: &[([f64; 2], f64, usize)]) -> Option<(f64, f64)> {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         let first = self.field.heights()[terms.first()?.2];

@@ -1,5 +1,5 @@
-//! The connected parts of a domain. The energy of one knows nothing of the
-//! others, so each is solved for itself: none slows the others down.
+//! The connected components of a domain. The energy of one does not depend on the others, so each is solved by
+//! itself and none slows the others down.
 
 use super::input::Input;
 use crate::error::{Error, Result, try_filled};
@@ -9,20 +9,21 @@ use crate::lattice::domain::Domain;
 use crate::lattice::hexagonal::Lattice;
 use crate::math::union_find::UnionFind;
 
-/// Vertices that are connected by stencils.
+/// One connected component: vertices that are connected by stencils.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Part {
-    /// First row (an even one, so that parities agree) and column of its box in the lattice.
+    /// First row and column of its box in the lattice; the row is even, so that shifted rows stay shifted.
     pub corner: (usize, usize),
     rows: usize,
     cols: usize,
 }
 
+/// All connected components of a domain.
 #[derive(Debug, Clone)]
 pub(crate) struct Components {
-    /// The part of each cell, or [`NO_COMPONENT`]; empty if there is only one part.
+    /// Number of the component of each cell, or [`NO_COMPONENT`]; empty if there is only one component.
     labels: Vec<u32>,
-    /// The largest first, the others about in reading order.
+    /// The components, the largest first and the others about in reading order.
     pub list: Vec<Part>,
 }
 
@@ -30,7 +31,7 @@ pub(crate) struct Components {
 const NO_COMPONENT: u32 = u32::MAX;
 
 impl Components {
-    /// Costs little more than a look at each cell.
+    /// Finds the components, in time linear in the number of cells.
     pub(crate) fn new(domain: &Domain) -> Result<Self> {
         let mut sets = UnionFind::new("components", domain.cells())?;
         let stride = domain.stride();
@@ -99,12 +100,13 @@ impl Components {
         Ok(Components { labels, list })
     }
 
-    /// The part of an active cell of the whole domain.
-    pub(crate) fn of(&self, cell: usize) -> usize {
+    /// Number of the component of an active cell of the whole domain.
+    pub(crate) fn component(&self, cell: usize) -> usize {
         self.labels.get(cell).map_or(0, |label| *label as usize)
     }
 
-    /// Vertex of the whole lattice that is `(0, 0)` of a part's: one that is alone has the whole.
+    /// Vertex of the whole lattice that is `(0, 0)` of a component's; that of the whole lattice where there is
+    /// only one component.
     pub(crate) fn corner(&self, number: usize) -> (usize, usize) {
         match self.list.len() {
             1 => (0, 0),
@@ -112,7 +114,7 @@ impl Components {
         }
     }
 
-    /// What there is to be solved on one of several parts.
+    /// The input of one of several components, on a lattice of its own.
     pub(crate) fn crop(&self, input: &Input, domain: &Domain, number: usize) -> Result<Input> {
         let part = &self.list[number];
         let whole = domain.lattice();
@@ -148,10 +150,9 @@ impl Components {
     }
 }
 
-/// Checks that what is given about the heights holds every part in place: an
-/// affine function that vanishes on it must vanish altogether. Asked of every
-/// set of interior vertices that are connected by edges of the lattice (parts
-/// may consist of several, with hinges between them).
+/// Checks that the given heights hold every component in place: an affine function that vanishes at all of them
+/// must vanish everywhere. Every set of interior vertices that are connected by edges of the lattice is checked
+/// (a component may consist of several, with hinges between them).
 ///
 /// # Errors
 /// [`Error::Underdetermined`] for the first that is not held.
@@ -193,7 +194,7 @@ pub(crate) fn check_held(input: &Input, domain: &Domain) -> Result<()> {
     Ok(())
 }
 
-/// Looks for three points that are not on a line.
+/// Search for three points that are not on one line.
 #[derive(Default)]
 struct Hold {
     points: Vec<[i64; 2]>,
@@ -277,7 +278,9 @@ mod tests {
             // The same stencils as in the whole.
             let own = Domain::with_occlusions(&part.field, |v| part.is_occluded(v)).unwrap();
             let interior = domain.interior().cells();
-            let expected = interior.filter(|cell| parts.of(*cell) == number).count();
+            let expected = interior
+                .filter(|cell| parts.component(*cell) == number)
+                .count();
             assert_eq!(own.interior_len(), expected);
         }
         let active = domain.active().cells().count();
@@ -302,7 +305,7 @@ mod tests {
         assert_eq!(parts.list.len(), 3);
         let corners: Vec<_> = parts.list.iter().map(|part| part.corner).collect();
         assert_eq!(corners, [(0, 15), (0, 5), (0, 0)]);
-        let of = |row: isize, col: isize| parts.of(domain.cell((row, col)).unwrap());
+        let of = |row: isize, col: isize| parts.component(domain.cell((row, col)).unwrap());
         assert_eq!([of(4, 20), of(4, 8), of(4, 2)], [0, 1, 2]);
     }
 }

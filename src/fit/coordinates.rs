@@ -1,21 +1,21 @@
-//! From the user's heights to the energy's and back.
+//! Normalised coordinates: the way from the user's heights to those of the energy, and back.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::input::Input;
 use crate::lattice::domain::Domain;
+use crate::math::least_squares::LeastSquares;
 
-/// Normalised coordinates: lengths times `scale`, heights above the best-fit
-/// plane of a component. The energy does not see affine functions, and without
-/// them nothing is lost to rounding.
+/// Normalised coordinates: lengths times `scale`, heights above the best-fit plane of a component. The energy
+/// does not depend on affine functions, and without them less is lost to rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinates {
-    /// Factor from the user's units.
+    /// Factor from the user's units to normalised coordinates.
     pub scale: f64,
     plane: Plane,
 }
 
-/// An affine function.
+/// An affine function of the position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     centre: [f64; 2],
@@ -24,7 +24,7 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// Least squares: points, and their weights.
+    /// The best-fit plane of weighted points, by least squares.
     pub(crate) fn fit(points: impl Iterator<Item = ([f64; 3], f64)> + Clone) -> Self {
         let total: f64 = points.clone().map(|(_, weight)| weight).sum();
         let points = points.map(|(point, weight)| (point, weight / total));
@@ -41,15 +41,13 @@ impl Plane {
         };
         // Of unit size, so that squares neither over- nor underflow.
         let size = away(x0, 0).max(away(y0, 1));
-        let mut normal = Matrix3::zeros();
-        let mut right = Vector3::zeros();
+        let mut plane = LeastSquares::<3>::new();
         for ([x, y, z], weight) in points.clone() {
             let row = Vector3::new(1.0, (x - x0) / size, (y - y0) / size);
-            normal += weight * row * row.transpose();
-            right += weight * (z - z0) * row;
+            plane.add(&row, [z - z0], weight);
         }
         // What holds a component in place spans a plane; zero is for overflow only.
-        let solution = normal.cholesky().map(|c| c.solve(&right));
+        let solution = plane.solve();
         let [constant, sx, sy] = solution.map_or([0.0; 3], |s| [s[0], s[1], s[2]]);
         Plane {
             centre: [x0, y0],
@@ -64,7 +62,7 @@ impl Plane {
 }
 
 impl Coordinates {
-    /// About the plane next to what is given in `I ∪ ∂I`, by confidence.
+    /// Coordinates about the best-fit plane of the heights in `I ∪ ∂I`, weighted by confidence.
     pub(crate) fn new(input: &Input, domain: &Domain, scale: f64) -> Self {
         let field = input.field();
         let vertices = domain.vertices(domain.active());
@@ -84,17 +82,17 @@ impl Coordinates {
         Coordinates { scale, plane }
     }
 
-    /// Slope of the plane.
+    /// Slope of the plane, in both directions.
     pub(crate) fn slope(&self) -> [f64; 2] {
         self.plane.slope
     }
 
-    /// A height at a position, both in the user's units, in normalised coordinates.
+    /// Normalised height of a height at a position, both in the user's units.
     pub(crate) fn inward(&self, position: [f64; 2], height: f64) -> f64 {
         self.scale * (height - self.plane.at(position))
     }
 
-    /// The way back.
+    /// Height in the user's units of a normalised one, at a position in the user's units.
     pub(crate) fn outward(&self, position: [f64; 2], z: f64) -> f64 {
         z / self.scale + self.plane.at(position)
     }

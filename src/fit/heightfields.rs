@@ -1,11 +1,11 @@
-//! The energy of a heightfield: that of the lattice's operator.
+//! The problem of a heightfield: the energy under the operator of the lattice.
 
 use std::sync::Arc;
 
-use super::admm::{iteration, state};
+use super::admm::{iterate, solver};
 use super::coordinates::Coordinates;
-use super::energy::law::Kind;
 use super::energy::problem;
+use super::energy::spectral_penalty::PenaltyKind;
 use super::input::Input;
 use super::operator::lattice::{LatticeOperator, position};
 use super::options::Options;
@@ -13,16 +13,17 @@ use crate::error::{Error, Result, try_filled};
 use crate::lattice::domain::Domain;
 
 pub(crate) type Problem = problem::Problem<LatticeOperator>;
-pub(crate) type State = state::State<LatticeOperator>;
-pub(crate) type Level = iteration::Level<LatticeOperator>;
+pub(crate) type Iterate = iterate::Iterate<LatticeOperator>;
+pub(crate) type AdmmSolver = solver::AdmmSolver<LatticeOperator>;
 
-/// Largest magnitude of heights and Hessians.
+/// Maximum magnitude of heights and Hessians, whose squares are summed and multiplied by λ.
 const MAX_MAGNITUDE: f64 = 1e130;
 
-/// Largest spacing; the least is one over it.
+/// Maximum spacing; the minimum is one over it.
 const MAX_SPACING: f64 = 1e50;
 
 impl Problem {
+    /// The problem of an input on a domain, in normalised coordinates.
     pub(crate) fn new(
         input: &Input,
         domain: Arc<Domain>,
@@ -39,24 +40,24 @@ impl Problem {
         let operator = LatticeOperator::new(domain.clone(), coordinates);
         let spacing = operator.spacing;
         check_range(&domain, input.field().heights(), &target, largest, spacing)?;
-        let mut problem = Problem::under(
+        let mut problem = Problem::unweighted(
             operator,
             options.lambda_or_default().value(),
             target,
-            Kind::of(options),
+            PenaltyKind::from_options(options),
         );
         problem.set_fidelity(
             |cell| input.weight(domain.lattice_index(cell)),
             |cell| input.is_constrained(domain.lattice_index(cell)),
             options.tie_break_or_default(),
         )?;
-        problem.take_first_normals(options.energy_or_default())?;
+        problem.set_input_normal_weights(options.energy_or_default())?;
         // Each Hessian is a handful of heights over h², each with its own rounding error.
-        problem.set_rounding(16.0 * f64::EPSILON * largest / (spacing * spacing));
+        problem.set_rounding(largest);
         Ok(problem)
     }
 
-    /// `Σ ω f(H)` of the input, by the parts that cells belong to.
+    /// The penalty `Σ ω f(H)` of the input, summed separately for each part that cells belong to.
     pub(crate) fn smoothness_by(&self, parts: usize, part: impl Fn(usize) -> usize) -> Vec<f64> {
         let mut sums = vec![0.0; parts];
         self.each_cost(&self.target, |cell, cost| sums[part(cell)] += cost);
@@ -77,8 +78,8 @@ impl Problem {
     }
 }
 
-/// Whether the squares of heights and Hessians, summed and times any λ, can be told from 0 and from
-/// infinity. Heights that differ from a plane by rounding errors only are fine.
+/// Checks that the squares of heights and Hessians, summed and times any λ, are neither rounding errors nor
+/// infinite. Heights that differ from a plane by rounding errors only are accepted.
 ///
 /// # Errors
 /// [`Error::Overflow`] or [`Error::Underflow`].
@@ -94,7 +95,8 @@ fn check_range(
     let finite = cells().all(|cell| target[cell].is_finite());
     let bend = cells().fold(0.0f64, |m, cell| m.max(target[cell].abs()));
     let hessian = |height: f64| height / (h * h);
-    let affine = bend <= 16.0 * f64::EPSILON * largest && largest >= 1.0 / MAX_MAGNITUDE;
+    let affine = bend <= problem::HESSIAN_ROUNDING_UNITS * f64::EPSILON * largest
+        && largest >= 1.0 / MAX_MAGNITUDE;
     let zero = bend == 0.0 && cells().all(|cell| heights[domain.lattice_index(cell)] == 0.0);
     // As what a NaN is not.
     let small_enough = h >= 1.0 / MAX_SPACING && largest.max(hessian(largest)) <= MAX_MAGNITUDE;

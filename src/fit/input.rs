@@ -1,4 +1,4 @@
-//! What a solve is about: heights, and what is known about them.
+//! The input of a solve: heights, and what is known about them.
 
 use crate::error::try_filled;
 use crate::error::{Error, Readable, Result, check_shape};
@@ -7,15 +7,14 @@ use crate::heights::heightfield::Heightfield;
 use crate::heights::occlusions::Occlusions;
 use crate::lattice::domain::Domain;
 
-/// Least confidence: from it to the largest is as far as double precision carries both.
+/// Minimum confidence: double precision carries it beside the maximum, but no smaller one.
 const MIN_CONFIDENCE: f64 = 1e-6;
 
-/// Largest confidence.
+/// Maximum confidence.
 const MAX_CONFIDENCE: f64 = 1e6;
 
-/// A heightfield with all that a solve may know besides: how far each height
-/// is to be trusted, which heights must be met exactly, where the surface is
-/// torn. A plain [`Heightfield`] is an input as well.
+/// A heightfield with everything that a solve may know besides: the confidence of each height, heights that
+/// must be met exactly, and where the surface is torn. A plain [`Heightfield`] is an input as well.
 ///
 /// ```
 /// use developable::{Heightfield, Input, Lattice, Options, fit};
@@ -35,12 +34,12 @@ const MAX_CONFIDENCE: f64 = 1e6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     pub(crate) field: Heightfield,
-    /// Weights of the fidelity term; empty: 1 everywhere.
+    /// Weights of the fidelity term; empty for 1 everywhere.
     pub(crate) confidence: Vec<f64>,
-    /// Whether a vertex must keep its height; empty: none.
+    /// Whether each vertex keeps its height; empty if none does.
     pub(crate) constrained: Vec<bool>,
     pub(crate) occlusions: Option<Occlusions>,
-    /// Whether a vertex is none of the surface's, whatever its neighbours are; empty: none.
+    /// Whether each vertex is outside of the surface, whatever its neighbours are; empty if none is.
     outside: Vec<bool>,
     bridging: Bridging,
     /// Number of vertices whose height bridges a hole.
@@ -48,7 +47,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Heights to stay close to, the same everywhere; small holes among them are
+    /// An input of heights to stay close to, with the same confidence everywhere; small holes among them are
     /// [bridged](Bridging).
     pub fn new(field: Heightfield) -> Self {
         Input {
@@ -81,7 +80,7 @@ impl Input {
         }
     }
 
-    /// Where so many vertices bridge holes already, and no others are to be.
+    /// The input with a number of vertices that bridge holes already, so that no others are bridged.
     pub(crate) fn already_bridged(self, bridged: usize) -> Self {
         Input {
             bridging: Bridging::Off,
@@ -191,7 +190,7 @@ impl Input {
         Ok(self)
     }
 
-    /// The roles of its vertices: occluded ones have no Hessian.
+    /// The domain of its vertices; occluded ones have no Hessian.
     pub(crate) fn domain(&self) -> Result<Domain> {
         Domain::with_occlusions(&self.field, |vertex| self.is_occluded(vertex))
     }
@@ -234,7 +233,7 @@ impl Input {
         check_shape(what, lattice.rows(), lattice.cols(), found)
     }
 
-    /// Whether the height of a vertex is given for good.
+    /// Whether the height of a vertex is a hard constraint.
     pub(crate) fn is_constrained(&self, vertex: usize) -> bool {
         self.constrained.get(vertex) == Some(&true)
     }
@@ -259,12 +258,12 @@ impl Input {
             .any(|(vertex, _)| !self.is_given(vertex))
     }
 
-    /// Whether the height of a vertex means anything.
+    /// Whether a vertex has a height that counts: with confidence, or as a constraint.
     pub(crate) fn is_given(&self, vertex: usize) -> bool {
         self.weight(vertex) > 0.0 || self.is_constrained(vertex)
     }
 
-    /// Whether no Hessian is taken at a vertex though there could be one.
+    /// Whether a vertex has no Hessian because of an occlusion.
     pub(crate) fn is_occluded(&self, vertex: usize) -> bool {
         self.occlusions
             .as_ref()
@@ -272,7 +271,7 @@ impl Input {
     }
 }
 
-/// Makes sure that every height, in rows of `cols`, has a confidence within its range.
+/// Checks that every height, in rows of `cols`, has a confidence within its range.
 pub fn check_confidence(confidence: &[f64], heights: &[f64], cols: usize) -> Result<()> {
     for (i, (weight, height)) in confidence.iter().zip(heights).enumerate() {
         if height.is_nan() {

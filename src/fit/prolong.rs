@@ -1,23 +1,28 @@
-//! Coarse to fine: an iterate of the lattice of twice the spacing is a good start.
+//! Prolongation: the first iterate on a level from the last one of the next coarser level.
 //!
-//! The dual is bounded by 1 whatever the resolution, so `Y` and `H` carry over as they are. `z` is
-//! interpolated linearly, which keeps creases; `Y` more smoothly, by the rules of Loop's subdivision
-//! surfaces, for every kink of it is a residual.
+//! The dual is bounded by 1 at every resolution, so `Y` and `H` are carried over as they are. `z` is
+//! interpolated linearly, which keeps creases; `Y` by the smoother rules of Loop's subdivision surfaces,
+//! because every kink of it is a residual.
 
-use super::heightfields::{Problem, State};
+use super::heightfields::{Iterate, Problem};
 use crate::error::Result;
 use crate::lattice::coarsening::parents;
 use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, Towards};
 use crate::math::sym2::Sym2;
 
-/// An iterate on the fine lattice from one on the coarse lattice. Where a fine
-/// vertex has no coarse vertex to take from, as on islands and between holes
-/// that are too small for the coarse lattice, it starts from the input.
-pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) -> Result<State> {
-    let mut state = State::new(fine, rho)?;
+/// The iterate on the fine lattice that is interpolated from one on the coarse lattice. A fine vertex without
+/// coarse vertices to interpolate, as on islands and between holes too small for the coarse lattice, starts
+/// from the input.
+pub(crate) fn prolong(
+    coarse: &Problem,
+    from: &Iterate,
+    fine: &Problem,
+    rho: f64,
+) -> Result<Iterate> {
+    let mut iterate = Iterate::new(fine, rho)?;
     // At the same ρ, `V` is linear in `Y` and `H`.
-    let v = from.v_at(coarse, rho)?;
+    let v = from.v_with_rho(coarse, rho)?;
     let roles = coarse.operator.domain.roles();
     let domain = &fine.operator.domain;
     let (top, left) = domain.corner();
@@ -38,7 +43,7 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
                 && roles[a].is_active()
                 && roles[b].is_active()
             {
-                state.z[i] = 0.5 * (from.z[a] + from.z[b]);
+                iterate.z[i] = 0.5 * (from.z[a] + from.z[b]);
             }
             if domain.roles()[i] == Role::Interior {
                 let (mut sum, mut total) = (Sym2::default(), 0.0);
@@ -51,24 +56,28 @@ pub(crate) fn prolong(coarse: &Problem, from: &State, fine: &Problem, rho: f64) 
                     }
                 }
                 if total > 0.0 {
-                    state.v.set(i, sum.scale(1.0 / total));
+                    iterate.v.set(i, sum.scale(1.0 / total));
                 }
             }
         }
     }
     for cell in &fine.constrained {
-        state.z[*cell as usize] = fine.target[*cell as usize];
+        iterate.z[*cell as usize] = fine.target[*cell as usize];
     }
-    Ok(state)
+    Ok(iterate)
 }
 
-/// Where every other fine vertex of a row takes from, which is alike for all of them.
+/// Coarse cells from which every other fine vertex of a row is interpolated, as offsets that are alike for all
+/// of them.
 struct Sources {
-    /// Cell of the first one's first parent in the coarse box, were it wide enough, and its column.
+    /// Coarse cell of the first parent of the first vertex of the row, counted as if the coarse box were wide
+    /// enough.
     first: isize,
+    /// Column of that cell.
     col: isize,
-    /// From there to the other parent, and to all that `V` comes from, with their weights.
+    /// Offset from the first parent to the second one.
     other: isize,
+    /// Offsets from the first parent to all coarse cells that `V` is interpolated from, with their weights.
     weights: Vec<(isize, f64)>,
 }
 
@@ -90,8 +99,8 @@ impl Sources {
         }
     }
 
-    /// The coarse cell at an offset from the first parent of the `k`-th vertex, if it is there.
-    /// Steps lead no further than to a neighbour, so that those out of the box end in its padding.
+    /// The coarse cell at an offset from the first parent of the `k`-th vertex, if it is in the coarse box.
+    /// Offsets lead no further than to a neighbour, so that those out of the box end in its padding.
     fn cell(&self, k: usize, offset: isize, coarse: &Domain) -> Option<usize> {
         let inside = (0..coarse.stride() as isize).contains(&(self.col + k as isize));
         let cell = usize::try_from(self.first + k as isize + offset).ok()?;
@@ -99,8 +108,8 @@ impl Sources {
     }
 }
 
-/// Coarse vertices that a fine one between `a` and `b` takes from, and their weights (Loop 1987):
-/// of a coarse vertex itself and its neighbours, or of an edge's ends and the vertices opposite.
+/// Coarse vertices and weights of Loop's subdivision (1987) for the fine vertex between `a` and `b`: a coarse
+/// vertex itself and its neighbours, or the ends of an edge and the vertices opposite.
 fn loop_weights(
     a: (isize, isize),
     b: (isize, isize),
@@ -137,7 +146,7 @@ mod tests {
         let options = Options::paper().lambda(1e3);
         let [fine, coarse] = [(&field, &domains[0]), (&coarse_field, &domains[1])]
             .map(|(f, d)| Problem::new(f, d.clone(), &coordinates, &options).unwrap());
-        let mut state = State::new(&coarse, 0.4).unwrap();
+        let mut iterate = Iterate::new(&coarse, 0.4).unwrap();
         let (dual, hessian) = (Sym2::new(1.0, 0.0, 0.3), Sym2::new(2.0, 0.0, 0.0));
         let plane = |domain: &Domain, cell: usize| {
             let (row, col) = domain.lattice_vertex(cell);
@@ -145,12 +154,12 @@ mod tests {
             5.0 * x - 3.0 * y + 1.0
         };
         for cell in coarse.operator.domain.active().cells() {
-            state.z[cell] = plane(&coarse.operator.domain, cell);
+            iterate.z[cell] = plane(&coarse.operator.domain, cell);
         }
         for cell in coarse.operator.domain.interior().cells() {
-            state.set_matrices(cell, dual, hessian);
+            iterate.set_matrices(cell, dual, hessian);
         }
-        let carried = prolong(&coarse, &state, &fine, 0.2).unwrap();
+        let carried = prolong(&coarse, &iterate, &fine, 0.2).unwrap();
         let mut checked = 0;
         for cell in fine.operator.domain.interior().cells() {
             let (row, col) = fine.operator.domain.lattice_vertex(cell);

@@ -1,4 +1,4 @@
-//! What a solve tells about itself, while it runs and afterwards.
+//! Reports of a solve, while it runs and afterwards.
 
 use super::options::Energy;
 
@@ -15,27 +15,26 @@ pub enum StopReason {
     Gap,
     /// The residuals of [`Schedule::Paper`](crate::Schedule::Paper) fell below its tolerances.
     Residuals,
-    /// Objective and bound differ by no more than the rounding errors of the heights can make of
-    /// them: the surface is optimal as far as double precision can tell. That of an affine input is
-    /// affine.
+    /// Objective and bound differ by no more than the rounding errors of the heights: the surface is optimal as
+    /// far as double precision can tell. The surface of an affine input is affine.
     Rounding,
     /// [`Options::max_iterations`](crate::Options::max_iterations) was reached.
     MaxIterations,
     /// The callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop.
     Cancelled,
-    /// The iterates grew beyond all bounds, and did so again with more exact steps. The surface is
-    /// the best one from before, and its bound holds.
+    /// The iterates diverged, and did so again with more exact steps. The surface is the best one from before,
+    /// and its bound holds.
     Diverged,
 }
 
-/// By how much an objective may miss the optimum, relative to itself; nothing if one of the two is
-/// not known, or if the objective is a rounding error.
+/// Relative duality gap: the largest share by which an objective may exceed the optimum. `None` if objective or
+/// bound is not known, or if the objective is a rounding error.
 pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Option<f64> {
     let known = objective.is_finite() && dual_bound.is_finite() && objective > rounding;
     known.then(|| ((objective - dual_bound) / objective).max(0.0))
 }
 
-/// Where a running solve stands: the figures of its last check.
+/// Progress of a running solve: the figures of its last check.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -44,7 +43,7 @@ pub(crate) fn relative_gap(objective: f64, dual_bound: f64, rounding: f64) -> Op
 )]
 #[non_exhaustive]
 pub struct Progress {
-    /// How many finer levels are still to come; 0 on the finest one.
+    /// Number of finer levels still to come; 0 on the finest one.
     pub level: usize,
     /// ADMM iterations so far, on all levels.
     pub iteration: usize,
@@ -54,7 +53,8 @@ pub struct Progress {
     pub objective: f64,
     /// Best lower bound of the optimum so far.
     pub dual_bound: f64,
-    /// `(objective − dual_bound) / objective`; none where the objective is a rounding error.
+    /// Relative duality gap `(objective − dual_bound) / objective`; `None` where the objective is a rounding
+    /// error.
     pub gap: Option<f64>,
     /// ADMM penalty ρ.
     pub rho: f64,
@@ -113,7 +113,7 @@ pub struct LevelReport {
     pub cg_iterations: usize,
 }
 
-/// How [`Lambda::Auto`](crate::Lambda::Auto) has come to its λ.
+/// Reason for the λ that [`Lambda::Auto`](crate::Lambda::Auto) has chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -122,20 +122,19 @@ pub struct LevelReport {
 )]
 #[non_exhaustive]
 pub enum LambdaReason {
-    /// It predicts best what heights are that were held out.
+    /// It predicts held-out heights best.
     Prediction,
     /// There are too few heights to hold some out, or their noise is alike from one to the next, as
     /// that of quantised heights is: it follows from how large that is. What bends cost is compared by
     /// prediction all the same, where there are enough.
     Noise,
-    /// The heights have no noise to speak of: it is [`Lambda::Big`](crate::Lambda::Big).
+    /// The heights have no noise to speak of: λ is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
-    /// There are too few heights to tell their noise: it is
-    /// [`Lambda::Medium`](crate::Lambda::Medium).
+    /// There are too few heights to estimate their noise: λ is [`Lambda::Medium`](crate::Lambda::Medium).
     Unknown,
 }
 
-/// What [`Lambda::Auto`](crate::Lambda::Auto) has found out.
+/// How [`Lambda::Auto`](crate::Lambda::Auto) has chosen λ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -144,7 +143,7 @@ pub enum LambdaReason {
 )]
 #[non_exhaustive]
 pub struct LambdaChoice {
-    /// Where λ comes from.
+    /// Reason for this λ.
     pub reason: LambdaReason,
     /// Standard deviation of the heights' noise, in the input's units; none if it cannot be told.
     pub sigma: Option<f64>,
@@ -160,7 +159,7 @@ pub struct LambdaChoice {
     pub iterations: usize,
 }
 
-/// The numbers of [`Energy::Huber`] as they were used, whether given or chosen.
+/// Parameters of [`Energy::Huber`] as they were used, whether given or chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -177,14 +176,13 @@ pub struct HuberReport {
     pub crease_radius: f64,
     /// Passes at creases that were made after the first solve.
     pub crease_passes: usize,
-    /// Interior vertices that are on a crease: those where the last pass weighs bends less.
+    /// Interior vertices on a crease, where the last pass weighs bends less.
     pub creases: usize,
 }
 
-/// What was solved, how well and at what cost.
+/// The report of a solve: what was solved, how well, and at what cost.
 ///
-/// Energies are in normalised coordinates (see
-/// [`Normalization`](crate::Normalization)).
+/// Energies are in normalised coordinates (see [`Normalization`](crate::Normalization)).
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -197,18 +195,18 @@ pub struct Report {
     pub interior: usize,
     /// Valid vertices touched by a stencil without being interior: `∂I`.
     pub boundary: usize,
-    /// Valid vertices that no stencil touches: left out of the solve, restored afterwards.
+    /// Valid vertices that no stencil touches: left out of the solve and extrapolated afterwards.
     pub omitted: usize,
     /// Vertices where no Hessian was taken because of an occlusion.
     pub occluded: usize,
     /// Vertices without data whose hole was [bridged](crate::Bridging): they have heights in the
     /// surface.
     pub bridged: usize,
-    /// Vertices whose height was given for good.
+    /// Vertices whose height is a hard constraint.
     pub constrained: usize,
     /// Vertices of the solve with neither a constraint nor a fidelity term of their own.
     pub free: usize,
-    /// Connected parts, each of which was solved for itself.
+    /// Connected components, each of which was solved by itself.
     pub components: usize,
     /// ADMM iterations on all levels.
     pub iterations: usize,
@@ -220,25 +218,25 @@ pub struct Report {
     pub energy: Energy,
     /// Reweighted passes that were made after the first solve.
     pub reweighting: usize,
-    /// For [`Energy::Huber`]: what bends cost, and where creases are.
+    /// Parameters of [`Energy::Huber`] and its creases; `None` for other energies.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub huber: Option<HuberReport>,
     /// Energy of the returned surface; always finite.
     pub objective: f64,
-    /// Its first term, `λ Σ (z − z̃)²`; with
-    /// [`Border::Loaded`](crate::Border::Loaded) less the work of the border's moments.
+    /// Fidelity `λ Σ (z − z̃)²`; with [`Border::Loaded`](crate::Border::Loaded) less the work of the border's
+    /// moments.
     pub fidelity: f64,
-    /// Its second term, `Σ ‖H‖_*`.
+    /// Penalty of the Hessians: `Σ ‖H‖_*`, or that of another energy.
     pub nuclear_norm: f64,
     /// Certified lower bound of the optimum; always finite, and 0 where nothing better is known.
     pub dual_bound: f64,
-    /// `(objective − dual_bound) / objective`: the most by which the result can miss the optimum.
-    /// None for [`StopReason::Rounding`], and where the objective itself is no more than a rounding
-    /// error: then a share of it says nothing.
+    /// Relative duality gap `(objective − dual_bound) / objective`: the largest share by which the result can
+    /// miss the optimum. `None` for [`StopReason::Rounding`], and where the objective itself is no more than a
+    /// rounding error, of which a share says nothing.
     pub gap: Option<f64>,
     /// λ as a number.
     pub lambda: f64,
-    /// How that came about, for [`Lambda::Auto`](crate::Lambda::Auto).
+    /// How λ was chosen, for [`Lambda::Auto`](crate::Lambda::Auto).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub lambda_choice: Option<LambdaChoice>,
     /// Last ADMM penalty ρ.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use super::input::Input;
 use super::options::{Lambda, Options};
-use super::partwise::{Beginning, Partwise, Solvable, Status};
 use super::report::{LambdaChoice, LambdaReason, Progress};
 use super::surface::Surface;
 use super::tuning::search::{self as tuning, Known, Search};
@@ -35,7 +35,7 @@ pub struct Solver {
     /// What λ is chosen by, while it is, and what has come of it.
     search: Option<Search>,
     choice: Option<LambdaChoice>,
-    solve: Partwise,
+    solve: ComponentSolver,
 }
 
 impl Solver {
@@ -52,20 +52,20 @@ impl Solver {
         Solver::set_up(input.into(), options, None)
     }
 
-    fn set_up(input: Input, options: &Options, memory: Option<Arc<WarmStart>>) -> Result<Self> {
+    fn set_up(input: Input, options: &Options, warm_start: Option<Arc<WarmStart>>) -> Result<Self> {
         let started = Instant::now();
         options.validate()?;
         let is_design = input.is_design();
         options.check_effects_on(is_design, input.has_free_vertices())?;
-        let solvable = Solvable::new(input)?;
+        let prepared = PreparedInput::new(input)?;
         let asked = options.with_energy_for(is_design);
-        let known = Known::of(&solvable.input, &asked)?;
+        let known = Known::of(&prepared.input, &asked)?;
         let Known { scale, noise } = known;
         let (mut options, mut choice, mut search) = (asked, None, None);
         if asked.lambda_or_default() == Lambda::Auto {
             let (first, found) = tuning::first(&asked, noise, scale);
             if found.reason == LambdaReason::Noise {
-                search = Search::new(&solvable.input, &asked, &first, known)?;
+                search = Search::new(&prepared.input, &asked, &first, known)?;
             }
             options = match search {
                 None if found.reason == LambdaReason::Noise => tuning::without(&first),
@@ -74,14 +74,16 @@ impl Solver {
             choice = Some(found);
         }
         let options = tuning::guarded(&options, noise, scale);
-        let beginning = match search {
-            Some(_) => Beginning::Later,
-            None => Beginning::AtOnce,
+        let start_mode = match search {
+            Some(_) => StartMode::Deferred,
+            None => StartMode::Immediate,
         };
         Ok(Solver {
             search,
             choice,
-            solve: Partwise::new(solvable, &options, scale, memory, beginning, started)?,
+            solve: ComponentSolver::new(
+                prepared, &options, scale, warm_start, start_mode, started,
+            )?,
         })
     }
 
@@ -104,8 +106,8 @@ impl Solver {
     /// As [`Solver::new`].
     pub fn restart_with(&mut self, input: impl Into<Input>, options: &Options) -> Result<()> {
         let input = input.into();
-        let memory = self.solve.memory(input.field.lattice());
-        *self = Solver::set_up(input, options, memory)?;
+        let warm_start = self.solve.warm_start(input.field.lattice());
+        *self = Solver::set_up(input, options, warm_start)?;
         Ok(())
     }
 

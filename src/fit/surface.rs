@@ -1,4 +1,4 @@
-//! The result: heights on the lattice with the report of their solve.
+//! The result of a solve: heights on the lattice, and its report.
 
 use super::report::Report;
 use crate::heights::heightfield::Heightfield;
@@ -23,7 +23,7 @@ impl Surface {
         self.heightfield
     }
 
-    /// What was solved, how well and at what cost.
+    /// The report of the solve: what was solved, how well, and at what cost.
     pub fn report(&self) -> &Report {
         &self.report
     }

@@ -1,9 +1,9 @@
-//! The figures of all parts together.
+//! Energies and work, summed over all components.
 
-use super::admm::best::Best;
+use super::admm::incumbent::Incumbent;
 use super::report::{LevelReport, relative_gap};
 
-/// Sums over the parts.
+/// Sums over components.
 #[derive(Default)]
 pub(super) struct Totals {
     pub fidelity: f64,
@@ -15,11 +15,12 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    pub(super) fn add(&mut self, best: &Best, share: f64) {
-        self.fidelity += share * best.fidelity;
-        self.nuclear_norm += share * best.nuclear_norm;
-        self.dual_bound += share * best.dual_bound;
-        self.rounding += share * best.rounding;
+    /// Adds the energies of an incumbent, times a share.
+    pub(super) fn add(&mut self, incumbent: &Incumbent, share: f64) {
+        self.fidelity += share * incumbent.fidelity;
+        self.nuclear_norm += share * incumbent.nuclear_norm;
+        self.dual_bound += share * incumbent.dual_bound;
+        self.rounding += share * incumbent.rounding;
     }
 
     pub(super) fn add_work(&mut self, levels: &[LevelReport]) {
@@ -39,7 +40,7 @@ impl Totals {
     }
 }
 
-/// Adds the work on one part's lattices to that on the others' of the same spacing.
+/// Adds the work on one component's levels to that of the others on the lattices of the same spacing.
 pub(super) fn add_levels(levels: &mut Vec<LevelReport>, part: &[LevelReport]) {
     let missing = part.len().saturating_sub(levels.len());
     levels.splice(0..0, part[..missing].iter().copied());

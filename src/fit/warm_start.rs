@@ -1,22 +1,23 @@
-//! What an earlier solve leaves to the next one.
+//! Warm starts: the answers of an earlier solve, from which another one starts.
 
 use std::mem::discriminant;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use super::admm::schedule::Plan;
-use super::cascade::Answer;
+use super::admm::parameters::AdmmParameters;
 use super::components::Components;
-use super::heightfields::{Problem, State};
+use super::heightfields::{Iterate, Problem};
+use super::multilevel::Answer;
 use super::operator::lattice::position;
-use super::plate::Guess;
+use super::thin_plate::InitialGuess;
 use crate::error::Result;
 use crate::lattice::domain::{Domain, Role};
 
-/// Ratios of the new λ to the last one at which the last answer may be a better start than a coarse lattice.
+/// Range of the ratio of the new λ to the earlier one in which the earlier answer may be a better start than a
+/// coarse lattice.
 const WARM_START_LAMBDA_RATIOS: RangeInclusive<f64> = 0.4..=3.0;
 
-/// What the last solve that was not overtaken has found, to start from.
+/// The answers of the last solve that ran to its end.
 #[derive(Debug, Clone)]
 pub(super) struct WarmStart {
     pub domain: Arc<Domain>,
@@ -26,9 +27,9 @@ pub(super) struct WarmStart {
 }
 
 impl WarmStart {
-    /// Sets `z̃` at the free vertices of a problem to what it was there, if that is known for each of them.
-    /// `corner` as in [`state`](Self::state).
-    pub(super) fn plate(&self, problem: &mut Problem, corner: (usize, usize)) -> Guess {
+    /// Sets `z̃` at the free vertices of a problem to what it was in the earlier solve, if it is known for each
+    /// of them. `corner` is as in [`iterate`](Self::iterate).
+    pub(super) fn thin_plate(&self, problem: &mut Problem, corner: (usize, usize)) -> InitialGuess {
         let domain = &problem.operator.domain;
         let known = problem.free.iter().map(|cell| {
             let cell = *cell as usize;
@@ -52,20 +53,20 @@ impl WarmStart {
                 for (cell, z) in heights {
                     problem.target[cell] = z;
                 }
-                Guess::Earlier
+                InitialGuess::Earlier
             }
-            None => Guess::Plane,
+            None => InitialGuess::Plane,
         }
     }
 
-    /// The state to start from, unless a coarse lattice is a better start. `corner` is the
+    /// The first iterate of a problem, or `None` where a coarse lattice is a better start. `corner` is the
     /// vertex of the whole lattice that is `(0, 0)` of the problem's.
-    pub(super) fn state(
+    pub(super) fn iterate(
         &self,
         problem: &Problem,
-        plan: &Plan,
+        parameters: &AdmmParameters,
         corner: (usize, usize),
-    ) -> Result<Option<State>> {
+    ) -> Result<Option<Iterate>> {
         let ratio = problem.lambda / self.lambda;
         let Some(first) = self.answers.first() else {
             return Ok(None);
@@ -75,8 +76,8 @@ impl WarmStart {
             return Ok(None);
         }
         // The last penalty is one for ending a solve, not for beginning it.
-        let rho = first.first_rho;
-        let mut state = State::new(problem, rho)?;
+        let rho = first.initial_rho;
+        let mut iterate = Iterate::new(problem, rho)?;
         let mut found = 0;
         for cell in problem.operator.domain.active().cells() {
             let (row, col) = problem.operator.domain.lattice_vertex(cell);
@@ -91,34 +92,35 @@ impl WarmStart {
             );
             let z = from.outward(
                 position(&answer.problem.operator.domain, old),
-                answer.state.z[old],
+                answer.iterate.z[old],
             );
-            state.z[cell] = to.inward(position(&problem.operator.domain, cell), z);
+            iterate.z[cell] = to.inward(position(&problem.operator.domain, cell), z);
             let interior = |domain: &Domain, cell: usize| domain.roles()[cell] == Role::Interior;
             if interior(&problem.operator.domain, cell)
                 && interior(&answer.problem.operator.domain, old)
             {
-                let (dual, hessian) = answer.state.matrices(&answer.problem, old);
+                let (dual, hessian) = answer.iterate.matrices(&answer.problem, old);
                 // Hessians scale as one over lengths.
-                state.set_matrices(cell, dual, hessian.scale(from.scale / to.scale));
+                iterate.set_matrices(cell, dual, hessian.scale(from.scale / to.scale));
             }
         }
         for cell in &problem.constrained {
-            state.z[*cell as usize] = problem.target[*cell as usize];
+            iterate.z[*cell as usize] = problem.target[*cell as usize];
         }
-        if found == 0 || !problem.loose && plan.is_far(&state.certify(problem)) {
+        if found == 0 || !problem.has_weak_fidelity && parameters.is_far(&iterate.certify(problem))
+        {
             return Ok(None);
         }
-        Ok(Some(state))
+        Ok(Some(iterate))
     }
 
-    /// The answer that has a vertex of the whole lattice, and its cell there.
+    /// The answer that has a vertex of the whole lattice, and the vertex's cell there.
     fn find(&self, (row, col): (usize, usize)) -> Option<(&Answer, usize)> {
         let cell = self.domain.cell((row as isize, col as isize))?;
         if !self.domain.roles()[cell].is_active() {
             return None;
         }
-        let number = self.components.of(cell);
+        let number = self.components.component(cell);
         let answer = self.answers.get(number)?;
         let (top, left) = self.components.corner(number);
         let own = ((row - top) as isize, (col - left) as isize);

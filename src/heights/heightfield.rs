@@ -39,7 +39,7 @@ impl Heightfield {
         Heightfield::new(lattice, heights)
     }
 
-    /// The same heights without those where `keep` is 0.
+    /// The heights without those where `keep` is 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if `keep` is not one value for each vertex.
@@ -135,7 +135,7 @@ impl HeightImage {
         HeightImage::new(width, rows.len(), values)
     }
 
-    /// The same image with another side length of its pixels.
+    /// The image with another side length of its pixels.
     ///
     /// # Errors
     /// [`Error::Option`] unless it is positive and finite.
@@ -146,7 +146,7 @@ impl HeightImage {
         })
     }
 
-    /// All values times `scale`: from grey steps to units of height.
+    /// The image with all values times `scale`: from grey steps to units of height.
     ///
     /// # Errors
     /// [`Error::Option`] if `scale` is 0, is not finite or makes a value infinite.
@@ -166,7 +166,7 @@ impl HeightImage {
         }
     }
 
-    /// The same image without the pixels where `keep` is 0.
+    /// The image without the pixels where `keep` is 0.
     ///
     /// # Errors
     /// [`Error::Shape`] if `keep` is not one value for each pixel.
@@ -175,7 +175,7 @@ impl HeightImage {
         Ok(self)
     }
 
-    /// The same image without the pixels equal to `no_data`.
+    /// The image without the pixels equal to `no_data`.
     pub fn without(mut self, no_data: f64) -> Self {
         for v in &mut self.values {
             if *v == no_data {
@@ -244,7 +244,7 @@ fn apply_mask(rows: usize, cols: usize, values: &mut [f64], keep: &[u8]) -> Resu
 }
 
 impl Domain {
-    /// Sorts the vertices of a heightfield; a vertex is valid where its height is not NaN.
+    /// The domain of a heightfield; a vertex is valid where its height is not NaN.
     ///
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
@@ -252,13 +252,13 @@ impl Domain {
         Domain::with_occlusions(field, |_| false)
     }
 
-    /// The same, where some vertices are occluded, by their index in the lattice.
+    /// The domain of a heightfield of which some vertices, given by their index, are occluded.
     pub(crate) fn with_occlusions(
         field: &Heightfield,
         occluded: impl Fn(usize) -> bool,
     ) -> Result<Self> {
         let heights = field.heights();
-        Domain::of(
+        Domain::from_validity(
             *field.lattice(),
             |vertex| !heights[vertex].is_nan(),
             occluded,

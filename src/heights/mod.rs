@@ -1,5 +1,5 @@
-//! Heights: on the lattice and on square pixels, from one to the other, where they are torn, and
-//! small holes bridged.
+//! Heights on the lattice and on square pixels: resampling between both, occlusions, and bridging of small
+//! holes.
 
 pub(crate) mod bridging;
 pub(crate) mod heightfield;

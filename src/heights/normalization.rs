@@ -1,8 +1,8 @@
-//! The scale at which λ and curvatures are stated (paper, Sec. 4.1).
+//! The scale of normalised coordinates, in which λ and curvatures are stated (paper, Sec. 4.1).
 
 use super::heightfield::Heightfield;
 
-/// How the input's coordinates become the energy's.
+/// The map from the input's coordinates to those of the energy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(from = "bool"))]
 #[non_exhaustive]

@@ -7,11 +7,12 @@ use crate::heights::normalization::Normalization;
 use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION, Towards};
 use crate::lattice::stencil::HessianMap;
 
-/// Edges of the lattice across which a surface is torn.
+/// Occlusions of a heightfield: edges of the lattice across which the surface is torn, and vertices without a
+/// Hessian.
 ///
-/// Both ends of a broken edge leave the interior: no Hessian is taken there,
-/// though they may still serve their neighbours' stencils. Vertices that no
-/// stencil touches any more are left out of the solve and restored afterwards.
+/// Both ends of a broken edge leave the interior: no Hessian is taken there, though they may still serve their
+/// neighbours' stencils. Vertices that no stencil touches any more are omitted, and extrapolated after the
+/// solve.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Occlusions {
     /// For each vertex, bit `k` is set if the edge to neighbour `k` is broken.
@@ -20,15 +21,14 @@ pub struct Occlusions {
     vertices: Vec<u8>,
 }
 
-/// The threshold that the paper's authors use, in normalised coordinates.
+/// Bend above which an edge counts as an occlusion, in normalised coordinates: the paper's value.
 pub const OCCLUSION_THRESHOLD: f64 = 4e4;
 
 impl Occlusions {
-    /// Edges next to which the surface bends by more than `threshold`: the
-    /// exact quadratic through the six vertices of a triangle of side `2h` has
-    /// an eigenvalue of larger magnitude; the edges are those of the triangle's
-    /// inner triangle. The threshold is meant for coordinates as `normalization`
-    /// makes them; [`OCCLUSION_THRESHOLD`] is the authors'.
+    /// Detects occlusions: the edges next to which the surface bends by more than `threshold`. The exact
+    /// quadratic through the six vertices of a triangle of side `2h` has an eigenvalue of larger magnitude
+    /// there; the edges are those of the triangle's inner triangle. The threshold is meant for coordinates as
+    /// `normalization` makes them; [`OCCLUSION_THRESHOLD`] is the paper's.
     ///
     /// Linear cost.
     ///
@@ -75,13 +75,13 @@ impl Occlusions {
         Ok(Occlusions::of_edges(edges))
     }
 
-    /// Both ends of each broken edge are marked.
+    /// Occlusions of broken edges, both ends of which have no Hessian.
     fn of_edges(edges: Vec<u8>) -> Self {
         let vertices = edges.iter().map(|bits| u8::from(*bits != 0)).collect();
         Occlusions { edges, vertices }
     }
 
-    /// Vertices where no Hessian is to be taken: those where `mask` is not 0.
+    /// Occlusions at the vertices where `mask` is not 0, which have no Hessian.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one value for each vertex.
@@ -93,9 +93,8 @@ impl Occlusions {
         })
     }
 
-    /// Broken edges: bit `k` of a vertex's byte stands for the edge to its
-    /// neighbour `k` in the order W, E, NW, NE, SW, SE. An edge is broken if
-    /// either of its ends says so.
+    /// Occlusions across broken edges: bit `k` of a vertex's byte stands for the edge to its neighbour `k` in
+    /// the order W, E, NW, NE, SW, SE. An edge is broken if either of its ends says so.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one byte for each vertex.
@@ -114,7 +113,7 @@ impl Occlusions {
         Ok(Occlusions::of_edges(both))
     }
 
-    /// Both sets together.
+    /// The occlusions of two sets together.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if they are of different lattices.

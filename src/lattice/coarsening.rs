@@ -1,15 +1,15 @@
-//! The lattice of twice the spacing: the sublattice whose vertex `(r, c)` is fine vertex
-//! `(2r, 2c − (r odd))`. Every other fine vertex is the midpoint of a coarse edge.
+//! The lattice of twice the spacing: the sublattice whose vertex `(r, c)` is fine vertex `(2r, 2c − (r odd))`.
+//! Every other fine vertex is the midpoint of a coarse edge.
 
 use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS, Towards};
 use crate::error::Result;
 
-/// The fine vertex that a coarse vertex lies on.
+/// The fine vertex at the position of a coarse vertex.
 pub(crate) fn fine_vertex(row: usize, col: usize) -> (isize, isize) {
     (2 * row as isize, 2 * col as isize - (row % 2) as isize)
 }
 
-/// The one or two coarse vertices that a fine vertex lies on or between.
+/// The one or two coarse vertices at whose position, or at whose midpoint, a fine vertex is.
 pub(crate) fn parents(row: usize, col: usize) -> [(isize, isize); 2] {
     let (r, c) = (row as isize, col as isize);
     let coarse = |(r, c): (isize, isize)| {

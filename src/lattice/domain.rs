@@ -1,27 +1,29 @@
-//! Which vertices take part: interior, boundary, omitted.
+//! The domain of a solve: which vertices of a lattice take part, as interior and boundary vertices, and which
+//! are omitted.
 
 use super::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use super::runs::RowRuns;
 use crate::error::{Error, Result, try_filled};
 
-/// The part that a vertex plays (paper, Sec. 3.1 and Fig. 9).
+/// The role of a vertex in a solve (paper, Sec. 3.1 and Fig. 9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Role {
-    /// It has no height.
+    /// The vertex has no height.
     #[default]
     Empty,
-    /// It has a height, but no stencil touches it: left out of the solve, restored afterwards.
+    /// The vertex has a height, but no stencil touches it: it is left out of the solve and extrapolated
+    /// afterwards.
     Omitted,
-    /// Touched by a stencil without having one of its own: the set `∂I`.
+    /// The vertex is touched by a stencil without having one of its own: the set `∂I`.
     Boundary,
-    /// It and its six neighbours have heights, and no occlusion is there, so that the Hessian is
-    /// evaluated here: the set `I`.
+    /// The vertex and its six neighbours have heights, and no occlusion is there, so that the Hessian is
+    /// evaluated: the set `I`.
     Interior,
 }
 
 impl Role {
-    /// Whether the vertex is an unknown of the solve, in `I ∪ ∂I`.
+    /// Whether the height of the vertex is an unknown of the solve, in `I ∪ ∂I`.
     pub fn is_active(self) -> bool {
         self >= Role::Boundary
     }
@@ -33,16 +35,15 @@ impl PartialOrd for Role {
     }
 }
 
-/// The vertices of a heightfield by their [`Role`], over any shape: holes,
-/// islands, one-vertex interiors.
+/// The vertices of a heightfield by their [`Role`], over any shape: with holes, islands, and single interior
+/// vertices.
 ///
-/// Fields over a domain are stored on the bounding box of the valid vertices
-/// with one cell of padding all around, so that every vertex of the box has six
-/// neighbours at offsets that are constant along a row.
+/// Fields over a domain are stored on the bounding box of the valid vertices with one cell of padding all
+/// around, so that every vertex of the box has six neighbours at offsets that are constant along a row.
 #[derive(Debug, Clone)]
 pub struct Domain {
     lattice: Lattice,
-    /// First row (even, so that parities agree) and column of the box.
+    /// First row and column of the box; the row is even, so that shifted rows stay shifted.
     corner: (usize, usize),
     rows: usize,
     stride: usize,
@@ -54,12 +55,12 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Sorts the vertices of a lattice: by whether they are valid, and whether they are occluded,
-    /// in which case they have no Hessian (paper, Fig. 9), both by their index in the lattice.
+    /// The domain of a lattice's vertices, each given by its index: whether it is valid, and whether it is
+    /// occluded, so that it has no Hessian (paper, Fig. 9).
     ///
     /// # Errors
     /// [`Error::NoInterior`] if no vertex has all six neighbours valid.
-    pub(crate) fn of(
+    pub(crate) fn from_validity(
         lattice: Lattice,
         valid: impl Fn(usize) -> bool,
         occluded: impl Fn(usize) -> bool,
@@ -164,22 +165,23 @@ impl Domain {
         self.occluded
     }
 
-    /// Row (an even one) and column of the lattice that are row and column 1 of the padded box.
+    /// First row and column of the lattice in the padded box, at row and column 1 of the latter; the row is
+    /// even.
     pub(crate) fn corner(&self) -> (usize, usize) {
         self.corner
     }
 
-    /// Rows of the padded box, padding not counted; they are numbered from 1.
+    /// Number of rows of the box without its padding; they are numbered from 1.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Cells from one row of the padded box to the next.
+    /// Number of cells in a row of the padded box.
     pub(crate) fn stride(&self) -> usize {
         self.stride
     }
 
-    /// Cells of the padded box.
+    /// Number of cells of the padded box.
     pub(crate) fn cells(&self) -> usize {
         (self.rows + 2) * self.stride
     }
@@ -198,7 +200,7 @@ impl Domain {
         &self.active
     }
 
-    /// The cell of a lattice vertex, if it lies in the box.
+    /// Cell of a lattice vertex; `None` outside of the box.
     pub(crate) fn cell(&self, (row, col): (isize, isize)) -> Option<usize> {
         let row = row - self.corner.0 as isize;
         let col = col - self.corner.1 as isize;
@@ -207,7 +209,7 @@ impl Domain {
         inside.then(|| (row + 1) as usize * self.stride + (col + 1) as usize)
     }
 
-    /// The same, if its role is wanted.
+    /// Cell of a lattice vertex if its role is accepted; `None` otherwise.
     pub(crate) fn cell_of(
         &self,
         vertex: (isize, isize),
@@ -222,7 +224,7 @@ impl Domain {
         self.lattice.index(row, col)
     }
 
-    /// The cells of runs and their rows and columns in the lattice, row by row.
+    /// Cells of the runs with their rows and columns in the lattice, row by row.
     pub(crate) fn vertices<'a>(
         &'a self,
         runs: &'a RowRuns,
@@ -243,13 +245,14 @@ impl Domain {
         )
     }
 
-    /// The six offsets W, E, NW, NE, SW, SE from a cell in `row` of the padded box.
+    /// Offsets to the neighbours W, E, NW, NE, SW and SE from a cell in a row of the padded box.
     pub(crate) fn neighbour_offsets(&self, row: usize) -> [isize; 6] {
         neighbour_offsets(row, self.stride)
     }
 }
 
-/// In the padded box rows count from 1, so its odd rows are the lattice's even ones.
+/// Offsets to the neighbours W, E, NW, NE, SW and SE. Rows of the padded box count from 1, so that its odd rows
+/// are the lattice's even ones.
 fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
     let row = row as isize - 1;
     NEIGHBOUR_DIRECTIONS.map(|towards| {
@@ -258,7 +261,7 @@ fn neighbour_offsets(row: usize, stride: usize) -> [isize; 6] {
     })
 }
 
-/// First (even row) and last valid vertex in each direction.
+/// First (an even row) and last valid vertex in each direction.
 fn bounding_box(
     lattice: &Lattice,
     valid: impl Fn(usize, usize) -> bool,

@@ -4,11 +4,11 @@ use super::domain::Domain;
 use super::stencil::{HessianMap, Ring, Rolling};
 use crate::math::sym2::Sym2;
 
-/// `C`: heights at the lattice's vertices to Hessians at the interior vertices,
-/// matrix-free (paper, Eq. 16). Vertices outside the domain do not matter.
+/// The operator `C` from heights at the lattice's vertices to Hessians at the interior vertices, matrix-free
+/// (paper, Eq. 16). Vertices outside the domain do not matter.
 ///
-/// Heights are in the lattice's order and units, Hessians in the row-major
-/// order of the interior vertices ([`HessianOperator::vertices`]).
+/// Heights are in the lattice's order and units, Hessians in the row-major order of the interior vertices
+/// ([`HessianOperator::vertices`]).
 #[derive(Debug, Clone, Copy)]
 pub struct HessianOperator<'a> {
     domain: &'a Domain,
@@ -121,7 +121,7 @@ impl<'a> HessianOperator<'a> {
     }
 }
 
-/// Lattice values on the padded box, zero outside the domain.
+/// Copies lattice values to the padded box, with zero outside the domain.
 pub(crate) fn gather_active(domain: &Domain, values: &[f64]) -> Vec<f64> {
     let mut padded = vec![0.0; domain.cells()];
     for cell in domain.active().cells() {

@@ -1,5 +1,4 @@
-//! The hexagonal lattice: where its vertices lie, who neighbours whom, and
-//! which triangle a point falls in.
+//! The hexagonal lattice: positions and neighbours of its vertices, and the triangle around a point.
 
 use crate::error::{Error, Result, checked_cells, positive};
 
@@ -34,8 +33,8 @@ pub struct Lattice {
     origin: [f64; 2],
 }
 
-/// The lattice triangle around a point: three vertices (they may lie outside
-/// the lattice, hence signed) and the point's barycentric coordinates in it.
+/// The lattice triangle around a point: its three vertices, which may lie outside the lattice and are signed
+/// therefore, and the point's barycentric coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Located {
     pub vertices: [(isize, isize); 3],
@@ -149,7 +148,7 @@ impl Lattice {
         })
     }
 
-    /// The indices of the neighbours there are of a vertex, given by its own.
+    /// Indices of the neighbours of a vertex that is given by its index, without those beyond the edge.
     pub(crate) fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
         let lattice = *self;
         let neighbours = self.neighbours(index / self.cols, index % self.cols);
@@ -165,7 +164,7 @@ impl Lattice {
         row * self.cols + col
     }
 
-    /// The triangle that holds the point, which may lie outside the lattice.
+    /// The triangle around a point, which may lie outside the lattice.
     pub(crate) fn locate(&self, [x, y]: [f64; 2]) -> Located {
         let v = (self.origin[1] - y) / self.row_spacing();
         let row = v.floor();
@@ -223,7 +222,7 @@ pub(crate) const NEIGHBOUR_DIRECTIONS: [Towards; 6] = [
 /// `OPPOSITE_DIRECTION[k]`.
 pub(crate) const OPPOSITE_DIRECTION: [usize; 6] = [1, 0, 5, 4, 3, 2];
 
-/// How far a row lies to the left of an even one, in spacings.
+/// Distance by which a row is shifted to the left of an even one, in spacings.
 pub(crate) fn shift(row: usize) -> f64 {
     if row % 2 == 1 { 0.5 } else { 0.0 }
 }

@@ -1,4 +1,5 @@
-//! The hexagonal lattice, the vertices of it that take part, and the Hessian's stencil on them.
+//! The hexagonal lattice, the domain of vertices that take part in a solve, and the stencil of the Hessian on
+//! it.
 
 pub(crate) mod coarsening;
 pub(crate) mod domain;

@@ -1,26 +1,26 @@
-//! A number for each cell, which mostly is the same for all.
+//! Values for each cell of a domain that are mostly the same for all cells.
 
 use super::runs::Run;
 use crate::error::{Result, try_filled};
 use crate::math::lanes::narrow;
 
-/// Kernels see a slice for each run either way; where all cells have the same
-/// value it is one row that stays in the cache.
+/// A value for each cell, or the same for all. Kernels get a slice for each run in both cases; a value that is
+/// the same for all is one row that stays in the cache.
 #[derive(Debug, Clone)]
 pub(crate) enum PerCell<T> {
-    /// As many as in the longest run.
+    /// The same value for all cells, repeated for the longest run.
     Same(Vec<T>),
-    /// All cells.
+    /// A value for each cell.
     Each(Vec<T>),
 }
 
 impl<T: Copy> PerCell<T> {
-    /// For runs of up to `longest` cells.
+    /// The same value for all cells, in runs of up to `longest` cells.
     pub(crate) fn same(longest: usize, value: T) -> Self {
         PerCell::Same(vec![value; longest])
     }
 
-    /// The values of `run`.
+    /// The values of a run.
     #[inline(always)]
     pub(crate) fn run(&self, run: Run) -> &[T] {
         let n = run.end - run.start;
@@ -30,6 +30,7 @@ impl<T: Copy> PerCell<T> {
         }
     }
 
+    /// The value of a cell.
     pub(crate) fn at(&self, cell: usize) -> T {
         match self {
             PerCell::Same(values) => values[0],

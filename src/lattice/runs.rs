@@ -10,14 +10,14 @@ pub(crate) struct Run {
 /// Runs sorted by row.
 #[derive(Debug, Clone)]
 pub(crate) struct RowRuns {
-    /// `runs[first[row]..first[row + 1]]` are those of `row`.
+    /// Index of the first run of each row: those of `row` are `runs[first[row]..first[row + 1]]`.
     first: Vec<usize>,
     runs: Vec<Run>,
     len: usize,
 }
 
 impl RowRuns {
-    /// Of the cells that belong, in rows of `stride`.
+    /// The runs of the cells that belong, in rows of `stride` cells.
     pub(crate) fn new<R: Copy>(roles: &[R], stride: usize, belongs: impl Fn(R) -> bool) -> Self {
         let mut first = vec![0];
         let mut runs: Vec<Run> = Vec::new();

@@ -34,8 +34,8 @@ pub struct Quadratic {
 }
 
 impl Quadratic {
-    /// Least-squares fit to the heights of a vertex and its neighbours
-    /// W, E, NW, NE, SW, SE at distance `spacing`. It interpolates the centre.
+    /// Fits a quadratic by least squares to the heights of a vertex and its neighbours W, E, NW, NE, SW, SE at
+    /// distance `spacing`. It interpolates the centre.
     pub fn fit(centre: f64, neighbours: [f64; 6], spacing: f64) -> Self {
         let [w, e, nw, ne, sw, se] = neighbours;
         let d = [
@@ -82,7 +82,7 @@ impl<T: Real> HessianMap<T> {
         ]
     }
 
-    /// The adjoint of that with respect to the Frobenius inner product.
+    /// The adjoint of the map in coordinates, with respect to the Frobenius inner product.
     #[inline(always)]
     pub(crate) fn adjoint_of(&self, [mean, diff, off]: [T; 3]) -> [T; 3] {
         let twice = self.third + self.third;
@@ -93,7 +93,7 @@ impl<T: Real> HessianMap<T> {
 }
 
 impl HessianMap<f32> {
-    /// On a lattice of spacing 1.
+    /// The map on a lattice of spacing 1.
     pub(crate) fn unit() -> Self {
         HessianMap {
             third: 1.0 / 3.0,
@@ -111,19 +111,20 @@ impl HessianMap {
         }
     }
 
+    /// The Hessian of three second differences.
     #[inline(always)]
     pub(crate) fn hessian(&self, differences: [f64; 3]) -> Sym2 {
         let [mean, diff, off] = self.coordinates(differences);
         Sym2 { mean, diff, off }
     }
 
-    /// The adjoint with respect to the Frobenius inner product.
+    /// The adjoint of a matrix, with respect to the Frobenius inner product.
     #[inline(always)]
     pub(crate) fn adjoint(&self, y: Sym2) -> [f64; 3] {
         self.adjoint_of([y.mean, y.diff, y.off])
     }
 
-    /// The two composed: `adjoint(hessian(d))`.
+    /// The map followed by its adjoint: `adjoint(hessian(d))`.
     #[inline(always)]
     pub(crate) fn normal(&self, [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
         let unit = 2.0 * self.third * self.third; // 2/9 h⁻⁴
@@ -133,7 +134,7 @@ impl HessianMap {
     }
 }
 
-/// The seven values about each cell of a run, as slices of the run's length.
+/// The heights of each cell of a run and of its six neighbours, as slices of the run's length.
 pub(crate) struct Ring<'a, T> {
     w: &'a [T],
     c: &'a [T],
@@ -145,7 +146,7 @@ pub(crate) struct Ring<'a, T> {
 }
 
 impl<'a, T: Real> Ring<'a, T> {
-    /// Of `run` in `row` of a field on the padded box.
+    /// The rings of a run in one row of a field on the padded box.
     #[inline(always)]
     pub(crate) fn new(field: &'a [T], domain: &Domain, row: usize, run: Run) -> Self {
         let n = run.end - run.start;
@@ -190,23 +191,23 @@ impl Ring<'_, f64> {
 }
 
 impl<T: Real> Ring<'_, T> {
-    /// Cell `i` of the run itself.
+    /// Height of cell `i` of the run.
     #[inline(always)]
     pub(crate) fn centre(&self, i: usize) -> T {
         self.c[i]
     }
 
-    /// The sum over its six neighbours.
+    /// Sum over the six neighbours of cell `i` of the run.
     #[inline(always)]
     pub(crate) fn sum(&self, i: usize) -> T {
         self.w[i] + self.e[i] + self.nw[i] + self.ne[i] + self.sw[i] + self.se[i]
     }
 }
 
-/// One row of the three weights that multiply second differences in `Cᵀ`.
+/// A row of the weights that multiply second differences in `Cᵀ`, one array for each direction.
 pub(crate) type Weights<T> = [Vec<T>; 3];
 
-/// The part of a row of weights that belongs to `run`, as slices of the run's length.
+/// The weights of a run, as slices of the run's length.
 #[inline(always)]
 pub(crate) fn weights_of<'a, T>(
     weights: &'a mut Weights<T>,
@@ -218,8 +219,8 @@ pub(crate) fn weights_of<'a, T>(
     weights.each_mut().map(|weight| &mut weight[col..][..n])
 }
 
-/// Three consecutive rows of weights, rolling down the padded box, so that
-/// `Cᵀ` never stores a whole field of them.
+/// Three consecutive rows of weights, which move down the padded box, so that `Cᵀ` never stores a whole field
+/// of them.
 #[derive(Debug, Clone)]
 pub(crate) struct Rolling<T> {
     rows: [Weights<T>; 3],
@@ -234,9 +235,9 @@ impl<T: Real> Rolling<T> {
         }
     }
 
-    /// One pass down the domain: `fill(row, weights)` writes the weights of the
-    /// interior cells of a row (cleared before), `gather(row, sums)` then reads
-    /// the adjoint of a row whose three rows of weights are complete.
+    /// Sweeps down the domain once: `fill(row, weights)` writes the weights of the interior cells of a row
+    /// (cleared before), `gather(row, sums)` then reads the adjoint of a row whose three rows of weights are
+    /// complete.
     ///
     /// `fill` is called for each row before `gather` of the row above it.
     #[inline(always)]
@@ -270,7 +271,7 @@ impl<T: Real> Rolling<T> {
     }
 }
 
-/// Second differences of three complete rows of weights.
+/// Adjoint values of a row, as second differences of three complete rows of weights.
 pub(crate) struct Gather<'a, T> {
     rows: &'a [Weights<T>; 3],
     row: usize,
@@ -291,6 +292,7 @@ pub(crate) struct Gathered<'a, T> {
 }
 
 impl<T: Real> Gather<'_, T> {
+    /// The weights that meet in the cells of a run.
     #[inline(always)]
     pub(crate) fn run(&self, run: Run) -> Gathered<'_, T> {
         let n = run.end - run.start;

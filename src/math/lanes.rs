@@ -1,8 +1,8 @@
-//! Sums, and changes of precision, that vectorise: the additions run in a fixed number of lanes, so that
-//! the result depends neither on the machine nor on its vector width.
+//! Sums and changes of precision that vectorise: additions run in a fixed number of lanes, so that the result
+//! depends neither on the machine nor on its vector width.
 //!
-//! They take slices, not closures: a closure that is called in a loop and again
-//! for its tail is not inlined, and costs ten times the sum.
+//! They take slices, not closures: a closure that is called in a loop and again for its tail is not inlined,
+//! and costs ten times the sum.
 
 /// Number of independent sums over 64-bit values.
 const F64_LANES: usize = 8;
@@ -10,7 +10,7 @@ const F64_LANES: usize = 8;
 /// Number of independent sums over 32-bit values.
 const F32_LANES: usize = 16;
 
-/// `Σ a`.
+/// The sum `Σ a`.
 pub(crate) fn sum(a: &[f64]) -> f64 {
     let mut lanes = [0.0; F64_LANES];
     let chunks = a.chunks_exact(F64_LANES);
@@ -27,7 +27,7 @@ pub(crate) fn sum(a: &[f64]) -> f64 {
     ((a + b) + (c + d)) + ((e + f) + (g + h))
 }
 
-/// `Σ a b` in single precision: for the length of a row, and no longer.
+/// The inner product `Σ a b`, in single precision within a row.
 pub(crate) fn dot(a: &[f32], b: &[f32]) -> f64 {
     let mut lanes = [0.0f32; F32_LANES];
     let (a, b) = (a.chunks_exact(F32_LANES), b.chunks_exact(F32_LANES));
@@ -43,7 +43,7 @@ pub(crate) fn dot(a: &[f32], b: &[f32]) -> f64 {
     lanes.iter().map(|lane| f64::from(*lane)).sum()
 }
 
-/// `Σ a² m` in single precision: for the length of a row, and no longer.
+/// The weighted sum of squares `Σ a² m`, in single precision within a row.
 pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
     let mut lanes = [0.0f32; F32_LANES];
     let (a, m) = (a.chunks_exact(F32_LANES), m.chunks_exact(F32_LANES));
@@ -59,8 +59,8 @@ pub(crate) fn weighted_square(a: &[f32], m: &[f32]) -> f64 {
     lanes.iter().map(|lane| f64::from(*lane)).sum()
 }
 
-/// `f32` from `f64`. These two are loops of their own: V8's optimising compiler (Node 20) gets some
-/// vectorised conversions within larger ones wrong. No other loop over cells may convert, but by
+/// Converts `f64` to `f32`. This and [`widen`] are loops of their own: V8's optimising compiler (Node 20)
+/// miscompiles some vectorised conversions within larger ones. No other loop over cells may convert, except by
 /// [`single`] and [`double`].
 #[inline(never)]
 pub(crate) fn narrow(from: &[f64], to: &mut [f32]) {
@@ -69,7 +69,7 @@ pub(crate) fn narrow(from: &[f64], to: &mut [f32]) {
     }
 }
 
-/// `f64` from `f32`.
+/// Converts `f32` to `f64`.
 #[inline(never)]
 pub(crate) fn widen(from: &[f32], to: &mut [f64]) {
     for (to, from) in to.iter_mut().zip(from) {
@@ -77,14 +77,15 @@ pub(crate) fn widen(from: &[f32], to: &mut [f64]) {
     }
 }
 
-/// One `f32` from `f64`, where speed does not matter: a call, so that the loop around it is not
+/// Converts one `f64` to `f32`, where speed does not matter: a call, so that the loop around it is not
 /// vectorised.
 #[inline(never)]
 pub(crate) fn single(value: f64) -> f32 {
     value as f32
 }
 
-/// One `f64` from `f32`, likewise.
+/// Converts one `f32` to `f64`, where speed does not matter: a call, so that the loop around it is not
+/// vectorised.
 #[inline(never)]
 pub(crate) fn double(value: f32) -> f64 {
     f64::from(value)

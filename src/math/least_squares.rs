@@ -1,26 +1,15 @@
 //! Weighted linear least squares by normal equations, for small numbers of unknowns.
 
-use nalgebra::allocator::Allocator;
-use nalgebra::{Cholesky, Const, DefaultAllocator, Dim, Dyn, OMatrix, OVector};
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
 
 /// Normal equations `(Σ w a aᵀ + R) x = Σ w a b` of the weighted least-squares problem
 /// `min Σ w |aᵀ x − b|² + xᵀ R x`, where each observation has a row `a` of coefficients, a right-hand side of `K` values
 /// `b` and a weight `w`, and `R` is an optional diagonal (a ridge) that regularises what observations leave open.
 #[derive(Debug, Clone)]
-pub(crate) struct NormalEquations<D: Dim, const K: usize>
-where
-    DefaultAllocator: Allocator<D, D> + Allocator<D, Const<K>>,
-{
-    pub matrix: OMatrix<f64, D, D>,
-    pub right: OMatrix<f64, D, Const<K>>,
+pub(crate) struct LeastSquares<const N: usize, const K: usize = 1> {
+    pub matrix: SMatrix<f64, N, N>,
+    pub right: SMatrix<f64, N, K>,
 }
-
-/// [`NormalEquations`] of a number of unknowns that is known when the code is compiled.
-pub(crate) type LeastSquares<const N: usize, const K: usize = 1> = NormalEquations<Const<N>, K>;
-
-/// [`NormalEquations`] of any number of unknowns.
-#[cfg_attr(not(test), allow(dead_code))]
-pub(crate) type DynamicLeastSquares<const K: usize = 1> = NormalEquations<Dyn, K>;
 
 impl<const N: usize, const K: usize> LeastSquares<N, K> {
     /// Normal equations without observations.
@@ -30,31 +19,14 @@ impl<const N: usize, const K: usize> LeastSquares<N, K> {
 
     /// Normal equations without observations, with a diagonal that regularises them.
     pub(crate) fn with_ridge(ridge: [f64; N]) -> Self {
-        NormalEquations {
-            matrix: OMatrix::from_diagonal(&OVector::from(ridge)),
-            right: OMatrix::<f64, Const<N>, Const<K>>::zeros(),
+        LeastSquares {
+            matrix: SMatrix::from_diagonal(&SVector::from(ridge)),
+            right: SMatrix::zeros(),
         }
     }
-}
 
-impl<const K: usize> DynamicLeastSquares<K> {
-    #[cfg_attr(not(test), allow(dead_code))]
-    /// Normal equations of `unknowns` without observations, with a constant diagonal that regularises them.
-    pub(crate) fn with_uniform_ridge(unknowns: usize, ridge: f64) -> Self {
-        NormalEquations {
-            matrix: OMatrix::<f64, Dyn, Dyn>::identity_generic(Dyn(unknowns), Dyn(unknowns))
-                * ridge,
-            right: OMatrix::zeros_generic(Dyn(unknowns), Const),
-        }
-    }
-}
-
-impl<D: Dim, const K: usize> NormalEquations<D, K>
-where
-    DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<D, Const<K>>,
-{
     /// Adds an observation: its row of coefficients, its values, and its weight.
-    pub(crate) fn add(&mut self, row: &OVector<f64, D>, values: [f64; K], weight: f64) {
+    pub(crate) fn add(&mut self, row: &SVector<f64, N>, values: [f64; K], weight: f64) {
         self.matrix.ger(1.0, &(row * weight), row, 1.0);
         for (mut column, value) in self.right.column_iter_mut().zip(values) {
             column.axpy(weight * value, row, 1.0);
@@ -69,12 +41,12 @@ where
     }
 
     /// Cholesky factor of the matrix; `None` if it is not positive definite. It has `solve` and `inverse`.
-    pub(crate) fn factor(&self) -> Option<Cholesky<f64, D>> {
-        self.matrix.clone().cholesky()
+    pub(crate) fn factor(&self) -> Option<Cholesky<f64, Const<N>>> {
+        self.matrix.cholesky()
     }
 
     /// The minimiser; `None` if observations and ridge do not determine it.
-    pub(crate) fn solve(&self) -> Option<OMatrix<f64, D, Const<K>>> {
+    pub(crate) fn solve(&self) -> Option<SMatrix<f64, N, K>> {
         Some(self.factor()?.solve(&self.right))
     }
 }
@@ -108,15 +80,12 @@ mod tests {
     #[test]
     fn the_minimiser_is_that_of_an_orthogonal_factorisation() {
         let mut fixed = LeastSquares::<3>::new();
-        let mut dynamic = DynamicLeastSquares::<1>::with_uniform_ridge(3, 0.0);
         for (row, value, weight) in observations() {
             fixed.add(&Vector3::from(row), [value], weight);
-            dynamic.add(&DVector::from_column_slice(&row), [value], weight);
         }
         let expected = by_singular_values();
-        let (fixed, dynamic) = (fixed.solve().unwrap(), dynamic.solve().unwrap());
+        let fixed = fixed.solve().unwrap();
         assert!((0..3).all(|k| (fixed[k] - expected[k]).abs() < 1e-12));
-        assert!((dynamic - expected).norm() < 1e-12);
     }
 
     #[test]

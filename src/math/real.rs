@@ -1,8 +1,8 @@
-//! Double precision, or single where that will do.
+//! Floating-point numbers of single or double precision, for kernels that are written for both.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What the row kernels need of a number; its default is 0.
+/// A floating-point number in the row kernels; its default is 0.
 pub(crate) trait Real:
     Copy
     + std::fmt::Debug
@@ -16,7 +16,7 @@ pub(crate) trait Real:
     + Neg<Output = Self>
 {
     const HALF: Self;
-    /// Four of them, for what loops do not vectorise by themselves.
+    /// A vector of four numbers, for loops that do not vectorise by themselves.
     type Four: Copy + Add<Output = Self::Four> + Mul<Output = Self::Four>;
     fn sqrt(self) -> Self;
     fn four(lanes: [Self; 4]) -> Self::Four;
@@ -58,11 +58,13 @@ impl Real for f32 {
 }
 
 // `f64::max` treats NaN in a way that costs wasm several instructions; these are one each.
+/// The larger of two values; the second if they cannot be compared.
 #[inline(always)]
 pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
+/// The smaller of two values; the second if they cannot be compared.
 #[inline(always)]
 pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }

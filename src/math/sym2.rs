@@ -24,24 +24,24 @@ impl Sym2 {
         }
     }
 
-    /// Its entries `[xx, xy, yy]`.
+    /// The entries `[xx, xy, yy]`.
     pub fn entries(self) -> [f64; 3] {
         [self.mean + self.diff, self.off, self.mean - self.diff]
     }
 
-    /// From its coordinates `[mean, diff, off]`.
+    /// The matrix with coordinates `[mean, diff, off]`.
     #[inline(always)]
     pub(crate) fn from_coordinates([mean, diff, off]: [f64; 3]) -> Self {
         Sym2 { mean, diff, off }
     }
 
-    /// Its coordinates `[mean, diff, off]`.
+    /// The coordinates `[mean, diff, off]`.
     #[inline(always)]
     pub(crate) fn coordinates(self) -> [f64; 3] {
         [self.mean, self.diff, self.off]
     }
 
-    /// Distance of either eigenvalue from their mean.
+    /// Half of the difference between the eigenvalues.
     #[inline(always)]
     pub(crate) fn radius(self) -> f64 {
         (self.diff * self.diff + self.off * self.off).sqrt()
@@ -86,7 +86,7 @@ impl Sym2 {
         self - self.clamp(threshold)
     }
 
-    /// `self · factor`.
+    /// The matrix times a factor.
     #[inline(always)]
     pub(crate) fn scale(self, factor: f64) -> Sym2 {
         Sym2 {
@@ -129,7 +129,7 @@ impl std::ops::Mul<f64> for Sym2 {
     }
 }
 
-/// [`Sym2::clamp`], by coordinates, in any precision.
+/// Coordinates of [`Sym2::clamp`], in any precision.
 #[inline(always)]
 pub(crate) fn clamp<T: Real>([mean, diff, off]: [T; 3], limit: T) -> [T; 3] {
     let r = (diff * diff + off * off).sqrt();

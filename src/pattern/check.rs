@@ -9,7 +9,8 @@ use crate::unroll::arap_mesh::{ArapMesh, BarycentricPoint, StoppingCriteria};
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Maximum seam gap, in spacings, at which the sides of a fold count as joined, so that nothing is relaxed.
+/// Maximum seam gap, in spacings, at which the sides of a fold count as joined, so that nothing is relaxed. No table
+/// chose it.
 const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 
 /// Number of nodes at a seam's end that are not tied to the other side, where three patches meet: the place

@@ -1,8 +1,8 @@
-//! Cameras: where in an image a point in space is seen, and what lies behind a pixel.
+//! Cameras: the pixel at which a point in space is seen, and the points behind a pixel.
 
 use crate::error::{Error, Result, positive};
 
-/// What a depth is.
+/// The meaning of a depth image's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Depth {
@@ -27,8 +27,8 @@ pub struct Distortion {
 }
 
 impl Distortion {
-    /// Where the lens shows what an ideal one would show at `[x, y]`, both in focal lengths from the
-    /// axis. Nothing beyond the radius at which the polynomial turns back.
+    /// Position in the image of a point that an ideal lens would show at `[x, y]`, both in focal lengths from
+    /// the axis; `None` beyond the radius at which the polynomial turns back.
     fn distorted(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let r = x * x + y * y;
         let growth = 1.0 + r * (3.0 * self.k1 + r * (5.0 * self.k2 + r * 7.0 * self.k3));
@@ -37,7 +37,7 @@ impl Distortion {
         (growth > 0.0).then_some([x * radial + dx, y * radial + dy])
     }
 
-    /// The inverse, by fixed-point iteration. Nothing where that finds none.
+    /// The inverse of [`Self::distorted`], by fixed-point iteration; `None` where that does not converge.
     fn undistorted(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         if *self == Distortion::default() {
             return Some([x, y]);
@@ -73,24 +73,24 @@ impl Distortion {
 /// `(fx·x/z + cx, fy·y/z + cy)`, but for the lens's distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intrinsics {
-    /// Focal length in columns.
+    /// Focal length, in widths of a pixel.
     pub fx: f64,
-    /// Focal length in rows.
+    /// Focal length, in heights of a pixel.
     pub fy: f64,
-    /// Column of the axis.
+    /// Column of the camera's axis.
     pub cx: f64,
-    /// Row of the axis.
+    /// Row of the camera's axis.
     pub cy: f64,
-    /// Width and height of the images that these numbers are for; those of other sizes show the same,
-    /// finer or coarser. `None`: whatever image they are used with.
+    /// Width and height of the images that these numbers are for; images of other sizes show the same, finer or
+    /// coarser. `None`: any image.
     pub size: Option<[usize; 2]>,
-    /// What the lens does.
+    /// Distortion by the lens.
     pub distortion: Distortion,
     /// Length of one step of a depth image's values: 0.001 makes metres of millimetres.
     pub depth_scale: f64,
-    /// What a depth image's values are.
+    /// The meaning of a depth image's values.
     pub depth: Depth,
-    /// Pixels of a depth image that are taken away on both sides of a jump, where sensors give depths
+    /// Number of pixels of a depth image that are discarded on both sides of a jump, where sensors give depths
     /// between the two that belong to nothing (flying pixels). Default 2.
     pub margin: usize,
 }
@@ -127,7 +127,7 @@ impl Intrinsics {
         Ok(camera)
     }
 
-    /// The same camera for images of another size that show the same: `cx' + ½ = (cx + ½)·s`.
+    /// The camera for images of another size that show the same: `cx' + ½ = (cx + ½)·s`.
     ///
     /// # Errors
     /// [`Error::Option`] for a number that is out of range or a centre outside the image,
@@ -166,8 +166,8 @@ impl Intrinsics {
         })
     }
 
-    /// Where a point in space is seen, if it lies ahead: its column and row. The axes are x to the
-    /// right, y up and z towards the viewer, the origin the camera's centre.
+    /// Column and row at which a point in space is seen; `None` if it is not ahead of the camera. The axes are
+    /// x to the right, y up and z towards the viewer, the origin the camera's centre.
     pub fn project(&self, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
         if z >= 0.0 || z.is_nan() {
             return None;
@@ -176,8 +176,8 @@ impl Intrinsics {
         Some([self.fx * u + self.cx, self.fy * v + self.cy])
     }
 
-    /// The point in space that a pixel shows at a depth, in the same axes. Nothing where the lens
-    /// cannot have shown it.
+    /// The point in space that a pixel shows at a depth, in the same axes; `None` where the lens cannot have
+    /// shown it.
     pub(super) fn point(&self, col: f64, row: f64, value: f64) -> Option<[f64; 3]> {
         let seen = [(col - self.cx) / self.fx, (row - self.cy) / self.fy];
         let [x, y] = self.distortion.undistorted(seen)?;
@@ -204,7 +204,7 @@ impl Intrinsics {
     }
 }
 
-/// The focal length, in pixels, of a field of view in degrees across so many pixels.
+/// Focal length, in pixels, of a field of view in degrees across a number of pixels.
 pub(crate) fn focal_length_of(degrees: f64, pixels: f64) -> Result<f64> {
     if !(degrees > 0.0 && degrees < 180.0) {
         let requirement = "must be above 0 and below 180 degrees";
@@ -226,18 +226,18 @@ fn other_proportions(own: [usize; 2], size: [usize; 2]) -> String {
     )
 }
 
-/// Where one camera is beside another: a point at `p` for the one is at `R p + t` for the other, in
-/// the axes that calibrations are given in: x to the right, y down, z ahead.
+/// Position of one camera relative to another: a point at `p` for the one is at `R p + t` for the other, in the
+/// axes of calibrations: x to the right, y down, z ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
-    /// `R`, by rows.
+    /// The rotation `R`, by rows.
     pub rotation: [[f64; 3]; 3],
-    /// `t`, in the unit of the depths.
+    /// The translation `t`, in the unit of the depths.
     pub translation: [f64; 3],
 }
 
 impl Default for Pose {
-    /// At the same place.
+    /// No rotation and no translation.
     fn default() -> Self {
         Pose {
             rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -246,12 +246,12 @@ impl Default for Pose {
     }
 }
 
-/// A camera that takes photos, beside the one that saw the depths or at the same place.
+/// A camera that takes photos, beside the camera of the depths or at the same position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// What it is like. The photo may have another size than these numbers are for.
+    /// Its intrinsics. The photo may have another size than these are for.
     pub intrinsics: Intrinsics,
-    /// Where it is, seen from the camera of the depths.
+    /// Its position relative to the camera of the depths.
     pub pose: Pose,
 }
 
@@ -264,7 +264,7 @@ impl Camera {
         }
     }
 
-    /// The same camera somewhere else.
+    /// The camera at another position.
     pub fn at(self, pose: Pose) -> Self {
         Camera { pose, ..self }
     }
@@ -310,7 +310,7 @@ impl Camera {
         self.intrinsics.project(self.seen_from(point))
     }
 
-    /// The point in the axes of this camera.
+    /// Coordinates of a point in the axes of this camera.
     pub(crate) fn seen_from(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let Pose {
             rotation,

@@ -1,4 +1,4 @@
-//! Depth images: from depths at the pixels of an image to a mesh in space.
+//! Back-projection of depth images to meshes in space.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
-/// Largest difference in depth between neighbouring pixels' points, per distance across the line of sight.
+/// Maximum difference in depth between neighbouring pixels' points, per distance across the line of sight.
 const MAX_DEPTH_SLOPE: f64 = 10.0;
 
 impl Intrinsics {
@@ -102,7 +102,7 @@ impl Intrinsics {
         Mesh::new(positions, triangles)?.with_uvs(uvs)
     }
 
-    /// The pixels within the margin of a jump. Those without a depth lie at the origin.
+    /// Whether each pixel is within the margin of a jump. Pixels without a depth are at the origin.
     fn outlines(&self, points: &[[f64; 3]], width: usize) -> Result<Vec<bool>> {
         let mut outlines = try_filled("mesh", points.len(), false)?;
         if self.margin > 0 {
@@ -138,11 +138,11 @@ struct Line<'a> {
     length: usize,
 }
 
-/// Pixels that a jump may take.
+/// Maximum number of pixels that a jump extends over.
 const WIDEST_JUMP: usize = 3;
 
 impl Line<'_> {
-    /// The distance ahead, if there is a point.
+    /// Distance ahead of the camera, if there is a point.
     fn ahead(&self, i: usize) -> Option<f64> {
         let depth = -self.points.get(self.start + i * self.step)?[2];
         (i < self.length && depth > 0.0).then_some(depth)
@@ -163,8 +163,8 @@ impl Line<'_> {
         }
     }
 
-    /// Whether there is a jump from one pixel to another so many pixels on. One of several pixels rises
-    /// from its first to its last, and much more than what lies before and after it: else it is a
+    /// Whether there is a jump from one pixel to another a number of pixels on. A jump over several pixels
+    /// rises from its first to its last, and much more than the depths before and after it; otherwise it is a
     /// steep surface.
     fn jumps(&self, from: usize, wide: usize, focal: f64) -> bool {
         let (Some(a), Some(b)) = (self.ahead(from), self.ahead(from + wide)) else {
@@ -182,7 +182,7 @@ impl Line<'_> {
     }
 }
 
-/// The points of an image's pixels.
+/// The points of an image's pixels, row by row.
 struct Grid<'a> {
     width: usize,
     there: &'a [bool],
@@ -190,8 +190,8 @@ struct Grid<'a> {
 }
 
 impl Grid<'_> {
-    /// The triangles of the square whose lower right corner is a pixel, counter-clockwise as the
-    /// camera sees them.
+    /// The triangles of the square whose lower right corner is a pixel, counter-clockwise as the camera sees
+    /// them.
     fn square(&self, last: usize) -> [Option<[u32; 3]>; 2] {
         let [a, b] = [last - self.width - 1, last - self.width];
         let [c, d] = [last - 1, last];

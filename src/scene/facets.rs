@@ -1,4 +1,4 @@
-//! The triangles of a surface, the angles between them, and its smooth parts.
+//! The triangles of a surface, the angles between them, and its segmentation into smooth parts.
 
 use std::cmp::Reverse;
 use std::collections::hash_map::Entry;
@@ -22,12 +22,12 @@ const MAX_BLUNT_CREASE_ANGLE: f64 = 1.0;
 /// Rounding error of angles between facets, in radians, and of heights: what is flat up to it bends by nothing.
 const FLATNESS_TOLERANCE: f64 = 1e-6;
 
-/// Triangles with what lies between them.
+/// Triangles with the angles along their edges.
 pub(crate) struct Facets {
     pub places: Vec<Vector3<f64>>,
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Angle along each side, and the side's length.
+    /// Angle along each half-edge, and its length.
     pub angles: Vec<f64>,
     pub lengths: Vec<f64>,
     pub areas: Vec<f64>,
@@ -64,7 +64,7 @@ impl Facets {
         })
     }
 
-    /// Sides with another one, each pair once.
+    /// Half-edges with a twin, each pair once.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let all = self.twins.iter().enumerate();
         all.filter(|(side, twin)| **twin != NO_INDEX && *side < **twin as usize)
@@ -78,12 +78,13 @@ impl Facets {
             .clamp(CREASE_ANGLE_RANGE[0], CREASE_ANGLE_RANGE[1])
     }
 
-    /// The smooth parts of the surface, by triangles, none smaller than a share of the area, and none that
-    /// folds by less than half of `bend`, or less than `fold`, towards its neighbour on average.
+    /// Segments the surface into smooth parts, given by the label of each triangle: none is smaller than a
+    /// share of the area, and none folds by less than half of `bend`, or less than `fold`, towards its
+    /// neighbour on average.
     ///
-    /// Watersheds (Mangan and Whitaker 1999): each triangle is as high as the surface bends around it, and basins
-    /// flood until they meet. So where a crease is blunt, a strip of triangles between its sides, that is no part
-    /// of its own, and where it is weak, no part leaks into another.
+    /// Watersheds (Mangan and Whitaker 1999): the height of each triangle is the angle by which the surface
+    /// bends around it, and basins flood until they meet. So a blunt crease, which is a strip of triangles
+    /// between its sides, is no part of its own, and no part leaks into another across a weak one.
     pub fn parted(&self, bend: f64, share: f64, fold: f64) -> Result<Vec<u32>> {
         let fold = fold.max(0.5 * bend);
         let heights = self.heights();
@@ -94,7 +95,7 @@ impl Facets {
         Ok(labels)
     }
 
-    /// The mean angle along the sides of each triangle.
+    /// Mean angle along the edges of each triangle.
     fn heights(&self) -> Vec<f64> {
         let of = |t: usize| {
             let sides = 3 * t..3 * t + 3;
@@ -107,7 +108,8 @@ impl Facets {
         (0..self.triangles.len()).map(of).collect()
     }
 
-    /// Where water would gather that does not pass sharper edges; the rest by where it runs.
+    /// The basin of each triangle: where water gathers that does not pass sharper edges; all other triangles by
+    /// where water runs from them.
     fn basins(&self, heights: &[f64], bend: f64) -> Result<Vec<u32>> {
         let mut sets = UnionFind::new("patches", heights.len())?;
         let around = |t: usize| {
@@ -150,7 +152,7 @@ impl Facets {
         Ok(labels)
     }
 
-    /// Gives open triangles the label of a neighbour, the lowest ways first.
+    /// Gives open triangles the label of a neighbour, across the flattest edges first.
     fn flood(&self, labels: &mut [u32], mut open: Vec<bool>, way: impl Fn(usize) -> f64) {
         // Positive numbers are in order as their bits are.
         let mut queue = BinaryHeap::new();
@@ -175,7 +177,7 @@ impl Facets {
         }
     }
 
-    /// The triangles of small regions go to where they bend least, as water runs.
+    /// Gives the triangles of small regions to the neighbour towards which they bend least.
     fn give_away(&self, labels: &mut [u32], share: f64) {
         let mut areas = vec![0.0; labels.len()];
         for (label, area) in labels.iter().zip(&self.areas) {
@@ -187,7 +189,7 @@ impl Facets {
         self.flood(labels, open, |side| self.angles[side]);
     }
 
-    /// Regions that fold by less than an angle on average are one, those that fold least first.
+    /// Merges regions that fold by less than an angle on average, those that fold least first.
     fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
         let mut sets = UnionFind::new("patches", labels.len())?;
         let mut regions = Regions {
@@ -217,13 +219,13 @@ impl Facets {
     }
 }
 
-/// Regions and what lies between each two of them: the integral of the angle along it, and its length.
+/// Regions and the borders between them: the integral of the angle along each border, and its length.
 struct Regions {
-    /// By both numbers, the lower one first.
+    /// Borders by the numbers of both regions, the lower one first.
     between: HashMap<(u32, u32), [f64; 2]>,
-    /// Those beside each, some of which may be part of others by now.
+    /// Neighbours of each region, some of which may have been merged into others.
     around: Vec<Vec<u32>>,
-    /// Pairs by their mean angle, as it was when they came in.
+    /// Pairs of regions by their mean angle at the time they were added.
     queue: BinaryHeap<Reverse<(u64, u32, u32)>>,
     fold: f64,
 }
@@ -243,14 +245,14 @@ impl Regions {
         }
     }
 
-    /// The mean angle between two; positive numbers are in order as their bits are.
+    /// Mean angle between two regions, as the bits of a positive float, which have its order.
     fn angle(&self, a: u32, b: u32) -> Option<u64> {
         let [bent, long] = self.between.get(&(a.min(b), a.max(b)))?;
         let angle = bent / long;
         (angle < self.fold).then(|| angle.to_bits())
     }
 
-    /// Puts a region's pairs into the queue, each once.
+    /// Adds a region's pairs to the queue, each once.
     fn wait(&mut self, a: u32) {
         for b in self.around[a as usize].iter().filter(|b| **b > a) {
             if let Some(angle) = self.angle(a, *b) {
@@ -259,7 +261,7 @@ impl Regions {
         }
     }
 
-    /// The pair that folds least, of those that fold by less than is wanted.
+    /// The pair that folds least, of those that fold by less than the limit.
     fn next(&mut self) -> Option<(u32, u32)> {
         while let Some(Reverse((angle, a, b))) = self.queue.pop() {
             if self.angle(a, b) == Some(angle) {
@@ -269,7 +271,7 @@ impl Regions {
         None
     }
 
-    /// Makes one region of two: what has fewer neighbours goes into the other.
+    /// Merges two regions: the one with fewer neighbours into the other.
     fn join(&mut self, a: u32, b: u32) {
         let size = |region: u32| self.around[region as usize].len();
         let (to, from) = if size(a) < size(b) { (b, a) } else { (a, b) };

@@ -1,12 +1,10 @@
-//! A triangle mesh or a point cloud: positions, triangles, and what else there is at each vertex.
+//! A triangle mesh or a point cloud, with colours, normals and texture coordinates.
 
 use crate::error::{Error, Result, check_count};
 
-/// Triangles in space, in the user's units and the user's own axes; or points
-/// alone.
+/// Triangles in space, in the user's units and axes; or points alone.
 ///
-/// Nothing is asked of the triangles: they may be open, intersect, overlap, be
-/// degenerate and face either way.
+/// The triangles may be open, intersect, overlap, be degenerate and face either way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     positions: Vec<[f64; 3]>,
@@ -85,7 +83,7 @@ impl Mesh {
         self.triangles.is_empty()
     }
 
-    /// The same mesh with a normal for each vertex, of length 1. Files that are read give none.
+    /// The mesh with a normal of length 1 for each vertex. Files that are read give none.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.
@@ -95,8 +93,8 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The same mesh with a colour for each vertex: red, green, blue, usually
-    /// from 0 to 1, in whatever colour space the user has.
+    /// The mesh with a colour for each vertex: red, green, blue, usually from 0 to 1, in the user's colour
+    /// space.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each vertex.
@@ -106,9 +104,8 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The same mesh with texture coordinates for each vertex: from the left of
-    /// the picture and from its bottom, as in OBJ and PLY. (glTF counts from the
-    /// top; that is turned when it is read and written.)
+    /// The mesh with texture coordinates for each vertex: from the left of the picture and from its bottom, as
+    /// in OBJ and PLY. (glTF counts from the top; files are converted when they are read and written.)
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one pair for each vertex.
@@ -118,8 +115,8 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The same mesh with the number of a texture for each triangle, -1 for none: which of several
-    /// pictures the texture coordinates of its corners are about.
+    /// The mesh with the number of a texture for each triangle, -1 for none: the picture that the texture
+    /// coordinates of its corners refer to.
     ///
     /// # Errors
     /// [`Error::Shape`] if there is not one for each triangle.
@@ -164,7 +161,7 @@ impl Mesh {
         self.textures.as_deref()
     }
 
-    /// With its vertices elsewhere, and without normals.
+    /// The mesh with other positions of its vertices, and without normals.
     pub(crate) fn moved_to(mut self, positions: Vec<[f64; 3]>) -> Result<Self> {
         check_finite(&positions)?;
         self.positions = positions;
@@ -172,7 +169,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// With those triangles that are wanted, in the same order.
+    /// The mesh with those triangles that are wanted, in the same order.
     pub(super) fn keep(mut self, mut wanted: impl FnMut([u32; 3]) -> bool) -> Self {
         let keep: Vec<bool> = self.triangles.iter().map(|t| wanted(*t)).collect();
         let mut flags = keep.iter();

@@ -1,4 +1,4 @@
-//! What is no heightfield: meshes, point clouds, cameras, and the views under which they become one.
+//! Meshes, point clouds and depth images, cameras, and the views in which these become heightfields.
 
 pub(crate) mod camera;
 mod depth;

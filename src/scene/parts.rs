@@ -1,10 +1,10 @@
-//! The connected parts of a mesh.
+//! Connected components of a mesh.
 
 use super::mesh::Mesh;
 use crate::error::{Result, try_filled};
 use crate::math::union_find::UnionFind;
 
-/// Number of triangles below which a part is a scrap, as a share of the largest part's.
+/// Number of triangles below which a component is a scrap, as a share of the largest component's.
 const MAX_SCRAP_SHARE: f64 = 0.25;
 
 impl Mesh {

@@ -1,10 +1,10 @@
-//! Depths that lie on their side beside a photo.
+//! Rotation of images by quarter turns, for depths that lie on their side beside a photo.
 
 use super::camera::{Distortion, Intrinsics};
 use crate::error::{Result, try_filled};
 use crate::heights::heightfield::HeightImage;
 
-/// By how much an image is turned clockwise.
+/// A clockwise rotation of an image by quarter turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Turn {
@@ -24,7 +24,7 @@ impl Turn {
         self as usize
     }
 
-    /// Values at the pixels of an image, row by row, and its width and height.
+    /// Rotates values at the pixels of an image, row by row. Returns them with the new width and height.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -55,7 +55,7 @@ impl Turn {
         Ok((out, turned))
     }
 
-    /// A height or depth image.
+    /// Rotates a height or depth image.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -65,7 +65,7 @@ impl Turn {
         HeightImage::new(width, height, values)?.with_pixel_size(image.pixel_size())
     }
 
-    /// A camera whose images are turned, those of a width and height if it does not say of which it is.
+    /// The camera of a rotated image; `size` is that of its images if the camera does not say it.
     pub fn camera(self, camera: &Intrinsics, size: [usize; 2]) -> Intrinsics {
         let mut camera = *camera;
         for _ in 0..self.quarters() {

@@ -1,10 +1,9 @@
-//! What is seen of a mesh: the first hit of a ray through each lattice vertex.
+//! Sampling of a mesh as seen from a view: the first hit of a ray through each lattice vertex.
 //!
-//! A z-buffer, scanned row by row. A row of the lattice cuts a triangle in an
-//! interval whose ends lie on two of its edges; where an edge meets a row is
-//! computed from the edge's ends in an order of their own, so that it comes out
-//! the same for both triangles at the edge, and as intervals are closed, no ray
-//! slips through between the two.
+//! This is a z-buffer, scanned row by row. A row of the lattice cuts a triangle in an interval whose ends lie
+//! on two of its edges. The intersection of an edge with a row is computed from the edge's ends in a fixed
+//! order, so that it is the same for both triangles at the edge; and because intervals are closed, no ray slips
+//! through between the two.
 
 use super::mesh::Mesh;
 use super::splats::splat;
@@ -14,12 +13,12 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{Lattice, ROW_SPACING, shift};
 use crate::math::lanes;
 
-/// How fine the lattice over a mesh is to be.
+/// Resolution of the lattice over a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Resolution {
-    /// Vertices along the longer side of what is seen, at least 2: the spacing
-    /// is that side over one less.
+    /// Number of vertices along the longer side of the view, at least 2: the spacing is that side over one
+    /// less.
     Across(usize),
     /// Distance between neighbours on the lattice, in the mesh's units.
     Spacing(f64),
@@ -28,16 +27,15 @@ pub enum Resolution {
     Auto,
 }
 
-/// Resolution that `Resolution::Auto` stands for where nothing else decides, in vertices along the longer
-/// side.
+/// Number of vertices along the longer side for [`Resolution::Auto`], where nothing else decides.
 const AUTO_RESOLUTION: usize = 200;
 const POINTS_FOR_EACH: f64 = 4.0;
 
-/// Where a ray hit the mesh first.
+/// The first hit of a ray with the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hit {
-    /// Index of the triangle; of a point cloud, of the nearest point in sight.
+    /// Index of the triangle; in a point cloud, of the nearest visible point.
     pub index: usize,
     /// Barycentric coordinates in the triangle: none negative, their sum 1.
     pub weights: [f32; 3],
@@ -46,7 +44,7 @@ pub struct Hit {
 /// Mark of a lattice vertex whose ray hits no triangle.
 const NO_TRIANGLE: u32 = u32::MAX;
 
-/// What is seen of a mesh, on a lattice in the frame of the view.
+/// A mesh sampled on a lattice in the frame of a view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples {
     field: Heightfield,
@@ -143,7 +141,7 @@ fn nothing_seen() -> Error {
     }
 }
 
-/// The box around all triangles or points, in the image's plane.
+/// Bounding box of all triangles or points in the image's plane.
 fn seen(mesh: &Mesh, frame: &Frame) -> ([f64; 2], [f64; 2]) {
     let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |point| {
@@ -177,7 +175,7 @@ impl Samples {
         &self.frame
     }
 
-    /// What the ray through a lattice vertex (by row-major index) hit first.
+    /// The first hit of the ray through a lattice vertex, given by its row-major index.
     pub fn hit(&self, index: usize) -> Option<Hit> {
         let found = self.indices[index];
         (found != NO_TRIANGLE).then(|| Hit {
@@ -186,9 +184,9 @@ impl Samples {
         })
     }
 
-    /// Values at the mesh's vertices carried to the lattice's: linear in each
-    /// triangle, the nearest point's of a cloud, NaN where nothing was hit. For
-    /// colours, texture coordinates or anything else of the mesh that was sampled.
+    /// Interpolates values at the mesh's vertices to the lattice's: linear in each triangle, the nearest
+    /// point's in a cloud, NaN where nothing was hit. For colours, texture coordinates and other attributes of
+    /// the mesh that was sampled.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -211,8 +209,8 @@ impl Samples {
         Ok(carried)
     }
 
-    /// The number of the texture that was hit through each lattice vertex: -1 where there is none.
-    /// Without [`Mesh::textures`] all triangles have number 0.
+    /// Number of the texture that was hit through each lattice vertex: -1 where there is none. Without
+    /// [`Mesh::textures`] all triangles have number 0.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -242,7 +240,7 @@ struct Corner {
     height: f64,
 }
 
-/// Where a row meets an edge of a triangle: `share` of the way from corner `from` to corner `to`.
+/// Intersection of a row with an edge of a triangle: `share` of the way from corner `from` to corner `to`.
 #[derive(Clone, Copy)]
 struct Crossing {
     along: f64,
@@ -322,7 +320,7 @@ impl Crossing {
     }
 }
 
-/// Where a row enters and leaves a triangle.
+/// Intersections of a row with the border of a triangle, where it enters and leaves.
 fn interval(corners: &[Corner; 3], row: f64) -> Option<(Crossing, Crossing)> {
     let mut found: Option<(Crossing, Crossing)> = None;
     for (from, to) in [(0, 1), (1, 2), (2, 0)] {
@@ -338,8 +336,8 @@ fn interval(corners: &[Corner; 3], row: f64) -> Option<(Crossing, Crossing)> {
     found
 }
 
-/// Where an edge meets a row: once, at both of its ends if it lies on the row, or not at all. The
-/// same for an edge and its reverse, to the last bit.
+/// Intersections of an edge with a row: one, both of its ends if it lies on the row, or none. They are the same
+/// for an edge and its reverse, to the last bit.
 fn crossings(corners: &[Corner; 3], from: usize, to: usize, row: f64) -> [Option<Crossing>; 2] {
     let key = |i: usize| (corners[i].down, corners[i].along);
     let (from, to) = if key(to) < key(from) {

@@ -1,10 +1,11 @@
-//! What is seen of a point cloud: at each lattice vertex the points in front that lie around it.
+//! Sampling of a point cloud as seen from a view: at each lattice vertex the points in front that lie around
+//! it.
 //!
-//! A vertex looks at the points within one spacing of it. Those more than three spacings below the
-//! highest of them are behind, and out of sight: a surface steeper than 56° loses points to that. The height is that of the plane through the others, fitted by least squares in which near
-//! points count more, so that a tilt is no bias. Where they lie to one side of the vertex (their
-//! weighted centre is more than half a spacing off) there is nothing: holes stay holes, and the
-//! outline grows by less than half a spacing.
+//! A vertex sees the points within one spacing of it. Those more than three spacings below the highest of them
+//! are hidden: a surface steeper than 56° loses points by that. The height is that of the plane fitted to the
+//! others by least squares, in which near points weigh more, so that a tilt is no bias. Where they lie to one
+//! side of the vertex (their weighted centroid is more than half a spacing away) there is no height: holes stay
+//! holes, and the outline grows by less than half a spacing.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -16,7 +17,7 @@ const SPLAT_RADIUS_SPACINGS: f64 = 1.0;
 
 /// Depth below the highest point down to which a lattice vertex sees points, in lattice spacings.
 const SPLAT_DEPTH_SPACINGS: f64 = 3.0;
-/// Largest distance between a lattice vertex and the centroid of its points, in lattice spacings.
+/// Maximum distance between a lattice vertex and the centroid of its points, in lattice spacings.
 const MAX_CENTROID_OFFSET_SPACINGS: f64 = 0.5;
 
 /// Height and nearest visible point at each vertex; NaN and `miss` where there is none.
@@ -61,7 +62,7 @@ pub(crate) fn splat(
     Ok((heights, nearest.into_iter().map(|(i, _)| i).collect()))
 }
 
-/// Every vertex that looks at a point, with the way from it to the point in spacings.
+/// Calls `visit` with every vertex that sees a point, and the offset from it to the point in spacings.
 fn around(lattice: &Lattice, [x, y, _]: [f64; 3], mut visit: impl FnMut(usize, [f64; 2])) {
     let [left, top] = lattice.origin();
     let step = lattice.row_spacing() / lattice.spacing();
@@ -98,7 +99,7 @@ fn range(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
 struct Sums {
     weight: f64,
     first: [f64; 2],
-    /// Of x², xy and y².
+    /// Sums of x², xy and y².
     second: [f64; 3],
     height: f64,
     tilt: [f64; 2],
@@ -119,7 +120,7 @@ impl Sums {
         }
     }
 
-    /// The height at the vertex itself.
+    /// Height of the fitted plane at the vertex itself.
     fn height(&self) -> Option<f64> {
         let [x, y] = self.first.map(|v| v / self.weight);
         // Without any points both are NaN.

@@ -1,4 +1,4 @@
-//! The surface as triangles in space: to be laid flat, for files and for drawing.
+//! Triangulation of a heightfield as a mesh in space.
 
 use super::mesh::Mesh;
 use super::view::Frame;
@@ -35,7 +35,7 @@ impl Triangulation {
         Triangulation::of_some(surface, frame, |_| true)
     }
 
-    /// Those of the triangles, by the lattice indices of their corners, that are wanted.
+    /// The triangles, given by the lattice indices of their corners, that are wanted.
     pub(crate) fn of_some(
         surface: &Heightfield,
         frame: &Frame,
@@ -79,7 +79,7 @@ impl Triangulation {
         })
     }
 
-    /// The same with colours, given for each vertex of the lattice as [`Mesh::with_colors`] takes
+    /// The triangulation with colours, given for each vertex of the lattice as [`Mesh::with_colors`] takes
     /// them. NaN becomes the mean of its neighbours, from a hole's rim inwards.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl Triangulation {
         Ok(Triangulation { mesh, ..self })
     }
 
-    /// The same with texture coordinates likewise.
+    /// The triangulation with texture coordinates, given for each vertex of the lattice.
     ///
     /// # Errors
     /// As [`Triangulation::with_colors`].
@@ -135,8 +135,8 @@ impl Triangulation {
         normal(self.mesh.corners(triangle), self.lattice.spacing())
     }
 
-    /// The values at the mesh's vertices of those at the lattice's. Where there is none, as where a
-    /// hole was bridged, it is the mean of its neighbours', from the hole's rim inwards, or else 0.
+    /// Values at the mesh's vertices from those at the lattice's. Where there is none, as where a hole was
+    /// bridged, it is the mean of its neighbours', from the hole's rim inwards, or else 0.
     pub(crate) fn picked<const N: usize>(
         &self,
         what: &'static str,
@@ -210,7 +210,7 @@ fn whole_triangles(surface: &Heightfield) -> impl Iterator<Item = [usize; 3]> {
         .map(move |triangle| triangle.map(|(row, col)| lattice.index(row as usize, col as usize)))
 }
 
-/// The mean at each vertex of the normals around it, weighted by area.
+/// Normal of each vertex: the mean of those of its triangles, weighted by area.
 fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
     let mut sums = try_filled("mesh", mesh.positions().len(), [0.0; 3])?;
     for triangle in mesh.triangles() {

@@ -1,4 +1,4 @@
-//! Where a mesh is looked at from, and the axes of what is seen.
+//! Views of a mesh: the direction it is seen in, and the axes of the image.
 
 use std::str::FromStr;
 
@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use super::mesh::Mesh;
 use crate::error::{Error, Result};
 
-/// The direction to look in, from the viewer to the mesh.
+/// A direction of view, from the viewer to the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum View {
@@ -48,7 +48,7 @@ pub struct Frame {
 }
 
 impl Default for Frame {
-    /// The axes themselves, as seen along `-z`.
+    /// The mesh's own axes, as seen along `-z`.
     fn default() -> Self {
         Frame {
             right: [1.0, 0.0, 0.0],
@@ -101,7 +101,7 @@ impl View {
 }
 
 impl Frame {
-    /// The frame of looking along a vector.
+    /// The frame of the view along a vector.
     ///
     /// # Errors
     /// [`Error::Option`] if the vector is zero or not finite.
@@ -133,20 +133,20 @@ impl Frame {
         })
     }
 
-    /// From the mesh's axes to the image's.
+    /// Coordinates of a point in the image's axes, from those in the mesh's.
     pub fn view(&self, point: [f64; 3]) -> [f64; 3] {
         [self.right, self.up, self.towards]
             .map(|axis| axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2])
     }
 
-    /// From the image's axes back to the mesh's.
+    /// Coordinates of a point in the mesh's axes, from those in the image's.
     pub fn unview(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| x * self.right[k] + y * self.up[k] + z * self.towards[k])
     }
 }
 
-/// The normal of the best-fit plane, on the side that more area faces. On equal sides, as of a
-/// closed mesh with a symmetry, its largest component is positive.
+/// Normal of the best-fit plane, on the side that more area faces. On equal sides, as of a closed mesh with a
+/// symmetry, its largest component is positive.
 fn facing_normal(mesh: &Mesh) -> Result<Vector3<f64>> {
     let (centre, size) = bounds(mesh);
     let corners = || {
@@ -200,7 +200,7 @@ fn facing_normal(mesh: &Mesh) -> Result<Vector3<f64>> {
     Ok(normal * 1f64.copysign(sign))
 }
 
-/// The normal of the plane that fits the points of a cloud best, its largest component positive.
+/// Normal of the plane that fits the points of a cloud best, with its largest component positive.
 fn normal_of_points(mesh: &Mesh) -> Result<Vector3<f64>> {
     let (centre, size) = bounds(mesh);
     let points = || {

@@ -3,7 +3,8 @@
 use super::flat_triangle::Point;
 use super::lattice_triangles::{LatticeTriangles, TriangleId};
 
-/// Strain above which [`Distortion::above`] counts a triangle: 1 %, 3 mm on the longer side of an A4 page.
+/// Strain above which [`Distortion::above`] counts a triangle: 1 %, 3 mm on the longer side of an A4 page. No table
+/// chose it.
 const NOTICEABLE_STRAIN: f64 = 0.01;
 
 /// Strain of a flat layout: relative changes of length from the surface to the plane. `σ₁ ≥ σ₂` are the

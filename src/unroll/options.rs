@@ -1,5 +1,11 @@
 //! Options of unrolling.
 
+/// Default change of the energy over the area below which a layout has converged: that of strains of 10⁻⁵.
+const DEFAULT_TOLERANCE: f64 = 1e-10;
+
+/// Default maximum number of iterations. Surfaces of 200 thousand vertices take 6 to 26 (`benches/choices.md`).
+const DEFAULT_MAX_ITERATIONS: usize = 500;
+
 /// Options of [`unroll`](super::unroll): when its iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
@@ -19,8 +25,8 @@ pub struct UnrollOptions {
 impl Default for UnrollOptions {
     fn default() -> Self {
         UnrollOptions {
-            tolerance: 1e-10,
-            max_iterations: 500,
+            tolerance: DEFAULT_TOLERANCE,
+            max_iterations: DEFAULT_MAX_ITERATIONS,
         }
     }
 }

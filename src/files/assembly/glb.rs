@@ -1,6 +1,7 @@
-//! glTF 2.0 as one binary file: a node for each sheet, which moves to its place while a morph target bends it.
+//! The animation of an assembly as glTF 2.0 in one binary file (GLB): a node for each sheet, which moves to its
+//! place while a morph target bends it.
 //!
-//! What is written is so little of the format that its text is put together here. (Khronos Group, glTF 2.0
+//! The file uses so little of the format that its text is written directly. (Khronos Group, glTF 2.0
 //! Specification, "Animations", "Morph Targets", "GLB File Format".)
 
 use std::fmt::Write as _;
@@ -17,11 +18,11 @@ const STEP_SECONDS: f64 = 1.5;
 /// Duration of the pause between two steps, in seconds.
 const PAUSE_SECONDS: f64 = 0.5;
 
-/// A GLB file of sheets that lie flat beside the surface and go to their places one after the other, bending as they
-/// do, in the order of an assembly. In metres, `scale` being the millimetres of a unit; +y is up, as viewers have
-/// it. The animation is called `Assembly`; at its end the surface is built.
+/// A GLB file of sheets that lie flat beside the surface and move to their places one after the other, bending
+/// as they do, in the order of an assembly. It is in metres, `scale` being the millimetres of a unit, with +y
+/// up, as viewers have it. The animation is called `Assembly`; at its end the surface is built.
 ///
-/// Half way a sheet is between its two shapes, and not quite its size: the bending is linear.
+/// Half way a sheet is between its two shapes and not quite its size, because the bending is linear.
 ///
 /// # Errors
 /// [`Error::Empty`] without a sheet, [`Error::Option`] for a scale that is not positive and finite,
@@ -43,7 +44,7 @@ pub fn write_animation(sheets: &[Sheet], assembly: &Assembly, scale: f64) -> Res
     }
     let mut file = File::default();
     let places = beside(&in_millimetres(sheets, scale));
-    let ground = Ground::under(sheets);
+    let ground = Ground::from_sheets(sheets);
     let sizes = scale / 1000.0;
     for (step, part) in assembly.steps.iter().enumerate() {
         let Some(sheet) = sheets.get(part.sheet) else {
@@ -73,7 +74,7 @@ fn in_millimetres(sheets: &[Sheet], scale: f64) -> Vec<Vec<Vec<[f64; 2]>>> {
     sheets.iter().map(lines).collect()
 }
 
-/// Where flat sheets lie: to the left of the surface, as high as its lowest point.
+/// Positions of the flat sheets: to the left of the surface, as high as its lowest point.
 struct Ground {
     corner: [f64; 2],
     height: f64,
@@ -81,7 +82,7 @@ struct Ground {
 }
 
 impl Ground {
-    fn under(sheets: &[Sheet]) -> Self {
+    fn from_sheets(sheets: &[Sheet]) -> Self {
         let built = || sheets.iter().flat_map(|sheet| &sheet.faces.built);
         let low = |k: usize| built().map(|p| p[k]).fold(f64::INFINITY, f64::min);
         let high = built().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
@@ -93,7 +94,7 @@ impl Ground {
     }
 }
 
-/// A sheet around its middle, and where that is before and after.
+/// A sheet about its centre, and the centre's positions before and after.
 struct Moved {
     middle: [f64; 2],
     start: Pose,
@@ -123,7 +124,7 @@ impl Moved {
     }
 }
 
-/// The two parts of the file, and lists of the text part.
+/// The binary part of the file, and the lists of its text part.
 #[derive(Default)]
 struct File {
     bin: Vec<u8>,
@@ -286,7 +287,7 @@ fn list(values: &[f32]) -> String {
     format!("[{}]", values.join(","))
 }
 
-/// Light of a value of sRGB.
+/// Linear light of an sRGB value.
 fn linear(value: f64) -> f64 {
     match value <= 0.04045 {
         true => value / 12.92,

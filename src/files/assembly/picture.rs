@@ -1,4 +1,5 @@
-//! The surface from above, each sheet in its colour with its number, its folds dashed, seams with their letters.
+//! A picture of the assembled surface from above: each sheet in its colour with its number, folds dashed, seams
+//! with their letters.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -18,7 +19,7 @@ const PICTURE_SIZE: f64 = 1000.0;
 /// Width of the margin around the picture, in its units.
 const PICTURE_MARGIN: f64 = 20.0;
 
-/// Largest distance between a drawn line and the one that was found, in lattice spacings.
+/// Maximum distance between a drawn line and the exact one, in lattice spacings.
 const LINE_TOLERANCE_SPACINGS: f64 = 0.5;
 
 /// Font size of step numbers, in units of the picture.
@@ -27,8 +28,8 @@ const NUMBER_FONT_SIZE: f64 = 28.0;
 /// Font size of edge letters, in units of the picture.
 const LETTER_FONT_SIZE: f64 = 16.0;
 
-/// An SVG file of the surface that sheets make, seen from above: the patches' numbers and the seams' letters are
-/// those of the drawing, folds are dashed. What faces away from there is left out.
+/// An SVG file of the surface that sheets make, seen from above: the patches' numbers and the seams' letters
+/// are those of the drawing, folds are dashed. What faces away from the viewer is left out.
 ///
 /// # Errors
 /// [`Error::Empty`] without a sheet, [`Error::Unsupported`] for vertices that are not finite.
@@ -173,7 +174,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
     Ok(document.to_string().into_bytes())
 }
 
-/// The numbers of sheets, what hides others after these.
+/// Numbers of the sheets in drawing order: those that hide others come later.
 fn from_below(sheets: &[Sheet]) -> Vec<usize> {
     let height = |number: &usize| {
         let faces = &sheets[*number].faces;
@@ -188,13 +189,13 @@ fn from_below(sheets: &[Sheet]) -> Vec<usize> {
     order
 }
 
-/// The triangles of a sheet that face up.
+/// Triangles of a sheet that face up.
 fn upper(faces: &Faces) -> Vec<[u32; 3]> {
     let up = |corners: &&[u32; 3]| faces_up(corners.map(|v| faces.built[v as usize]));
     faces.triangles.iter().filter(up).copied().collect()
 }
 
-/// The parts of a line on a flat sheet that are seen from above, in plan.
+/// Visible parts of a line on a flat sheet, seen from above.
 fn seen(built: &Built, flat: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     let spots: Vec<_> = flat.iter().filter_map(|place| built.at(*place)).collect();
     let parts = spots
@@ -204,8 +205,8 @@ fn seen(built: &Built, flat: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     plan.collect()
 }
 
-/// The closed lines of edges that belong to one triangle only, of those that face up. Vertices of different patches
-/// at one place of the surface are one here.
+/// Borders, as closed lines, of the triangles that face up. Vertices of different patches at one position of
+/// the surface are joined.
 fn borders(faces: &Faces) -> Vec<Vec<u32>> {
     let mut first: HashMap<[u64; 3], u32> = HashMap::new();
     let one: Vec<u32> = (faces.built.iter().enumerate())

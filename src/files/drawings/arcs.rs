@@ -1,22 +1,22 @@
-//! Curves as arcs of circles, for files that have no others.
+//! Approximation of curves by arcs of circles, for file formats without other curves.
 
 use crate::drawing::{Curve, Piece};
 
-/// Largest distance between an arc and the curve that it replaces, in millimetres.
+/// Maximum distance between an arc and the curve that it replaces, in millimetres.
 const ARC_TOLERANCE_MM: f64 = 0.01;
 
-/// Largest number of times that a curve is halved.
+/// Maximum number of times that a curve is halved.
 const MAX_CURVE_HALVINGS: u32 = 8;
 
-/// A corner of a polyline, and what comes after it: the tangent of a quarter of the angle of an arc, positive if
-/// it runs counter-clockwise, 0 for a straight piece.
+/// A corner of a polyline and the piece that follows it: the tangent of a quarter of the arc's angle, positive
+/// if it runs counter-clockwise, 0 for a straight piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub place: [f64; 2],
     pub bulge: f64,
 }
 
-/// A curve as straight pieces and arcs; the last corner is its end.
+/// Approximates a curve by straight pieces and arcs; the last corner is its end.
 pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
     let mut out = Vec::new();
     for piece in curve.pieces() {
@@ -35,8 +35,8 @@ pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
     out
 }
 
-/// A part of a curve by two arcs that have its tangents at its ends and one of their own where they meet, or its
-/// halves likewise.
+/// Approximates a part of a curve by two arcs with its tangents at its ends and a common one where they meet,
+/// or each half of it in the same way.
 fn halved(piece: &Piece, [from, to]: [f64; 2], left: u32, out: &mut Vec<Corner>) {
     let ends = [from, to].map(|t| (piece.at(t), tangent(piece, t)));
     let middle = 0.5 * (from + to);
@@ -93,7 +93,8 @@ fn less(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }
 
-/// Two arcs between places with tangents, as long tangents on either side of where they meet. (Bolton 1975.)
+/// Two arcs between positions with tangents, with tangents of equal length on either side of where they meet.
+/// (Bolton 1975.)
 fn biarc([(p, u), (q, v)]: [([f64; 2], [f64; 2]); 2]) -> Option<[Corner; 2]> {
     let chord = less(q, p);
     let sum = [u[0] + v[0], u[1] + v[1]];
@@ -126,7 +127,7 @@ fn biarc([(p, u), (q, v)]: [([f64; 2], [f64; 2]); 2]) -> Option<[Corner; 2]> {
     Some([corner(p, joint, u, 1.0), second])
 }
 
-/// How far a place is from the circle of an arc, or from the line of a straight piece.
+/// Distance of a position from the circle of an arc, or from the line of a straight piece.
 fn from_arc(place: [f64; 2], Corner { place: from, bulge }: Corner, to: [f64; 2]) -> f64 {
     let chord = less(to, from);
     let long = chord[0].hypot(chord[1]);

@@ -101,7 +101,7 @@ impl Pairs {
         write!(self.0, "{code}\r\n{value}\r\n")
     }
 
-    /// The group codes of y and z are those of x plus 10 and 20.
+    /// Writes a point; the group codes of y and z are those of x plus 10 and 20.
     fn point(&mut self, code: u16, [x, y]: [f64; 2]) -> io::Result<()> {
         self.pair(code, x)?;
         self.pair(code + 10, y)?;
@@ -119,7 +119,7 @@ impl Pairs {
         self.pair(0, "ENDSEC")
     }
 
-    /// A closed one ends where it begins, which is not written twice.
+    /// Writes a polyline; the last corner of a closed one, which is its first, is left out.
     fn polyline(&mut self, layer: &str, line: &[Corner], closed: bool) -> io::Result<()> {
         let line = match line {
             [all @ .., _] if closed => all,
@@ -143,7 +143,7 @@ impl Pairs {
         self.pair(8, layer)
     }
 
-    /// Centred on its place.
+    /// Writes a text centred on its position.
     fn text(&mut self, label: &Label) -> io::Result<()> {
         /// Horizontal alignment (group 72) at the centre.
         const ALIGN_CENTRE: u8 = 1;
@@ -162,7 +162,7 @@ impl Pairs {
     }
 }
 
-/// A text in one line of ASCII, as DXF writes what is not.
+/// A text in one line of ASCII, in DXF's encoding of other characters.
 fn encoded(text: &str) -> String {
     let mut line = String::new();
     for letter in text.chars() {

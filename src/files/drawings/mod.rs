@@ -35,7 +35,7 @@ pub use dxf::write_dxf;
 pub use pdf::write_pdf;
 pub use svg::write_svg;
 
-/// What a line is for, in the order in which they are drawn.
+/// The purpose of a line, in the order in which lines are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Mountain,
@@ -77,7 +77,7 @@ impl Kind {
         }
     }
 
-    /// Red, green and blue.
+    /// Colour as red, green and blue.
     fn color(self) -> [u8; 3] {
         match self {
             Kind::Mountain => [200, 0, 0],
@@ -100,7 +100,7 @@ impl Kind {
         }
     }
 
-    /// The lines of this kind on a sheet, and whether they are closed.
+    /// Lines of this kind on a sheet, and whether they are closed.
     fn lines(self, sheet: &DrawnSheet) -> (Vec<&Curve>, bool) {
         let course = |line: &'_ &Line| Kind::of(line.direction) == self;
         match self {
@@ -129,7 +129,7 @@ const BASELINE_DROP: f64 = 0.35;
 /// A line, and whether it is closed.
 type Drawn<'a> = (&'a Curve, bool);
 
-/// Of each kind the lines, sheet by sheet.
+/// Lines of each kind, sheet by sheet.
 fn layers(drawing: &Drawing) -> impl Iterator<Item = (Kind, Vec<Drawn<'_>>)> {
     Kind::ALL.into_iter().map(|kind| {
         let lines = drawing.sheets.iter().flat_map(move |sheet| {

@@ -1,4 +1,4 @@
-//! Portable Document Format: one page of the drawing's size, or pages of paper to be put together.
+//! Drawings as PDF: on one page of the drawing's size, or on pages of paper to be put together.
 
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
@@ -17,9 +17,9 @@ const FONT_RESOURCE: Name = Name(b"F");
 /// Name of the drawing among a page's resources.
 const DRAWING_RESOURCE: Name = Name(b"D");
 
-/// A PDF file of a drawing in true size: with its pages, each with its name, and with crosses where it is laid
-/// on its neighbours, or on one page as large as it is. `stock` lays it out on pages first ([`Drawing::onto`]).
-/// To be printed at 100 %.
+/// A PDF file of a drawing in true size: on its pages, each with its name and with crosses where it overlaps
+/// its neighbours, or on one page of the drawing's size. `stock` lays it out on pages first
+/// ([`Drawing::onto`]). Print it at 100 %.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for a drawing that is not finite, for a page of more than 5.08 m, the format's
@@ -65,7 +65,7 @@ pub fn write_pdf(drawing: &Drawing, stock: Option<Stock>) -> Result<Vec<u8>> {
     Ok(pdf.finish())
 }
 
-/// The size of a page in millimetres, and what is on it.
+/// Size of a page in millimetres, and its content.
 type Sheet = ([f64; 2], Vec<u8>);
 
 fn whole(drawing: &Drawing) -> Result<Sheet> {
@@ -120,7 +120,7 @@ fn spread(pages: &Pages) -> Result<Vec<Sheet>> {
     Ok(pages.pages.iter().map(sheet).collect())
 }
 
-/// The drawing itself, which the pages show parts of.
+/// Content of the drawing, of which each page shows a part.
 fn figure(drawing: &Drawing) -> Vec<u8> {
     let mut out = Content::new();
     out.set_line_width(points(LINE_WIDTH_MM))
@@ -180,7 +180,7 @@ fn text(out: &mut Content, label: &Label) {
     out.show(Str(&bytes)).end_text();
 }
 
-/// Width of a character of Helvetica, in sizes of the font: of those that labels are made of.
+/// Width of a character of Helvetica, in font sizes; labels consist of these characters.
 fn width(character: u8) -> f64 {
     match character {
         b'i' | b'j' | b'l' => 0.222,

@@ -1,4 +1,4 @@
-//! Scalable Vector Graphics: a layer for each kind of line.
+//! Drawings as SVG: a layer for each kind of line.
 
 use std::fmt::Write as _;
 
@@ -108,7 +108,7 @@ pub fn write_svg(drawing: &Drawing) -> Result<Vec<u8>> {
     Ok(document.add(texts).to_string().into_bytes())
 }
 
-/// The pages as Inkscape has them: no lines, which a cutter would follow.
+/// The pages as Inkscape has them, without lines, which a cutter would follow.
 fn paged(pages: &Pages, height: f64) -> Element {
     let mut view = Element::new("sodipodi:namedview");
     let [width, tall] = pages.paper;
@@ -130,7 +130,7 @@ fn paged(pages: &Pages, height: f64) -> Element {
     view
 }
 
-/// The course of a path.
+/// The path data of a curve.
 fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) -> String {
     let at = |point: &[f64; 2]| place(*point).join(" ");
     let mut data = String::new();
@@ -150,7 +150,7 @@ fn data(curve: &Curve, closed: bool, place: impl Fn([f64; 2]) -> [String; 2]) ->
     data
 }
 
-/// A group that editors know as a layer.
+/// A group that editors treat as a layer.
 fn layer(name: &str) -> Group {
     Group::new()
         .set("id", name)
@@ -162,7 +162,7 @@ fn rgb([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// To a tenth of a micrometre, without what says nothing.
+/// A number to four decimals, a tenth of a micrometre, without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

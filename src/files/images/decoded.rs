@@ -1,4 +1,4 @@
-//! What the decoders of all formats return.
+//! The result of decoding an image: values, and how they become heights.
 
 use super::format::Format;
 use crate::error::{Error, Result};
@@ -15,7 +15,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// `"mm"` or `"m"`.
+    /// The symbol `"mm"` or `"m"`.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Millimetre => "mm",
@@ -24,13 +24,13 @@ impl Unit {
     }
 }
 
-/// What a file holds: values and what turns them into heights.
+/// A decoded image file: its values, and how they become heights.
 ///
 /// `height = values · height_scale`, in the unit of `pixel_size`.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Decoded {
-    /// The format the file had.
+    /// Format of the file.
     pub format: Format,
     /// Number of columns.
     pub width: usize,
@@ -46,10 +46,10 @@ pub struct Decoded {
     /// The unit of `pixel_size`, where the file says it: millimetres if a TIFF
     /// has a resolution, metres if a GeoTIFF says so.
     pub unit: Option<Unit>,
-    /// Height of one step of the values. 1 for NPY, NPZ and floats, but for the
-    /// scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png). For the
-    /// integers of a picture else a suggestion: the one that makes their full
-    /// range (from black to white) a quarter of the image's longer side.
+    /// Height of one step of the values. For NPY, NPZ and floats it is 1, or the scale that a PFM states; for
+    /// PNG as recorded by [`write_png`](super::write_png). For the integers of other pictures it is a
+    /// suggestion: the one that makes their full range (from black to white) a quarter of the image's longer
+    /// side.
     pub height_scale: f64,
     /// The type the file stores: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
     pub data_type: &'static str,
@@ -70,12 +70,12 @@ impl Decoded {
 /// Share of the longer side that black to white spans where no scale is recorded.
 const SUGGESTED_RELIEF: f64 = 0.25;
 
-/// A height scale for values of the given range.
+/// Suggested height scale for values of the given range.
 pub(super) fn suggested_scale(width: usize, height: usize, range: f64) -> f64 {
     SUGGESTED_RELIEF * width.max(height) as f64 / range
 }
 
-/// A picture of real colours, found at the given pixel.
+/// The error of a picture with colours, found at the given pixel.
 pub(super) fn coloured(format: &'static str, pixel: usize, width: usize) -> Error {
     Error::Unsupported {
         format,

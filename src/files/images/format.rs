@@ -57,7 +57,7 @@ const MAGIC_BYTES: [(&[u8], Format); 13] = [
 ];
 
 impl Format {
-    /// Whether it is read without the cargo feature `images`.
+    /// Whether the format is read without the cargo feature `images`.
     #[cfg(feature = "images")]
     pub(super) fn is_basic(self) -> bool {
         matches!(self, Format::Png | Format::Npy)
@@ -100,11 +100,11 @@ impl FromStr for Format {
     }
 }
 
-/// What the option `format` must be, as its error says.
+/// Condition on the option `format`, as its error states it.
 pub const FORMAT_NAMES: &str =
     "must be `png`, `npy`, `tiff`, `exr`, `pfm`, `npz`, `jpeg` or `webp`";
 
-/// The format that the bytes announce, if it is the stated one.
+/// The format that the first bytes announce, if it is the stated one.
 ///
 /// # Errors
 /// [`Error::Format`] for an empty file and one of another format than stated,

@@ -1,4 +1,4 @@
-//! NumPy's array file, by the `npyz` crate.
+//! NumPy's array file, read and written by the `npyz` crate.
 
 use std::io;
 
@@ -9,14 +9,14 @@ use super::format::Format;
 use crate::error::{Error, Result, check_shape, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
 
-/// Longest header read, in bytes; NumPy has the same limit.
+/// Maximum length of a header, in bytes; NumPy has the same limit.
 const MAX_HEADER: usize = 10_000;
 
-/// Most brackets in a header: a plain array has 2, `{` and `(`. The parser
-/// recurses on them, so this also bounds its use of the stack.
+/// Maximum number of brackets in a header: a plain array has 2, `{` and `(`. The parser recurses on them, so
+/// that this also bounds its use of the stack.
 const MAX_BRACKETS: usize = 8;
 
-/// Most digits in a header, so that no product of sizes in it overflows 64 bits.
+/// Maximum number of digits in a header, so that no product of sizes in it overflows 64 bits.
 const MAX_DIGITS: usize = 19;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -118,10 +118,10 @@ pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     Ok((header.shape().to_vec(), data_type))
 }
 
-/// Where the data begin, once the header is known to be harmless to parse.
+/// Offset of the data, once the header is known to be harmless to parse.
 ///
-/// The parser allocates what the header's length claims, multiplies the sizes in
-/// it unchecked and recurses on brackets: files must not be able to abuse that.
+/// The parser allocates what the header's length claims, multiplies the sizes in it unchecked and recurses on
+/// brackets: files must not be able to abuse that.
 fn check_header(bytes: &[u8]) -> Result<usize> {
     let cut = || damaged("it is cut short within its header".into());
     let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);

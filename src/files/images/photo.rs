@@ -1,4 +1,4 @@
-//! Photos from files.
+//! The result of decoding a photo.
 
 use ::png::{ColorType, Transformations};
 
@@ -16,10 +16,10 @@ pub struct PhotoFile {
     pub height: usize,
     /// Red, green, blue and alpha of each pixel, row by row, top row first.
     pub rgba: Vec<u8>,
-    /// The camera's focal length, in millimetres as for a film of 36 by 24 mm, where the file's Exif
-    /// data have it and have the photo's proportions, too: of one that was cropped it is none.
+    /// Focal length of the camera, in millimetres as for a film of 36 by 24 mm, where the file's Exif data have
+    /// it and have the photo's proportions; `None` for a photo that was cropped.
     pub film35: Option<f64>,
-    /// How the file's Exif data state that it is to be turned, from 1 (not at all) to 8, as it was.
+    /// Orientation that the file's Exif data state, from 1 (upright) to 8; the pixels are upright already.
     pub orientation: u16,
 }
 

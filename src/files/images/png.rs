@@ -1,4 +1,4 @@
-//! Grey PNG files, by the `png` crate.
+//! Grey PNG files, read and written by the `png` crate.
 
 use std::io::Cursor;
 
@@ -13,14 +13,14 @@ use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::buffer::Buffer;
 use crate::heights::heightfield::HeightImage;
 
-/// What the decoder itself may allocate: two rows of the widest image and metadata.
+/// Maximum memory that the decoder itself may allocate, in bytes: two rows of the widest image and metadata.
 const DECODER_BYTES: usize = 1 << 28;
 
-/// The most that DEFLATE can shrink anything.
+/// Maximum ratio by which DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
 
-/// Keywords of our own text chunks:
-/// `height = HEIGHT_SCALE · level + HEIGHT_OFFSET`, `NO_DATA` is the level that means none.
+/// Keyword of the text chunk for the height of one grey level, in files of this library: `height = HEIGHT_SCALE
+/// · level + HEIGHT_OFFSET`.
 const HEIGHT_SCALE: &str = "developable:heightScale";
 const HEIGHT_OFFSET: &str = "developable:heightOffset";
 const PIXEL_SIZE: &str = "developable:pixelSize";
@@ -143,7 +143,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// What our own text chunks say.
+/// Values of the text chunks in files of this library.
 #[derive(Default)]
 struct Recorded {
     scale: Option<f64>,

@@ -1,4 +1,4 @@
-//! Photos to files that know how large they are on paper: PNG, JPEG and PDF.
+//! Photos written to files that state their size on paper: PNG, JPEG and PDF.
 
 use std::io::Write as _;
 
@@ -16,12 +16,12 @@ use crate::error::{Error, Result, positive, try_filled};
 use crate::files::buffer::Buffer;
 use crate::files::points::{MAX_PAGE_SIDE_POINTS, POINTS_PER_MM, points};
 
-/// How a photo is written.
+/// Options of writing a photo.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PhotoOptions {
-    /// Pixels for each millimetre of what it shows. `None` (the default): not known, so that PNG and
-    /// JPEG files do not state it, and no PDF can be made.
+    /// Number of pixels per millimetre of the surface in the photo. `None` (the default): not known, so that
+    /// PNG and JPEG files do not state it, and no PDF can be made.
     pub dots_per_millimetre: Option<f64>,
     /// Quality of JPEG, and of the picture in a PDF: from 1 to 100, by default 90. Colours are as fine
     /// as brightness from 90 on, and half as fine below.
@@ -51,14 +51,14 @@ impl PhotoOptions {
         PhotoOptions { quality, ..self }
     }
 
-    /// The dots as they were given, if that is a number that can be.
+    /// The resolution as given, after a check of its range.
     fn dots(&self) -> Result<Option<f64>> {
         let checked = |dots| positive("dots_per_millimetre", dots);
         self.dots_per_millimetre.map(checked).transpose()
     }
 }
 
-/// A photo that is read row by row, so that who writes it needs no copy of it.
+/// A photo that is read row by row, so that writing it needs no copy of it.
 pub trait PhotoRows {
     /// Width and height in pixels.
     fn size(&self) -> [usize; 2];
@@ -192,7 +192,7 @@ fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
     })
 }
 
-/// A photo on white paper.
+/// A photo on a white background.
 struct White<'a, P> {
     photo: &'a P,
     width: u16,
@@ -227,11 +227,11 @@ impl<P: PhotoRows> ImageBuffer for White<'_, P> {
     }
 }
 
-/// Least length of a page's side, in millimetres: below it programs that show PDF may fail.
+/// Minimum length of a page's side, in millimetres: below it programs that show PDF may fail.
 const MIN_PAGE_SIDE_MM: f64 = 2.0;
 
-/// A PDF file of one page that is as large as what the photo shows, which fills it, as a JPEG. To be printed
-/// at 100 %.
+/// A PDF file of one page in the size of the surface in the photo, which fills it, as a JPEG. Print it at 100
+/// %.
 ///
 /// # Errors
 /// Those of [`write_photo_jpeg`]; [`Error::Option`] without a resolution, [`Error::Unsupported`] if a

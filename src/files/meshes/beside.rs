@@ -1,19 +1,18 @@
-//! The files that a mesh's own file names: materials, textures, buffers.
+//! Files that a mesh's file refers to: materials, textures, buffers.
 
 use std::cell::RefCell;
 
-/// A picture that texture coordinates are about: a file as it is, to be decoded by whoever wants
-/// its pixels.
+/// A picture that texture coordinates refer to: the bytes of its file, which the caller decodes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Texture {
-    /// The name that it was given by; empty for one within the mesh's file.
+    /// Name of the file; empty for a picture within the mesh's file.
     pub name: String,
-    /// The bytes: a PNG or JPEG file, as a rule.
+    /// Bytes of the file, usually PNG or JPEG.
     pub bytes: Vec<u8>,
 }
 
-/// What is there besides the mesh's own file, by the names it goes by, and what has been missed.
+/// Files beside the mesh's own one by their names, and the names that were not found.
 pub(super) struct Beside<'a> {
     files: &'a [(&'a str, &'a [u8])],
     missing: RefCell<Vec<String>>,
@@ -27,8 +26,8 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// The file of this name, or else one whose name is the same without folders: the paths that
-    /// programs write are often those of another machine.
+    /// The file of this name, or else one with the same name without folders: the paths that programs write are
+    /// often those of another machine.
     pub(super) fn find(&self, name: &str) -> Option<(&'a str, &'a [u8])> {
         let same = |of: fn(&str) -> &str| {
             let matches = |known: &str| of(known).eq_ignore_ascii_case(of(name));

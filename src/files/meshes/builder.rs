@@ -1,4 +1,4 @@
-//! A mesh that is put together from a file, and the errors on the way.
+//! Construction of a mesh from a file, and the errors of that.
 
 use std::fmt::Display;
 
@@ -9,10 +9,10 @@ use crate::scene::mesh::Mesh;
 /// Colour of a vertex to which the file gives none.
 pub(super) const DEFAULT_VERTEX_COLOUR: [f32; 3] = [1.0; 3];
 
-/// The texture coordinates of vertices that have none.
+/// Texture coordinates of vertices that have none.
 const NO_UV: [f32; 2] = [f32::MIN; 2];
 
-/// The number of no texture.
+/// Number of a triangle's texture where it has none.
 pub(super) const NO_TEXTURE: i32 = -1;
 
 /// A mesh that the decoders put together vertex by vertex and triangle by triangle.
@@ -25,7 +25,7 @@ pub(super) struct MeshBuilder {
     /// The texture of each triangle; shorter where the last ones have none.
     pub(super) textures: Vec<i32>,
     pub(super) pictures: Vec<Texture>,
-    /// Number of bytes that further pictures can have: no more than the files have.
+    /// Number of bytes that further pictures may have: together no more than the files have.
     pub(super) room: usize,
 }
 
@@ -38,7 +38,7 @@ impl MeshBuilder {
         push(&mut self.triangles, triangle, MAX_CELLS)
     }
 
-    /// A polygon as triangles that all share its first corner.
+    /// Adds a polygon as triangles that all share its first corner.
     pub(super) fn fan(&mut self, corners: &[u32]) -> Result<()> {
         let [first, rest @ ..] = corners else {
             return Ok(());
@@ -47,18 +47,18 @@ impl MeshBuilder {
             .try_for_each(|edge| self.triangle([*first, edge[0], edge[1]]))
     }
 
-    /// The same colour for all vertices from one on.
+    /// Gives all vertices from one on the same colour.
     pub(super) fn material(&mut self, start: usize, color: [f32; 3]) {
         let vertices = self.positions.len() - start;
         self.colors.extend(std::iter::repeat_n(color, vertices));
     }
 
-    /// The last vertices have no texture coordinates, which others may have.
+    /// Notes that the last vertices have no texture coordinates, which others may have.
     pub(super) fn no_uvs(&mut self) {
         self.uvs.resize(self.positions.len(), NO_UV);
     }
 
-    /// The number of a picture by its name; of one that has none, a new one.
+    /// Number of a picture, by its name; a new number for a picture without one.
     pub(super) fn picture(&mut self, name: &str, bytes: &[u8]) -> Result<i32> {
         let known = (self.pictures.iter()).position(|p| !name.is_empty() && p.name == name);
         if let Some(number) = known {
@@ -74,7 +74,7 @@ impl MeshBuilder {
         Ok(self.pictures.len() as i32 - 1)
     }
 
-    /// Gives a texture to all triangles that have not been given one yet.
+    /// Gives a texture to all triangles that have none yet.
     pub(super) fn texture(&mut self, number: i32) {
         self.textures.resize(self.triangles.len(), number);
     }
@@ -138,7 +138,7 @@ fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
     Ok(())
 }
 
-/// Largest number of characters that are kept of a decoder's message: some quote the line, which may be the
+/// Maximum number of characters that are kept of a decoder's message: some quote the line, which may be the
 /// whole file.
 const MAX_MESSAGE_CHARACTERS: usize = 160;
 

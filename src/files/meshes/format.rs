@@ -24,7 +24,7 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
+    /// The name `"obj"`, `"ply"`, `"stl"` or `"gltf"`.
     pub fn name(self) -> &'static str {
         match self {
             MeshFormat::Obj => "obj",
@@ -34,8 +34,8 @@ impl MeshFormat {
         }
     }
 
-    /// The format that a file seems to have. OBJ has nothing it must begin
-    /// with: a line that begins with `v` and a blank is taken for one.
+    /// The format that a file seems to have. OBJ has nothing that it must begin with: a line that begins with
+    /// `v` and a blank is taken for one.
     pub fn detect(bytes: &[u8]) -> Option<MeshFormat> {
         if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
             return Some(MeshFormat::Ply);

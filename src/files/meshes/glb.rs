@@ -1,4 +1,4 @@
-//! glTF 2.0 as one binary file (GLB), out, by way of `gltf-json`.
+//! Meshes written as glTF 2.0 in one binary file (GLB).
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -50,7 +50,7 @@ pub fn write_glb(mesh: &Mesh, texture: Option<&[u8]>) -> Result<Vec<u8>> {
     file.finish(primitive, origin)
 }
 
-/// A texture with its type, if the mesh can have it.
+/// A texture with its type, if the mesh can have one.
 fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)> {
     if mesh.uvs().is_none() {
         let reason = "a texture needs texture coordinates, and the mesh has none";
@@ -68,7 +68,7 @@ fn checked<'a>(image: &'a [u8], mesh: &Mesh) -> Result<(&'a [u8], &'static str)>
     }
 }
 
-/// The two parts of the file.
+/// The text part and the binary part of the file.
 #[derive(Default)]
 struct File {
     root: Root,
@@ -191,7 +191,7 @@ impl File {
         Ok(self.root.push(accessor))
     }
 
-    /// So many bytes more, beginning at a multiple of four.
+    /// Appends bytes, beginning at a multiple of four.
     fn view<const N: usize>(
         &mut self,
         length: usize,
@@ -279,7 +279,7 @@ fn accessor_of(view: Index<View>, count: usize, component: ComponentType, kind: 
     }
 }
 
-/// The smallest or largest of each coordinate.
+/// The smallest or largest value of each coordinate.
 fn extreme(positions: &[[f32; 3]], pick: fn(f32, f32) -> f32) -> Value {
     let first = positions.first().copied().unwrap_or_default();
     let extreme = positions

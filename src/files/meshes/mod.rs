@@ -26,7 +26,7 @@ pub use glb::write_glb;
 pub use ply::write_ply;
 pub use stl::write_stl;
 
-/// A mesh from a file, and the pictures on it.
+/// A mesh read from a file, with its textures.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshFile {
@@ -34,8 +34,7 @@ pub struct MeshFile {
     pub mesh: Mesh,
     /// The pictures, each once, in the order of their numbers.
     pub textures: Vec<Texture>,
-    /// Names of the materials and textures that were not given: without them the mesh has the
-    /// colours that are left.
+    /// Names of materials and textures that were not given: without them the mesh has fewer colours.
     pub missing: Vec<String>,
 }
 

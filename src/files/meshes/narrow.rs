@@ -1,10 +1,10 @@
-//! A mesh's numbers in fewer bits, as most formats have them.
+//! Numbers of a mesh in fewer bits, as most file formats have them.
 
 use crate::error::{Error, Result, try_filled};
 use crate::math::lanes;
 use crate::scene::mesh::Mesh;
 
-/// The positions, as seen from an origin, in 32 bits.
+/// Positions relative to an origin, in 32 bits.
 pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Result<Vec<[f32; 3]>> {
     let mut positions = try_filled(what, mesh.positions().len(), [0f32; 3])?;
     for (row, (narrow, wide)) in positions.iter_mut().zip(mesh.positions()).enumerate() {
@@ -23,7 +23,7 @@ pub(super) fn narrowed(what: &'static str, mesh: &Mesh, origin: [f64; 3]) -> Res
     Ok(positions)
 }
 
-/// Largest distance of a mesh from the origin relative to its size: up to it 32 bits hold positions to a
+/// Maximum distance of a mesh from the origin relative to its size at which 32 bits hold positions to a
 /// thousandth of the spacing of a mesh 4096 vertices across.
 const MAX_ORIGIN_DISTANCE_RATIO: f64 = 8.0;
 
@@ -52,7 +52,7 @@ pub(super) fn near_origin(mesh: &Mesh) -> [f64; 3] {
     })
 }
 
-/// A whole number near this one, of 24 bits at most: multiples of 10ᵏ up to 2²⁴⁺ᵏ.
+/// A whole number near this one, of at most 24 bits: multiples of 10ᵏ up to 2²⁴⁺ᵏ.
 fn rounded(value: f64) -> f64 {
     let (mut unit, mut limit) = (1.0, f64::from(1 << 24));
     while value.abs() >= limit {

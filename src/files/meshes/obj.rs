@@ -1,4 +1,4 @@
-//! Wavefront OBJ, by way of `tobj`.
+//! Wavefront OBJ, read by the `tobj` crate.
 
 use std::path::Path;
 
@@ -70,9 +70,8 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     Ok(())
 }
 
-/// The lines of a material file that tell its materials' names, colours and pictures, if each colour
-/// has three numbers, or one for all three: `tobj` panics where there are more or less. It refuses what
-/// is odd in others.
+/// The lines of a material file with names, colours and pictures, if each colour has three numbers, or one for
+/// all three: `tobj` panics for other numbers of them. It refuses other lines that are invalid.
 fn looks(bytes: &[u8]) -> Option<String> {
     let mut kept = String::new();
     for line in lines(bytes) {
@@ -97,7 +96,7 @@ fn looks(bytes: &[u8]) -> Option<String> {
     Some(kept)
 }
 
-/// The name of a material's picture. Options may stand before it (`-s 1 1 1`), which are passed over.
+/// Name of a material's picture, without the options before it (`-s 1 1 1`).
 fn texture(material: &Material) -> Option<&str> {
     let name = material.diffuse_texture.as_deref()?;
     match name.strip_prefix('-') {
@@ -106,18 +105,18 @@ fn texture(material: &Material) -> Option<&str> {
     }
 }
 
-/// The lines of a file, without the blanks that they begin with.
+/// Lines of a file, without leading blanks.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_start)
 }
 
-/// Whether a line is one of a vertex.
+/// Whether a line is that of a vertex.
 pub(super) fn is_vertex(line: &&[u8]) -> bool {
     line.starts_with(b"v ") || line.starts_with(b"v\t")
 }
 
-/// No index can be larger than the file is long, and none that counts back can be larger than what
-/// is there so far. `tobj` computes with them unchecked, which could overflow.
+/// Checks that no index exceeds the length of the file, and no relative one the number of elements so far:
+/// `tobj` computes with them unchecked, which could overflow.
 fn check_indices(text: &str) -> Result<()> {
     // Of positions, texture coordinates and normals, which a corner names in this order.
     let mut counts = [0; 3];
@@ -150,7 +149,7 @@ fn check_indices(text: &str) -> Result<()> {
     Ok(())
 }
 
-/// The number, as far as digits go: what else there may be is refused later.
+/// Value of the leading digits of a number; what follows them is refused later.
 fn whole(text: &str) -> usize {
     let digits = text.bytes().filter(u8::is_ascii_digit);
     digits.fold(0, |n, digit| {

@@ -1,4 +1,4 @@
-//! The Stanford format, in and out, by way of `ply-rs-bw`.
+//! The Stanford format (PLY), read and written by the `ply-rs-bw` crate.
 
 use std::io::{self, Cursor};
 
@@ -79,7 +79,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     Ok(())
 }
 
-/// An element that nobody needs.
+/// An element that is not used.
 struct Skipped;
 
 impl PropertyAccess for Skipped {
@@ -88,7 +88,7 @@ impl PropertyAccess for Skipped {
     }
 }
 
-/// NaN is what has not been said.
+/// A vertex, with NaN for properties that are missing.
 struct Vertex {
     position: [f64; 3],
     color: [f32; 3],
@@ -137,7 +137,7 @@ impl PropertyAccess for Vertex {
     }
 }
 
-/// A scalar, and what white would be in its type.
+/// A scalar, and the value of white in its type.
 fn number(property: &Property) -> Option<(f64, f64)> {
     Some(match property {
         Property::Char(v) => (f64::from(*v), f64::from(i8::MAX)),
@@ -229,7 +229,7 @@ fn write(file: &mut Buffer, mesh: &Mesh) -> io::Result<()> {
     Ok(())
 }
 
-/// What is being written.
+/// The element that is being written.
 enum Element {
     Vertex {
         position: [f64; 3],

@@ -1,59 +1,72 @@
-//! Where λ is so small that no bend pays: the affine surface of least squares, and the proof that
-//! it is optimal.
+//! The affine surface of least squares, which is optimal where λ is so small that no bend pays, and its proof.
 //!
-//! ADMM takes long there, since what is to be found is a dual as smooth as the domain is large. But
-//! the optimality condition of that surface is a linear system: a stiffness κ (see `balance`) that
-//! lets nothing bend gives a dual that satisfies it, the one of least norm. Where that is a little
-//! too large for the ball, ADMM goes on from there.
+//! ADMM takes long there, because it has to find a dual as smooth as the domain is large. But the optimality
+//! condition of that surface is a linear system: a stiffness κ (see [`balance`](super::balance)) that lets
+//! nothing bend gives a dual that satisfies it, the one of least norm. Where that is a little too large for the
+//! dual ball, ADMM goes on from there.
 
 use super::balance::balanced_bound;
-use super::best::MAX_AFFINE_GAP;
-use super::iteration::Level;
+use super::steps::Admm;
 use crate::error::Result;
-use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
+
+/// Maximum relative duality gap at which the affine surface may be the answer; with a larger one, the surface
+/// bends.
+pub(super) const MAX_AFFINE_GAP: f64 = 0.1;
 
 /// Screening length `(κ/2λ)^¼` of a surface that counts as stiff, in sizes of the domain: its bends are then
 /// a millionth of what they could be.
 const STIFF_SCREENING_LENGTH: f64 = 10.0;
 
-/// Residuals at which the affine surface's dual is found, relative to the first: the usual one, and the one
-/// where fidelity is weak and what is left costs more.
-const DUAL_RESIDUALS: [f64; 2] = [1e-4, 1e-9];
+/// Residual at which the affine surface's dual is found, relative to the first.
+const DUAL_TOLERANCE: f64 = 1e-4;
 
-/// Largest number of conjugate-gradient iterations for the affine surface's dual.
+/// Residual at which the affine surface's dual is found where vertices have next to no fidelity, relative to the
+/// first: what is left of it costs more there.
+const DUAL_TOLERANCE_WEAK_FIDELITY: f64 = 1e-9;
+
+/// Maximum number of conjugate-gradient iterations for the affine surface's dual.
 const MAX_DUAL_ITERATIONS: usize = 100;
 
-impl<O: Solvable> Level<O> {
-    /// Takes the affine surface, and a bound about it, where it is better than the best one so far.
+impl<O: SolvableOperator> Admm<O> {
+    /// Makes the affine surface of least squares the incumbent, with a bound of its own, if its objective is
+    /// smaller.
     pub(super) fn try_affine(&mut self) -> Result<()> {
-        let trivial = self.best.objective() <= self.best.rounding;
-        if trivial || !self.plan.tries_affine(&self.problem) {
+        let is_trivial = self.incumbent.objective() <= self.incumbent.rounding;
+        let is_fixed = self.parameters.follows_normals || !self.problem.constrained.is_empty();
+        if is_trivial || is_fixed {
             return Ok(());
         }
         let z = self.problem.least_squares()?;
-        let cost = [self.problem.distance(&z), self.problem.smoothness(&z)];
-        let objective = cost[0] + cost[1];
-        if objective > self.best.objective() {
+        let (fidelity, nuclear_norm) = (self.problem.distance(&z), self.problem.smoothness(&z));
+        let objective = fidelity + nuclear_norm;
+        if objective > self.incumbent.objective() {
             return Ok(());
         }
         let stiffness = 2.0
             * self.problem.lambda
             * (STIFF_SCREENING_LENGTH * self.problem.operator.size()).powi(4);
         self.solver.set_rho(stiffness);
-        let (state, problem) = (&mut self.state, &self.problem);
-        let enough = (
-            DUAL_RESIDUALS[usize::from(problem.loose)],
-            MAX_DUAL_ITERATIONS,
-        );
-        let balanced = balanced_bound(state, problem, &z, stiffness, &mut self.solver, enough)?;
-        self.solver.set_rho(self.state.rho);
-        self.cg_iterations += balanced.steps;
-        self.best.dual_bound = self.best.dual_bound.max(balanced.bound);
-        self.best.take_affine(&z, cost);
+        let tolerance = match self.problem.has_weak_fidelity {
+            true => DUAL_TOLERANCE_WEAK_FIDELITY,
+            false => DUAL_TOLERANCE,
+        };
+        let criteria = CgCriteria {
+            tolerance,
+            max_iterations: MAX_DUAL_ITERATIONS,
+        };
+        let (iterate, problem) = (&mut self.iterate, &self.problem);
+        let balanced = balanced_bound(iterate, problem, &z, stiffness, &mut self.solver, criteria)?;
+        self.solver.set_rho(self.iterate.rho);
+        self.cg_iterations += balanced.iterations;
+        let incumbent = &mut self.incumbent;
+        incumbent.dual_bound = incumbent.dual_bound.max(balanced.bound);
+        incumbent.set_surface(&z, fidelity, nuclear_norm);
+        incumbent.is_affine = true;
         if objective - balanced.bound <= MAX_AFFINE_GAP * objective {
-            self.state.z = z;
-            self.state
-                .take_balanced(&self.problem, stiffness, &balanced);
+            self.iterate.z = z;
+            self.iterate
+                .set_balanced_dual(&self.problem, stiffness, &balanced);
         }
         Ok(())
     }

@@ -1,66 +1,72 @@
-//! A dual that satisfies the optimality condition of `z`, and its certificate.
+//! A balanced dual, which satisfies the optimality condition of a surface `z`, and its bound.
 //!
-//! Where vertices have no fidelity term of their own, `CᵀY` must all but vanish
-//! for the bound `D(Y)` to say anything, and ADMM's dual comes close to that
-//! only in the end. So it is balanced first: with a stiffness `κ` and
-//! `(2λw + κCᵀC) q = −(2λw(z − z̃) + CᵀY)`, one more z-step as it were, `Y + κCq`
-//! and `z + q` satisfy the condition exactly. What is left is to scale the new
-//! dual back into the ball.
+//! Where vertices have no fidelity term of their own, `CᵀY` must all but vanish for the bound `D(Y)` to be worth
+//! anything, and ADMM's dual comes close to that only in the end. So it is balanced first: with a stiffness `κ`
+//! and `(2λw + κCᵀC) q = −(2λw(z − z̃) + CᵀY)`, which is one more z-step, `Y + κCq` and `z + q` satisfy the
+//! condition exactly. The new dual is then scaled back into the dual ball.
 
-use super::state::{State, dual_bound};
+use super::certificate::dual_bound;
+use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
-use crate::fit::energy::law::Law;
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::energy::spectral_penalty::SpectralPenalty;
+use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::sym2::Sym2;
 
-/// Residual at which the dual is balanced, relative to the first, and largest number of iterations.
-pub(super) const BALANCE_LIMITS: (f64, usize) = (1e-9, 100);
+/// When conjugate gradients for a balanced dual stop.
+pub(super) const BALANCE_CRITERIA: CgCriteria = CgCriteria {
+    tolerance: 1e-9,
+    max_iterations: 100,
+};
 
+/// A balanced dual.
 pub(super) struct Balanced {
     /// A lower bound of the optimum.
     pub bound: f64,
-    /// Conjugate-gradient iterations that it took.
-    pub steps: usize,
+    /// Number of conjugate-gradient iterations that it took.
+    pub iterations: usize,
     q: Vec<f64>,
 }
 
-/// Balances the iterate's dual about the surface `z`. The matrix of the `solver` is that of the
-/// stiffness.
-pub(super) fn balanced_bound<O: Solvable>(
-    state: &mut State<O>,
+/// Balances the iterate's dual about the surface `z`, with a `solver` whose ρ is the stiffness.
+pub(super) fn balanced_bound<O: SolvableOperator>(
+    iterate: &mut Iterate<O>,
     problem: &Problem<O>,
     z: &[f64],
     stiffness: f64,
     solver: &mut O::Solver,
-    enough: (f64, usize),
+    criteria: CgCriteria,
 ) -> Result<Balanced> {
     let zeros = || try_filled("certificate", problem.operator.vertex_cells(), 0.0);
     let (mut q, mut residual) = (zeros()?, zeros()?);
-    state.balance(problem, z, &q, stiffness, &mut residual);
-    let steps = solver.solve_precisely(problem, &mut residual, &mut q, enough)?;
-    let bound = state.balance(problem, z, &q, stiffness, &mut residual);
-    Ok(Balanced { bound, steps, q })
+    iterate.balance(problem, z, &q, stiffness, &mut residual);
+    let iterations = solver.solve_precisely(problem, &mut residual, &mut q, criteria)?;
+    let bound = iterate.balance(problem, z, &q, stiffness, &mut residual);
+    Ok(Balanced {
+        bound,
+        iterations,
+        q,
+    })
 }
 
-impl<O: Solvable> State<O> {
-    /// Goes on from the balanced dual.
-    pub(super) fn take_balanced(
+impl<O: SolvableOperator> Iterate<O> {
+    /// Replaces the dual by the balanced one.
+    pub(super) fn set_balanced_dual(
         &mut self,
         problem: &Problem<O>,
         stiffness: f64,
         Balanced { q, .. }: &Balanced,
     ) {
-        let law = self.law(problem);
+        let penalty = self.penalty(problem);
         problem.operator.hessians(q, |stencil, hessian| {
-            let dual = law.dual(self.v.get(stencil), problem.weight.at(stencil));
+            let dual = penalty.dual(self.v.get(stencil), problem.weight.at(stencil));
             self.v.set(stencil, dual + hessian.scale(stiffness));
         });
     }
 
-    /// `D(t(Y + κCq))` for the best feasible `t`; the residual
-    /// `−(2λw(z + q − z̃) + Cᵀ(Y + κCq))` goes to `residual`.
+    /// The bound `D(t(Y + κCq))` for the best feasible factor `t`; writes the residual
+    /// `−(2λw(z + q − z̃) + Cᵀ(Y + κCq))` to `residual`.
     fn balance(
         &mut self,
         problem: &Problem<O>,
@@ -69,8 +75,8 @@ impl<O: Solvable> State<O> {
         stiffness: f64,
         residual: &mut [f64],
     ) -> f64 {
-        let law = self.law(problem);
-        let State { v, scratch, .. } = self;
+        let penalty = self.penalty(problem);
+        let Iterate { v, scratch, .. } = self;
         let fidelity = 2.0 * problem.lambda;
         let (mut excess, mut conjugate) = (0.0f64, 0.0);
         let (mut inner, mut quadratic) = (0.0, 0.0);
@@ -83,10 +89,11 @@ impl<O: Solvable> State<O> {
                 let weight = problem.weight.run(run);
                 for (i, weight) in weight.iter().enumerate() {
                     let change = Sym2::from_coordinates(hessians.at(i)).scale(stiffness);
-                    let y = law.dual(v.get(i), *weight) + change;
+                    let y = penalty.dual(v.get(i), *weight) + change;
                     matrices.set(i, y.coordinates());
-                    excess = excess.max(law.size(y, *weight));
-                    conjugate += problem.operator.area(run.start + i) * law.conjugate(y, *weight);
+                    excess = excess.max(penalty.size(y, *weight));
+                    conjugate +=
+                        problem.operator.area(run.start + i) * penalty.conjugate(y, *weight);
                 }
             },
             |_, run, sums| {
@@ -103,7 +110,7 @@ impl<O: Solvable> State<O> {
             },
         );
         let largest = if excess > 0.0 {
-            law.largest() / excess
+            penalty.largest() / excess
         } else {
             f64::INFINITY
         };

@@ -1,10 +1,21 @@
-//! ADMM (paper, Eq. 17 to 19): its iterate, its schedule and its certificate.
+//! ADMM (paper, Eq. 15 to 19): its iterate, the two schedules that it follows, and its certificate.
+//!
+//! [`paper`] is the algorithm of the paper, to be read beside it, and [`default_schedule`] what runs unless
+//! that is asked for. Both are made of the same [`steps`].
 
 mod affine;
-mod ascent;
 mod balance;
-pub(crate) mod best;
-pub(crate) mod iteration;
+mod certificate;
+pub(crate) mod default_rho;
+mod default_schedule;
+mod divergence;
+mod dual_ascent;
+pub(crate) mod incumbent;
+pub(crate) mod iterate;
+mod paper;
+pub(crate) mod parameters;
 mod rank;
-pub(crate) mod schedule;
-pub(crate) mod state;
+pub(crate) mod solver;
+pub(crate) mod steps;
+mod timing;
+mod z_step;

@@ -1,4 +1,4 @@
-//! The rank of the surface's own Hessians, brought down to that of ADMM's.
+//! Rank reduction: brings the Hessians of the final surface to the rank of ADMM's `H`.
 //!
 //! ADMM's `H` has rank one almost everywhere long before its `z` has: what is left of the smaller
 //! eigenvalues in `Cz` is primal residual. Heights whose Hessians have rank one are what alternating
@@ -13,10 +13,10 @@
 //! creases meet, it is no residual: beyond a limit, which comes down with each step, it counts the less
 //! the larger it is.
 
-use super::state::State;
+use super::iterate::Iterate;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::lanes;
 use crate::math::real::larger;
@@ -25,30 +25,36 @@ use crate::math::sym2::Sym2;
 /// Number of steps of the rank refinement, each of which costs about as much as an iteration of ADMM.
 const RANK_STEPS: usize = 8;
 
-/// First limit of the smaller eigenvalues, in their medians.
+/// Limit of the smaller eigenvalues in the first step, in medians of their magnitudes.
 const FIRST_EIGENVALUE_LIMIT: f64 = 1.2;
 
 /// Factor by which the limit changes from step to step.
 const LIMIT_FACTOR: f64 = 0.7;
 
-/// Factor of over-relaxation: heights can follow but a part of what is asked of the Hessians.
-const OVER_RELAXATION: f64 = 2.0;
+/// Over-relaxation of a step: heights can follow only a part of a change of their Hessians.
+const RANK_OVER_RELAXATION: f64 = 2.0;
 
 /// Stride between the stencils that the median is taken of.
 const MEDIAN_SAMPLE_STRIDE: usize = 7;
 
+/// Rank reduction under way.
 #[derive(Debug, Clone)]
 pub(super) struct RankReduction {
-    /// Where the next step starts from, and where the last one has led.
+    /// The surface extrapolated by the momentum, from which the next step starts.
     start: Vec<f64>,
+    /// The surface after the last step.
     z: Vec<f64>,
+    /// Magnitude beyond which a smaller eigenvalue counts the less the larger it is.
     limit: f64,
     steps: usize,
 }
 
 impl RankReduction {
-    /// From the surface `z`; nothing where its Hessians are of rank one as it is.
-    pub(super) fn new<O: Solvable>(problem: &Problem<O>, z: &[f64]) -> Result<Option<Self>> {
+    /// Starts from the surface `z`; `None` where its Hessians have rank one already.
+    pub(super) fn new<O: SolvableOperator>(
+        problem: &Problem<O>,
+        z: &[f64],
+    ) -> Result<Option<Self>> {
         let mut sizes = Vec::new();
         let mut count = 0;
         problem.operator.hessians(z, |_, hessian| {
@@ -78,15 +84,14 @@ impl RankReduction {
         }))
     }
 
-    /// One step, with the conjugate-gradient iteration that it takes; the surface, once there are
-    /// enough.
-    pub(super) fn step<O: Solvable>(
+    /// Takes one step, which costs one conjugate-gradient iteration. Returns the surface after the last step.
+    pub(super) fn step<O: SolvableOperator>(
         &mut self,
         problem: &Problem<O>,
-        state: &mut State<O>,
+        iterate: &mut Iterate<O>,
         solver: &mut O::Solver,
     ) -> Option<&[f64]> {
-        state.lower_rank(problem, &self.start, self.limit, solver);
+        iterate.reduce_rank(problem, &self.start, self.limit, solver);
         solver.step(&problem.operator);
         solver.correct(&problem.operator, &mut self.start);
         // Nesterov's.
@@ -108,7 +113,7 @@ fn lesser_eigenvalue(hessian: Sym2) -> (f64, f64) {
     (hessian.mean - sign * hessian.radius(), sign)
 }
 
-/// The part of a Hessian that belongs to it, as far as the limit lets that count.
+/// The part of a Hessian that belongs to its smaller eigenvalue, reduced where that exceeds the limit.
 #[inline(always)]
 fn lesser_part(hessian: Sym2, limit: f64) -> Sym2 {
     let (value, sign) = lesser_eigenvalue(hessian);
@@ -127,17 +132,17 @@ fn lesser_part(hessian: Sym2, limit: f64) -> Sym2 {
     }
 }
 
-impl<O: Solvable> State<O> {
-    /// Makes `−ρCᵀN` of the surface `z` the residual of the next z-step.
-    fn lower_rank(&mut self, problem: &Problem<O>, z: &[f64], limit: f64, solver: &mut O::Solver) {
-        let State {
+impl<O: SolvableOperator> Iterate<O> {
+    /// Writes `−ρCᵀN` of the surface `z` to the solver as the residual of the next z-step.
+    fn reduce_rank(&mut self, problem: &Problem<O>, z: &[f64], limit: f64, solver: &mut O::Solver) {
+        let Iterate {
             rho,
             scratch,
             terms,
             ..
         } = self;
         let [_, [wide, ..]] = terms;
-        let factor = -OVER_RELAXATION * *rho * solver.residual_scale();
+        let factor = -RANK_OVER_RELAXATION * *rho * solver.residual_scale();
         let residual = solver.residual();
         problem.operator.sweep(
             scratch,

@@ -6,8 +6,8 @@
 //! profile for all rulings, which is averaged over their whole length. [`fit_cylinder`] finds it, and tests whether
 //! its residuals are noise.
 
-mod noise;
 mod profile;
+mod residual_excess;
 
 use super::input::Input;
 use crate::error::{Error, Result, try_filled};
@@ -218,9 +218,9 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
         squares += point.weight * left(point).powi(2);
         weights += point.weight;
     }
-    let excess = noise::residual_excess(points.iter().map(|point| {
+    let excess = residual_excess::residual_excess(points.iter().map(|point| {
         let [across, along] = axes.place(point.at);
-        noise::FitResidual {
+        residual_excess::FitResidual {
             across: across / axes.bins as f64,
             along,
             value: left(point),
@@ -237,7 +237,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
     }
     let length = profile.slope.hypot(1.0);
     let report = CylinderReport {
-        verdict: match excess <= noise::MAX_CYLINDER_EXCESS {
+        verdict: match excess <= residual_excess::MAX_CYLINDER_EXCESS {
             true => CylinderVerdict::Cylinder,
             false => CylinderVerdict::Other,
         },

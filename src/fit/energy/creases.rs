@@ -1,45 +1,45 @@
-//! Reweighted passes at creases: a norm costs less where the surface bends too sharply to be smooth.
+//! Reweighting passes at creases: the penalty's weight falls where the surface bends too sharply to be smooth.
 //!
-//! With `ω = T/s̄` beyond a curvature `T`, passes one after the other lower a penalty that grows like
-//! a logarithm there (Candès, Wakin and Boyd, Enhancing Sparsity by Reweighted ℓ₁ Minimization,
-//! 2008), so that creases keep their angle. Each pass is a convex problem for itself.
+//! With the weight `ω = T/s̄` beyond a curvature `T`, passes one after the other lower a penalty that grows
+//! like a logarithm there (Candès, Wakin and Boyd, *Enhancing Sparsity by Reweighted ℓ₁ Minimization*, 2008),
+//! so that creases keep their angle. Each pass is a convex problem of its own.
 
 use super::problem::Problem;
 use crate::error::Result;
 use crate::fit::operator::Operator;
 use crate::lattice::per_cell::PerCell;
 
-/// Least weight of a stencil on a crease.
+/// Minimum weight of a stencil on a crease, relative to a smooth one: keeps the problem well conditioned.
 const MIN_CREASE_WEIGHT: f64 = 0.05;
 
-/// Weight of a stencil where smooth parts of the surface are known to meet.
+/// Weight of a stencil on a crease between regions that are known to be smooth, relative to a smooth one.
 const KNOWN_CREASE_WEIGHT: f64 = 0.01;
 
-/// Least relative change by which a weight counts as changed.
+/// Minimum relative change by which a weight counts as changed.
 const MIN_WEIGHT_CHANGE: f64 = 0.1;
 
-/// Least share of creases with a changed weight for which another pass is worth it.
+/// Minimum share of stencils on creases whose weight has changed for which another pass is worth its time.
 const MIN_CHANGED_CREASES: f64 = 0.02;
 
-/// What a pass is about.
+/// The stencils on creases in one reweighting pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Creases {
-    /// Stencils with a weight below 1.
+    /// Number of stencils with a weight below 1.
     pub vertices: usize,
-    /// Those among them, and among the pass before's, whose weight has changed.
+    /// Number of stencils on creases, now or in the pass before, whose weight has changed.
     pub changed: usize,
 }
 
 impl Creases {
-    /// Whether the pass is worth making.
+    /// Whether enough weights have changed for the pass to be worth its time.
     pub(crate) fn is_worth(self) -> bool {
         self.changed as f64 > MIN_CHANGED_CREASES * self.vertices as f64
     }
 }
 
 impl<O: Operator> Problem<O> {
-    /// `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` spread over the neighbours once, if enough
-    /// vertices change by that. `radius` is `1/T`.
+    /// Sets the weights `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` averaged once with the neighbours, if enough
+    /// of them change by that. `radius` is `1/T`, below which a bend is a crease.
     pub(crate) fn reweight_creases(&mut self, z: &[f64], radius: f64) -> Result<Creases> {
         let mut weights = self.norms(z)?;
         self.operator.spread(&mut weights);
@@ -62,9 +62,9 @@ impl<O: Operator> Problem<O> {
         Ok(creases)
     }
 
-    /// Takes nearly all of the weight from stencils on creases that are known as such, and says how many of
-    /// these had all of it. A weight by curvature leaves much of it where the mesh is coarse, for there a
-    /// crease is not much sharper than a bend; it rounds the crease, and pushes what is beside it out.
+    /// Takes nearly all of the weight from stencils on creases that are `known`, and returns how many of these
+    /// had all of it. A weight by curvature leaves much of it where the mesh is coarse, because a crease is not
+    /// much sharper than a bend there; that would round the crease and push the surface beside it outwards.
     pub(crate) fn free_creases(&mut self, known: &[bool]) -> usize {
         let mut found = 0;
         let weights = known.iter().enumerate().map(|(stencil, known)| {

@@ -1,6 +1,7 @@
-//! The energy, and its norm's proximal map, value and conjugate.
+//! The energy of a solve: fidelity, spectral penalty of the Hessians, weights at creases, and moments on
+//! borders.
 
 pub(crate) mod creases;
-pub(crate) mod law;
-pub(crate) mod load;
+pub(crate) mod moment_load;
 pub(crate) mod problem;
+pub(crate) mod spectral_penalty;

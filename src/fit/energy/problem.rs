@@ -1,60 +1,72 @@
-//! The energy of heights under any operator, in normalised coordinates.
+//! The problem that a solve minimises: the energy of heights under any operator, in normalised coordinates.
 
-use super::law::{Any, Kind, Law};
+use super::spectral_penalty::{AnyPenalty, PenaltyKind, SpectralPenalty};
 use crate::error::{Result, try_filled};
 use crate::fit::coordinates::Plane;
 use crate::fit::operator::Operator;
 use crate::fit::options::Energy;
 use crate::lattice::per_cell::PerCell;
 
-/// Norm, as a share of the mean, up to which a Hessian counts as none when an energy is reweighted.
+/// Norm of a Hessian, as a share of the mean norm, that counts as small when all weights are reweighted: the ε
+/// of the reweighting.
 const NEGLIGIBLE_NORM_SHARE: f64 = 0.3;
 
-/// Weight over `λh⁴` from which on a vertex moves by next to nothing: keeping it where it is costs less than
-/// a tenth, the norm of one Hessian being of order 1 to 1/h.
-const FIRM_WEIGHT: f64 = 1e3;
+/// Fidelity, in units of `λh⁴`, from which on a vertex is pinned to its height: it moves by next to nothing,
+/// and pinning it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h.
+const PINNED_FIDELITY: f64 = 1e3;
 
-/// Weight, as a share of the largest, up to which it counts as none.
-const NEGLIGIBLE_WEIGHT_SHARE: f64 = 5e-3;
+/// Fidelity of a vertex, as a share of the largest, below which it counts as weak.
+const WEAK_FIDELITY_SHARE: f64 = 5e-3;
 
-/// Fidelity, as a share of the cost of the input's bends, up to which it counts as none.
+/// Fidelity, as a share of the penalty of the input, below which constraints alone hold the surface.
 const NEGLIGIBLE_FIDELITY_SHARE: f64 = 0.1;
 
-/// Number of times that norms are averaged with their neighbours' before a reweighting.
+/// Rounding error of a Hessian's norm, in those of the largest height over the squared spacing: a norm is a sum of
+/// about as many heights.
+pub(crate) const HESSIAN_ROUNDING_UNITS: f64 = 16.0;
+
+/// Number of times that norms are averaged with their neighbours before all weights are reweighted.
 const NORM_AVERAGING_STEPS: usize = 30;
 
-/// `P(z) = λ Σ w (z − z̃)² + Σ ω f(Cz)` (paper, Eq. 15), the one sum over the operator's vertices, the
-/// other over its stencils, subject to `z = z̃` at constrained vertices.
+/// The energy `P(z) = λ Σ w (z − z̃)² + Σ ω f(Cz)` (paper, Eq. 15), summed over the operator's vertices and
+/// over its stencils, subject to `z = z̃` at constrained vertices.
 #[derive(Debug, Clone)]
 pub(crate) struct Problem<O> {
-    /// `C`.
+    /// The operator `C` from heights to Hessians.
     pub operator: O,
     pub lambda: f64,
-    /// `z̃`, zero where no vertex is.
+    /// The input heights `z̃`; 0 where there is no vertex.
     pub target: Vec<f64>,
-    /// What loads of the border have added to the fidelity by moving the target, and is taken off again: a
-    /// load does no work at the heights as they were given.
+    /// Energy that loads on the border have added by moving the target, and that is subtracted again: a load
+    /// does no work at the given heights.
     pub offset: f64,
-    /// `w`, and one over it; the latter is 0 at constrained vertices.
+    /// Weight `w` of each vertex's fidelity.
     pub fidelity: PerCell<f64>,
+    /// One over `w`, and 0 at constrained vertices.
     pub inverse_fidelity: PerCell<f64>,
-    /// Vertices whose height stays as it is given.
+    /// Vertices that keep their given height.
     pub constrained: Vec<u32>,
     /// Vertices with neither constraint nor fidelity, where `λw` is the tie break.
     pub free: Vec<u32>,
-    /// Whether there are vertices with next to no fidelity, where `CᵀY` must all but vanish.
-    pub loose: bool,
-    pub kind: Kind,
-    /// `ω`, and what it was before any reweighting.
+    /// Whether some vertices have next to no fidelity, so that `CᵀY` must all but vanish there.
+    pub has_weak_fidelity: bool,
+    pub kind: PenaltyKind,
+    /// Weight `ω` of each stencil's penalty.
     pub weight: PerCell<f64>,
+    /// Weight `ω` of each stencil before any reweighting.
     first_weight: PerCell<f64>,
-    /// Objectives up to this are rounding errors of zero.
+    /// Objective below which there is nothing but rounding errors.
     pub rounding: f64,
 }
 
 impl<O: Operator> Problem<O> {
-    /// With all weights 1.
-    pub(crate) fn under(operator: O, lambda: f64, target: Vec<f64>, kind: Kind) -> Self {
+    /// A problem with all weights 1 and without constraints.
+    pub(crate) fn unweighted(
+        operator: O,
+        lambda: f64,
+        target: Vec<f64>,
+        kind: PenaltyKind,
+    ) -> Self {
         let ones = || PerCell::same(operator.longest_run(), 1.0);
         Problem {
             lambda,
@@ -64,7 +76,7 @@ impl<O: Operator> Problem<O> {
             inverse_fidelity: ones(),
             constrained: Vec::new(),
             free: Vec::new(),
-            loose: false,
+            has_weak_fidelity: false,
             kind,
             weight: ones(),
             first_weight: ones(),
@@ -73,8 +85,8 @@ impl<O: Operator> Problem<O> {
         }
     }
 
-    /// Weights of the fidelity, of which 0 leaves a vertex free, and which vertices are constrained.
-    /// The `tie_break` is `λw` at free vertices.
+    /// Sets the weights of the fidelity and the constraints. A vertex of weight 0 is free, and `tie_break` is
+    /// `λw` there.
     ///
     /// # Errors
     /// Out of memory.
@@ -114,41 +126,43 @@ impl<O: Operator> Problem<O> {
             inverse[vertex] = if constrained { 0.0 } else { 1.0 / weight };
         }
         let largest = vertices.cells().fold(0.0f64, |m, v| m.max(fidelity[v]));
-        let weak = |vertex: usize| fidelity[vertex] < NEGLIGIBLE_WEIGHT_SHARE * largest;
-        self.loose = !self.free.is_empty() || vertices.cells().any(weak);
-        if self.loose {
+        let weak = |vertex: usize| fidelity[vertex] < WEAK_FIDELITY_SHARE * largest;
+        self.has_weak_fidelity = !self.free.is_empty() || vertices.cells().any(weak);
+        if self.has_weak_fidelity {
             // Beside them, what is held firmly would drown everything else in its rounding errors.
             // Its share of the bound stays.
-            let firm = FIRM_WEIGHT / (self.lambda * self.operator.spacing().powi(4));
+            let firm = PINNED_FIDELITY / (self.lambda * self.operator.spacing().powi(4));
             let firm = |vertex: &usize| fidelity[*vertex] >= firm && inverse[*vertex] > 0.0;
             let firm = vertices.cells().filter(firm);
             self.constrained.extend(firm.map(|vertex| vertex as u32));
         }
         self.fidelity = PerCell::Each(fidelity);
         self.inverse_fidelity = PerCell::Each(inverse);
-        self.loose |= constrained && self.yields();
+        self.has_weak_fidelity |= constrained && self.is_held_by_constraints();
         Ok(())
     }
 
-    /// Whether constraints alone hold the surface: what fidelity costs at its worst is next to
-    /// nothing beside the bends of the input.
-    fn yields(&self) -> bool {
+    /// Whether constraints alone hold the surface: at its worst, the fidelity is next to nothing beside the
+    /// penalty of the input.
+    fn is_held_by_constraints(&self) -> bool {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * self.target[v].powi(2));
         self.lambda * squares.sum::<f64>()
             < NEGLIGIBLE_FIDELITY_SHARE * self.smoothness(&self.target)
     }
 
-    /// What rounding errors may change in an objective of 0, those of a Hessian's norm being `norm`.
-    pub(crate) fn set_rounding(&mut self, norm: f64) {
+    /// Sets the rounding errors of an objective of 0 from the largest magnitude of heights.
+    pub(crate) fn set_rounding(&mut self, largest: f64) {
+        let spacing = self.operator.spacing();
+        let norm = HESSIAN_ROUNDING_UNITS * f64::EPSILON * largest / (spacing * spacing);
         let count = self.operator.stencils().len() as f64;
         self.rounding = match self.kind {
-            Kind::SquaredNuclear => {
+            PenaltyKind::SquaredNuclear => {
                 // Σ (s + δ)² − s² by Cauchy and Schwarz.
                 let squares = self.smoothness(&self.target);
                 norm * (2.0 * (count * squares).sqrt() + count * norm)
             }
-            Kind::Huber(bends) => {
+            PenaltyKind::Huber(bends) => {
                 let mut slopes = 0.0;
                 self.operator.hessians(&self.target, |_, hessian| {
                     slopes += bends.slope(hessian.nuclear_norm() + norm);
@@ -159,21 +173,21 @@ impl<O: Operator> Problem<O> {
         };
     }
 
-    /// The weights of an energy that has those of its input. Once more where that has
-    /// been given heights for free vertices.
-    pub(crate) fn take_first_normals(&mut self, energy: Energy) -> Result<()> {
+    /// Sets the weights of an energy whose weights follow from the normals of the input, again after free
+    /// vertices have got heights.
+    pub(crate) fn set_input_normal_weights(&mut self, energy: Energy) -> Result<()> {
         if matches!(energy, Energy::SecondFormOfInput | Energy::SecondForm) {
             let target = std::mem::take(&mut self.target);
-            self.take_normals(&target)?;
+            self.set_normal_weights(&target)?;
             self.target = target;
             self.first_weight = self.weight.clone();
         }
         Ok(())
     }
 
-    /// `ω = n₃`, the upward part of the unit normal of the surface `z`: what
-    /// turns its Hessian into the second fundamental form (paper, Eq. 24).
-    pub(crate) fn take_normals(&mut self, z: &[f64]) -> Result<()> {
+    /// Sets the weights `ω = n₃`, the upward part of the unit normal of the surface `z`, which turns its
+    /// Hessian into the second fundamental form (paper, Eq. 24).
+    pub(crate) fn set_normal_weights(&mut self, z: &[f64]) -> Result<()> {
         let mut factors = match std::mem::replace(&mut self.weight, PerCell::Same(Vec::new())) {
             PerCell::Each(factors) => factors,
             PerCell::Same(_) => try_filled("normals", self.operator.stencil_cells(), 0.0)?,
@@ -183,11 +197,10 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// `ω ← ω ε/(σ + ε)`, where `σ` is `‖Cz‖_*` as a mean over some stencils around
-    /// and `ε` a share of its mean over all: where the surface bends, bending
-    /// becomes cheap (Candès, Wakin and Boyd, Enhancing Sparsity by Reweighted
-    /// ℓ₁ Minimization, 2008). Without the local mean, what bends a little more
-    /// than its surroundings by chance would become a crease.
+    /// Reweights all stencils by `ω ← ω ε/(σ + ε)`, where `σ` is `‖Cz‖_*` averaged over the stencils around and
+    /// `ε` a share of its mean: where the surface bends, bending becomes cheap (Candès, Wakin and Boyd,
+    /// *Enhancing Sparsity by Reweighted ℓ₁ Minimization*, 2008). Without the average, a stencil that bends a
+    /// little more than its surroundings by chance would become a crease.
     pub(crate) fn reweight(&mut self, z: &[f64]) -> Result<()> {
         let mut norms = self.norms(z)?;
         let stencils = self.operator.stencils();
@@ -208,7 +221,7 @@ impl<O: Operator> Problem<O> {
         Ok(())
     }
 
-    /// `‖Cz‖_*` at the stencils, 0 elsewhere.
+    /// Nuclear norm `‖Cz‖_*` at each stencil, and 0 elsewhere.
     pub(crate) fn norms(&self, z: &[f64]) -> Result<Vec<f64>> {
         let mut norms = try_filled("weights", self.operator.stencil_cells(), 0.0)?;
         self.operator.hessians(z, |stencil, hessian| {
@@ -217,32 +230,32 @@ impl<O: Operator> Problem<O> {
         Ok(norms)
     }
 
-    /// `Σ ω f(Cz)`.
+    /// The penalty `Σ ω f(Cz)` of a surface.
     pub(crate) fn smoothness(&self, z: &[f64]) -> f64 {
         let mut sum = 0.0;
         self.each_cost(z, |_, cost| sum += cost);
         sum
     }
 
-    /// Calls `visit` with each stencil and its term of that.
+    /// Calls `visit` with each stencil and its term of the penalty.
     pub(crate) fn each_cost(&self, z: &[f64], mut visit: impl FnMut(usize, f64)) {
         // For values, which do not depend on ρ.
-        let law = Any::new(self.kind, f64::NAN);
+        let penalty = AnyPenalty::new(self.kind, f64::NAN);
         self.operator.hessians(z, |stencil, hessian| {
-            let value = law.value(hessian, self.weight.at(stencil));
+            let value = penalty.value(hessian, self.weight.at(stencil));
             visit(stencil, self.operator.area(stencil) * value);
         });
     }
 
-    /// `λ Σ w (z − z̃)²`, less the offset.
+    /// The fidelity `λ Σ w (z − z̃)²` of a surface, less the offset of loads.
     pub(crate) fn distance(&self, z: &[f64]) -> f64 {
         let vertices = self.operator.vertices().cells();
         let squares = vertices.map(|v| self.fidelity.at(v) * (z[v] - self.target[v]).powi(2));
         self.lambda * squares.sum::<f64>() - self.offset
     }
 
-    /// The affine function next to `z̃`. Exactly 0 if every height is given, for then the
-    /// coordinates are about it.
+    /// The affine surface of least squares. It is exactly 0 if every height is given, because the coordinates
+    /// are about it then.
     pub(crate) fn least_squares(&self) -> Result<Vec<f64>> {
         let operator = &self.operator;
         let mut z = try_filled("affine surface", operator.vertex_cells(), 0.0)?;

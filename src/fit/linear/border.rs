@@ -1,10 +1,9 @@
-//! What multigrid does where a lattice ends.
+//! Multigrid transfer and coarse stencils at the border of a lattice.
 //!
-//! There, too, both factors of the prolongation leave planes alone. A correction
-//! that tilts an edge would otherwise get a kink, whose energy is many times
-//! that of the correction itself: the cycle would overshoot there, 4 to 10 times
-//! on straight edges, and a step of conjugate gradients would be too short
-//! everywhere else.
+//! Prolongation has to keep planes as they are at the border, too. A correction that tilts an edge would
+//! otherwise get a kink, whose energy is many times that of the correction itself: the V-cycle would overshoot
+//! there, 4 to 10 times on straight edges, and a step of conjugate gradients would be too short everywhere
+//! else.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,23 +13,22 @@ use crate::lattice::domain::{Domain, Role};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::per_cell::PerCell;
 
-/// Weight of a neighbour in an average.
+/// Weight of a neighbour in an average; that of the vertex itself is twice as large.
 const NEIGHBOUR_WEIGHT: f32 = 0.125;
 
-/// `A` at the boundary vertices: the average with those pairs of opposite
-/// neighbours that are both there.
+/// The averaging `A` at boundary vertices: each with those pairs of opposite neighbours that are both valid.
 #[derive(Debug, Clone)]
 pub(super) struct Averages {
     of: Vec<Average>,
 }
 
-/// At a cell, directions as bits in the order of [`NEIGHBOUR_DIRECTIONS`].
+/// The average at one cell, with directions as bits in the order of [`NEIGHBOUR_DIRECTIONS`].
 #[derive(Debug, Clone, Copy)]
 struct Average {
     cell: u32,
-    /// Neighbours that are averaged with.
+    /// Neighbours that the cell is averaged with.
     pairs: u8,
-    /// Neighbours that are interior, and so average with this cell.
+    /// Neighbours that are interior, and are averaged with this cell.
     interior: u8,
 }
 
@@ -67,8 +65,7 @@ impl Averages {
         self.of.iter().map(|average| average.cell as usize)
     }
 
-    /// Adds to `A from`, which has the vertices themselves at boundary cells,
-    /// what is missing there.
+    /// Adds to `A from`, which has the vertices themselves at boundary cells, what is missing there.
     pub(super) fn complete(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
         for average in &self.of {
             let cell = average.cell as usize;
@@ -80,8 +77,8 @@ impl Averages {
         }
     }
 
-    /// The same for `Aᵀ from`, which has at interior cells what a symmetric
-    /// matrix would give.
+    /// Adds to `Aᵀ from`, which has at interior cells what a symmetric matrix would give, what is missing
+    /// there.
     pub(super) fn complete_transposed(&self, domain: &Domain, from: &[f32], to: &mut [f32]) {
         for average in &self.of {
             let cell = average.cell as usize;
@@ -113,12 +110,12 @@ fn neighbours(domain: &Domain, cell: usize) -> impl Iterator<Item = (usize, usiz
         .enumerate()
 }
 
-/// `L` at fine vertices that do not lie between two coarse vertices: the plane
-/// through those nearby, by least squares.
+/// The interpolation `L` at fine vertices that do not lie between two coarse vertices: the best-fit plane
+/// through the coarse vertices nearby.
 #[derive(Debug, Clone)]
 pub(super) struct Extension {
     terms: Vec<Term>,
-    /// Fine vertices beside one coarse vertex, and that one.
+    /// Fine vertices beside one coarse vertex alone, and that vertex.
     single: Vec<(u32, u32)>,
 }
 
@@ -159,7 +156,7 @@ impl Extension {
         Extension { terms, single }
     }
 
-    /// `L from` at those vertices.
+    /// Writes `L from` at those vertices.
     pub(super) fn extend(&self, from: &[f32], to: &mut [f32]) {
         for (fine, _) in &self.single {
             to[*fine as usize] = 0.0;
@@ -202,13 +199,14 @@ fn nearby(parents: [(isize, isize); 2]) -> Vec<(isize, isize)> {
     found
 }
 
-/// Weights of values at offsets that give the value at 0 of their best-fit
-/// plane; the nearest count most.
+/// Weights with which values at given offsets sum up to the value of their best-fit plane at 0; near ones weigh
+/// most.
 fn affine_weights(near: &[(usize, [f64; 2])]) -> Vec<f64> {
-    /// Where they do not determine a plane, the one with the least slope.
-    const LEAST_SLOPE: f64 = 1e-6;
+    /// Weight of the squared slope relative to the squared residuals, which chooses the plane of least slope
+    /// where the values do not determine one.
+    const SLOPE_WEIGHT: f64 = 1e-6;
     let influence = |[x, y]: [f64; 2]| (x * x + y * y).powi(-2);
-    let mut normal = Matrix3::from_diagonal(&Vector3::new(0.0, LEAST_SLOPE, LEAST_SLOPE));
+    let mut normal = Matrix3::from_diagonal(&Vector3::new(0.0, SLOPE_WEIGHT, SLOPE_WEIGHT));
     for (_, offset) in near {
         let row = Vector3::new(1.0, offset[0], offset[1]);
         normal += influence(*offset) * row * row.transpose();
@@ -223,9 +221,9 @@ fn affine_weights(near: &[(usize, [f64; 2])]) -> Vec<f64> {
     near.iter().map(|(_, offset)| weight(*offset)).collect()
 }
 
-/// For how many stencils of the finest lattice each coarse one stands, as a share of those that a
-/// vertex inside stands for. Near a border it is more, since the coarse stencils end further inside:
-/// without it bending there would be too cheap, and the correction up to three times too large.
+/// Number of stencils of the finest lattice that each coarse one stands for, as a share of those that one
+/// inside stands for. Near a border it is more, because the coarse stencils end further inside: bending would
+/// be too cheap there otherwise, and the correction up to three times too large.
 pub(super) fn coarser_counts(
     counts: &PerCell<f32>,
     fine: &Domain,
@@ -264,7 +262,7 @@ fn squared_distance(fine: &Domain, cell: usize, coarse: &Domain, other: usize) -
     x * x + y * y
 }
 
-/// From a fine vertex to a coarse one, in coarse spacings.
+/// Offset from a fine vertex to a coarse one, in coarse spacings.
 fn offset(fine: &Domain, cell: usize, coarse: &Domain, other: usize) -> [f64; 2] {
     let place = |domain: &Domain, cell: usize| {
         let (row, col) = domain.lattice_vertex(cell);

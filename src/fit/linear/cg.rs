@@ -1,22 +1,20 @@
-//! Conjugate gradients for the z-step, matrix-free, preconditioned by a
-//! multigrid V-cycle:
+//! Conjugate gradients for the z-step on a lattice, matrix-free, preconditioned by a multigrid V-cycle:
 //!
 //! ```text
 //! A z = b,   A = 2λ + ρ CᵀC,   b = 2λ z̃ + Cᵀ(ρH − Y)
 //! ```
 //!
-//! What is solved is the correction `A δ = b − A z`. Its right-hand side is made
-//! in double precision, so the correction itself can live in single precision:
-//! half the memory traffic, twice the lanes, and the errors of one z-step are
-//! in the next one's right-hand side. Heights are scaled to unit size, which
-//! keeps every number within the range of `f32`.
+//! The system is solved for the correction `A δ = b − A z`. Its right-hand side is made in double precision, so
+//! that the correction itself can be in single precision: half the memory traffic, twice the lanes, and the
+//! errors of one z-step are corrected in the next one. Heights are scaled to unit size, which keeps every
+//! number within the range of `f32`.
 
 use std::sync::Arc;
 
 use super::grid::{part, part_mut};
 use super::multigrid::Multigrid;
 use super::precise::Precise;
-use super::zstep::{Solvable, Solver};
+use super::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::error::{Result, try_filled};
 use crate::fit::heightfields::Problem;
 use crate::fit::operator::Operator;
@@ -24,27 +22,27 @@ use crate::fit::operator::lattice::LatticeOperator;
 use crate::lattice::domain::Domain;
 use crate::math::lanes;
 
+/// Conjugate gradients for the z-step on a lattice.
 #[derive(Debug, Clone)]
 pub(crate) struct ConjugateGradients {
     residual: Vec<f32>,
     correction: Vec<f32>,
     direction: Vec<f32>,
     image: Vec<f32>,
-    /// A row in double precision.
+    /// Room for one row in double precision.
     row: Vec<f64>,
     multigrid: Multigrid,
     rho: f64,
-    /// Heights of size 1 in the system's scale.
+    /// The largest magnitude of the input heights, which is 1 in the system.
     unit: f64,
-    /// `‖r‖²` in the norm of the inverse diagonal.
+    /// Squared residual `‖r‖²` in the norm of the inverse diagonal.
     energy: f64,
-    /// `r·M⁻¹r` of the previous iteration; 0 before the first.
+    /// The product `r·M⁻¹r` of the iteration before; 0 before the first.
     previous: f64,
 }
 
 impl ConjugateGradients {
-    /// For a problem on the first of `domains`, each of which has twice the
-    /// spacing of the one before.
+    /// A solver for a problem on the first of `domains`, each of which has twice the spacing of the one before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
         let domain = &problem.operator.domain;
         let zeros = || try_filled("conjugate gradients", domain.cells(), 0.0);
@@ -64,11 +62,11 @@ impl ConjugateGradients {
     }
 }
 
-impl Solvable for LatticeOperator {
+impl SolvableOperator for LatticeOperator {
     type Solver = ConjugateGradients;
 }
 
-impl Solver<LatticeOperator> for ConjugateGradients {
+impl ZStepSolver<LatticeOperator> for ConjugateGradients {
     fn set_rho(&mut self, rho: f64) {
         self.rho = rho;
         self.multigrid.set(rho);
@@ -171,13 +169,14 @@ impl Solver<LatticeOperator> for ConjugateGradients {
         problem: &Problem,
         residual: &mut Vec<f64>,
         x: &mut [f64],
-        (tolerance, steps): (f64, usize),
+        criteria: CgCriteria,
     ) -> Result<usize> {
         let mut precise = Precise::with_residual(problem, std::mem::take(residual))?;
-        let goal = tolerance * precise.distance(problem, &self.multigrid);
-        let steps = precise.solve(problem, self.rho, &mut self.multigrid, x, (goal, steps));
+        let goal = criteria.tolerance * precise.distance(problem, &self.multigrid);
+        let limits = (goal, criteria.max_iterations);
+        let iterations = precise.solve(problem, self.rho, &mut self.multigrid, x, limits);
         *residual = precise.residual;
-        Ok(steps)
+        Ok(iterations)
     }
 }
 

@@ -1,12 +1,11 @@
-//! The z-step's matrix on one lattice, and the passes that multigrid and
-//! conjugate gradients make with it:
+//! The z-step's matrix on one lattice, and the passes that multigrid and conjugate gradients make with it:
 //!
 //! ```text
 //! A = 2λ + ρ CᵀC
 //! ```
 //!
-//! in single precision and scaled to a unit diagonal away from the boundary, so
-//! that no λ, ρ or spacing leaves the range of `f32`.
+//! It is in single precision and scaled to a unit diagonal away from the boundary, so that no λ, ρ or spacing
+//! leaves the range of `f32`.
 
 use std::sync::Arc;
 
@@ -17,35 +16,34 @@ use crate::lattice::runs::Run;
 use crate::lattice::stencil::{Gather, HessianMap, Ring, Rolling, weights_of};
 use crate::math::lanes;
 
+/// The matrix `A = 2λ + ρ CᵀC` on one lattice.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid {
     pub domain: Arc<Domain>,
     map: HessianMap,
-    /// The diagonal away from the boundary that everything is divided by.
+    /// Diagonal entry away from the boundary, by which the matrix is divided.
     pub diagonal: f64,
-    /// `2λw`, and what holds coarse cells in place of constrained ones.
+    /// Weight `2λw` of the fidelity, or of the spring that holds a coarse cell in place of constrained ones.
     fidelity: PerCell<f32>,
-    /// Constrained cells: not unknowns of the system.
+    /// Constrained cells, which are no unknowns.
     constrained: Vec<u32>,
-    /// The weights of `d_k` and of `d₁ + d₂ + d₃` in `ρ CᵀC`.
+    /// Weight of each second difference `d_k` in `ρ CᵀC`.
     own: f32,
     sum: f32,
-    /// How much each interior cell's stencil counts: 1 on the finest lattice, more at a
-    /// coarse one's border.
+    /// Weight of each interior cell's stencil: 1 on the finest lattice, more at the border of a coarse one.
     pub stencils: PerCell<f32>,
     /// Jacobi's preconditioner: one over the scaled diagonal.
     pub inverse_diagonal: Vec<f32>,
     rolling: Rolling<f32>,
 }
 
-/// An upper bound of the eigenvalues of `diag(A)⁻¹A` on every domain: that of a
-/// single stencil, since `A` and its diagonal are sums over stencils. (A
-/// stencil has 36 on the diagonal at its centre and 5 at each neighbour in
-/// units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
+/// Upper bound of the eigenvalues of `diag(A)⁻¹A` on every domain: that of a single stencil, because `A` and
+/// its diagonal are sums over stencils. (A stencil has 36 on the diagonal at its centre and 5 at each neighbour
+/// in units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
 pub(crate) const LARGEST_EIGENVALUE: f32 = 2.4;
 
 impl Grid {
-    /// With a fidelity that may differ from cell to cell, or the same for all.
+    /// The matrix on a domain, with a fidelity for each cell or the same for all.
     pub(crate) fn new(
         domain: Arc<Domain>,
         spacing: f64,
@@ -70,13 +68,13 @@ impl Grid {
         })
     }
 
-    /// The diagonal of `ρ CᵀC` away from the boundary.
+    /// Diagonal entry of `ρ CᵀC` away from the boundary.
     pub(crate) fn stiffness(&self, rho: f64) -> f64 {
         let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
         4.0 * (3.0 * own + 6.0 * other) + 6.0 * own
     }
 
-    /// Changes the matrix: ρ, a typical `2λw`, and that of each cell.
+    /// Changes ρ, a typical `2λw`, and that of each cell.
     pub(crate) fn set(&mut self, rho: f64, typical: f64, each: impl Fn(usize) -> f64) {
         let [own, other, _] = self.map.normal([1.0, 0.0, 0.0]).map(|q| rho * q);
         let as_centre = 4.0 * (3.0 * own + 6.0 * other);
@@ -143,12 +141,12 @@ impl Grid {
         }
     }
 
-    /// Cells that are not unknowns.
+    /// The constrained cells, which are no unknowns.
     pub(crate) fn constrained(&self) -> &[u32] {
         &self.constrained
     }
 
-    /// An upper bound of the condition number of `diag(A)⁻¹A`.
+    /// Upper bound of the condition number of `diag(A)⁻¹A`.
     pub(crate) fn condition(&self) -> f32 {
         let least = match &self.fidelity {
             PerCell::Same(values) => values[0],
@@ -160,8 +158,8 @@ impl Grid {
         LARGEST_EIGENVALUE / least.max(f32::MIN_POSITIVE)
     }
 
-    /// The matrix itself, scaled, as columns of unknowns in the order of the
-    /// domain's active cells: for few of them.
+    /// The scaled matrix as dense columns, of unknowns in the order of the domain's active cells: for few
+    /// unknowns.
     pub(crate) fn dense(&mut self) -> Vec<Vec<f32>> {
         let cells: Vec<usize> = self.domain.active().cells().collect();
         let mut unit = vec![0.0; self.domain.cells()];
@@ -176,8 +174,8 @@ impl Grid {
         columns
     }
 
-    /// One pass down `x`: `after(x, run, sums)` sees `ρCᵀCx` in each run of a
-    /// row, and may write `x` there, since no later row reads it.
+    /// One pass down `x`: `after(x, run, sums)` gets `ρCᵀCx` in each run of a row, and may write `x` there,
+    /// because no later row reads it.
     #[inline(always)]
     fn pass(&mut self, x: &mut [f32], mut after: impl FnMut(&mut [f32], Run, &Gather<'_, f32>)) {
         let Grid {
@@ -214,7 +212,7 @@ impl Grid {
         );
     }
 
-    /// `image = A x`. Returns `x·Ax`. (`x` is not changed.)
+    /// Computes `image = A x` and returns `x·Ax`; `x` does not change.
     pub(crate) fn apply(&mut self, x: &mut [f32], image: &mut [f32]) -> f64 {
         let fidelity = self.take_fidelity();
         let mut product = 0.0;
@@ -232,7 +230,7 @@ impl Grid {
         product
     }
 
-    /// `residual = b − A x`. (`x` is not changed.)
+    /// Computes `residual = b − A x`; `x` does not change.
     pub(crate) fn residual(&mut self, x: &mut [f32], b: &[f32], residual: &mut [f32]) {
         let fidelity = self.take_fidelity();
         self.pass(x, |x, run, sums| {
@@ -248,8 +246,8 @@ impl Grid {
         self.fidelity = fidelity;
     }
 
-    /// One step of Chebyshev's iteration with Jacobi's preconditioner:
-    /// `d ← momentum · d + weight · M(b − A x)`, `x ← x + d`.
+    /// Takes one step of Chebyshev's iteration with Jacobi's preconditioner: `d ← momentum · d + weight · M(b −
+    /// A x)`, `x ← x + d`.
     pub(crate) fn smooth(
         &mut self,
         x: &mut [f32],
@@ -278,17 +276,19 @@ impl Grid {
         self.fidelity = fidelity;
     }
 
-    /// For the length of a pass, which borrows the rest.
+    /// Takes the fidelity out for the length of a pass, which borrows the rest mutably.
     fn take_fidelity(&mut self) -> PerCell<f32> {
         std::mem::replace(&mut self.fidelity, PerCell::Same(Vec::new()))
     }
 }
 
+/// The values of a run.
 #[inline(always)]
 pub(crate) fn part<T>(values: &[T], run: Run) -> &[T] {
     &values[run.start..run.end]
 }
 
+/// The values of a run, to be changed.
 #[inline(always)]
 pub(crate) fn part_mut<T>(values: &mut [T], run: Run) -> &mut [T] {
     &mut values[run.start..run.end]

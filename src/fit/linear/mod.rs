@@ -6,4 +6,4 @@ pub(crate) mod grid;
 pub(crate) mod multigrid;
 pub(crate) mod precise;
 pub(crate) mod transfer;
-pub(crate) mod zstep;
+pub(crate) mod z_step_solver;

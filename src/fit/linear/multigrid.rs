@@ -1,11 +1,10 @@
 //! One multigrid V-cycle: the preconditioner of the z-step.
 //!
-//! The same energy on the lattices of spacing 2h, 4h, … gives the coarse
-//! matrices (a coarse vertex stands for four fine ones, hence the factor ¼ in
-//! the restriction; at a border a coarse stencil may stand for more), Chebyshev's polynomial of Jacobi's preconditioner smooths,
-//! and the cycle ends where the fidelity term makes the system well conditioned,
-//! two to five lattices down. Symmetric and positive definite, so conjugate
-//! gradients may use it.
+//! The same energy on the lattices of spacing 2h, 4h, … gives the coarse matrices (a coarse vertex stands for
+//! four fine ones, hence the factor ¼ in the restriction; at a border a coarse stencil may stand for more).
+//! Chebyshev's polynomial of Jacobi's preconditioner smooths, and the cycle ends where the fidelity term makes
+//! the system well conditioned, two to five lattices down. The cycle is symmetric and positive definite, so
+//! that conjugate gradients may use it.
 
 use std::sync::Arc;
 
@@ -23,45 +22,49 @@ use crate::math::lanes;
 /// Number of smoothing steps before and after the coarse correction.
 const SMOOTHING_STEPS: usize = 2;
 
-/// Ratio of the largest eigenvalue to the least that the smoother works on; the rest is for the coarse
-/// lattice.
+/// Ratio of the largest to the smallest eigenvalue that the smoother reduces; the coarse lattice reduces the
+/// others.
 const SMOOTHED_EIGENVALUE_RATIO: f32 = 5.0;
 
-/// A lattice with no larger condition number than this needs no coarser one.
-const WELL_CONDITIONED: f32 = 8.0;
+/// Condition number below which a lattice needs no coarser one.
+const MAX_BOTTOM_CONDITION: f32 = 8.0;
 
-/// Most smoothing steps on the coarsest lattice.
-const BOTTOM_STEPS: f32 = 40.0;
+/// Maximum number of smoothing steps on the coarsest lattice.
+const MAX_BOTTOM_STEPS: f32 = 40.0;
 
-/// Largest number of unknowns of a lattice that is solved directly where it needs more smoothing steps than
-/// the others.
+/// Maximum number of unknowns of a coarsest lattice that is solved by a Cholesky factorisation where
+/// Chebyshev's iteration would need more steps than elsewhere.
 const MAX_DIRECT_UNKNOWNS: usize = 300;
 
-/// Amount added to a matrix's diagonal, relative to it, so that one that is singular up to rounding stays
-/// positive.
+/// Amount added to the diagonal, relative to it, so that a matrix that is singular up to rounding stays
+/// positive definite.
 const DIAGONAL_SHIFT: f32 = 1e-5;
 
-/// Stiffness of the springs of [`Shares`], relative to the finest lattice: fewest iterations on drawn curves;
-/// 1 and 0.001 took half as many again.
+/// Stiffness of the springs of [`Shares`], relative to the finest lattice: the value with the fewest iterations
+/// on drawn curves; 1 and 0.001 took half as many again.
 const SPRING_STIFFNESS: f64 = 0.03;
 
+/// The multigrid hierarchy: lattices, each of twice the spacing of the one before, and the transfers between
+/// them.
 #[derive(Debug, Clone)]
 pub(crate) struct Multigrid {
-    /// The finest first.
+    /// The lattices, the finest first.
     floors: Vec<Floor>,
-    /// From each floor to the next.
+    /// The transfer from each lattice to the next coarser one.
     transfers: Vec<Transfer>,
-    /// How many of them a cycle visits.
+    /// Number of lattices that a cycle visits.
     depth: usize,
     lambda: f64,
 }
 
+/// One lattice of the hierarchy with its matrix and work vectors.
 #[derive(Debug, Clone)]
 struct Floor {
     grid: Grid,
-    /// What differs from cell to cell, if anything does.
+    /// Fidelity and constraints, where they differ from cell to cell.
     shares: Option<Shares>,
-    /// On the last floor of a cycle, if Chebyshev's iteration would take too long.
+    /// Cholesky factor of the matrix on the coarsest lattice of a cycle, where Chebyshev's iteration would take
+    /// too long.
     direct: Option<Cholesky<f32, Dyn>>,
     /// Right-hand side, solution, last step of the smoother, residual.
     b: Vec<f32>,
@@ -70,9 +73,8 @@ struct Floor {
     residual: Vec<f32>,
 }
 
-/// Fidelity and constraints, as the mean of those of the finest vertices that a
-/// vertex stands for. A constrained vertex is out of the finest system; on
-/// coarser lattices a spring stands for it.
+/// Fidelity and constraints of a lattice's vertices, as means over the finest vertices that each stands for. A
+/// constrained vertex is out of the finest system; on coarser lattices a spring takes its place.
 #[derive(Debug, Clone)]
 struct Shares {
     fidelity: Vec<f32>,
@@ -80,8 +82,8 @@ struct Shares {
 }
 
 impl Multigrid {
-    /// For a problem on the first of `domains`, each of which has twice the
-    /// spacing of the one before.
+    /// The hierarchy for a problem on the first of `domains`, each of which has twice the spacing of the one
+    /// before.
     pub(crate) fn new(problem: &Problem, domains: &[Arc<Domain>], rho: f64) -> Result<Self> {
         let transfers: Vec<Transfer> = domains
             .windows(2)
@@ -111,7 +113,7 @@ impl Multigrid {
                 floor.grid.stencils = coarser_counts(counts, &finer.grid.domain, domain)?;
             }
             floor.shares = match floors.last_mut() {
-                None => Shares::of(problem)?,
+                None => Shares::from_problem(problem)?,
                 Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
             };
             floors.push(floor);
@@ -127,7 +129,7 @@ impl Multigrid {
         Ok(multigrid)
     }
 
-    /// Changes the matrix.
+    /// Changes ρ in all matrices.
     pub(crate) fn set(&mut self, rho: f64) {
         let typical = 2.0 * self.lambda;
         let spring = SPRING_STIFFNESS * self.floors[0].grid.stiffness(rho);
@@ -146,23 +148,23 @@ impl Multigrid {
                 }
             }
         }
-        let good = |floor: &Floor| floor.grid.condition() <= WELL_CONDITIONED;
+        let good = |floor: &Floor| floor.grid.condition() <= MAX_BOTTOM_CONDITION;
         let last = self.floors.len() - 1;
         self.depth = self.floors.iter().position(good).unwrap_or(last) + 1;
         self.floors[self.depth - 1].prepare();
     }
 
-    /// The matrix itself.
+    /// The matrix on the finest lattice.
     pub(crate) fn matrix(&self) -> &Grid {
         &self.floors[0].grid
     }
 
-    /// The matrix itself.
+    /// The matrix on the finest lattice, to be applied.
     pub(crate) fn matrix_mut(&mut self) -> &mut Grid {
         &mut self.floors[0].grid
     }
 
-    /// An approximation of `A⁻¹ b`. `b` comes back as it was.
+    /// An approximation of `A⁻¹ b` by one cycle; `b` is the same afterwards.
     pub(crate) fn precondition(&mut self, b: &mut Vec<f32>) -> &[f32] {
         std::mem::swap(b, &mut self.floors[0].b);
         cycle(&mut self.floors[..self.depth], &self.transfers);
@@ -171,7 +173,7 @@ impl Multigrid {
     }
 }
 
-/// Solves `A x = b` roughly on the first floor with the help of the others.
+/// Solves `A x = b` roughly on the first lattice with the help of the coarser ones.
 fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
     let Some((fine, below)) = floors.split_first_mut() else {
         return;
@@ -202,7 +204,7 @@ fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
 }
 
 impl Shares {
-    fn of(problem: &Problem) -> Result<Option<Self>> {
+    fn from_problem(problem: &Problem) -> Result<Option<Self>> {
         let PerCell::Each(weights) = &problem.fidelity else {
             return Ok(None);
         };
@@ -224,7 +226,7 @@ impl Shares {
 }
 
 impl Floor {
-    /// The means on the next floor; leaves the work space as clean as it was.
+    /// The means on the next coarser lattice; leaves the work vectors clean.
     fn coarser_shares(
         &mut self,
         transfer: &Transfer,
@@ -252,11 +254,11 @@ impl Floor {
         }))
     }
 
-    /// Factors the matrix if this is the last floor and iterating would take too long.
+    /// Factors the matrix if this is the coarsest lattice of a cycle and iterating would take too long.
     fn prepare(&mut self) {
         let steps = 1.5 * self.grid.condition().sqrt();
         let unknowns = self.grid.domain.active().len();
-        let slow = steps > BOTTOM_STEPS
+        let slow = steps > MAX_BOTTOM_STEPS
             && unknowns <= MAX_DIRECT_UNKNOWNS
             && self.grid.constrained().is_empty();
         self.direct = None;
@@ -270,7 +272,7 @@ impl Floor {
         }
     }
 
-    /// On the last floor of a cycle: directly, or by Chebyshev's iteration on the whole spectrum.
+    /// Solves on the coarsest lattice of a cycle: directly, or by Chebyshev's iteration on the whole spectrum.
     fn solve(&mut self) {
         if let Some(direct) = &self.direct {
             let cells = || self.grid.domain.active().cells();
@@ -283,13 +285,13 @@ impl Floor {
             return;
         }
         let condition = self.grid.condition();
-        let steps = (1.5 * condition.sqrt()).ceil().clamp(2.0, BOTTOM_STEPS);
+        let steps = (1.5 * condition.sqrt()).ceil().clamp(2.0, MAX_BOTTOM_STEPS);
         let low = LARGEST_EIGENVALUE / condition;
         self.start(low);
         self.smooth(steps as usize - 1, low, true);
     }
 
-    /// The first step of Chebyshev's iteration from zero, which needs no matrix.
+    /// Takes the first step of Chebyshev's iteration from zero, which needs no matrix.
     fn start(&mut self, low: f32) {
         let weight = 2.0 / (LARGEST_EIGENVALUE + low);
         for run in self.grid.domain.active().all() {
@@ -305,8 +307,8 @@ impl Floor {
         }
     }
 
-    /// Steps of Chebyshev's iteration for eigenvalues from `low` to the largest,
-    /// going on after the first one or starting with it.
+    /// Takes steps of Chebyshev's iteration for eigenvalues from `low` to the largest, after the first step
+    /// where that was `started`.
     fn smooth(&mut self, steps: usize, low: f32, started: bool) {
         let middle = 0.5 * (LARGEST_EIGENVALUE + low);
         let half = 0.5 * (LARGEST_EIGENVALUE - low);

@@ -1,9 +1,8 @@
 //! The z-step's system in double precision.
 //!
-//! Without a fidelity term everywhere its condition number grows with the fourth
-//! power of the domain's size in cells, and single precision no longer resolves
-//! the smooth part of what is left. A V-cycle in single precision still is a
-//! good preconditioner.
+//! Without a fidelity term everywhere, its condition number grows with the fourth power of the domain's size in
+//! cells, and single precision does not resolve the smooth part of the residual any more. A V-cycle in single
+//! precision is a good preconditioner all the same.
 
 use super::multigrid::Multigrid;
 use crate::error::{Result, try_filled};
@@ -11,10 +10,10 @@ use crate::fit::heightfields::Problem;
 use crate::lattice::stencil::{Ring, Rolling, weights_of};
 use crate::math::lanes;
 
-/// Conjugate gradients for `A x = b`, `A = 2λw + ρCᵀC`, over the cells that are
-/// not constrained.
+/// Conjugate gradients in double precision for `A x = b`, `A = 2λw + ρCᵀC`, over the cells that are not
+/// constrained.
 pub(crate) struct Precise {
-    /// `b − A x`: to be written before a solve, 0 outside `I ∪ ∂I`.
+    /// The residual `b − A x`, to be written before a solve; 0 outside `I ∪ ∂I`.
     pub residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
@@ -23,11 +22,13 @@ pub(crate) struct Precise {
 }
 
 impl Precise {
+    /// Conjugate gradients for a problem, with a residual of 0.
     pub(crate) fn new(problem: &Problem) -> Result<Self> {
         let cells = problem.operator.domain.cells();
         Precise::with_residual(problem, try_filled("conjugate gradients", cells, 0.0)?)
     }
 
+    /// Conjugate gradients for a problem, with a residual.
     pub(crate) fn with_residual(problem: &Problem, residual: Vec<f64>) -> Result<Self> {
         let cells = residual.len();
         let zeros = || try_filled("conjugate gradients", cells, 0.0);
@@ -40,7 +41,7 @@ impl Precise {
         })
     }
 
-    /// The residual `2λw z̃ − A z` of the z-step about `H = Y = 0`.
+    /// Writes the residual `2λw z̃ − A z` of the z-step about `H = Y = 0`.
     pub(crate) fn start(&mut self, problem: &Problem, rho: f64, z: &[f64]) {
         self.direction.copy_from_slice(z);
         self.apply(problem, rho);
@@ -51,8 +52,8 @@ impl Precise {
         }
     }
 
-    /// Adds to `x` until the residual's [`distance`](Self::distance) is below `goal`, or after so many
-    /// `steps`. Returns how many there were.
+    /// Adds to `x` until the residual's [`distance`](Self::distance) is below a goal, or for a maximum number
+    /// of iterations. Returns the number of iterations.
     pub(crate) fn solve(
         &mut self,
         problem: &Problem,
@@ -100,8 +101,8 @@ impl Precise {
         steps
     }
 
-    /// By how much the residual would move a height on its own, at most: a measure that weights of
-    /// many orders of magnitude do not upset.
+    /// Maximum distance by which the residual at a height would move that height alone: a measure that does not
+    /// depend on weights of many orders of magnitude.
     pub(crate) fn distance(&self, problem: &Problem, multigrid: &Multigrid) -> f64 {
         let inverse = &multigrid.matrix().inverse_diagonal;
         let cells = problem.operator.domain.active().cells();
@@ -109,7 +110,7 @@ impl Precise {
         moved.fold(0.0, f64::max)
     }
 
-    /// `image = A direction`. Returns their product.
+    /// Computes `image = A direction`, and returns the product of both.
     fn apply(&mut self, problem: &Problem, rho: f64) -> f64 {
         let Precise {
             direction,
@@ -149,6 +150,7 @@ impl Precise {
     }
 }
 
+/// The largest magnitude.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0f64, |m, v| m.max(v.abs()))
 }

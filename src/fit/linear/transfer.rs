@@ -1,22 +1,21 @@
-//! Between a lattice and the one of twice the spacing, for corrections.
+//! Transfer of corrections between a lattice and the one of twice the spacing.
 //!
-//! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from
-//! the coarse vertices, then the average `A` of each vertex (weight 2) with its
-//! neighbours (weight 1). Plain interpolation will not do for a fourth-order
-//! operator, since its kinks cost more energy than the correction saves. What
-//! both factors are where the lattice ends is in `border`. Restriction is `Pᵀ`.
+//! Prolongation is Loop's subdivision, `P = A L`: linear interpolation `L` from the coarse vertices, then the
+//! average `A` of each vertex (weight 2) with its neighbours (weight 1). Linear interpolation alone will not do
+//! for a fourth-order operator, because its kinks cost more energy than the correction saves.
+//! [`border`](super::border) has both factors at the border of a lattice. Restriction is `Pᵀ`.
 
 use super::border::{Averages, Extension};
 use crate::lattice::domain::Domain;
 use crate::lattice::runs::Run;
 use crate::lattice::stencil::Ring;
 
+/// The transfer between a lattice and the one of twice the spacing.
 #[derive(Debug, Clone)]
 pub(crate) struct Transfer {
     averages: Averages,
     extension: Extension,
-    /// Fine row (box) of coarse row 0, and fine column of coarse column 0 on even
-    /// and odd coarse lattice rows.
+    /// Fine row, within its box, of coarse row 0.
     row: isize,
     col: [isize; 2],
 }
@@ -35,7 +34,7 @@ impl Transfer {
         }
     }
 
-    /// `to += scale · Pᵀ from`; `work` is zero outside the fine domain and stays so.
+    /// Adds `scale · Pᵀ from` to `to`; `work` is zero outside the fine domain and stays so.
     pub(crate) fn restrict(
         &self,
         (fine, from, work): (&Domain, &[f32], &mut [f32]),
@@ -65,7 +64,7 @@ impl Transfer {
         self.extension.extend_transposed(work, to, scale);
     }
 
-    /// `to += P from`, where `from` is zero outside the coarse domain. `work` is overwritten.
+    /// Adds `P from` to `to`, where `from` is zero outside the coarse domain; overwrites `work`.
     pub(crate) fn prolong(
         &self,
         (coarse, from): (&Domain, &[f32]),
@@ -109,7 +108,7 @@ impl Transfer {
         self.averages.complete(fine, work, to);
     }
 
-    /// Fine row of a coarse row, and the fine column of its column 0.
+    /// Fine row of a coarse row, and fine column of its column 0.
     fn fine_row(&self, fine: &Domain, coarse: &Domain, row: usize) -> Option<(usize, isize)> {
         debug_assert!(row <= coarse.rows());
         let at = 2 * row as isize + self.row;
@@ -117,8 +116,8 @@ impl Transfer {
         inside.then(|| (at as usize, self.col[usize::from(row.is_multiple_of(2))]))
     }
 
-    /// `A from`, without what `averages` completes, at each vertex of the fine
-    /// domain, to be stored or added.
+    /// The average `A from` at each vertex of the fine domain, without what
+    /// [`Averages`](super::border::Averages) complete, to be stored or added.
     #[inline(always)]
     fn average(
         &self,

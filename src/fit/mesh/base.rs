@@ -1,17 +1,17 @@
-//! The base of the first linearisation.
+//! The base of the first linearisation: the input mesh, smoothed.
 
 use super::geometry::{Frame, Point, across, normals, smooth, unfold};
-use super::given::Given;
+use super::input::MeshInput;
 
-/// Number of smoothing steps for the places of vertices across the viewing rays, with which the first base
-/// begins.
+/// Number of smoothing steps after which the base takes the positions of vertices across the rays.
 const BASE_PLACE_STEPS: usize = 3;
 
-/// Number of smoothing steps for the first base surface, those for the places across the rays included.
+/// Number of smoothing steps after which the base takes the positions of vertices along the rays, the steps for
+/// those across included.
 const BASE_SURFACE_STEPS: usize = 10;
 
-/// The noisy mesh smoothed, its vertices across the rays where less smoothing has them.
-pub(super) fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
+/// The smoothed mesh and its frames. Across the rays, vertices are where fewer smoothing steps leave them.
+pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
     let mut places = given.noisy.clone();
     smooth(topology, &mut places, BASE_PLACE_STEPS);
@@ -27,7 +27,7 @@ pub(super) fn first_base(given: &Given) -> (Vec<Point>, Vec<Frame>) {
     let rays = normals(topology, &base, Some(&rays));
     let frames = rays
         .into_iter()
-        .map(|normal| Frame::about(normal, Point::x()))
+        .map(|normal| Frame::from_normal(normal, Point::x()))
         .collect();
     (base, frames)
 }

@@ -1,20 +1,21 @@
-//! Vertices along borders and creases, put on the smooth curves that these are.
+//! Fairing: moves vertices on borders and creases to smooth curves.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::geometry::Point;
-use super::sides::Sides;
+use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
+use crate::math::least_squares::LeastSquares;
 
-/// Number of vertices on either side along a curve that the fairing quadratic is fitted to.
+/// Number of vertices on either side along a curve that the fairing quadratic is fairing_step to.
 const FAIRING_HALF_WINDOW: usize = 4;
 
-/// Largest variance of a faired vertex, relative to the vertex's own, at which fairing moves it.
+/// Maximum variance of a faired vertex, relative to the vertex's own, at which fairing moves it.
 const MAX_VARIANCE_RATIO: f64 = 0.95;
 
-/// The borders and creases of a surface: of each vertex the ones before and after it. At their ends, and
-/// elsewhere, there are none.
-pub(super) fn curves(topology: &Topology, sides: &Sides) -> Vec<Option<[u32; 2]>> {
+/// The borders and creases of a surface as curves: the vertices before and after each vertex, and `None` where
+/// a curve ends and elsewhere.
+pub(super) fn curves(topology: &Topology, sides: &SmoothRegions) -> Vec<Option<[u32; 2]>> {
     let mut curves = sides.creases(topology);
     for (vertex, beside) in curves.iter_mut().enumerate() {
         let rim: Vec<usize> = topology.along_rim(vertex).collect();
@@ -25,40 +26,44 @@ pub(super) fn curves(topology: &Topology, sides: &Sides) -> Vec<Option<[u32; 2]>
     curves
 }
 
-/// Puts each vertex of the `curves` on the quadratic that fits those along it best. One that this would move
-/// by more than `most` is a corner: there the curve ends, and it stays.
-pub(super) fn fair(x: &mut [Point], curves: &[Option<[u32; 2]>], most: f64, held: &[bool]) {
+/// Moves each vertex of the `curves` to the quadratic fitted to those along its curve. A vertex that this would
+/// move by more than `most` is a corner: the curve ends there, and the vertex stays.
+pub(super) fn fair_curves(x: &mut [Point], curves: &[Option<[u32; 2]>], most: f64, held: &[bool]) {
     let old = x.to_vec();
     let near = |step: &Point| step.norm() <= most;
     let none = vec![false; x.len()];
     let ends: Vec<bool> = (0..x.len())
-        .map(|vertex| !fitted(&old, curves, &none, vertex).is_some_and(|step| near(&step)))
+        .map(|vertex| !fairing_step(&old, curves, &none, vertex).is_some_and(|step| near(&step)))
         .collect();
     for vertex in 0..x.len() {
         if !ends[vertex]
             && !held[vertex]
-            && let Some(step) = fitted(&old, curves, &ends, vertex).filter(near)
+            && let Some(step) = fairing_step(&old, curves, &ends, vertex).filter(near)
         {
             x[vertex] += step;
         }
     }
 }
 
-/// The way from a vertex to the quadratic along its curve, which goes no further than to the `ends`.
-fn fitted(x: &[Point], curves: &[Option<[u32; 2]>], ends: &[bool], vertex: usize) -> Option<Point> {
+/// The step from a vertex to the quadratic fitted along its curve, no further than to the `ends`.
+fn fairing_step(
+    x: &[Point],
+    curves: &[Option<[u32; 2]>],
+    ends: &[bool],
+    vertex: usize,
+) -> Option<Point> {
     let beside = curves[vertex]?;
     let scale: f64 = (beside.iter())
         .map(|other| (x[*other as usize] - x[vertex]).norm())
         .sum();
-    let (mut matrix, mut right) = (Matrix3::zeros(), Matrix3::zeros());
-    matrix[(0, 0)] = 1.0;
+    // The vertex itself, which is at 0.
+    let mut quadratic = LeastSquares::<3, 3>::with_ridge([1.0, 0.0, 0.0]);
     for (first, sign) in beside.into_iter().zip([-1.0, 1.0]) {
         let (mut before, mut here, mut along) = (vertex, first as usize, 0.0);
         for _ in 0..FAIRING_HALF_WINDOW {
             along += sign * (x[here] - x[before]).norm() / scale;
             let powers = Vector3::new(1.0, along, along * along);
-            matrix += powers * powers.transpose();
-            right += powers * (x[here] - x[vertex]).transpose();
+            quadratic.add(&powers, (x[here] - x[vertex]).into(), 1.0);
             let Some([a, b]) = curves[here].filter(|_| !ends[here]) else {
                 break;
             };
@@ -69,11 +74,11 @@ fn fitted(x: &[Point], curves: &[Option<[u32; 2]>], ends: &[bool], vertex: usize
             }
         }
     }
-    let inverse = matrix.cholesky()?.inverse();
+    let inverse = quadratic.factor()?.inverse();
     if inverse[(0, 0)] > MAX_VARIANCE_RATIO {
         return None;
     }
-    let step = (inverse.row(0) * right).transpose();
+    let step = (inverse.row(0) * quadratic.right).transpose();
     step.iter().all(|v| v.is_finite()).then_some(step)
 }
 
@@ -100,7 +105,7 @@ mod tests {
             .map(|x| x + Point::new(shake(), shake(), shake()))
             .collect();
         let mut x = given.clone();
-        fair(&mut x, &curves, 0.012, &[false; 80]);
+        fair_curves(&mut x, &curves, 0.012, &[false; 80]);
         let off = |x: &[Point]| {
             let squares = x.iter().zip(&truth).map(|(a, b)| (a - b).norm_squared());
             squares.sum::<f64>().sqrt()

@@ -1,4 +1,4 @@
-//! Normals, areas and smoothing of the vertices of a mesh.
+//! Geometry of the vertices of a mesh: normals, areas, smoothing and folded triangles.
 
 use nalgebra::Vector3;
 
@@ -6,11 +6,14 @@ use super::topology::Topology;
 
 pub(crate) type Point = Vector3<f64>;
 
-/// Share of the way to the mean of its neighbours that a vertex goes in one smoothing step: with 1 some
+/// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step: with 1, some
 /// meshes alternate for ever.
 const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
-/// Where vertices are, and which way the surface faces there.
+/// Squared length of a hint across a normal below which it gives no direction of a tangent.
+const MIN_HINT_SQUARE: f64 = 1e-6;
+
+/// An orthonormal frame at a vertex: its normal and two tangents.
 #[derive(Debug, Clone)]
 pub(crate) struct Frame {
     pub normal: Point,
@@ -18,10 +21,10 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// About a normal, turned as little as may be from another frame.
-    pub(crate) fn about(normal: Point, hint: Point) -> Self {
+    /// The frame with a normal whose first tangent is nearest to a hint.
+    pub(crate) fn from_normal(normal: Point, hint: Point) -> Self {
         let mut along = hint - normal * normal.dot(&hint);
-        if along.norm_squared() < 1e-6 {
+        if along.norm_squared() < MIN_HINT_SQUARE {
             let least = normal.iamin();
             along = Point::ith(least, 1.0) - normal * normal[least];
         }
@@ -32,14 +35,15 @@ impl Frame {
         }
     }
 
-    /// Along both tangents, and upwards.
+    /// Coordinates of a vector along both tangents and the normal.
     pub(crate) fn coordinates(&self, v: Point) -> [f64; 3] {
         let [t1, t2] = &self.tangents;
         [v.dot(t1), v.dot(t2), v.dot(&self.normal)]
     }
 }
 
-/// Unit normals of vertices by the areas of their triangles; where these cancel, that of the `old` ones.
+/// Unit normals of vertices, weighted by the areas of their triangles; where these cancel, that of the `old`
+/// ones.
 pub(crate) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -> Vec<Point> {
     let mut sums = vec![Point::zeros(); x.len()];
     for triangle in &topology.triangles {
@@ -64,7 +68,7 @@ pub(super) fn twice_area(x: &[Point], triangle: &[u32; 3]) -> Point {
     (b - a).cross(&(c - a))
 }
 
-/// A third of the areas around each vertex.
+/// Area of each vertex: a third of those of its triangles.
 pub(super) fn areas(topology: &Topology, x: &[Point]) -> Vec<f64> {
     let mut areas = vec![0.0; x.len()];
     for triangle in &topology.triangles {
@@ -76,7 +80,7 @@ pub(super) fn areas(topology: &Topology, x: &[Point]) -> Vec<f64> {
     areas
 }
 
-/// What the surface encloses, about the origin.
+/// Volume that the surface encloses.
 pub(super) fn volume(topology: &Topology, x: &[Point]) -> f64 {
     let tetrahedra = topology.triangles.iter();
     tetrahedra
@@ -84,7 +88,7 @@ pub(super) fn volume(topology: &Topology, x: &[Point]) -> f64 {
         .sum()
 }
 
-/// Each vertex towards the mean of its neighbours (the umbrella operator), vertices on the border
+/// Moves each vertex towards the mean of its neighbours (the umbrella operator), and vertices on the border
 /// towards that of their neighbours along it.
 pub(super) fn smooth(topology: &Topology, x: &mut [Point], steps: usize) {
     let mut old = x.to_vec();
@@ -118,11 +122,11 @@ pub(super) fn faces_away(x: &[Point], up: &[Point], triangle: &[u32; 3]) -> bool
     twice_area(x, triangle).dot(&sum) < 0.0
 }
 
-/// Largest number of steps in which folded triangles are laid flat.
+/// Maximum number of steps in which folded triangles are laid flat.
 const MAX_UNFOLDING_STEPS: usize = 40;
 
-/// Lays triangles flat that face away from the normals of their corners: their vertices go towards the mean
-/// of their neighbours, along the surface. Those that are `held` stay.
+/// Lays triangles flat that face away from the normals of their corners: moves their vertices towards the mean
+/// of their neighbours, along the surface. Vertices that are `held` stay.
 pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &[bool]) {
     let mut folded = vec![false; x.len()];
     let mut moved = vec![true; x.len()];
@@ -161,7 +165,7 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
     }
 }
 
-/// `x` where it is along the `rays`, and at `places` across them.
+/// Points that are at `x` along the `rays` and at `places` across them.
 pub(super) fn across(x: &[Point], places: &[Point], rays: &[Point]) -> Vec<Point> {
     let all = x.iter().zip(places).zip(rays);
     all.map(|((x, place), ray)| place + ray * ray.dot(&(x - place)))

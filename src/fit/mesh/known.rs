@@ -1,11 +1,11 @@
-//! What is known of a mesh's vertices besides where they are.
+//! Confidences of a mesh's vertices, and which of them are held.
 
 use super::options::check_confidence;
 use super::topology::Topology;
 use crate::error::{Result, check_count};
 use crate::scene::mesh::Mesh;
 
-/// What else is known of a mesh's vertices.
+/// Additional information about the vertices of a mesh: their confidence, and which of them are held.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct MeshKnown {
@@ -14,7 +14,7 @@ pub struct MeshKnown {
 }
 
 impl MeshKnown {
-    /// How far each vertex is to be trusted, 1 being usual: a weight of its fidelity.
+    /// Sets the confidence of each vertex, 1 being usual: the weight of its fidelity.
     ///
     /// # Errors
     /// [`Error::NotFinite`](crate::Error::NotFinite) if one is no finite number from 0 on.
@@ -24,14 +24,19 @@ impl MeshKnown {
         Ok(self)
     }
 
-    /// Which vertices stay where they are.
+    /// Sets which vertices stay where they are.
     pub fn with_held(mut self, held: Vec<bool>) -> Self {
         self.held = held;
         self
     }
 
-    /// For each vertex of the topology: the most of those that are joined.
-    pub(super) fn of(self, mesh: &Mesh, topology: &Topology) -> Result<(Vec<f64>, Vec<bool>)> {
+    /// Confidence of each vertex of the topology, and whether it is held: the larger confidence, and held if
+    /// any is, where several vertices are joined.
+    pub(super) fn for_topology(
+        self,
+        mesh: &Mesh,
+        topology: &Topology,
+    ) -> Result<(Vec<f64>, Vec<bool>)> {
         let count = mesh.positions().len();
         let (mut confidence, mut held) = (Vec::new(), vec![false; topology.len()]);
         if !self.confidence.is_empty() {

@@ -1,36 +1,37 @@
-//! Meshes as they are, without a view: closed, overhanging, with borders or in parts.
+//! Fits of whole meshes, as surfaces in space and not as seen from one side: closed, overhanging, with borders
+//! or in components.
 //!
-//! The paper's energy needs heights. Here each vertex moves along a ray, and what takes the place of the
-//! Hessian is the second fundamental form by a quadratic fit over its neighbours, linearised about a
-//! smoothed base; the operator is a sparse matrix, and everything else is that of heightfields.
+//! The paper's energy needs heights. Here each vertex moves along a ray, and the second fundamental form takes
+//! the place of the Hessian: that of a quadratic fitted to the neighbours, linearised about a smoothed base.
+//! The operator is a sparse matrix, and everything else is as for heightfields.
 
-mod ball;
 mod base;
-mod border;
-mod crossing;
-mod curve;
+mod border_extrapolation;
+mod bounding_sphere;
+mod crease_directions;
+mod crease_vertices;
+mod edge_load;
 mod fairing;
-mod fans;
 pub(crate) mod geometry;
-mod given;
+mod input;
 mod known;
-pub(crate) mod linear;
-mod load;
-mod noise;
+pub(crate) mod linearisation;
+mod morton_order;
+mod noise_level;
 mod options;
-mod penalty;
 mod quadratic;
 mod report;
-mod shape;
-mod sharpen;
-mod sides;
+mod rho_shares;
+mod self_intersections;
+mod shape_measures;
+mod smooth_regions;
 mod solver;
 #[cfg(test)]
 mod tests;
 pub(crate) mod topology;
-mod ways;
+mod vertex_fans;
 
-pub(crate) use ball::scale_of;
+pub(crate) use bounding_sphere::bounding_sphere_scale;
 pub use known::MeshKnown;
 pub use options::MeshOptions;
 pub use report::{MeshPass, MeshReport, Repairs};

@@ -1,4 +1,4 @@
-//! What may be chosen about a solve over a mesh.
+//! Options of the fit of a mesh.
 
 use crate::error::{Error, Result};
 use crate::fit::options::{DEFAULT_CREASE_PASSES, Energy, Lambda, Options};
@@ -7,7 +7,7 @@ use crate::math::sym2::Sym2;
 /// Excess of a vertex's moment over the flatness threshold at which a bend counts in full.
 const CLEAR_BEND_EXCESS: f64 = 0.1;
 
-/// Options of [`fit_mesh`](super::fit_mesh), as for heightfields where these are the same. The energy is
+/// Options of [`fit_mesh`](super::fit_mesh), with the names of those of heightfields. The energy is
 /// [`Energy::Huber`](crate::Energy::Huber).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
@@ -53,7 +53,7 @@ impl MeshOptions {
         self
     }
 
-    /// The most ADMM iterations for each linearisation; default 1000.
+    /// Maximum number of ADMM iterations for each linearisation; default 1000.
     pub fn max_iterations(mut self, iterations: usize) -> Self {
         self.max_iterations = iterations;
         self
@@ -86,17 +86,17 @@ impl MeshOptions {
         self
     }
 
-    /// The number of crease passes: the given one or the default.
+    /// Number of crease passes: the given one or the default.
     pub(super) fn crease_passes_or_default(&self) -> usize {
         self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
     }
 
-    /// Whether what bears a dual is a bend and not next to flat, where its direction is anyone's: from 0 to 1.
-    pub(super) fn bent(&self, dual: Sym2) -> f64 {
+    /// Share of a dual, from 0 to 1, that bears a bend: next to flat, its direction is arbitrary.
+    pub(super) fn bend_share(&self, dual: Sym2) -> f64 {
         ((dual.spectral_norm() - self.flatness) / CLEAR_BEND_EXCESS).clamp(0.0, 1.0)
     }
 
-    /// Whether every option is within its range.
+    /// Checks that every option is within its range.
     ///
     /// # Errors
     /// [`Error::Option`] with the name of the first that is not.
@@ -104,7 +104,7 @@ impl MeshOptions {
         self.common().validate()
     }
 
-    /// The same as options of a heightfield.
+    /// These options as those of a heightfield.
     pub(super) fn common(&self) -> Options {
         Options::default()
             .energy(Energy::Huber)
@@ -118,7 +118,7 @@ impl MeshOptions {
     }
 }
 
-/// Confidences are finite and at least 0.
+/// Checks that confidences are finite and at least 0.
 pub(super) fn check_confidence(confidence: &[f64], vertices: usize) -> Result<()> {
     crate::error::check_count("confidence of the mesh", vertices, 1, confidence.len())?;
     let odd = confidence

@@ -1,5 +1,5 @@
-//! The quadratic through a vertex that fits its neighbours' heights above its tangent plane best, and how
-//! its second derivatives change when the vertices move.
+//! The quadratic about a vertex that fits its neighbours' heights above the tangent plane best, and the
+//! derivative of its second derivatives with respect to the vertices.
 
 use super::geometry::{Frame, Point};
 use crate::math::sym2::Sym2;
@@ -7,17 +7,24 @@ use crate::math::sym2::Sym2;
 /// Number of coefficients of a local quadratic: of `½x²`, `xy`, `½y²`, `x` and `y`.
 const COEFFICIENT_COUNT: usize = 5;
 
+/// Noise amplification of the second derivatives on the six-ring of a hexagonal lattice, in units of `h⁻⁴`.
+const HEXAGONAL_AMPLIFICATION: f64 = 20.0 / 3.0;
+
+/// Minimum pivot of a Cholesky factorisation, relative to the diagonal entry, for the neighbours to determine a
+/// quadratic: half of the digits of double precision are left.
+const MIN_PIVOT_SHARE: f64 = 1e-8;
+
 /// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex.
 pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
 
-/// A neighbour: its offset from the vertex, and what it counts.
+/// A neighbour in a quadratic fit: its offset from the vertex, and its weight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Neighbour {
     pub offset: Point,
     pub weight: f64,
 }
 
-/// The fit at one vertex.
+/// The quadratic fitted at one vertex.
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     samples: Vec<Sample>,
@@ -26,27 +33,29 @@ pub(crate) struct Quadratic {
     scale: f64,
 }
 
-/// What a neighbour has to do with a fit.
+/// A neighbour's part in a fit.
 #[derive(Debug, Clone)]
 struct Sample {
-    /// From its height to the coefficients.
+    /// Derivatives of the coefficients with respect to its height.
     column: [f64; COEFFICIENT_COUNT],
-    /// Coordinates, by `scale`.
+    /// Coordinates in the tangent plane, in units of `scale`.
     place: [f64; 2],
     weight: f64,
     residual: f64,
 }
 
+/// The terms of a quadratic at a point.
 fn terms([x, y]: [f64; 2]) -> [f64; COEFFICIENT_COUNT] {
     [0.5 * x * x, x * y, 0.5 * y * y, x, y]
 }
 
+/// The inner product.
 fn inner(a: &[f64; COEFFICIENT_COUNT], b: &[f64; COEFFICIENT_COUNT]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Quadratic {
-    /// Nothing where the neighbours do not determine one.
+    /// Fits a quadratic; `None` where the neighbours do not determine one.
     pub(super) fn fit(frame: &Frame, neighbours: &[Neighbour]) -> Option<Self> {
         let full = neighbours.iter().filter(|n| n.weight == 1.0);
         let count = full.clone().count() as f64;
@@ -91,40 +100,39 @@ impl Quadratic {
         })
     }
 
-    /// How much the second derivatives amplify noise of the heights, relative to the six-ring of a
-    /// hexagonal lattice.
+    /// Noise of the second derivatives relative to that on the six-ring of a hexagonal lattice.
     pub(super) fn amplification(&self) -> f64 {
-        // 20/3 in units of h⁻⁴.
         let columns = self.samples.iter().map(|sample| sample.column);
         let squares = columns.map(|c| c[0] * c[0] + 2.0 * c[1] * c[1] + c[2] * c[2]);
-        squares.sum::<f64>() / (20.0 / 3.0)
+        squares.sum::<f64>() / HEXAGONAL_AMPLIFICATION
     }
 
-    /// Second derivatives.
+    /// Second derivatives at the vertex.
     pub(crate) fn hessian(&self) -> Sym2 {
         let [xx, xy, yy, ..] = self.coefficients;
         Sym2::new(xx, xy, yy).scale(1.0 / self.scale)
     }
 
-    /// First derivatives.
+    /// First derivatives at the vertex.
     pub(super) fn slope(&self) -> [f64; 2] {
         let [.., x, y] = self.coefficients;
         [x, y]
     }
 
-    /// Height above the tangent plane.
+    /// Height above the tangent plane at a point of it.
     pub(super) fn height(&self, place: [f64; 2]) -> f64 {
         self.scale * inner(&self.coefficients, &terms(place.map(|x| x / self.scale)))
     }
 
-    /// First derivatives there.
+    /// First derivatives at a point of the tangent plane.
     pub(super) fn gradient(&self, place: [f64; 2]) -> [f64; 2] {
         let [x, y] = place.map(|x| x / self.scale);
         let [xx, xy, yy, a, b] = self.coefficients;
         [xx * x + xy * y + a, xy * x + yy * y + b]
     }
 
-    /// How the second derivatives change when the `k`-th neighbour moves by `v` relative to the vertex.
+    /// Change of the second derivatives when the `k`-th neighbour moves by `v` relative to the vertex, to first
+    /// order.
     pub(super) fn change(&self, frame: &Frame, k: usize, v: Point) -> Sym2 {
         let [dx, dy, dz] = frame.coordinates(v);
         let sample = &self.samples[k];
@@ -139,7 +147,7 @@ impl Quadratic {
     }
 }
 
-/// Of a symmetric matrix that is well positive definite, by Cholesky.
+/// Inverse of a symmetric matrix by Cholesky's factorisation; `None` unless it is well positive definite.
 fn inverse(
     matrix: &[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
 ) -> Option<[[f64; COEFFICIENT_COUNT]; COEFFICIENT_COUNT]> {
@@ -148,7 +156,7 @@ fn inverse(
         for j in 0..=i {
             let sum: f64 = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
             if i == j {
-                if sum.is_nan() || sum <= 1e-8 * matrix[i][i] {
+                if sum.is_nan() || sum <= MIN_PIVOT_SHARE * matrix[i][i] {
                     return None;
                 }
                 l[i][i] = sum.sqrt();

@@ -1,36 +1,36 @@
-//! From one linearisation to the next.
+//! The fit of a mesh as a sequence of linearisations.
 
 use web_time::Instant;
 
-use super::ball::Ball;
 use super::base::first_base;
-use super::border::restore;
-use super::crossing::uncross;
-use super::fairing::{curves, fair};
-use super::fans::Fans;
+use super::border_extrapolation::extrapolate_border;
+use super::bounding_sphere::BoundingSphere;
+use super::crease_vertices::move_crease_vertices;
+use super::edge_load::load_border;
+use super::fairing::{curves, fair_curves};
 use super::geometry::{Frame, Point, areas, normals, unfold};
-use super::given::Given;
+use super::input::MeshInput;
 use super::known::MeshKnown;
-use super::linear::{Linearised, spacing_of};
-use super::load::load_border;
-use super::noise::noise;
+use super::linearisation::{Linearisation, hexagonal_spacing};
+use super::noise_level::noise;
 use super::options::MeshOptions;
-use super::penalty::penalise;
 use super::report::{MeshPass, MeshReport};
-use super::shape::Shape;
-use super::sharpen::sharpen;
-use super::sides::Sides;
+use super::rho_shares::set_rho_shares;
+use super::self_intersections::separate_self_intersections;
+use super::shape_measures::ShapeMeasures;
+use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
+use super::vertex_fans::VertexFans;
 use crate::error::{Result, try_filled};
-use crate::fit::admm::iteration::Level;
-use crate::fit::admm::schedule::Plan;
-use crate::fit::admm::state::State;
-use crate::fit::energy::law::Bends;
-use crate::fit::energy::load::bearing;
+use crate::fit::admm::iterate::Iterate;
+use crate::fit::admm::parameters::AdmmParameters;
+use crate::fit::admm::solver::{AdmmSolver, initial_rho};
+use crate::fit::component_solver::Status;
+use crate::fit::energy::moment_load::bearing;
+use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
 use crate::fit::options::Lambda;
-use crate::fit::partwise::Status;
 use crate::fit::report::{Progress, Seconds, StopReason};
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
@@ -39,22 +39,21 @@ use crate::scene::mesh::Mesh;
 /// Product of λ, the noise and the spacing of vertices that determines λ where no value is given.
 const LAMBDA_NOISE_PRODUCT: f64 = 6.4;
 
-/// Relative duality gap of the first of several solves, which only gives the next one a base and the places
-/// of creases.
+/// Relative duality gap of the first of several solves, which only gives the next one a base and the creases.
 const FIRST_SOLVE_GAP: f64 = 0.03;
 
-/// Largest movement of a vertex to the smoothed curve of its border or crease, in standard deviations of the
+/// Maximum movement of a vertex to the smoothed curve of its border or crease, in standard deviations of the
 /// noise.
 const MAX_FAIRING_NOISE_RATIO: f64 = 1.5;
 
-/// Of noise that cannot be told from none, as a share of the spacing.
-const NO_NOISE: f64 = 1e-4;
+/// Minimum noise that λ is chosen by, in spacings: a smaller one cannot be told from none.
+const MIN_NOISE_SPACINGS: f64 = 1e-4;
 
-/// Largest λ, relative to the one that the noise asks for, at which creases are looked for: with a larger one
+/// Maximum λ, relative to the one that the noise asks for, at which creases are looked for: with a larger one,
 /// noise is taken for creases.
 const MAX_CREASE_LAMBDA_RATIO: f64 = 4.0;
 
-/// A triangle mesh with the surface that was found.
+/// The fitted mesh and its report.
 #[derive(Debug, Clone)]
 pub struct MeshSurface {
     mesh: Mesh,
@@ -62,40 +61,40 @@ pub struct MeshSurface {
 }
 
 impl MeshSurface {
-    /// The vertices, triangles, colours, texture coordinates and textures of the input, in the same order;
-    /// its vertices moved.
+    /// The fitted mesh: vertices, triangles, colours, texture coordinates and textures of the input in the same
+    /// order, with its vertices moved.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// How it was found.
+    /// The report of the fit.
     pub fn report(&self) -> &MeshReport {
         &self.report
     }
 
-    /// Both.
+    /// The fitted mesh and its report.
     pub fn into_parts(self) -> (Mesh, MeshReport) {
         (self.mesh, self.report)
     }
 }
 
-/// A solve over a mesh that runs in steps.
+/// A fit of a mesh that runs in steps, so that its caller can look at it or stop it in between.
 #[derive(Debug, Clone)]
 pub struct MeshSolver {
     mesh: Mesh,
     options: MeshOptions,
-    given: Given,
-    bounds: Ball,
+    given: MeshInput,
+    bounds: BoundingSphere,
     lambda: f64,
     sigma: Option<f64>,
-    /// The linearisation under way.
-    level: Option<Level<SparseOperator>>,
-    linear: Linearised,
+    /// The solve of the current linearisation.
+    level: Option<AdmmSolver<SparseOperator>>,
+    linear: Linearisation,
     creases: usize,
-    /// The surface so far.
+    /// Positions of the vertices so far.
     surface: Vec<Point>,
     passes: Vec<MeshPass>,
-    before: Shape,
+    before: ShapeMeasures,
     reason: Option<StopReason>,
     seconds: Seconds,
     start: Instant,
@@ -123,21 +122,23 @@ pub fn fit_mesh(mesh: &Mesh, options: &MeshOptions) -> Result<MeshSurface> {
 }
 
 impl MeshSolver {
+    /// Sets up a fit.
+    ///
     /// # Errors
     /// As [`fit_mesh`]; [`Error::Shape`](crate::Error::Shape) if what is known is not of as many
     /// vertices.
     pub fn new(mesh: Mesh, known: MeshKnown, options: &MeshOptions) -> Result<Self> {
         let start = Instant::now();
         options.validate()?;
-        let topology = Topology::in_order_of_place(&mesh)?;
-        let bounds = Ball::around(&mesh)?;
+        let topology = Topology::in_spatial_order(&mesh)?;
+        let bounds = BoundingSphere::from_mesh(&mesh)?;
         let noisy: Vec<Point> = topology
             .source
             .iter()
             .map(|vertex| bounds.inward(mesh.positions()[*vertex as usize]))
             .collect();
-        let (confidence, held) = known.of(&mesh, &topology)?;
-        let given = Given {
+        let (confidence, held) = known.for_topology(&mesh, &topology)?;
+        let given = MeshInput {
             topology,
             noisy,
             confidence,
@@ -149,10 +150,10 @@ impl MeshSolver {
         let inside = topology.vertices_inside();
         let count = inside.clone().count() as f64;
         let mean = inside.map(|vertex| own[vertex]).sum::<f64>() / count;
-        let spacing = spacing_of(mean);
+        let spacing = hexagonal_spacing(mean);
         let sigma = noise(topology, &base, &frames, &given.noisy);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
-            LAMBDA_NOISE_PRODUCT / (sigma.max(NO_NOISE * spacing) * spacing)
+            LAMBDA_NOISE_PRODUCT / (sigma.max(MIN_NOISE_SPACINGS * spacing) * spacing)
         });
         let lambda = match options.lambda {
             Lambda::Auto => auto,
@@ -162,8 +163,8 @@ impl MeshSolver {
         if lambda > MAX_CREASE_LAMBDA_RATIO * auto {
             options.crease_passes.get_or_insert(0);
         }
-        let before = Shape::of(topology, &given.noisy, &base);
-        let linear = linearised(&given, base, frames, &options, lambda, None)?;
+        let before = ShapeMeasures::new(topology, &given.noisy, &base);
+        let linear = linearise(&given, base, frames, &options, lambda, None)?;
         let mut solver = MeshSolver {
             mesh,
             options,
@@ -186,7 +187,7 @@ impl MeshSolver {
         Ok(solver)
     }
 
-    /// Goes on for about so many conjugate-gradient iterations.
+    /// Continues for about this number of conjugate-gradient iterations.
     ///
     /// # Errors
     /// Out of memory.
@@ -208,22 +209,26 @@ impl MeshSolver {
         })
     }
 
-    /// Stops as soon as may be; the surface is the best one so far.
+    /// Stops a running fit; its surface is the best one so far.
     pub fn cancel(&mut self) {
         self.reason.get_or_insert(StopReason::Cancelled);
     }
 
-    /// Where it stands.
+    /// Figures of the last check.
     pub fn progress(&self) -> Progress {
         let (objective, dual_bound, gap) = match &self.level {
             Some(level) => {
-                let best = &level.best;
-                (best.objective(), best.dual_bound, Some(best.gap()))
+                let incumbent = &level.admm.incumbent;
+                (
+                    incumbent.objective(),
+                    incumbent.dual_bound,
+                    Some(incumbent.gap()),
+                )
             }
             None => (0.0, 0.0, None),
         };
         let done = |of: fn(&MeshPass) -> usize| self.passes.iter().map(of).sum::<usize>();
-        let under_way = self.level.as_ref().map(Level::report);
+        let under_way = self.level.as_ref().map(AdmmSolver::report);
         Progress {
             level: self
                 .options
@@ -235,46 +240,52 @@ impl MeshSolver {
             objective,
             dual_bound,
             gap,
-            rho: self.level.as_ref().map_or(0.0, |level| level.state.rho),
+            rho: self
+                .level
+                .as_ref()
+                .map_or(0.0, |level| level.admm.iterate.rho),
             elapsed: self.start.elapsed().as_secs_f64(),
         }
     }
 
-    /// Starts to solve the linearised problem, where there is one before from its dual.
-    fn begin(&mut self, warm: Option<(State<SparseOperator>, Linearised, Sides)>) -> Result<()> {
+    /// Starts to solve the linearised problem, from the dual of the one before where there is one.
+    fn begin(
+        &mut self,
+        warm: Option<(Iterate<SparseOperator>, Linearisation, SmoothRegions)>,
+    ) -> Result<()> {
         let mut options = self.options.common();
         if warm.is_none() && self.options.crease_passes_or_default() > 0 {
             options = options.gap(self.options.gap.max(FIRST_SOLVE_GAP));
         }
-        let plan = Plan::new(&options).without_cycles();
+        let parameters = AdmmParameters::new(&options).without_v_cycles();
         let start = self.linear.start();
         let problem = &mut self.linear.problem;
-        let mut state = State::new(problem, plan.first_rho(problem))?;
+        let mut iterate = Iterate::new(problem, initial_rho(&parameters, problem))?;
         self.creases = 0;
         let mut loaded = false;
         if let Some((old, before, sides)) = warm {
             let mut moments = try_filled("moments", self.linear.centres.len(), Sym2::default())?;
             let creases = problem.reweight_creases(&start, self.options.crease_radius)?;
             let centres = self.linear.centres.iter();
-            let known: Vec<bool> = centres.map(|v| sides.meet_at(*v as usize)).collect();
+            let known: Vec<bool> = centres.map(|v| sides.is_on_crease(*v as usize)).collect();
             self.creases = creases.vertices + problem.free_creases(&known);
-            penalise(problem);
-            state.rho = old.rho;
+            set_rho_shares(problem);
+            iterate.rho = old.rho;
             for (stencil, centre) in self.linear.centres.iter().enumerate() {
                 let from = before.about[*centre as usize];
                 if from != NO_INDEX {
                     let (dual, hessian) = old.matrices(&before.problem, from as usize);
-                    state.set_matrices_of(problem, stencil, [dual, hessian]);
-                    moments[stencil] = bearing(dual, hessian).scale(self.options.bent(dual));
+                    iterate.set_matrices_with_rho_share(problem, stencil, [dual, hessian]);
+                    moments[stencil] = bearing(dual, hessian).scale(self.options.bend_share(dual));
                 }
             }
             let topology = &self.given.topology;
             loaded = load_border(topology, &mut self.linear, &moments, &self.options, &known)?;
         }
-        state.z.copy_from_slice(&start);
+        iterate.z.copy_from_slice(&start);
         let problem = self.linear.problem.clone();
-        let solver = JacobiGradients::new(&problem, state.rho)?;
-        let (mut level, reason) = Level::new(problem, state, solver, plan, 0, false)?;
+        let solver = JacobiGradients::new(&problem, iterate.rho)?;
+        let (mut level, reason) = AdmmSolver::new(problem, iterate, solver, parameters, 0, false)?;
         // One round between checks is enough: the base is near already.
         let reason = match loaded {
             true => {
@@ -290,16 +301,16 @@ impl MeshSolver {
         }
     }
 
-    /// Takes the result of a linearised problem, and goes on to the next one.
+    /// Takes over the result of a linearised problem, and goes on to the next one.
     fn finish(&mut self, reason: StopReason) -> Result<()> {
         let Some(level) = self.level.take() else {
             return Ok(());
         };
         let report = level.report();
         let last = self.passes.len() >= self.options.crease_passes_or_default();
-        let z = &level.best.z;
+        let z = &level.admm.incumbent.z;
         let mut next = self.linear.moved(z);
-        restore(&self.given, &mut next, &self.linear.frames, None);
+        extrapolate_border(&self.given, &mut next, &self.linear.frames, None);
         let topology = &self.given.topology;
         let old: Vec<Point> = self.linear.frames.iter().map(|f| f.normal).collect();
         let up = normals(topology, &next, Some(&old));
@@ -313,25 +324,25 @@ impl MeshSolver {
         self.passes.push(MeshPass {
             iterations: report.iterations,
             cg_iterations: report.cg_iterations,
-            objective: level.best.objective(),
-            dual_bound: level.best.dual_bound,
-            gap: Some(level.best.gap()),
+            objective: level.admm.incumbent.objective(),
+            dual_bound: level.admm.incumbent.dual_bound,
+            gap: Some(level.admm.incumbent.gap()),
             stop_reason: reason,
             creases: self.creases,
             moved: (squares / next.len() as f64).sqrt() / scale,
             moved_most: moved.fold(0.0, f64::max) / scale,
         });
-        self.seconds = self.seconds + level.seconds;
+        self.seconds = self.seconds + level.admm.seconds;
         self.surface = next;
         let done = last || !matches!(reason, StopReason::Gap | StopReason::Residuals);
         let (topology, held) = (&self.given.topology, &self.given.held);
         let surface = &mut self.surface;
         if done && self.options.crease_passes_or_default() > 0 {
-            let sides = Sides::new(topology, surface)?;
-            restore(&self.given, surface, &self.linear.frames, Some(&sides));
-            sharpen(&self.given, &sides, surface, &self.linear.frames);
+            let sides = SmoothRegions::new(topology, surface)?;
+            extrapolate_border(&self.given, surface, &self.linear.frames, Some(&sides));
+            move_crease_vertices(&self.given, &sides, surface, &self.linear.frames);
             if let Some(sigma) = self.sigma {
-                fair(
+                fair_curves(
                     surface,
                     &curves(topology, &sides),
                     MAX_FAIRING_NOISE_RATIO * sigma,
@@ -341,9 +352,17 @@ impl MeshSolver {
             // Normals beside creases are others now.
             let up = normals(topology, surface, Some(&old));
             unfold(topology, surface, &up, held);
-            uncross(topology, &sides.fans, surface, held, &|v| sides.meet_at(v));
+            separate_self_intersections(topology, &sides.vertex_fans, surface, held, &|v| {
+                sides.is_on_crease(v)
+            });
         } else {
-            uncross(topology, &Fans::new(topology), surface, held, &|_| false);
+            separate_self_intersections(
+                topology,
+                &VertexFans::new(topology),
+                surface,
+                held,
+                &|_| false,
+            );
         }
         if done {
             self.reason = Some(reason);
@@ -353,14 +372,14 @@ impl MeshSolver {
         let frames = normals(&self.given.topology, &self.surface, Some(&old))
             .into_iter()
             .zip(&self.linear.frames)
-            .map(|(normal, hint)| Frame::about(normal, hint.tangents[0]))
+            .map(|(normal, hint)| Frame::from_normal(normal, hint.tangents[0]))
             .collect();
         let base = self.surface.clone();
-        let sides = Sides::new(&self.given.topology, &base)?;
+        let sides = SmoothRegions::new(&self.given.topology, &base)?;
         let (options, lambda) = (&self.options, self.lambda);
-        let next = linearised(&self.given, base, frames, options, lambda, Some(&sides))?;
+        let next = linearise(&self.given, base, frames, options, lambda, Some(&sides))?;
         let before = std::mem::replace(&mut self.linear, next);
-        self.begin(Some((level.state, before, sides)))?;
+        self.begin(Some((level.admm.iterate, before, sides)))?;
         self.seconds.setup += start.elapsed().as_secs_f64();
         Ok(())
     }
@@ -379,7 +398,7 @@ impl MeshSolver {
                 positions[*corner as usize] = self.bounds.outward(self.surface[joined as usize]);
             }
         }
-        let after = Shape::of(topology, &self.surface, &self.surface);
+        let after = ShapeMeasures::new(topology, &self.surface, &self.surface);
         let (length, closed) = (1.0 / self.bounds.scale, topology.closed);
         let interior = self.linear.centres.len();
         let inside = topology.vertices_inside().count();
@@ -410,14 +429,15 @@ impl MeshSolver {
     }
 }
 
-fn linearised(
-    given: &Given,
+/// Linearises about a base, with the options of the fit.
+fn linearise(
+    given: &MeshInput,
     base: Vec<Point>,
     frames: Vec<Frame>,
     options: &MeshOptions,
     lambda: f64,
-    sides: Option<&Sides>,
-) -> Result<Linearised> {
-    let bends = Bends::of(&options.common());
-    Linearised::about(given, base, frames, bends, |_| lambda, sides)
+    sides: Option<&SmoothRegions>,
+) -> Result<Linearisation> {
+    let bends = HuberParameters::from_options(&options.common());
+    Linearisation::new(given, base, frames, bends, |_| lambda, sides)
 }

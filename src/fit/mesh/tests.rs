@@ -4,19 +4,19 @@ use std::sync::Arc;
 use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::{Frame, Point, normals};
-use super::given::Given;
-use super::linear::Linearised;
+use super::input::MeshInput;
+use super::linearisation::Linearisation;
 use super::quadratic::{Neighbour, Quadratic};
 use super::topology::Topology;
 use super::{MeshOptions, fit_mesh};
-use crate::fit::admm::iteration::Level;
-use crate::fit::admm::schedule::Plan;
-use crate::fit::admm::state::State;
+use crate::fit::admm::iterate::Iterate;
+use crate::fit::admm::parameters::AdmmParameters;
+use crate::fit::admm::solver::{AdmmSolver, initial_rho};
 use crate::fit::coordinates::Coordinates;
-use crate::fit::energy::law::Bends;
+use crate::fit::energy::spectral_penalty::HuberParameters;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::fit::linear::zstep::Solvable;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::Operator;
 use crate::fit::operator::lattice::position;
 use crate::fit::operator::sparse::jacobi::JacobiGradients;
@@ -27,7 +27,7 @@ use crate::{Error, Heightfield, Input, Lattice, Mesh, Options, Triangulation};
 #[path = "../../../tests/native/common/closed_meshes.rs"]
 mod closed_meshes;
 mod creases;
-mod crossing;
+mod self_intersections;
 
 use closed_meshes::{cube, grid, indexed, normal, points, random, with_positions};
 
@@ -53,14 +53,14 @@ fn noisy(mesh: &Mesh, sigma: f64) -> Mesh {
     with_positions(mesh, &x)
 }
 
-const BENDS: Bends = Bends {
+const BENDS: HuberParameters = HuberParameters {
     flatness: 0.3,
     delta: 10.0,
 };
 
-fn given(mesh: &Mesh) -> Given {
+fn given(mesh: &Mesh) -> MeshInput {
     let topology = Topology::new(mesh).unwrap();
-    Given {
+    MeshInput {
         noisy: points(mesh),
         confidence: Vec::new(),
         held: vec![false; topology.len()],
@@ -69,14 +69,14 @@ fn given(mesh: &Mesh) -> Given {
 }
 
 /// About the mesh itself.
-fn linearised(mesh: &Mesh) -> Linearised {
+fn linearise(mesh: &Mesh) -> Linearisation {
     let given = given(mesh);
     let up = normals(&given.topology, &given.noisy, None);
     let frames = up
         .into_iter()
-        .map(|n| Frame::about(n, Point::x()))
+        .map(|n| Frame::from_normal(n, Point::x()))
         .collect();
-    Linearised::about(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
+    Linearisation::new(&given, given.noisy.clone(), frames, BENDS, |_| 1e4, None).unwrap()
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn a_plane_of_hexagons_has_the_papers_stencil() {
     let flat = Heightfield::from_fn(lattice, |_, _| 0.0).unwrap();
     let flat = Triangulation::new(&flat, &Frame3::default()).unwrap();
     let mesh = Mesh::new(flat.positions().to_vec(), flat.triangles().to_vec()).unwrap();
-    let linear = linearised(&mesh);
+    let linear = linearise(&mesh);
     assert!((linear.spacing / h - 1.0).abs() < 1e-12);
     let mut random = random(1);
     let heights: Vec<f64> = linear.base.iter().map(|_| random()).collect();
@@ -151,19 +151,20 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let coordinates = Coordinates::new(&input, &domain, 1.0);
     let problem =
         heightfields::Problem::new(&input, domain.clone(), &coordinates, &options).unwrap();
-    fn solve<O: Solvable>(
+    fn solve<O: SolvableOperator>(
         problem: crate::fit::energy::problem::Problem<O>,
         options: &Options,
         solver: impl Fn(&crate::fit::energy::problem::Problem<O>, f64) -> O::Solver,
         start: Option<Vec<f64>>,
-    ) -> Level<O> {
-        let plan = Plan::new(options);
-        let mut state = State::new(&problem, plan.first_rho(&problem)).unwrap();
+    ) -> AdmmSolver<O> {
+        let parameters = AdmmParameters::new(options);
+        let mut iterate = Iterate::new(&problem, initial_rho(&parameters, &problem)).unwrap();
         if let Some(start) = start {
-            state.z = start;
+            iterate.z = start;
         }
-        let solver = solver(&problem, state.rho);
-        let (mut level, mut reason) = Level::new(problem, state, solver, plan, 0, false).unwrap();
+        let solver = solver(&problem, iterate.rho);
+        let (mut level, mut reason) =
+            AdmmSolver::new(problem, iterate, solver, parameters, 0, false).unwrap();
         while reason.is_none() {
             reason = level.advance(&mut 1000).unwrap();
         }
@@ -187,7 +188,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     let topology = Topology::new(&mesh).unwrap();
     let areas = super::geometry::areas(&topology, &base);
     let whole = areas.iter().copied().fold(0.0, f64::max);
-    let given = Given {
+    let given = MeshInput {
         topology,
         noisy: places.clone(),
         confidence: areas.iter().map(|area| whole / area).collect(),
@@ -195,12 +196,12 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
     };
     let frames = base
         .iter()
-        .map(|_| Frame::about(Point::z(), Point::x()))
+        .map(|_| Frame::from_normal(Point::z(), Point::x()))
         .collect();
-    let bends = Bends::of(&options);
-    let linear = Linearised::about(&given, base, frames, bends, |_| 1e4, None).unwrap();
+    let bends = HuberParameters::from_options(&options);
+    let linear = Linearisation::new(&given, base, frames, bends, |_| 1e4, None).unwrap();
     let jacobi =
-        |problem: &super::linear::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
+        |problem: &super::linearisation::Problem, rho| JacobiGradients::new(problem, rho).unwrap();
     let b = solve(
         linear.problem.clone(),
         &options,
@@ -208,19 +209,22 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         Some(linear.start()),
     );
 
-    let bound = a.best.dual_bound.max(b.best.dual_bound);
-    for gap in [a.best.objective() - bound, b.best.objective() - bound] {
+    let bound = a.admm.incumbent.dual_bound.max(b.admm.incumbent.dual_bound);
+    for gap in [
+        a.admm.incumbent.objective() - bound,
+        b.admm.incumbent.objective() - bound,
+    ] {
         assert!(
             (-1e-12 * bound..2e-5 * bound).contains(&gap),
             "{gap:e} of {bound}"
         );
     }
-    let found = linear.moved(&b.best.z);
+    let found = linear.moved(&b.admm.incumbent.z);
     let radius = (2.0 * 1e-5 * bound / 1e4).sqrt();
     let mut square = 0.0f64;
     for cell in domain.active().cells() {
         let place = position(&domain, cell);
-        let height = coordinates.outward(place, a.best.z[cell]);
+        let height = coordinates.outward(place, a.admm.incumbent.z[cell]);
         let vertex = (places.iter()).position(|x| (x.x - place[0]).hypot(x.y - place[1]) < 1e-9);
         square += (found[vertex.unwrap()].z - height).powi(2);
     }
@@ -236,7 +240,7 @@ fn curvature_is_that_of_spheres_and_pipes() {
         [r * phi.cos() * radius, r * phi.sin() * radius, y * radius]
     }));
     for (mesh, other) in [(ball, 1.0 / radius), (pipe(60, radius, 2.0), 0.0)] {
-        let linear = linearised(&mesh);
+        let linear = linearise(&mesh);
         let mut count = 0;
         linear
             .problem
@@ -262,7 +266,7 @@ fn curvature_is_that_of_spheres_and_pipes() {
 fn the_change_of_a_fit_is_its_derivative() {
     let mut random = random(2);
     for valence in [5, 6, 7, 9] {
-        let frame = Frame::about(Point::new(0.1, 0.2, 1.0).normalize(), Point::x());
+        let frame = Frame::from_normal(Point::new(0.1, 0.2, 1.0).normalize(), Point::x());
         let offsets: Vec<Point> = (0..valence)
             .map(|k| {
                 let angle = std::f64::consts::TAU * (k as f64 + 0.2 * random()) / valence as f64;

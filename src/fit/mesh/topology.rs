@@ -1,4 +1,4 @@
-//! Which vertices of a mesh neighbour whom: a manifold with or without a border, or what it fails at.
+//! Topology of a mesh: the neighbours of each vertex, or an error where the mesh is no surface.
 
 use std::collections::HashMap;
 
@@ -6,28 +6,29 @@ use crate::error::{Error, Result, rounded, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::scene::mesh::Mesh;
 
-use super::curve;
+use super::morton_order;
 use super::report::Repairs;
 use crate::scene::half_edges::{next_half_edge, twin_half_edges};
 
-/// The triangles of a mesh, joined where its vertices coincide and all facing the same side.
+/// The triangles of a mesh as a surface: joined where its vertices coincide, and all facing the same side.
 #[derive(Debug, Clone)]
 pub(crate) struct Topology {
-    /// For each vertex of the mesh the one that it is here.
+    /// Vertex of the topology that each vertex of the mesh is.
     pub joined: Vec<u32>,
-    /// One vertex of the mesh for each that is here.
+    /// A vertex of the mesh for each vertex of the topology.
     pub source: Vec<u32>,
     pub triangles: Vec<[u32; 3]>,
-    /// The triangle of the mesh that each is.
+    /// Triangle of the mesh that each triangle of the topology is.
     pub from: Vec<u32>,
-    /// The neighbours of vertex `i` are `around[first[i]..first[i + 1]]`; `rim` tells which of these
-    /// edges have one triangle only.
+    /// Index of each vertex's first neighbour in `around`.
     first: Vec<u32>,
+    /// The neighbours of all vertices, one vertex after the other.
     around: Vec<u32>,
+    /// Whether the edge to each of these neighbours has one triangle only.
     rim: Vec<bool>,
     /// Whether triangles go once all around a vertex.
     pub inside: Vec<bool>,
-    /// Vertices where two fans of triangles meet in a point.
+    /// Number of vertices where two fans of triangles meet in a point.
     pub pinched: usize,
     pub components: usize,
     pub closed: bool,
@@ -35,27 +36,27 @@ pub(crate) struct Topology {
 }
 
 impl Topology {
-    /// Vertices and triangles in the order of the mesh.
+    /// The topology of a mesh, with vertices and triangles in the mesh's order.
     ///
     /// # Errors
     /// [`Error::Topology`] where an edge has more than two triangles, or where no choice of sides fits
     /// together; [`Error::Unsupported`] for a cloud of points.
     pub(crate) fn new(mesh: &Mesh) -> Result<Self> {
-        let vertices = join(mesh)?;
+        let vertices = join_vertices(mesh)?;
         let mut repairs = Repairs::default();
-        let mut from = proper(mesh, &vertices.0, &mut repairs);
+        let mut from = proper_triangles(mesh, &vertices.0, &mut repairs);
         from.sort_unstable();
-        Self::of(mesh, vertices, from, repairs)
+        Self::from_triangles(mesh, vertices, from, repairs)
     }
 
-    /// Vertices and triangles that are near each other in space have near numbers, so that what is next to
-    /// each other on a large mesh is in the cache together.
+    /// The topology of a mesh, with vertices and triangles ordered along a space-filling curve, so that
+    /// neighbours on a large mesh are in the cache together.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub(crate) fn in_order_of_place(mesh: &Mesh) -> Result<Self> {
-        let (mut joined, mut source) = join(mesh)?;
-        let order = curve::order(source.iter().map(|i| mesh.positions()[*i as usize]));
+    pub(crate) fn in_spatial_order(mesh: &Mesh) -> Result<Self> {
+        let (mut joined, mut source) = join_vertices(mesh)?;
+        let order = morton_order::order(source.iter().map(|i| mesh.positions()[*i as usize]));
         let mut place = try_filled("vertices", source.len(), 0)?;
         for (new, old) in (0..).zip(&order) {
             place[*old as usize] = new;
@@ -65,11 +66,11 @@ impl Topology {
             *vertex = place[*vertex as usize];
         }
         let mut repairs = Repairs::default();
-        let from = proper(mesh, &joined, &mut repairs);
-        Self::of(mesh, (joined, source), from, repairs)
+        let from = proper_triangles(mesh, &joined, &mut repairs);
+        Self::from_triangles(mesh, (joined, source), from, repairs)
     }
 
-    fn of(
+    fn from_triangles(
         mesh: &Mesh,
         (joined, source): (Vec<u32>, Vec<u32>),
         from: Vec<u32>,
@@ -113,7 +114,7 @@ impl Topology {
         self.source.len()
     }
 
-    /// Those with triangles all around.
+    /// The vertices with triangles all around.
     pub(crate) fn vertices_inside(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         (0..self.len()).filter(|vertex| self.inside[*vertex])
     }
@@ -123,7 +124,7 @@ impl Topology {
         &self.around[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }
 
-    /// Those along the border.
+    /// The neighbours of a vertex along the border.
     pub(crate) fn along_rim(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
         let edges = self.first[vertex] as usize..self.first[vertex + 1] as usize;
         edges
@@ -131,7 +132,8 @@ impl Topology {
             .map(|edge| self.around[edge] as usize)
     }
 
-    /// The neighbours' neighbours that are none themselves, in order.
+    /// Writes the second ring of a vertex, which are its neighbours' neighbours that are no neighbours
+    /// themselves, in ascending order.
     pub(crate) fn second_ring(&self, vertex: usize, to: &mut Vec<u32>) {
         let ring = self.around(vertex);
         to.clear();
@@ -143,6 +145,7 @@ impl Topology {
         to.retain(|other| *other != vertex as u32 && !ring.contains(other));
     }
 
+    /// Finds the neighbours of each vertex.
     fn connect(&mut self, mesh: &Mesh) -> Result<()> {
         // Each side of a triangle: its ends in order, the triangle and whether it runs forwards.
         let mut sides = Vec::new();
@@ -182,6 +185,7 @@ impl Topology {
         Ok(())
     }
 
+    /// Checks that no edge has more than two triangles.
     fn check_edges(&self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
         let mut bad = edges.iter().filter(|edge| edge.len() > 2);
         let Some(edge) = bad.next() else {
@@ -267,7 +271,7 @@ impl Topology {
         Ok(())
     }
 
-    /// Where one fan of triangles closes around a vertex.
+    /// Finds the vertices where one fan of triangles closes.
     fn find_inside(&mut self) {
         let twins = twin_half_edges(&self.triangles);
         let mut count = vec![0u32; self.len()];
@@ -296,13 +300,14 @@ impl Topology {
     }
 }
 
+/// Number and position of a vertex, for an error.
 fn place(mesh: &Mesh, vertex: u32) -> String {
     let [x, y, z] = mesh.positions()[vertex as usize].map(rounded);
     format!("vertex {vertex} ({x}, {y}, {z})")
 }
 
-/// The triangles with three corners, each once, by their corners.
-fn proper(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u32> {
+/// Numbers of the triangles with three different corners, each once.
+fn proper_triangles(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u32> {
     let keys = mesh.triangles().iter().map(|triangle| {
         let mut key = triangle.map(|i| joined[i as usize]);
         key.sort_unstable();
@@ -319,9 +324,9 @@ fn proper(mesh: &Mesh, joined: &[u32], repairs: &mut Repairs) -> Vec<u32> {
     sorted.into_iter().map(|(_, number)| number).collect()
 }
 
-/// Vertices at the very same place are one, as those of files without indices and of seams between
-/// textures are.
-fn join(mesh: &Mesh) -> Result<(Vec<u32>, Vec<u32>)> {
+/// Joins vertices at exactly the same position, as those of files without indices and of seams between textures
+/// are.
+fn join_vertices(mesh: &Mesh) -> Result<(Vec<u32>, Vec<u32>)> {
     if mesh.is_cloud() {
         return Err(Error::Unsupported {
             format: "point cloud",

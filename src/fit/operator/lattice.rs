@@ -1,4 +1,4 @@
-//! The lattice's own operator: the stencil of the best-fit quadratic, with multigrid for the z-step.
+//! The operator of a lattice: the stencil of the best-fit quadratic, with multigrid for the z-step.
 
 use std::sync::Arc;
 
@@ -11,16 +11,16 @@ use crate::lattice::stencil::{Gathered, HessianMap, Ring, Rolling, weights_of};
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// Norm `h⁴‖CᵀC‖` of the unbounded lattice, where two of the three second differences are at their largest
-/// and the third vanishes; of a part of it no more.
+/// Norm `h⁴‖CᵀC‖` on the unbounded lattice, where two of the three second differences are largest and the third
+/// vanishes; that on a domain is no larger.
 const SCALED_OPERATOR_NORM: f32 = 256.0 / 9.0;
 
-/// `C` over a domain, in normalised coordinates. Vertices and stencils are both cells of its padded
-/// box.
+/// The operator `C` over a domain, in normalised coordinates. Vertices and stencils are both cells of the
+/// domain's padded box.
 #[derive(Debug, Clone)]
 pub(crate) struct LatticeOperator {
     pub domain: Arc<Domain>,
-    /// From the user's heights and back.
+    /// Normalised coordinates of the domain's heights.
     pub coordinates: Coordinates,
     pub map: HessianMap,
     /// Lattice spacing in normalised coordinates.
@@ -39,13 +39,13 @@ impl LatticeOperator {
     }
 }
 
-/// A cell's place in the user's units.
+/// Position of a cell in the user's units.
 pub(crate) fn position(domain: &Domain, cell: usize) -> [f64; 2] {
     let (row, col) = domain.lattice_vertex(cell);
     domain.lattice().position(row, col)
 }
 
-/// Second differences and what turns them into Hessians.
+/// Hessians of a run, as second differences and the map from these.
 pub(crate) struct RunHessians<'a, T> {
     ring: Ring<'a, T>,
     map: HessianMap<T>,
@@ -58,7 +58,7 @@ impl<T: Real> Hessians<T> for RunHessians<'_, T> {
     }
 }
 
-/// The weights that multiply second differences in `Cᵀ`.
+/// Matrices `Y` of a run, as the weights of second differences in `Cᵀ`.
 pub(crate) struct RunMatrices<'a, T> {
     weights: [&'a mut [T]; 3],
     map: HessianMap<T>,

@@ -1,8 +1,7 @@
-//! The operator `C` from heights to Hessians, as the energy and ADMM see it: which vertices and
-//! stencils there are, and the two sweeps over them.
+//! The operator `C` from heights to Hessians: its vertices and stencils, and the two sweeps over them.
 //!
-//! Heights are arrays over the operator's vertices, Hessians and duals over its stencils. Both may
-//! have gaps: what counts are the runs.
+//! Heights are arrays over the operator's vertices, Hessians and duals arrays over its stencils. Both may have
+//! gaps; the runs tell which entries count.
 
 pub(crate) mod lattice;
 pub(crate) mod sparse;
@@ -19,53 +18,57 @@ use crate::math::sym2::Sym2;
 /// Kernels are closures that get one run at a time, with views of that run only, so that their loops
 /// vectorise. A method that takes several calls each of them in one place, so that it is inlined.
 pub(crate) trait Operator: Clone + Debug + 'static {
-    /// What a sweep works with.
+    /// Work memory of a sweep in one precision.
     type Scratch<T: Real>: Clone + Debug;
+    /// View of the Hessians of one run.
     type Hessians<'a, T: Real>: Hessians<T>;
+    /// View of the matrices `Y` of one run, to be written.
     type Matrices<'a, T: Real>: Matrices<T>;
+    /// View of `CᵀY` along one run.
     type Sums<'a, T: Real>: Sums<T>;
 
-    /// The unknowns.
+    /// Runs of the vertices, whose heights are the unknowns.
     fn vertices(&self) -> &RowRuns;
-    /// Where Hessians are.
+    /// Runs of the stencils, which have a Hessian each.
     fn stencils(&self) -> &RowRuns;
     /// Length of an array over the vertices.
     fn vertex_cells(&self) -> usize;
     /// Length of an array over the stencils.
     fn stencil_cells(&self) -> usize;
-    /// No run is longer.
+    /// Length of the longest run.
     fn longest_run(&self) -> usize;
 
-    /// From a vertex to the next, in normalised coordinates, and from one end to the other.
+    /// Distance between neighbouring vertices, in normalised coordinates.
     fn spacing(&self) -> f64;
+    /// Distance from one end of the domain to the other, in normalised coordinates.
     fn size(&self) -> f64;
-    /// At least `h⁴‖CᵀC‖`, `h` being the spacing.
+    /// Upper bound of `h⁴‖CᵀC‖`, `h` being the spacing.
     fn norm(&self) -> f32;
-    /// What a stencil counts in sums over stencils, and in `Cᵀ`: its area, in units of their mean.
+    /// Weight of a stencil in sums over stencils, and in `Cᵀ`: its area, in units of their mean.
     #[inline(always)]
     fn area(&self, _stencil: usize) -> f64 {
         1.0
     }
-    /// What a stencil counts in `‖Cz − H‖²`, besides its area: its share of ρ.
+    /// Share of ρ at a stencil: its weight in `‖Cz − H‖²` besides its area.
     #[inline(always)]
-    fn penalty(&self, _stencil: usize) -> f64 {
+    fn rho_share(&self, _stencil: usize) -> f64 {
         1.0
     }
-    /// The coordinates of a vertex, whose linear functions `C` does not see.
+    /// Coordinates of a vertex; `C` vanishes on their linear functions.
     fn place(&self, vertex: usize) -> [f64; 2];
 
-    /// For sweeps in one precision.
+    /// Work memory for sweeps in one precision.
     ///
     /// # Errors
     /// Out of memory.
     fn scratch<T: Real>(&self) -> Result<Self::Scratch<T>>;
 
-    /// Calls `visit` with each stencil and `Cz` there, in order.
+    /// Calls `visit` with each stencil and its Hessian `Cz`, in order.
     fn hessians(&self, z: &[f64], visit: impl FnMut(usize, Sym2));
 
-    /// One pass over `Cz` and `CᵀY`: `at_stencils` gets each run's Hessians and must write its `Y`
-    /// everywhere, `at_vertices` gets each run of `CᵀY` as soon as it is complete, which may be before
-    /// the last stencils have had their turn.
+    /// One pass over `Cz` and `CᵀY`: `at_stencils` gets the Hessians of each run and writes its `Y` everywhere;
+    /// `at_vertices` gets each run of `CᵀY` as soon as it is complete, which may be before the last stencils
+    /// are visited.
     fn sweep<S: ?Sized>(
         &self,
         scratch: &mut Self::Scratch<f64>,
@@ -75,9 +78,8 @@ pub(crate) trait Operator: Clone + Debug + 'static {
         at_vertices: impl FnMut(&mut S, Run, Self::Sums<'_, f64>),
     );
 
-    /// The same the other way round, in single precision and with `h²C` in the place of `C`:
-    /// `at_stencils` writes `Y`, `at_vertices` turns `CᵀY` into heights, and `follow` gets the Hessians
-    /// of these.
+    /// One pass over `CᵀY` and then `Cz`, in single precision and with `h²C` in the place of `C`: `at_stencils`
+    /// writes `Y`, `at_vertices` turns `CᵀY` into heights, and `follow` gets the Hessians of these.
     fn sweep_back<S: ?Sized>(
         &self,
         scratch: &mut Self::Scratch<f32>,
@@ -88,25 +90,28 @@ pub(crate) trait Operator: Clone + Debug + 'static {
         follow: impl FnMut(&mut S, Run, Self::Hessians<'_, f32>),
     );
 
-    /// What turns `Cz` into the second fundamental form, at each stencil: the upward part of the
-    /// surface's unit normal for heights (paper, Eq. 24), 1 for what is that form already.
+    /// Writes the factor that turns `Cz` into the second fundamental form at each stencil: the upward part of
+    /// the surface's unit normal for heights (paper, Eq. 24), and 1 where `Cz` is that form already.
     fn normals(&self, z: &[f64], to: &mut [f64]);
 
-    /// The mean over each stencil (weight 2) and those at its neighbours (weight 1).
+    /// Averages each stencil's value (weight 2) with those at its neighbours (weight 1).
     fn spread(&self, values: &mut [f64]);
 }
 
-/// The Hessians of one run, by the coordinates of [`Sym2`].
+/// The Hessians of one run.
 pub(crate) trait Hessians<T> {
+    /// The `i`-th Hessian, by the coordinates of [`Sym2`].
     fn at(&self, i: usize) -> [T; 3];
 }
 
-/// The matrices `Y` of one run, likewise.
+/// The matrices `Y` of one run, to be written.
 pub(crate) trait Matrices<T> {
+    /// Writes the `i`-th matrix, by the coordinates of [`Sym2`].
     fn set(&mut self, i: usize, matrix: [T; 3]);
 }
 
-/// `CᵀY` of one run.
+/// The heights `CᵀY` of one run.
 pub(crate) trait Sums<T> {
+    /// The `i`-th height.
     fn at(&self, i: usize) -> T;
 }

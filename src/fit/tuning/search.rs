@@ -10,9 +10,9 @@ use super::held_out::{HELD_OUT_CLASSES, HeldOut, advantage};
 use super::merge::merge;
 use super::noise::Noise;
 use crate::error::Result;
+use crate::fit::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use crate::fit::input::Input;
 use crate::fit::options::{Bending, Border, Energy, Lambda, Options};
-use crate::fit::partwise::{Beginning, Partwise, Solvable, Status};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
@@ -207,7 +207,7 @@ pub(crate) struct Search {
     /// The same of the one under way, as far as its solves are done, and how many are.
     missed: Vec<f64>,
     solved: usize,
-    solve: Box<Partwise>,
+    solve: Box<ComponentSolver>,
     iterations: usize,
 }
 
@@ -319,7 +319,7 @@ impl Search {
     fn begin(&mut self) -> Result<()> {
         let held_out = &self.held_out[self.solved];
         let options = of(&self.options, &self.bendings, self.now);
-        let memory = self.solve.memory(held_out.input.field.lattice());
+        let memory = self.solve.warm_start(held_out.input.field.lattice());
         *self.solve = trial(held_out, &options, self.known, memory)?;
         Ok(())
     }
@@ -402,16 +402,16 @@ fn trial(
     options: &Options,
     Known { scale, noise }: Known,
     memory: Option<Arc<WarmStart>>,
-) -> Result<Partwise> {
+) -> Result<ComponentSolver> {
     let started = Instant::now();
-    let solvable = Solvable::new(held_out.input.clone())?;
+    let solvable = PreparedInput::new(held_out.input.clone())?;
     let options = guarded(options, noise, scale);
-    Partwise::new(
+    ComponentSolver::new(
         solvable,
         &options,
         scale,
         memory,
-        Beginning::AtOnce,
+        StartMode::Immediate,
         started,
     )
 }

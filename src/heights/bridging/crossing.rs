@@ -1,4 +1,5 @@
-//! Whether the surface goes on from one side of a hole to the other, and at which height.
+//! Test of a hole's cell: whether the surface continues from one side of the hole to the other, and at which
+//! height.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -9,78 +10,79 @@ use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
 
-/// Largest difference between the slope across a hole and those beside it that noise explains, in standard
+/// Maximum difference between the slope across a hole and those beside it that noise explains, in standard
 /// deviations.
 const MAX_SLOPE_JUMP_DEVIATIONS: f64 = 4.0;
 
 /// Difference between slopes below which they count as equal whatever the noise, so that rounding is no jump.
 const NEGLIGIBLE_SLOPE_DIFFERENCE: f64 = 0.05;
 
-/// Largest difference between slopes that a crease within the hole explains, as a share of their spread: a
+/// Maximum difference between slopes that a crease within the hole explains, as a share of their spread: a
 /// crease off the hole's middle leaves one.
 const MAX_CREASE_SLOPE_SHARE: f64 = 0.7;
 
-/// Largest distance of a height from the plane around a hole, relative to the typical one, where no
-/// neighbours are left that slopes could be taken between.
+/// Maximum distance of a height from the plane around a hole, relative to the typical one, where there are no
+/// neighbours to take slopes between.
 const MAX_PLANE_DISTANCE_RATIO: f64 = 3.0;
 
-/// Height by which a right-angled fold departs from that plane, per distance from the hole.
+/// Height by which a right-angled fold departs from the plane around a hole, per distance from the hole.
 const FOLD_HEIGHT_PER_DISTANCE: f64 = 0.35;
 
-/// Least number of heights that a plane is fitted to.
+/// Minimum number of heights that a plane is fitted to.
 const MIN_PLANE_SAMPLES: usize = 6;
 
-/// Weight of the typical noise beside a hole's own, in numbers of differences.
+/// Weight of the typical noise relative to the noise around one hole, as a number of differences between
+/// slopes.
 const TYPICAL_NOISE_WEIGHT: f64 = 6.0;
 
-/// A hole's cell with the plane through what is around.
+/// A hole's cell with the plane fitted to its surroundings.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
     pub cell: usize,
     pub height: f64,
-    /// The mean of those around.
+    /// Mean confidence of the surroundings.
     pub confidence: f64,
-    /// How many steps from the cell there is something on all sides of it.
+    /// Number of steps from the cell within which there are heights on all sides of it.
     pub distance: f64,
-    /// By how much the slope across differs from those beside, in height per step.
+    /// Difference between the slope across the hole and those beside it, in height per step.
     difference: f64,
-    /// The same squared, in variances of one height.
+    /// Square of that difference, in variances of one height.
     evidence: f64,
-    /// How much slopes beside differ among each other: the sum of the squares, and their number.
+    /// Sum of squares of the differences among slopes beside the hole, and their number.
     spread: f64,
     terms: f64,
-    /// Whether slopes beside are known in all directions.
+    /// Whether slopes beside the hole are known in all directions.
     sees: bool,
-    /// How far heights are from the plane (root mean square), and how far away they are taken from.
+    /// Root mean square distance of heights from the plane, and the distance from which they are taken.
     stray: f64,
     reach: f64,
 }
 
 pub(super) struct Crossings<'a> {
     raster: &'a Raster,
-    /// NaN where there is none, or it says nothing.
+    /// Heights of the cells; NaN where there is none or it has no confidence.
     heights: &'a [f64],
-    /// Of each; empty: 1 everywhere.
+    /// Confidence of each cell; empty for 1 each.
     confidence: &'a [f64],
     /// Distance between neighbours, in units of height.
     spacing: f64,
-    /// Around a cell in an even and in an odd row.
+    /// The sites around a cell in an even and in an odd row.
     sites: [Sites; 2],
 }
 
-/// What is found around a cell, in arrays to be used again.
+/// Work arrays for the surroundings of a cell.
 #[derive(Default)]
 struct Scratch {
-    /// Sites with a height.
+    /// Sites that have a height.
     found: Vec<usize>,
-    /// For each site: the height, then how far it is from the plane; NaN where there is none.
+    /// Height of each site, and then its distance from the plane; NaN where there is none.
     residuals: Vec<f64>,
-    /// What each height contributes to the slopes beside.
+    /// Contribution of each height to the slopes beside the hole.
     shares: Vec<Vector2<f64>>,
 }
 
-/// Amount added to the diagonal of a plane's normal matrix so that one that is
-/// singular up to rounding stays positive.
+/// Ridge of a plane's normal equations, so that a matrix that is singular up to rounding stays positive
+/// definite.
 const PLANE_MATRIX_SHIFT: f64 = 1e-6;
 
 impl<'a> Crossings<'a> {
@@ -100,7 +102,7 @@ impl<'a> Crossings<'a> {
         }
     }
 
-    /// Those of the cells where the surface goes on, and that are not next to one where it does not.
+    /// The cells across which the surface continues, without those next to one where it does not.
     pub(super) fn sound(&self, cells: &[usize]) -> Result<Vec<Crossing>> {
         let mut scratch = Scratch::default();
         let at = |cell: &usize| self.at(*cell, &mut scratch);
@@ -123,7 +125,7 @@ impl<'a> Crossings<'a> {
         Ok(found.into_iter().flatten().filter(sound).collect())
     }
 
-    /// What is around a cell: as far as there is something on all sides of it, and two steps further.
+    /// The surroundings of a cell: as far as there are heights on all sides of it, and two steps further.
     fn at(&self, cell: usize, scratch: &mut Scratch) -> Option<Crossing> {
         let sites = &self.sites[usize::from(self.raster.is_odd(cell))];
         scratch.found.clear();

@@ -1,12 +1,12 @@
-//! Which holes are narrow: those that a hexagon, or an octagon of pixels, does not fit in.
+//! Search for narrow holes, in which a hexagon, or an octagon of pixels, does not fit.
 
 use super::raster::Raster;
 use crate::error::{Result, try_filled};
 
-/// The cells without a height that lie in no empty hexagon of `width + 1` across (morphological
-/// closing; beyond the data all is empty). For an even width that is a cell and what is `width / 2`
-/// steps around it, for an odd one a triangle and what is around that; on pixels likewise an octagon
-/// about one pixel or four.
+/// The cells without a height that are in no empty hexagon of `width + 1` across (morphological closing; beyond
+/// the data all is empty). For an even width such a hexagon is a cell with all cells up to `width / 2` steps
+/// around it, for an odd one a triangle with those around it; on pixels likewise an octagon about one pixel or
+/// four.
 pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<Vec<usize>> {
     let radius = width / 2;
     let filled: Vec<usize> = (0..raster.cells())
@@ -30,7 +30,7 @@ pub(super) fn narrow(raster: &Raster, heights: &[f64], width: usize) -> Result<V
         .collect())
 }
 
-/// Whether cells are at most `steps` from one of the `seeds`.
+/// Whether each cell is at most `steps` from one of the `seeds`.
 fn reached(raster: &Raster, seeds: Vec<usize>, steps: usize) -> Result<Vec<bool>> {
     let mut reached = try_filled("bridged holes", raster.cells(), false)?;
     for cell in &seeds {

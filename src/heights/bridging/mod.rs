@@ -1,7 +1,8 @@
-//! Small holes in what a sensor delivers: dead pixels, speckle, lost rows and columns.
+//! Bridging of small holes in what a sensor delivers: dead pixels, speckle, lost rows and columns.
 //!
-//! A vertex has a stencil only if its six neighbours are there, so that a dead one costs seven. Holes
-//! that are narrow are bridged instead: they take part without a say, on heights to start from.
+//! A vertex has a stencil only if its six neighbours have heights, so that a dead vertex costs seven stencils.
+//! Narrow holes are bridged instead: their vertices take part in the solve with heights to start from and a
+//! small confidence.
 
 mod crossing;
 mod holes;
@@ -33,18 +34,18 @@ use raster::Raster;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bridging {
-    /// None: whatever has no height stays out.
+    /// No hole: a vertex without a height is no part of the surface.
     Off,
-    /// Holes of at most so many vertices, or pixels, across: 1 to 16.
+    /// Holes of at most this number of vertices, or pixels, across: 1 to 16.
     UpTo(usize),
 }
 
-/// Largest width of a hole that may be bridged, in lattice vertices: beyond it a plane says little about what
-/// is missing.
+/// Maximum width of a hole that may be bridged, in lattice vertices: beyond it a plane says little about the
+/// missing surface.
 const MAX_BRIDGE_WIDTH_VERTICES: usize = 16;
 
-/// Confidence of a bridged vertex one step from data on all sides, relative to that of the data; it falls
-/// with the distance. With a hundredth or none the same surface takes more iterations.
+/// Confidence of a bridged vertex one step from data on all sides, relative to that of the data; it falls with
+/// the distance. With a hundredth of it or none the same surface takes more iterations.
 const BRIDGE_CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {
@@ -71,7 +72,7 @@ impl Bridging {
     }
 }
 
-/// A vertex or pixel that is bridged.
+/// A vertex or pixel that is bridged, with its height and confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bridge {
     pub index: usize,
@@ -79,11 +80,11 @@ pub(crate) struct Bridge {
     pub confidence: f64,
 }
 
-/// What there is about a field: all that decides where its holes are bridged.
+/// A field and what is known about it, by which its holes are bridged.
 pub(crate) struct Surroundings<'a> {
-    /// NaN where there is none.
+    /// Heights; NaN where there is none.
     pub heights: &'a [f64],
-    /// Of each height; empty: 1 everywhere. Heights without any say nothing.
+    /// Confidence of each height; empty for 1 each. Heights of confidence 0 do not count.
     pub confidence: &'a [f64],
     /// Whether there is no surface at an index, whatever is around it.
     pub outside: &'a dyn Fn(usize) -> bool,
@@ -92,6 +93,7 @@ pub(crate) struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
+    /// The image sampled on a lattice, as [`HeightImage::to_lattice`] does.
     pub(crate) fn on_lattice(&self, field: &Heightfield, width: usize) -> Result<Vec<Bridge>> {
         let lattice = field.lattice();
         let raster = Raster::hexagonal(lattice.rows(), lattice.cols(), width)?;
@@ -160,14 +162,14 @@ impl Surroundings<'_> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct BridgedImage {
     image: HeightImage,
-    /// As it was.
+    /// The image before it was bridged.
     original: HeightImage,
-    /// Where there is more to know than that all heights count alike.
+    /// Confidence of each pixel, unless all heights count alike.
     confidence: Option<HeightImage>,
     bridged: usize,
 }
 
-/// A bridged image at the vertices of a lattice.
+/// A bridged image, sampled at the vertices of a lattice.
 pub(crate) struct OnLattice {
     pub heights: Heightfield,
     pub confidence: Option<Vec<f64>>,
@@ -176,9 +178,8 @@ pub(crate) struct OnLattice {
 }
 
 impl HeightImage {
-    /// The image with its small holes bridged, before it is sampled on a lattice: a lattice vertex
-    /// has a height only if all pixels around it have one, so that what is lost among the pixels is
-    /// better bridged there. Linear cost.
+    /// Bridges small holes of the image before it is sampled on a lattice: a lattice vertex has a height only
+    /// if all pixels around it have one, so that missing pixels are better bridged as such. Linear cost.
     ///
     /// # Errors
     /// [`Error::Option`](crate::Error::Option) for a width out of range,
@@ -187,8 +188,8 @@ impl HeightImage {
         self.bridged_where(bridging, None, None, None)
     }
 
-    /// The same where more is known about the pixels: how far each height is to be trusted (NaN or 0
-    /// where it says nothing), that there is no surface where `keep` is 0, and an occlusion where
+    /// Bridges small holes of the image with more information about its pixels: the confidence of each height
+    /// (NaN or 0 where it does not count), that there is no surface where `keep` is 0, and an occlusion where
     /// `torn` is not 0.
     ///
     /// # Errors
@@ -249,7 +250,7 @@ impl BridgedImage {
         &self.image
     }
 
-    /// The same.
+    /// The image, with heights in bridged holes.
     pub fn into_image(self) -> HeightImage {
         self.image
     }

@@ -1,19 +1,19 @@
-//! Vertices or pixels in rows, with a margin around them, and who neighbours whom.
+//! A raster of vertices or pixels with a margin around it, and the neighbours of each cell.
 
 use crate::error::{Result, try_filled};
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, ROW_SPACING};
 
-/// Cells are counted row by row over the padded box, so that neighbours lie at offsets that depend
-/// on nothing but the parity of the row.
+/// A raster of cells in rows, counted over the padded box, so that neighbours are at offsets that depend on the
+/// parity of the row alone.
 pub(super) struct Raster {
     hexagonal: bool,
     rows: usize,
     cols: usize,
-    /// Cells beyond the data on each side, an even number.
+    /// Number of cells beyond the data on each side, which is even.
     margin: usize,
     pub stride: usize,
     pub height: usize,
-    /// To the neighbours, from even and from odd rows.
+    /// Offsets to the neighbours, from even and from odd rows.
     offsets: [Vec<isize>; 2],
 }
 
@@ -26,7 +26,7 @@ impl Raster {
         Raster::new(false, rows, cols, width)
     }
 
-    /// With room beyond the data for what is a little wider than `width`.
+    /// A raster with a margin a little wider than `width`.
     fn new(hexagonal: bool, rows: usize, cols: usize, width: usize) -> Result<Self> {
         let margin = (width + 4).next_multiple_of(2);
         let mut raster = Raster {
@@ -49,7 +49,7 @@ impl Raster {
         self.stride * self.height
     }
 
-    /// The values of the data's cells in the padded box.
+    /// Copies the values of the data to the padded box, with the value `beyond` in the margin.
     pub(super) fn padded(&self, values: &[f64], beyond: f64) -> Result<Vec<f64>> {
         let mut padded = try_filled("bridged holes", self.cells(), beyond)?;
         for (row, values) in values.chunks(self.cols).enumerate() {
@@ -75,12 +75,12 @@ impl Raster {
         within(row, self.rows) && within(col, self.cols)
     }
 
-    /// From one cell to another a row and column away, from an even or odd row.
+    /// Offset from a cell in an even or odd row to another one some rows and columns away.
     fn offset(&self, [row, col]: [isize; 2]) -> isize {
         row * self.stride as isize + col
     }
 
-    /// Rows and columns to the neighbours, from a row of this parity, in the order of their angles.
+    /// Steps in rows and columns to the neighbours, from a row of this parity, in the order of their angles.
     pub(super) fn steps(&self, odd: bool) -> Vec<[isize; 2]> {
         let row = isize::from(odd);
         match self.hexagonal {
@@ -104,9 +104,8 @@ impl Raster {
         }
     }
 
-    /// Offsets to the cells that the `k`-th step outwards leads to, counted from 1, from even and from
-    /// odd rows. On pixels every other step goes along rows and columns alone: eight corners are rounder
-    /// than four.
+    /// Offsets to the cells of the `k`-th step outwards, counted from 1, from even and from odd rows. On pixels
+    /// every other step goes along rows and columns alone: eight corners are rounder than four.
     pub(super) fn step_offsets(&self, k: usize) -> [Vec<isize>; 2] {
         [false, true].map(|odd| {
             let straight =
@@ -125,8 +124,8 @@ impl Raster {
         offsets.iter().map(move |o| cell.wrapping_add_signed(*o))
     }
 
-    /// Where a cell some rows and columns away from one in a row of this parity lies from it, in
-    /// distances between neighbours.
+    /// Position of a cell some rows and columns away from one in a row of this parity, in distances between
+    /// neighbours.
     pub(super) fn place(&self, odd: bool, [row, col]: [isize; 2]) -> [f64; 2] {
         let shift = |odd: bool| if odd { 0.5 } else { 0.0 };
         match self.hexagonal {
@@ -141,8 +140,8 @@ impl Raster {
         }
     }
 
-    /// Offsets to the other cells of the smallest shapes that are two across, of which a cell is one
-    /// corner: triangles, or a square.
+    /// Offsets to the other cells of the smallest shapes that are two across and have a cell as one corner:
+    /// triangles, or a square.
     pub(super) fn pairs(&self, odd: bool) -> Vec<Vec<isize>> {
         let steps: Vec<isize> = self
             .steps(odd)

@@ -1,10 +1,10 @@
-//! What lies around a hole's cell, ring by ring.
+//! Sites around a hole's cell, ring by ring.
 
 use nalgebra::Vector2;
 
 use super::raster::Raster;
 
-/// Cells by their distance from a hole's: those `k` steps away are `sites[rings[k - 1]..rings[k]]`.
+/// Sites around a cell, sorted by their distance: those `k` steps away are `sites[rings[k - 1]..rings[k]]`.
 pub(super) struct Sites {
     pub sites: Vec<Site>,
     pub rings: Vec<usize>,
@@ -13,13 +13,13 @@ pub(super) struct Sites {
 pub(super) struct Site {
     pub offset: isize,
     pub place: Vector2<f64>,
-    /// Of twelve sectors, which one it lies in.
+    /// Sector of directions that the site is in, of twelve.
     pub sector: u32,
-    /// Half of its neighbours, so that each pair comes once.
+    /// Half of the site's neighbours, so that each pair occurs once.
     pub next: Vec<usize>,
 }
 
-/// Number of sectors of directions by which it is told whether neighbours surround a place.
+/// Number of sectors of directions, which tell whether neighbours surround a cell.
 const DIRECTION_SECTORS: u32 = 12;
 
 /// Margin that keeps directions on the border of two sectors on one side, in full turns.
@@ -71,7 +71,7 @@ impl Sites {
     }
 }
 
-/// Whether no half of the sectors in a row is without any.
+/// Whether the sectors, as bits, surround a cell: no half turn of them is empty.
 pub(super) fn surround(sectors: u32) -> bool {
     let all = sectors | sectors << DIRECTION_SECTORS;
     let half = (1 << (DIRECTION_SECTORS / 2)) - 1;

@@ -1,5 +1,4 @@
-//! From square pixels to the hexagonal lattice and back, without looking at
-//! pixels or vertices that have no data.
+//! Resampling between square pixels and the hexagonal lattice, without pixels or vertices that have no data.
 
 mod nearest;
 
@@ -9,15 +8,15 @@ use super::heightfield::{HeightImage, Heightfield};
 use crate::error::{Result, try_filled};
 use crate::lattice::hexagonal::{Lattice, Located};
 
-/// How close to a pixel's or vertex's row, in grid steps, a point lies on it:
-/// far above rounding, far below anything one could see.
+/// Distance from a row or column, in grid steps, below which a point lies on it: far above rounding errors, far
+/// below anything visible.
 const ON_GRID: f64 = 1e-9;
 
-/// Distance beyond the last vertex up to which heights are extrapolated, in units of the coarser of lattice
-/// spacing and pixel size.
+/// Maximum distance beyond the last vertex at which heights are extrapolated, in units of the coarser of
+/// lattice spacing and pixel size.
 const EXTRAPOLATION_REACH: f64 = 3.0;
 
-/// Marks a pixel that no plane has reached.
+/// Mark of a pixel that no plane has reached.
 const NO_SOURCE: u32 = u32::MAX;
 
 /// Mark of a pixel that lies within a triangle.
@@ -179,7 +178,7 @@ impl Heightfield {
         }
     }
 
-    /// The vertex with a height that lies nearest to the point the triangle was located for.
+    /// The vertex with a height that is nearest to the point of a triangle.
     fn heaviest(&self, triangle: &Located) -> u32 {
         (triangle.vertices.into_iter().zip(triangle.weights))
             .filter(|(v, _)| self.height_or_nan(*v).is_finite())
@@ -189,7 +188,7 @@ impl Heightfield {
             })
     }
 
-    /// The plane around a vertex, evaluated at `p`; `None` beyond `reach` or without a plane.
+    /// Height at `p` of the plane around a vertex; `None` beyond `reach` or without a plane.
     fn continued(&self, vertex: u32, p: [f64; 2], reach: f64) -> Option<f64> {
         if vertex == NO_SOURCE {
             return None;
@@ -240,7 +239,7 @@ struct Cell {
     /// Their heights, NaN outside of the image. Corner k lies to the right if bit 0 is set and
     /// below if bit 1 is set.
     corners: [f64; 4],
-    /// The point's place between them, from the upper left one.
+    /// Position of the point between them, to the right of the upper left one.
     fx: f64,
     fy: f64,
 }
@@ -261,7 +260,7 @@ impl Cell {
     }
 }
 
-/// A point in pixels to the right of and below the centre of the first one.
+/// Position of a point in pixels, to the right of and below the centre of the first pixel.
 fn in_pixels(image: &HeightImage, [x, y]: [f64; 2]) -> [f64; 2] {
     [
         x / image.pixel_size() - 0.5,
@@ -311,7 +310,7 @@ fn sample(&Cell { corners, fx, fy }: &Cell) -> f64 {
     bilinear(snap(fx), snap(fy))
 }
 
-/// 0 or 1 if the value is that to rounding.
+/// Rounds a weight to 0 or 1 if it differs by rounding errors alone.
 fn snap(weight: f64) -> f64 {
     if weight.abs() < ON_GRID {
         0.0

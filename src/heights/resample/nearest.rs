@@ -1,5 +1,4 @@
-//! What must not be spread: hard constraints and flags belong to the pixel, or
-//! the vertex, that is nearest.
+//! Resampling by the nearest pixel or vertex, for hard constraints and flags, which must not be interpolated.
 
 use super::{Cell, ON_GRID, bilinear_weights, in_pixels, pixel_at};
 use crate::error::{Result, check_shape, try_filled};
@@ -7,14 +6,12 @@ use crate::heights::heightfield::{HeightImage, Heightfield};
 use crate::lattice::hexagonal::Lattice;
 
 impl HeightImage {
-    /// Hard constraints at the vertices of a surface, which are those with a
-    /// height. Each pixel that has one constrains the vertex nearest to it, so
-    /// that a point stays a point and a line a line; in an area of such pixels
-    /// all vertices between them are constrained. The height is bilinear
-    /// between those of the four pixels around the vertex that have one: a lone
-    /// pixel's own, and along a line and within an area exact on a slope. On a
-    /// lattice so coarse that there is none of them around, it is the mean of
-    /// the pixels that constrain the vertex.
+    /// Hard constraints of the pixels at the vertices of a surface that have a height. Each pixel with a
+    /// constraint constrains the vertex nearest to it, so that a point stays a point and a line a line; in an
+    /// area of such pixels all vertices between them are constrained. The height is bilinear between those of
+    /// the four pixels around the vertex that have one: a lone pixel's own, and along a line and within an area
+    /// exact on a slope. On a lattice so coarse that there is none of them around, it is the mean of the pixels
+    /// that constrain the vertex.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -45,7 +42,7 @@ impl HeightImage {
         Heightfield::new(*lattice, heights)
     }
 
-    /// Flags of the pixels, at the vertices of a lattice: each has its nearest pixel's.
+    /// Flags of the pixels at the vertices of a lattice: each vertex has those of its nearest pixel.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one for each pixel, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -59,8 +56,8 @@ impl HeightImage {
         Ok(out)
     }
 
-    /// Flags of a lattice's vertices, at the pixels: each pixel with a height
-    /// has its nearest vertex's, the others 0.
+    /// Flags of a lattice's vertices at the pixels: each pixel with a height has those of its nearest vertex,
+    /// the others 0.
     ///
     /// # Errors
     /// [`Error::Shape`](crate::Error::Shape) if there is not one for each vertex, [`Error::OutOfMemory`](crate::Error::OutOfMemory).

@@ -8,7 +8,7 @@ use super::curvature::eigenvalues_by_magnitude;
 use super::summary::{CurvatureMagnitudes, Summary};
 use crate::error::{Result, positive, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
-use crate::fit::mesh::linear::fit_at;
+use crate::fit::mesh::linearisation::fit_quadratic;
 use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
 use crate::scene::mesh::Mesh;
@@ -70,8 +70,8 @@ impl MeshCurvatures {
             }
             fields.gaussian[i] = (TAU - turns[vertex]) / areas[vertex];
             fields.areas[i] = areas[vertex];
-            let ray = Frame::about(up[vertex], Vector3::x());
-            let Some((fit, _, frame)) = fit_at(&topology, &places, &ray, vertex) else {
+            let ray = Frame::from_normal(up[vertex], Vector3::x());
+            let Some((fit, _, frame)) = fit_quadratic(&topology, &places, &ray, vertex) else {
                 continue;
             };
             // Heights over the tangent plane fall where the surface bends away.
@@ -109,7 +109,7 @@ impl MeshCurvatures {
     /// [`Error::Topology`](crate::Error::Topology) for a mesh without a size.
     pub fn summary(&self, mesh: &Mesh, threshold: f64) -> Result<Summary> {
         let threshold = positive("threshold", threshold)?;
-        let scale = crate::fit::mesh::scale_of(mesh)?;
+        let scale = crate::fit::mesh::bounding_sphere_scale(mesh)?;
         let there: Vec<usize> = (0..self.areas.len())
             .filter(|i| self.areas[*i] > 0.0)
             .collect();

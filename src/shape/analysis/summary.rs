@@ -4,6 +4,7 @@ use super::curvature::Curvatures;
 use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::heights::normalization::Normalization;
+use crate::math::statistics::median;
 
 /// Default threshold of the Gaussian curvature, in coordinates scaled to the unit square, above which a vertex counts as
 /// curved in two directions: the curvature of a sphere whose radius is the longer side of the surface.
@@ -95,8 +96,8 @@ impl Summary {
             nuclear_norm,
             gaussian: Histogram::from_magnitudes(&gaussian),
             kappa2: Histogram::from_magnitudes(&kappa2),
-            median_gaussian: median(&mut gaussian),
-            median_kappa2: median(&mut kappa2),
+            median_gaussian: median(&mut gaussian).unwrap_or(0.0),
+            median_kappa2: median(&mut kappa2).unwrap_or(0.0),
         }
     }
 }
@@ -177,15 +178,6 @@ fn check_same_shape(expected: usize, surface: &Heightfield, found: usize) -> Res
         expected,
         found,
     })
-}
-
-/// Median of numbers, the higher of two in the middle; 0 if there are none. Costs `O(n)`.
-fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() {
-        return 0.0;
-    }
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

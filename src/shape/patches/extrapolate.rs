@@ -1,11 +1,12 @@
 //! Extrapolation of patches beyond their borders, and correction of the borders by it.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Vector6;
 
 use super::bend_angles::BendAngles;
 use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::{ROW_SPACING, shift};
+use crate::math::least_squares::LeastSquares;
 
 /// Radius, in spacings, around a vertex within which the vertices of a patch determine its extrapolated height.
 const EXTRAPOLATION_RADIUS: usize = 3;
@@ -99,14 +100,12 @@ pub(crate) fn extrapolated_height(
     }
     let mean = samples.iter().map(|(_, z)| z).sum::<f64>() / samples.len() as f64;
     // A ridge so small that it decides only what the samples leave open.
-    let mut matrix = Matrix6::from_diagonal(&Vector6::new(1e-12, 1e-9, 1e-9, 1e-5, 1e-5, 1e-5));
-    let mut right = Vector6::zeros();
+    let mut quadratic = LeastSquares::<6>::with_ridge([1e-12, 1e-9, 1e-9, 1e-5, 1e-5, 1e-5]);
     for ([x, y], z) in samples {
         let terms = Vector6::new(1.0, x, y, x * x, x * y, y * y);
-        matrix += terms * terms.transpose();
-        right += terms * (z - mean);
+        quadratic.add(&terms, [z - mean], 1.0);
     }
-    let fit = matrix.cholesky().map(|factors| factors.solve(&right)[0]);
+    let fit = quadratic.solve().map(|coefficients| coefficients[0]);
     mean + fit.filter(|z| z.is_finite()).unwrap_or(0.0)
 }
 

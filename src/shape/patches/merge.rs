@@ -10,8 +10,9 @@ use super::bend_angles::{BendAngles, NORMAL_DISTANCE_VERTICES};
 use super::patch::NO_PATCH;
 use crate::lattice::hexagonal::{Lattice, Towards};
 
-/// Minimum ratio of a crease's fold angle to the angle by which the flatter of the two patches bends over the same distance.
-/// Limits what is taken for a crease on surfaces that bend.
+/// Minimum ratio of a crease's fold angle to the angle by which the flatter of the two patches bends over the same
+/// distance. Limits what is taken for a crease on surfaces that bend. No table chose it; `tests/native/patches.rs` has
+/// the surfaces whose patches it must find.
 const MIN_FOLD_PER_BEND: f64 = 2.0;
 
 /// Merges patches whose common border folds by less than `fold` radians on average, or hardly more than the patches bend,

@@ -5,8 +5,8 @@ use crate::math::sym2::Sym2;
 /// Number of passes in which `H²` is averaged with the neighbours'. More would mix directions across narrow patches.
 pub(super) const SMOOTHING_PASSES: usize = 3;
 
-/// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how plane a
-/// surface with rulings may be.
+/// Bend angle, in radians from one vertex to the next, at which the confidence of a ruling is one half: limits how plane
+/// a surface with rulings may be. No table chose it.
 const HALF_CONFIDENCE_BEND: f64 = 5e-4;
 
 /// Confidence of a ruling's direction, from 0 to 1, by the eigenvalues of `Σ H²`, the larger one first.

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
 use crate::error::{Result, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
-use crate::fit::mesh::linear::fit_at;
+use crate::fit::mesh::linearisation::fit_quadratic;
 use crate::fit::mesh::topology::Topology;
 use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;
@@ -73,10 +73,11 @@ impl MeshRulings {
         let mut squares = try_filled("rulings", count, Matrix3::zeros())?;
         let mut bends = try_filled("rulings", count, f64::NAN)?;
         let mut frames: Vec<Frame> = (up.iter())
-            .map(|normal| Frame::about(*normal, Vector3::x()))
+            .map(|normal| Frame::from_normal(*normal, Vector3::x()))
             .collect();
         for vertex in topology.vertices_inside() {
-            let Some((fit, _, frame)) = fit_at(&topology, &places, &frames[vertex], vertex) else {
+            let Some((fit, _, frame)) = fit_quadratic(&topology, &places, &frames[vertex], vertex)
+            else {
                 continue;
             };
             let bend = fit.hessian();

@@ -23,7 +23,7 @@ use crate::heights::heightfield::HeightImage;
 /// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
-/// The attribute that our own files have besides.
+/// Name of the attribute for the pixel size, which files of this library have in addition.
 const PIXEL_SIZE: &str = "developable:pixelSize";
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -129,7 +129,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// The channels of a layer that are read, by their places in its list.
+/// Channels of a layer that are read, by their indices in its list.
 struct Chosen {
     heights: Vec<usize>,
     alpha: Option<usize>,

@@ -1,4 +1,4 @@
-//! JPEG pictures, by the `zune-jpeg` crate; which way up, by `kamadak-exif`.
+//! JPEG pictures, decoded by the `zune-jpeg` crate, and their orientation, read by `kamadak-exif`.
 
 use exif::{Exif, In, Tag};
 use zune_core::bytestream::ZCursor;
@@ -75,7 +75,7 @@ struct Opened<'a> {
     size: (usize, usize),
     /// Number of pixels.
     len: usize,
-    /// What is stored for each of them, and how many samples that is.
+    /// Colour space of the stored samples, and their number per pixel.
     stored: (ColorSpace, usize),
 }
 
@@ -130,6 +130,8 @@ impl<'a> Opened<'a> {
         exif::Reader::new().read_raw(exif.to_vec()).ok()
     }
 
+    /// Orientation of the camera, as TIFF numbers it. An invalid number counts as none, because it is not part
+    /// of the picture.
     fn orientation(&self) -> u16 {
         self.exif().as_ref().map_or(1, orientation)
     }
@@ -148,8 +150,8 @@ fn orientation(exif: &Exif) -> u16 {
     }
 }
 
-/// The focal length as for 35 mm film, unless what Exif says of the photo's size has other
-/// proportions: programs that crop a photo keep what its camera has written.
+/// Focal length as for 35 mm film, unless the photo's size in the Exif data has other proportions: programs
+/// that crop a photo keep the data of its camera.
 fn film35(exif: &Exif, (width, height): (usize, usize)) -> Option<f64> {
     let length = number(exif, Tag::FocalLengthIn35mmFilm).filter(|length| *length > 0)?;
     let stated = [Tag::PixelXDimension, Tag::PixelYDimension].map(|tag| number(exif, tag));
@@ -167,7 +169,7 @@ fn number(exif: &Exif, tag: Tag) -> Option<u32> {
     exif.get_field(tag, In::PRIMARY)?.value.get_uint(0)
 }
 
-/// Whether the end is marked, not counting pictures within the metadata.
+/// Whether the end of the image is marked, apart from pictures within the metadata.
 fn ends(bytes: &[u8]) -> bool {
     let mut rest = &bytes[2..];
     while let [0xff, marker, high, low, ..] = *rest {

@@ -1,4 +1,4 @@
-//! Height and depth images besides PNG and NPY, each by a decoder of its own.
+//! Decoders of height and depth images other than PNG and NPY.
 
 mod exr;
 mod jpeg;
@@ -19,7 +19,7 @@ pub use exr::write_exr;
 pub use npz::{NpzArray, decode_npz, npz_arrays};
 pub use tiff::write_tiff;
 
-/// Decodes a file that begins like one of the format; of NPZ the only array.
+/// Decodes a file that begins like one of the given format; the only array of an NPZ.
 ///
 /// # Errors
 /// As [`decode`](super::decode); [`Error::Unsupported`] for PNG and NPY.

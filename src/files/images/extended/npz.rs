@@ -1,4 +1,4 @@
-//! NumPy's archives, by the `zip` crate: NPY files by name.
+//! NumPy's archives of named NPY files, read by the `zip` crate.
 
 use std::io::{Cursor, Read};
 
@@ -12,16 +12,16 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::files::images::npy;
 
-/// The most that DEFLATE can shrink anything.
+/// Maximum ratio by which DEFLATE can shrink data.
 const DEFLATE_RATIO: usize = 1032;
 
-/// The largest NPY file that is read: 64-bit numbers, and a header.
+/// Maximum size of an NPY file that is read, in bytes: 64-bit numbers, and a header.
 const MAX_BYTES: usize = 8 * MAX_CELLS + 16_384;
 
 /// Number of bytes of an array that are read to know its shape.
 const MAX_HEADER_BYTES: u64 = 16_384;
 
-/// The most arrays that an archive may have.
+/// Maximum number of arrays of an archive.
 const MAX_ARRAYS: usize = 1024;
 
 /// One array of an NPZ file.
@@ -136,7 +136,7 @@ fn listed(names: &[String]) -> String {
     quoted.join(", ")
 }
 
-/// The same error, about an array of the archive.
+/// An error about one array of the archive.
 fn within(name: &str, mut error: Error) -> Error {
     if let Error::Format { format, reason } | Error::Unsupported { format, reason } = &mut error {
         *format = Format::Npz.title();

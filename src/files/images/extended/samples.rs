@@ -1,5 +1,4 @@
-//! From the samples of a picture to heights and colours, and the errors on the way: what several decoders
-//! need.
+//! Conversion of a picture's samples to heights and colours, and its errors, for several decoders.
 
 use crate::error::{Error, Result, try_filled};
 use crate::files::images::decoded::{Decoded, coloured, suggested_scale};
@@ -7,7 +6,8 @@ use crate::files::images::format::Format;
 use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
-/// Red, green, blue and alpha from 8-bit samples: of grey, of colours, or of both.
+/// Red, green, blue and alpha of each pixel from its 8-bit samples, which are grey or colours, with or without
+/// alpha.
 pub(super) fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<Vec<[u8; 4]>> {
     let mut rgba = try_filled(format.title(), samples.len() / stride, [u8::MAX; 4])?;
     for (out, pixel) in rgba.iter_mut().zip(samples.chunks_exact(stride)) {
@@ -19,7 +19,7 @@ pub(super) fn rgba_of(format: Format, samples: &[u8], stride: usize) -> Result<V
     Ok(rgba)
 }
 
-/// What the samples of a pixel are: one of grey or three of colour come first.
+/// The samples of a pixel: one of grey or three of colour come first.
 pub(super) struct Channels {
     pub(super) colours: usize,
     pub(super) alpha: Option<usize>,
@@ -47,7 +47,7 @@ pub(super) fn grey(
     Ok(values)
 }
 
-/// Whether so many bytes, shrunk by at most `ratio`, can come from so short a file.
+/// Checks that a number of bytes, shrunk by at most `ratio`, can come from so short a file.
 pub(super) fn check_length(format: Format, file: &[u8], needed: usize, ratio: usize) -> Result<()> {
     if needed / ratio <= file.len() {
         return Ok(());
@@ -75,7 +75,7 @@ pub(super) fn default_scale(
     })
 }
 
-/// A picture of 8-bit samples, `colours` of colour and perhaps one of alpha.
+/// The picture of 8-bit samples, with `colours` samples of colour and perhaps one of alpha per pixel.
 pub(super) fn picture(
     format: Format,
     size: (usize, usize),
@@ -101,7 +101,7 @@ pub(super) fn picture(
     })
 }
 
-/// The heights in 32 bits, which is all that EXR and most readers of TIFF know.
+/// The heights in 32 bits, which is all that EXR and most readers of TIFF support.
 pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f32>> {
     let mut heights = try_filled(what, image.values().len(), 0f32)?;
     for (i, (narrow, z)) in heights.iter_mut().zip(image.values()).enumerate() {
@@ -120,7 +120,7 @@ pub(super) fn narrowed(what: &'static str, image: &HeightImage) -> Result<Vec<f3
     Ok(heights)
 }
 
-/// An empty file with room for so many bytes, whose lack is an error instead of an abort.
+/// An empty file with memory for a number of bytes, or the error that there is not enough.
 pub(super) fn room(what: &'static str, bytes: usize) -> Result<Vec<u8>> {
     let mut file = Vec::new();
     file.try_reserve_exact(bytes)

@@ -20,7 +20,7 @@ use crate::heights::heightfield::HeightImage;
 /// Largest ratio of the size of the image in memory to that of its file: more than any of the format's compressions reaches.
 const MAX_COMPRESSION_RATIO: usize = 4096;
 
-/// What the decoder itself may allocate: a compressed strip, and the values of a tag.
+/// Maximum memory that the decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
 const DECODER_BYTES: usize = 1 << 28;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -87,7 +87,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
     })
 }
 
-/// Samples for each pixel, bits for each sample, and what they are.
+/// Number of samples per pixel, bits per sample, and their meaning.
 fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels)> {
     let plain = |colours, alpha| Channels { colours, alpha };
     let (samples, bits, channels) = match color {

@@ -1,4 +1,4 @@
-//! What a TIFF's tags say about its pixels: size, unit, no data, orientation.
+//! Tags of a TIFF about its pixels: size, unit, no data, orientation.
 
 use std::io::Cursor;
 
@@ -20,12 +20,12 @@ const INCH_MM: f64 = 25.4;
 /// Length of a centimetre, in millimetres.
 const CENTIMETRE_MM: f64 = 10.0;
 
-/// Values of `ResolutionUnit`.
+/// Value of the tag `ResolutionUnit` for no unit.
 const NO_UNIT: u16 = 1;
 const PER_INCH: u16 = 2;
 const PER_CENTIMETRE: u16 = 3;
 
-/// GeoTIFF keys, and the values of them that matter.
+/// Number of the GeoTIFF key `GTModelTypeGeoKey`.
 const MODEL_TYPE: u16 = 1024;
 
 /// Value of the GeoTIFF key `GTModelTypeGeoKey` for degrees of longitude and latitude.
@@ -35,14 +35,14 @@ const LINEAR_UNIT: u16 = 3076;
 /// Value of the GeoTIFF key `ProjLinearUnitsGeoKey` for metres.
 const LINEAR_UNIT_METRE: u16 = 9001;
 
-/// Relative difference between a pixel's sides up to which they count as equal.
+/// Maximum relative difference between a pixel's sides that count as equal.
 const NEGLIGIBLE_SIDE_DIFFERENCE: f64 = 1e-6;
 
 pub(super) struct About {
     pub(super) pixel_size: f64,
     pub(super) unit: Option<Unit>,
     pub(super) no_data: Option<f64>,
-    /// 1 to 8, as the tag numbers them.
+    /// Orientation from 1 to 8, as the tag numbers them.
     pub(super) orientation: u16,
 }
 
@@ -71,7 +71,7 @@ pub(super) fn read(file: &mut File, data_type: &str) -> Result<About> {
     })
 }
 
-/// Whether the one extra sample is an alpha.
+/// Whether the only extra sample is an alpha.
 pub(super) fn has_alpha(file: &mut File) -> Result<bool> {
     Ok(matches!(unsigned(file, Tag::ExtraSamples)?, Some(1 | 2)))
 }
@@ -105,7 +105,7 @@ fn pixel_size(file: &mut File) -> Result<(f64, Option<Unit>)> {
     Ok((square(per / x, per / y)?, Some(Unit::Millimetre)))
 }
 
-/// The side of pixels that are this wide and high.
+/// Side length of pixels of this width and height, which must be equal.
 fn square(x: f64, y: f64) -> Result<f64> {
     if !(x.is_finite() && x > 0.0 && y.is_finite() && y > 0.0) {
         return Err(damaged(
@@ -122,7 +122,7 @@ fn square(x: f64, y: f64) -> Result<f64> {
     Ok(x)
 }
 
-/// Pixels for a unit of length; 0 is what some write who do not know it.
+/// Number of pixels per unit of length; 0 is written by programs that do not know it, and counts as none.
 fn resolution(file: &mut File, tag: Tag) -> Result<Option<f64>> {
     let Some(value) = file.find_tag(tag).map_err(failed)? else {
         return Ok(None);
@@ -180,7 +180,7 @@ fn unsigned(file: &mut File, tag: Tag) -> Result<Option<u16>> {
     file.find_tag_unsigned(tag).map_err(failed)
 }
 
-/// The image as it is to be seen, and its width and height.
+/// The image rotated as it is to be seen, with its width and height.
 pub(super) fn oriented<T: Copy + Default>(
     values: Vec<T>,
     (width, height): (usize, usize),

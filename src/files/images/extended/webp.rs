@@ -10,7 +10,7 @@ use crate::files::images::decoded::Decoded;
 use crate::files::images::format::Format;
 use crate::files::images::photo::PhotoFile;
 
-/// What the decoder may allocate for metadata.
+/// Maximum memory that the decoder may allocate for metadata, in bytes.
 const DECODER_BYTES: usize = 1 << 24;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded> {
@@ -26,7 +26,7 @@ pub(super) fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     ))
 }
 
-/// The samples, how many there are for each pixel, and width and height.
+/// The samples, their number per pixel, and width and height.
 fn pixels(bytes: &[u8]) -> Result<(Vec<u8>, usize, (usize, usize))> {
     // The decoder makes up what is missing at the end; the length is in the header.
     let length = bytes.get(4..8).map_or(0, |length| {

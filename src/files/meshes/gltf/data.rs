@@ -1,4 +1,4 @@
-//! The numbers and bytes of a glTF file: of its accessors and addresses.
+//! Data of a glTF file: the numbers of its accessors and the bytes of its addresses.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use crate::files::meshes::builder::{damaged, unsupported};
 /// Name of the format in messages.
 pub(super) const FORMAT_NAME: &str = "glTF";
 
-/// The bytes within a `data:` address.
+/// Bytes within a `data:` address.
 pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     let Some(data) = uri.strip_prefix("data:") else {
         return Ok(None);
@@ -27,7 +27,7 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     Ok(Some(bytes))
 }
 
-/// A name without its `%20`s.
+/// A name without percent-encoded blanks.
 pub(super) fn plain(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();
@@ -48,7 +48,7 @@ pub(super) fn plain(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// The first `N` components of each element; whole numbers as shares of their largest.
+/// The first `N` components of each element; integers as shares of their maximum.
 pub(super) fn floats<const N: usize>(
     accessor: &Accessor,
     buffers: &[Cow<[u8]>],

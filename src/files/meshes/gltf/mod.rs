@@ -1,5 +1,5 @@
-//! glTF 2.0 and GLB: the scene by way of `gltf`, its buffers by hand, for their ranges need not be
-//! those that the file says.
+//! glTF 2.0 and GLB: the scene is read by the `gltf` crate, its buffers directly, because their ranges may
+//! differ from those that the file states.
 
 mod data;
 
@@ -103,11 +103,11 @@ struct Scene<'a> {
     beside: &'a Beside<'a>,
 }
 
-/// A file's name, empty for what is embedded, and its bytes.
+/// Name of a file, empty for an embedded one, and its bytes.
 type Named<'a> = (&'a str, Cow<'a, [u8]>);
 
-/// What a primitive looks like where its vertices do not say: a colour, the number of a texture,
-/// and which of its texture coordinates are about that.
+/// Appearance of a primitive where its vertices do not state it: a colour, the number of a texture, and the
+/// texture coordinates for that.
 struct Look {
     color: [f32; 3],
     texture: i32,
@@ -115,7 +115,7 @@ struct Look {
 }
 
 impl Scene<'_> {
-    /// Every node of the scene, with the transforms of those above it.
+    /// Visits every node of the scene, with the transforms of those above it.
     fn visit(&self, parts: &mut MeshBuilder) -> Result<()> {
         let document = self.document;
         let Some(scene) = document
@@ -148,7 +148,7 @@ impl Scene<'_> {
         Ok(())
     }
 
-    /// The base colour of a primitive's material, and its texture, which is read once.
+    /// Base colour and texture of a primitive's material; each texture is read once.
     fn look(
         &self,
         primitive: &Primitive,
@@ -193,7 +193,7 @@ impl Scene<'_> {
         Ok(look)
     }
 
-    /// The bytes of an image, and the name of the file that they are from, if it is there.
+    /// Bytes of an image and the name of their file, if it is there.
     fn picture(&self, image: &Image) -> Result<Option<Named<'_>>> {
         if let Some(uri) = &image.uri {
             return match embedded(uri)? {

@@ -1,6 +1,6 @@
 use super::*;
-use crate::fit::mesh::border::restore;
-use crate::fit::mesh::sides::Sides;
+use crate::fit::mesh::border_extrapolation::extrapolate_border;
+use crate::fit::mesh::smooth_regions::SmoothRegions;
 
 /// Two squares at a right angle, `y` along the crease.
 fn corner() -> Mesh {
@@ -14,25 +14,25 @@ fn off(x: &Point) -> f64 {
     x.x.abs().min(x.z.abs())
 }
 
-fn frames(given: &Given) -> Vec<Frame> {
+fn frames(given: &MeshInput) -> Vec<Frame> {
     let up = normals(&given.topology, &given.noisy, None);
-    let frame = |up| Frame::about(up, Point::new(0.3, 0.5, 0.7));
+    let frame = |up| Frame::from_normal(up, Point::new(0.3, 0.5, 0.7));
     up.into_iter().map(frame).collect()
 }
 
 #[test]
 fn fits_beside_a_crease_go_by_their_own_side() {
     let given = given(&corner());
-    let sides = Sides::new(&given.topology, &given.noisy).unwrap();
-    let bends = |sides: Option<&Sides>| {
+    let sides = SmoothRegions::new(&given.topology, &given.noisy).unwrap();
+    let bends = |sides: Option<&SmoothRegions>| {
         let x = given.noisy.clone();
-        Linearised::about(&given, x, frames(&given), BENDS, |_| 1e4, sides).unwrap()
+        Linearisation::new(&given, x, frames(&given), BENDS, |_| 1e4, sides).unwrap()
     };
-    let largest = |linear: &Linearised| {
+    let largest = |linear: &Linearisation| {
         let mut most = 0.0f64;
         let operator = &linear.problem.operator;
         operator.hessians(&linear.start(), |stencil, hessian| {
-            if !sides.meet_at(linear.centres[stencil] as usize) {
+            if !sides.is_on_crease(linear.centres[stencil] as usize) {
                 most = most.max(hessian.nuclear_norm());
             }
         });
@@ -47,19 +47,19 @@ fn fits_beside_a_crease_go_by_their_own_side() {
 fn a_border_ends_at_a_crease_by_the_side_that_it_is_on() {
     let given = given(&corner());
     let topology = &given.topology;
-    let sides = Sides::new(topology, &given.noisy).unwrap();
+    let sides = SmoothRegions::new(topology, &given.noisy).unwrap();
     let frames = frames(&given);
     let mut random = random(5);
     let mut shaken = given.noisy.clone();
     for (vertex, x) in shaken.iter_mut().enumerate() {
-        if !topology.inside[vertex] && !sides.meet_at(vertex) {
+        if !topology.inside[vertex] && !sides.is_on_crease(vertex) {
             *x += 0.01 * random() * frames[vertex].normal;
         }
     }
-    let worst = |sides: Option<&Sides>, of: &Sides| {
+    let worst = |sides: Option<&SmoothRegions>, of: &SmoothRegions| {
         let mut x = shaken.clone();
-        restore(&given, &mut x, &frames, sides);
-        let put = (0..x.len()).filter(|v| !of.meet_at(*v) && x[*v] != shaken[*v]);
+        extrapolate_border(&given, &mut x, &frames, sides);
+        let put = (0..x.len()).filter(|v| !of.is_on_crease(*v) && x[*v] != shaken[*v]);
         let far: Vec<f64> = put.map(|v| off(&x[v])).collect();
         assert!(far.len() > 80, "{}", far.len());
         far.into_iter().fold(0.0, f64::max)

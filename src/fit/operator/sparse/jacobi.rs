@@ -1,27 +1,27 @@
 //! The z-step of a sparse matrix: conjugate gradients with Jacobi's preconditioner.
 
-use super::{LONGEST, Rows, SparseOperator, normal};
+use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::linear::zstep::{Solvable, Solver};
+use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::fit::operator::Operator;
 use crate::math::lanes;
 use crate::math::real::Real;
 
-/// Number of Jacobi iterations of a step: together they do about as much as a V-cycle, for which ADMM's
-/// schedule is.
+/// Number of Jacobi-preconditioned iterations in one step of the solver: together they do about as much as a
+/// V-cycle, for which ADMM's schedule is made.
 const JACOBI_STEPS: usize = 6;
 
-/// `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
+/// The matrix `A = 2λw + ρCᵀC`, scaled so that its largest diagonal entry is 1.
 #[derive(Debug, Clone)]
 struct System {
     rho: f64,
-    /// `2λw`, and the diagonal of `CᵀC`.
+    /// Diagonal `2λw` of the fidelity.
     fidelity: Vec<f64>,
     normal: Vec<f64>,
-    /// The largest diagonal entry, by which all is divided.
+    /// The largest diagonal entry, by which the matrix is divided.
     diagonal: f64,
-    /// One over the diagonal; 0 at constrained vertices, which so stay as they are.
+    /// One over the diagonal, and 0 at constrained vertices, which stay as they are by that.
     inverse: Vec<f64>,
     constrained: Vec<u32>,
 }
@@ -45,7 +45,7 @@ impl System {
     }
 }
 
-/// A run of conjugate gradients, in one precision.
+/// One run of conjugate gradients, in one precision.
 #[derive(Debug, Clone)]
 struct Gradients<T> {
     residual: Vec<T>,
@@ -61,13 +61,13 @@ struct Gradients<T> {
     previous: f64,
 }
 
-/// A precision, from and to the double one.
+/// A floating-point precision of conjugate gradients, with conversions from and to double precision.
 trait Precision: Real {
-    fn of(value: f64) -> Self;
+    fn from_f64(value: f64) -> Self;
     fn double(self) -> f64;
-    /// With the penalty's weights.
+    /// Rows of the operator in this precision, and their weights times the shares of ρ.
     fn rows(operator: &SparseOperator) -> (&Rows<Self>, &[Self]);
-    /// By how much the rows of this precision are scaled.
+    /// Factor by which the rows of this precision are scaled.
     fn unit(operator: &SparseOperator) -> f64;
     fn dot(a: &[Self], b: &[Self]) -> f64;
     fn weighted_square(a: &[Self], weight: &[Self]) -> f64;
@@ -75,7 +75,7 @@ trait Precision: Real {
 
 impl Precision for f32 {
     #[inline(always)]
-    fn of(value: f64) -> f32 {
+    fn from_f64(value: f64) -> f32 {
         lanes::single(value)
     }
     #[inline(always)]
@@ -83,19 +83,19 @@ impl Precision for f32 {
         lanes::double(self)
     }
     fn rows(operator: &SparseOperator) -> (&Rows<f32>, &[f32]) {
-        (&operator.single, &operator.single_penalised)
+        (&operator.single, &operator.single_rho_weights)
     }
     fn unit(operator: &SparseOperator) -> f64 {
         operator.spacing.powi(2)
     }
     fn dot(a: &[f32], b: &[f32]) -> f64 {
-        a.chunks(LONGEST)
-            .zip(b.chunks(LONGEST))
+        a.chunks(MAX_RUN_LENGTH)
+            .zip(b.chunks(MAX_RUN_LENGTH))
             .map(|(a, b)| lanes::dot(a, b))
             .sum()
     }
     fn weighted_square(a: &[f32], weight: &[f32]) -> f64 {
-        let chunks = a.chunks(LONGEST).zip(weight.chunks(LONGEST));
+        let chunks = a.chunks(MAX_RUN_LENGTH).zip(weight.chunks(MAX_RUN_LENGTH));
         chunks
             .map(|(a, weight)| lanes::weighted_square(a, weight))
             .sum()
@@ -103,14 +103,14 @@ impl Precision for f32 {
 }
 
 impl Precision for f64 {
-    fn of(value: f64) -> f64 {
+    fn from_f64(value: f64) -> f64 {
         value
     }
     fn double(self) -> f64 {
         self
     }
     fn rows(operator: &SparseOperator) -> (&Rows<f64>, &[f64]) {
-        (&operator.double, &operator.penalised)
+        (&operator.double, &operator.rho_weights)
     }
     fn unit(_: &SparseOperator) -> f64 {
         1.0
@@ -141,17 +141,17 @@ impl<T: Precision> Gradients<T> {
         Ok(gradients)
     }
 
-    /// Another `A`.
+    /// Changes the matrix.
     fn take(&mut self, operator: &SparseOperator, system: &System) {
         let unit = T::unit(operator);
-        self.rho = T::of(system.rho / (system.diagonal * unit * unit));
+        self.rho = T::from_f64(system.rho / (system.diagonal * unit * unit));
         for vertex in 0..self.inverse.len() {
-            self.fidelity[vertex] = T::of(system.fidelity[vertex] / system.diagonal);
-            self.inverse[vertex] = T::of(system.inverse[vertex]);
+            self.fidelity[vertex] = T::from_f64(system.fidelity[vertex] / system.diagonal);
+            self.inverse[vertex] = T::from_f64(system.inverse[vertex]);
         }
     }
 
-    /// Begins with the residual as it is, of the solution 0.
+    /// Begins with the residual as it is, and 0 as the solution.
     fn start(&mut self) {
         self.solution.fill(T::default());
         self.direction.fill(T::default());
@@ -163,7 +163,7 @@ impl<T: Precision> Gradients<T> {
         self.energy = T::weighted_square(&self.residual, &self.inverse);
     }
 
-    /// One iteration; `false` if there is nothing left to do.
+    /// Takes one iteration; `false` if there is nothing left to improve.
     fn step(&mut self, operator: &SparseOperator) -> bool {
         if self.energy <= 0.0 {
             return false;
@@ -173,7 +173,7 @@ impl<T: Precision> Gradients<T> {
         } else {
             0.0
         };
-        let beta = T::of(beta);
+        let beta = T::from_f64(beta);
         for (i, direction) in self.direction.iter_mut().enumerate() {
             *direction = self.inverse[i] * self.residual[i] + beta * *direction;
         }
@@ -187,7 +187,7 @@ impl<T: Precision> Gradients<T> {
         if !(curvature > 0.0 && self.energy > 0.0) {
             return false;
         }
-        let alpha = T::of(self.energy / curvature);
+        let alpha = T::from_f64(self.energy / curvature);
         for (i, residual) in self.residual.iter_mut().enumerate() {
             self.solution[i] = self.solution[i] + alpha * self.direction[i];
             *residual = *residual - alpha * self.image[i];
@@ -197,7 +197,7 @@ impl<T: Precision> Gradients<T> {
         true
     }
 
-    /// By how much the residual would move a height on its own, at most.
+    /// Maximum distance by which the residual at a height would move that height alone.
     fn distance(&self) -> f64 {
         let moved = self.residual.iter().zip(&self.inverse);
         let moved = moved.map(|(r, inverse)| (*r * *inverse).double().abs());
@@ -205,15 +205,16 @@ impl<T: Precision> Gradients<T> {
     }
 }
 
+/// Solver of the z-step of a sparse matrix.
 #[derive(Debug, Clone)]
 pub(crate) struct JacobiGradients {
     system: System,
     gradients: Gradients<f32>,
-    /// What is written by others.
+    /// Residual as written by the caller.
     residual: Vec<f32>,
-    /// Whether `A` has changed since.
+    /// Whether ρ has changed since the matrix was made.
     stale: bool,
-    /// Heights of size 1 in the system's scale.
+    /// The largest magnitude of the unknowns' targets, which is 1 in the system.
     unit: f64,
 }
 
@@ -245,11 +246,11 @@ impl JacobiGradients {
     }
 }
 
-impl Solvable for SparseOperator {
+impl SolvableOperator for SparseOperator {
     type Solver = JacobiGradients;
 }
 
-impl Solver<SparseOperator> for JacobiGradients {
+impl ZStepSolver<SparseOperator> for JacobiGradients {
     fn set_rho(&mut self, rho: f64) {
         self.system.set_rho(rho);
         self.stale = true;
@@ -299,7 +300,7 @@ impl Solver<SparseOperator> for JacobiGradients {
         problem: &Problem<SparseOperator>,
         residual: &mut Vec<f64>,
         x: &mut [f64],
-        (tolerance, steps): (f64, usize),
+        criteria: CgCriteria,
     ) -> Result<usize> {
         let operator = &problem.operator;
         let mut gradients = Gradients::<f64>::new(operator, &self.system)?;
@@ -307,9 +308,9 @@ impl Solver<SparseOperator> for JacobiGradients {
             *to = from / self.system.diagonal;
         }
         gradients.start();
-        let goal = tolerance * gradients.distance();
+        let goal = criteria.tolerance * gradients.distance();
         let mut done = 0;
-        while done < JACOBI_STEPS * steps && gradients.distance() > goal {
+        while done < JACOBI_STEPS * criteria.max_iterations && gradients.distance() > goal {
             if !gradients.step(operator) {
                 break;
             }

@@ -1,4 +1,4 @@
-//! An operator that is given as a sparse matrix, as for what is no lattice.
+//! An operator that is given as a sparse matrix, for meshes and other domains that are no lattice.
 
 pub(crate) mod jacobi;
 #[cfg(all(test, feature = "sprs", not(target_arch = "wasm32")))] // clarabel is native
@@ -13,36 +13,39 @@ use crate::math::lanes;
 use crate::math::real::Real;
 use crate::math::sym2::Sym2;
 
-/// Runs are at most so long: what kernels keep of one stays in the cache.
-const LONGEST: usize = 256;
+/// Maximum length of a run, so that what kernels store for one stays in the cache.
+const MAX_RUN_LENGTH: usize = 256;
 
-/// Power iterations for the norm, and by how much they may fall short of it. Only the speed of the
-/// bound's ascent depends on it, not that it is one.
-const POWER: usize = 10;
-const MARGIN: f32 = 1.1;
+/// Number of power iterations for the operator's norm. Only the speed of dual ascent depends on how far they
+/// fall short of it, not that its bound is one.
+const POWER_ITERATIONS: usize = 10;
+/// Factor that makes an upper bound of the power iterations' lower estimate of the norm.
+const NORM_ESTIMATE_MARGIN: f32 = 1.1;
 
-/// What is computed together of a row: as many as there are numbers in a vector of single precision.
-const LANES: usize = 4;
+/// Number of entries of a row that are computed together: the numbers in a SIMD vector of single precision.
+const ROW_GROUP_ENTRIES: usize = 4;
 
-/// `C` by stencils: the vertices of each, with what their heights count in the coordinates of [`Sym2`],
-/// by fours. Rows are filled up with zeros.
+/// Rows of the operator `C`: for each stencil its vertices, with the factors of their heights in the
+/// coordinates of [`Sym2`]. Entries are stored in groups, filled up with zeros.
 ///
-/// The adjoint is computed from the same rows, by adding to its vertices one stencil after the other:
-/// half the memory, and `CᵀC` takes one pass.
+/// The adjoint is computed from the same rows, by adding to the vertices of one stencil after the other: this
+/// halves the memory, and `CᵀC` takes one pass.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows<T> {
-    /// Where each begins.
+    /// Number of the first group of each row.
     first: Vec<u32>,
-    fours: Vec<Four<T>>,
+    fours: Vec<EntryGroup<T>>,
 }
 
+/// Entries of a row that are computed together.
 #[derive(Debug, Clone)]
-struct Four<T> {
-    vertices: [u32; LANES],
-    entries: [[T; LANES]; 3],
+struct EntryGroup<T> {
+    vertices: [u32; ROW_GROUP_ENTRIES],
+    entries: [[T; ROW_GROUP_ENTRIES]; 3],
 }
 
 impl<T: Real> Rows<T> {
+    /// Rows of no stencils.
     pub(crate) fn new() -> Self {
         Rows {
             first: vec![0],
@@ -50,21 +53,22 @@ impl<T: Real> Rows<T> {
         }
     }
 
-    /// Makes room for so many stencils of so many vertices.
+    /// Reserves memory for a number of stencils with a number of vertices each.
     pub(crate) fn reserve(&mut self, stencils: usize, vertices: usize) {
         self.first.reserve(stencils);
-        self.fours.reserve(stencils * vertices.div_ceil(LANES));
+        self.fours
+            .reserve(stencils * vertices.div_ceil(ROW_GROUP_ENTRIES));
     }
 
-    /// One stencil more.
+    /// Appends the row of one more stencil.
     pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (u32, [T; 3])>) {
-        let mut lane = LANES;
+        let mut lane = ROW_GROUP_ENTRIES;
         for (vertex, entry) in entries {
-            if lane == LANES {
+            if lane == ROW_GROUP_ENTRIES {
                 lane = 0;
-                self.fours.push(Four {
-                    vertices: [vertex; LANES],
-                    entries: [[T::default(); LANES]; 3],
+                self.fours.push(EntryGroup {
+                    vertices: [vertex; ROW_GROUP_ENTRIES],
+                    entries: [[T::default(); ROW_GROUP_ENTRIES]; 3],
                 });
             }
             if let Some(four) = self.fours.last_mut() {
@@ -78,10 +82,10 @@ impl<T: Real> Rows<T> {
         self.first.push(self.fours.len() as u32);
     }
 
-    /// Multiplies what each vertex counts.
+    /// Multiplies each column by the factor of its vertex.
     pub(crate) fn scale_columns(&mut self, factor: impl Fn(u32) -> T) {
-        for Four { vertices, entries } in &mut self.fours {
-            for lane in 0..LANES {
+        for EntryGroup { vertices, entries } in &mut self.fours {
+            for lane in 0..ROW_GROUP_ENTRIES {
                 let factor = factor(vertices[lane]);
                 for row in entries.iter_mut() {
                     row[lane] = factor * row[lane];
@@ -94,21 +98,23 @@ impl<T: Real> Rows<T> {
         self.first.len() - 1
     }
 
-    /// Those of all rows, some of them several times.
+    /// The vertices of all rows, some of them several times.
     fn vertices(&self) -> impl Iterator<Item = u32> + '_ {
         self.fours.iter().flat_map(|four| four.vertices)
     }
 
+    /// The entries of a stencil.
     #[inline(always)]
-    fn row(&self, stencil: usize) -> &[Four<T>] {
+    fn row(&self, stencil: usize) -> &[EntryGroup<T>] {
         &self.fours[self.first[stencil] as usize..self.first[stencil + 1] as usize]
     }
 
+    /// The Hessian `Cx` at a stencil.
     #[inline(always)]
     fn apply(&self, stencil: usize, x: &[T]) -> [T; 3] {
-        let zero = T::four([T::default(); LANES]);
+        let zero = T::four([T::default(); ROW_GROUP_ENTRIES]);
         let (mut mean, mut diff, mut off) = (zero, zero, zero);
-        for Four { vertices, entries } in self.row(stencil) {
+        for EntryGroup { vertices, entries } in self.row(stencil) {
             let [v0, v1, v2, v3] = *vertices;
             let x = [
                 x[v0 as usize],
@@ -128,11 +134,11 @@ impl<T: Real> Rows<T> {
         })
     }
 
-    /// Adds `Cᵀ` of one matrix, which has its weight already.
+    /// Adds `Cᵀ` of the matrix at one stencil, which includes the stencil's weight.
     #[inline(always)]
     fn add_adjoint(&self, stencil: usize, [mean, diff, off]: [T; 3], to: &mut [T]) {
-        let [mean, diff, off] = [mean, diff, off].map(|y| T::four([y; LANES]));
-        for Four { vertices, entries } in self.row(stencil) {
+        let [mean, diff, off] = [mean, diff, off].map(|y| T::four([y; ROW_GROUP_ENTRIES]));
+        for EntryGroup { vertices, entries } in self.row(stencil) {
             let [a, b, c] = entries;
             let more = T::four(*a) * mean + T::four(*b) * diff + T::four(*c) * off;
             let [v0, v1, v2, v3] = *vertices;
@@ -146,34 +152,36 @@ impl<T: Real> Rows<T> {
     }
 }
 
-/// What a [`SparseOperator`] is made of.
+/// The components of a [`SparseOperator`].
 #[derive(Debug, Clone)]
 pub(crate) struct Parts {
     pub rows: Rows<f64>,
-    /// What each stencil counts in every sum over stencils; none for 1 each.
+    /// Weight of each stencil in every sum over stencils; empty for 1 each.
     pub areas: Vec<f64>,
-    /// The stencils beside each, by their numbers.
+    /// Numbers of the neighbouring stencils of each stencil.
     pub beside: Vec<Vec<u32>>,
-    /// A vertex that is held at its height and makes `C` affine; its column does not count for the norm.
+    /// Vertex that is held at its height and so makes `C` affine; its column does not count for the norm.
     pub constant: Option<u32>,
     pub places: Vec<[f64; 2]>,
     pub spacing: f64,
-    /// From one end to the other.
+    /// Distance from one end of the domain to the other.
     pub size: f64,
 }
 
+/// An operator `C` that is given as a sparse matrix.
 #[derive(Debug, Clone)]
 pub(crate) struct SparseOperator {
     double: Arc<Rows<f64>>,
-    /// `h²C`.
+    /// The rows of `h²C` in single precision.
     single: Arc<Rows<f32>>,
-    /// Twice the areas: the inner product is that of matrices, whose coordinates count twice.
+    /// Twice the area of each stencil: the inner product is that of matrices, in which coordinates count twice.
     weights: Vec<f64>,
     single_weights: Vec<f32>,
-    /// The share of ρ at each stencil, and the weights times that.
-    penalties: Vec<f64>,
-    penalised: Vec<f64>,
-    single_penalised: Vec<f32>,
+    /// Share of ρ at each stencil.
+    rho_shares: Vec<f64>,
+    /// Weight times share of ρ at each stencil.
+    rho_weights: Vec<f64>,
+    single_rho_weights: Vec<f32>,
     vertices: RowRuns,
     stencils: RowRuns,
     beside: Arc<Vec<Vec<u32>>>,
@@ -184,7 +192,7 @@ pub(crate) struct SparseOperator {
 }
 
 impl SparseOperator {
-    /// What a row measures is taken for the second fundamental form; vertices of no row are no
+    /// The operator of these rows, which are taken for second fundamental forms. Vertices of no row are no
     /// unknowns.
     ///
     /// # Errors
@@ -210,7 +218,7 @@ impl SparseOperator {
             areas.iter().map(|area| 2.0 * area).collect()
         };
         let unit = spacing * spacing;
-        let narrow = |four: &Four<f64>| Four {
+        let narrow = |four: &EntryGroup<f64>| EntryGroup {
             vertices: four.vertices,
             entries: four
                 .entries
@@ -225,25 +233,25 @@ impl SparseOperator {
                 first: rows.first.clone(),
                 fours: rows.fours.iter().map(narrow).collect(),
             }),
-            penalties: try_filled("penalties", rows.len(), 1.0)?,
-            penalised: weights.clone(),
-            single_penalised: single_weights.clone(),
+            rho_shares: try_filled("rho_shares", rows.len(), 1.0)?,
+            rho_weights: weights.clone(),
+            single_rho_weights: single_weights.clone(),
             double: Arc::new(rows),
             single_weights,
             weights,
-            stencils: RowRuns::new(&all, LONGEST, |stencil| stencil),
-            vertices: RowRuns::new(&touched, LONGEST, |touched| touched),
+            stencils: RowRuns::new(&all, MAX_RUN_LENGTH, |stencil| stencil),
+            vertices: RowRuns::new(&touched, MAX_RUN_LENGTH, |touched| touched),
             beside: Arc::new(beside),
             places,
             spacing,
             size,
             norm: 1.0,
         };
-        operator.norm = MARGIN * operator.power(constant)?;
+        operator.norm = NORM_ESTIMATE_MARGIN * operator.power(constant)?;
         Ok(operator)
     }
 
-    /// An estimate of `h⁴‖CᵀC‖`, from below.
+    /// A lower estimate of `h⁴‖CᵀC‖` by power iterations.
     fn power(&self, constant: Option<u32>) -> Result<f32> {
         let mut x = try_filled("vertices", self.vertex_cells(), 0.0f32)?;
         let mut image = x.clone();
@@ -252,7 +260,7 @@ impl SparseOperator {
             x[vertex] = random.rand_float() - 0.5;
         }
         let mut norm = 1.0;
-        for _ in 0..POWER {
+        for _ in 0..POWER_ITERATIONS {
             if let Some(constant) = constant {
                 x[constant as usize] = 0.0;
             }
@@ -265,21 +273,21 @@ impl SparseOperator {
         Ok(norm)
     }
 
-    /// Sets what the penalty counts at each stencil.
-    pub(crate) fn penalise(&mut self, share: impl Fn(usize) -> f64) {
+    /// Sets the share of ρ at each stencil.
+    pub(crate) fn set_rho_shares(&mut self, share: impl Fn(usize) -> f64) {
         for stencil in 0..self.weights.len() {
-            let penalty = share(stencil);
-            self.penalties[stencil] = penalty;
-            self.penalised[stencil] = penalty * self.weights[stencil];
-            self.single_penalised[stencil] = lanes::single(self.penalised[stencil]);
+            let rho_share = share(stencil);
+            self.rho_shares[stencil] = rho_share;
+            self.rho_weights[stencil] = rho_share * self.weights[stencil];
+            self.single_rho_weights[stencil] = lanes::single(self.rho_weights[stencil]);
         }
     }
 
-    /// The diagonal of `CᵀC`, with the penalty's weights.
+    /// The diagonal of `CᵀC`, weighted by the shares of ρ.
     fn normal_diagonal(&self) -> Result<Vec<f64>> {
         let mut diagonal = try_filled("diagonal", self.vertex_cells(), 0.0)?;
-        for (stencil, weight) in self.penalised.iter().enumerate() {
-            for Four { vertices, entries } in self.double.row(stencil) {
+        for (stencil, weight) in self.rho_weights.iter().enumerate() {
+            for EntryGroup { vertices, entries } in self.double.row(stencil) {
                 for (lane, vertex) in vertices.iter().enumerate() {
                     let squares = entries.iter().map(|row| row[lane] * row[lane]);
                     diagonal[*vertex as usize] += weight * squares.sum::<f64>();
@@ -290,7 +298,7 @@ impl SparseOperator {
     }
 }
 
-/// `image = CᵀC x`.
+/// Computes `image = CᵀC x`.
 fn normal<T: Real>(rows: &Rows<T>, weights: &[T], x: &[T], image: &mut [T]) {
     image.fill(T::default());
     for (stencil, weight) in weights.iter().enumerate() {
@@ -362,7 +370,7 @@ impl Operator for SparseOperator {
     }
 
     fn longest_run(&self) -> usize {
-        LONGEST
+        MAX_RUN_LENGTH
     }
 
     fn spacing(&self) -> f64 {
@@ -383,8 +391,8 @@ impl Operator for SparseOperator {
     }
 
     #[inline(always)]
-    fn penalty(&self, stencil: usize) -> f64 {
-        self.penalties[stencil]
+    fn rho_share(&self, stencil: usize) -> f64 {
+        self.rho_shares[stencil]
     }
 
     fn place(&self, vertex: usize) -> [f64; 2] {

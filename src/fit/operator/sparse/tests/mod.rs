@@ -7,15 +7,15 @@ use std::sync::Arc;
 use super::jacobi::JacobiGradients;
 use super::{Parts, Rows, SparseOperator};
 use crate::error::Result;
-use crate::fit::admm::iteration::Level;
-use crate::fit::admm::schedule::Plan;
-use crate::fit::admm::state::State;
+use crate::fit::admm::iterate::Iterate;
+use crate::fit::admm::parameters::AdmmParameters;
+use crate::fit::admm::solver::{AdmmSolver, initial_rho};
 use crate::fit::coordinates::Coordinates;
-use crate::fit::energy::law::Kind;
 use crate::fit::energy::problem;
+use crate::fit::energy::spectral_penalty::PenaltyKind;
 use crate::fit::heightfields;
 use crate::fit::linear::cg::ConjugateGradients;
-use crate::fit::linear::zstep::Solvable;
+use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
 use crate::fit::report::StopReason;
 use crate::lattice::domain::Domain;
@@ -120,7 +120,8 @@ impl Both {
             target[domain.lattice_index(cell)] = lattice.target[cell];
         }
         let lambda = options.lambda_or_default().value();
-        let mut sparse = Problem::under(operator, lambda, target, Kind::of(options));
+        let mut sparse =
+            Problem::unweighted(operator, lambda, target, PenaltyKind::from_options(options));
         let weight = |vertex| input.weight(vertex);
         let constrained = |vertex| input.is_constrained(vertex);
         sparse
@@ -144,16 +145,16 @@ impl Both {
 }
 
 /// ADMM from the input to the end, on one level.
-fn solve<O: Solvable>(
+fn solve<O: SolvableOperator>(
     problem: &problem::Problem<O>,
     solver: impl Fn(&problem::Problem<O>, f64) -> Result<O::Solver>,
     options: &Options,
-) -> (Level<O>, StopReason) {
-    let plan = Plan::new(options);
-    let state = State::new(problem, plan.first_rho(problem)).unwrap();
-    let solver = solver(problem, state.rho).unwrap();
+) -> (AdmmSolver<O>, StopReason) {
+    let parameters = AdmmParameters::new(options);
+    let iterate = Iterate::new(problem, initial_rho(&parameters, problem)).unwrap();
+    let solver = solver(problem, iterate.rho).unwrap();
     let (mut level, mut reason) =
-        Level::new(problem.clone(), state, solver, plan, 0, true).unwrap();
+        AdmmSolver::new(problem.clone(), iterate, solver, parameters, 0, true).unwrap();
     while reason.is_none() {
         reason = level.advance(&mut 1000).unwrap();
     }
@@ -166,10 +167,14 @@ fn multigrid(problem: &heightfields::Problem, rho: f64) -> Result<ConjugateGradi
 
 /// Both answers are certified, each bound is one for the other as well, and the surfaces are as close
 /// as strong convexity says: `λ min w ‖z − z*‖² ≤ P − D`.
-fn assert_alike(both: &Both, lattice: &Level<impl Solvable>, sparse: &Level<SparseOperator>) {
-    let (a, b) = (&lattice.best, &sparse.best);
+fn assert_alike(
+    both: &Both,
+    lattice: &AdmmSolver<impl SolvableOperator>,
+    sparse: &AdmmSolver<SparseOperator>,
+) {
+    let (a, b) = (&lattice.admm.incumbent, &sparse.admm.incumbent);
     let bound = a.dual_bound.max(b.dual_bound);
-    let gaps = [a, b].map(|best| best.objective() - bound);
+    let gaps = [a, b].map(|incumbent| incumbent.objective() - bound);
     let rounding = 1e-12 * bound;
     assert!(
         gaps.iter().all(|gap| *gap >= -rounding),
@@ -203,19 +208,21 @@ fn the_answer_does_not_depend_on_the_penalties() {
     let (lattice, _) = solve(&both.lattice, multigrid, &options);
     let (usual, _) = solve(&both.sparse, JacobiGradients::new, &options);
     let mut noise = noise(8);
-    let penalties: Vec<f64> = (0..both.sparse.operator.stencil_cells())
+    let rho_shares: Vec<f64> = (0..both.sparse.operator.stencil_cells())
         .map(|_| 10f64.powf(noise()))
         .collect();
-    both.sparse.operator.penalise(|stencil| penalties[stencil]);
+    both.sparse
+        .operator
+        .set_rho_shares(|stencil| rho_shares[stencil]);
     let (own, reason) = solve(&both.sparse, JacobiGradients::new, &options);
     assert_eq!(reason, StopReason::Gap);
     assert_alike(&both, &lattice, &own);
-    assert_ne!(own.best.z, usual.best.z);
+    assert_ne!(own.admm.incumbent.z, usual.admm.incumbent.z);
     // Dual and Hessian are what the iterate is made of.
-    for (stencil, penalty) in penalties.iter().enumerate() {
-        let (dual, hessian) = own.state.matrices(&both.sparse, stencil);
-        let v = dual + hessian.scale(own.state.rho * penalty);
-        let [found, expected] = [v, own.state.v.get(stencil)].map(|m| m.coordinates());
+    for (stencil, rho_share) in rho_shares.iter().enumerate() {
+        let (dual, hessian) = own.admm.iterate.matrices(&both.sparse, stencil);
+        let v = dual + hessian.scale(own.admm.iterate.rho * rho_share);
+        let [found, expected] = [v, own.admm.iterate.v.get(stencil)].map(|m| m.coordinates());
         for (a, b) in found.into_iter().zip(expected) {
             assert!((a - b).abs() <= 1e-12 * (1.0 + b.abs()), "{a} and {b}");
         }
@@ -241,7 +248,11 @@ fn a_lattice_as_a_matrix_has_its_sweeps() {
     let scale = lattice.spacing.powi(-2);
     let close = |a: f64, b: f64, size: f64| assert!((a - b).abs() < size, "{a} for {b}");
 
-    fn run<O: Solvable>(operator: &O, z: &[f64], y: impl Fn(usize) -> [f64; 3]) -> [Vec<f64>; 4] {
+    fn run<O: SolvableOperator>(
+        operator: &O,
+        z: &[f64],
+        y: impl Fn(usize) -> [f64; 3],
+    ) -> [Vec<f64>; 4] {
         let hessians = || vec![0.0; 3 * operator.stencil_cells()];
         let heights = || vec![0.0; operator.vertex_cells()];
         let mut found = (hessians(), heights());
@@ -344,7 +355,7 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let (mut lattice, _) = solve(&both.lattice, multigrid, &options);
     let (mut sparse, _) = solve(&both.sparse, JacobiGradients::new, &options);
     for _ in 0..2 {
-        fn pass<O: Solvable>(level: &mut Level<O>) {
+        fn pass<O: SolvableOperator>(level: &mut AdmmSolver<O>) {
             let mut reason = level.reweight().unwrap();
             while reason.is_none() {
                 reason = level.advance(&mut 1000).unwrap();
@@ -355,7 +366,10 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
         pass(&mut sparse);
     }
     // Weights follow from surfaces that agree to within the gap only.
-    let [a, b] = [lattice.best.objective(), sparse.best.objective()];
+    let [a, b] = [
+        lattice.admm.incumbent.objective(),
+        sparse.admm.incumbent.objective(),
+    ];
     assert!((a - b).abs() < 1e-3 * a, "{a} and {b}");
 
     let huber = options.energy(Energy::Huber);
@@ -370,7 +384,7 @@ fn passes_and_the_papers_schedule_run_on_a_matrix() {
     let paper = huber.energy(Energy::Nuclear).schedule(Schedule::Paper);
     let (level, reason) = solve(&both.sparse, JacobiGradients::new, &paper);
     assert_eq!(reason, StopReason::Residuals);
-    assert!(level.best.objective() > level.best.dual_bound);
+    assert!(level.admm.incumbent.objective() > level.admm.incumbent.dual_bound);
 }
 
 #[test]
@@ -392,13 +406,13 @@ fn weights_constraints_and_free_vertices_are_the_same_on_a_matrix() {
         .unwrap();
     let options = options(1e4).gap(1e-4);
     let both = Both::new(&input, &options);
-    assert!(both.sparse.loose && !both.sparse.free.is_empty());
+    assert!(both.sparse.has_weak_fidelity && !both.sparse.free.is_empty());
     let (lattice, a) = solve(&both.lattice, multigrid, &options);
     let (sparse, b) = solve(&both.sparse, JacobiGradients::new, &options);
     assert_eq!([a, b], [StopReason::Gap; 2]);
     assert_alike(&both, &lattice, &sparse);
     for vertex in &both.sparse.constrained {
         let vertex = *vertex as usize;
-        assert_eq!(sparse.best.z[vertex], both.sparse.target[vertex]);
+        assert_eq!(sparse.admm.incumbent.z[vertex], both.sparse.target[vertex]);
     }
 }

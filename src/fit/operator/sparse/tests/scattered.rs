@@ -7,7 +7,9 @@ use clarabel::solver::{
 use nalgebra::{DMatrix, DVector};
 use sprs::TriMat;
 
-use super::{JacobiGradients, Kind, Problem, StopReason, noise, operator_of, options, solve};
+use super::{
+    JacobiGradients, PenaltyKind, Problem, StopReason, noise, operator_of, options, solve,
+};
 
 /// Scattered points, each but those at the border with a quadratic through the eight around it.
 fn scattered(side: usize) -> (sprs::CsMat<f64>, Vec<usize>, Vec<[f64; 2]>) {
@@ -117,20 +119,20 @@ fn scattered_points_have_the_optimum_of_a_conic_solver() {
     let (optimum, z) = conic(&matrix, &target, lambda);
     let operator = operator_of(&matrix, &centres, places, 1.0 / side as f64);
     // The input is no plane: the affine functions are looked for among all of them.
-    let problem = Problem::under(operator, lambda, target, Kind::Nuclear);
+    let problem = Problem::unweighted(operator, lambda, target, PenaltyKind::Nuclear);
     let (level, reason) = solve(&problem, JacobiGradients::new, &options(lambda).gap(1e-7));
     assert_eq!(reason, StopReason::Gap);
-    let best = &level.best;
+    let incumbent = &level.admm.incumbent;
     let slack = 1e-9 * optimum;
-    assert!(best.dual_bound <= optimum + slack && optimum <= best.objective() + slack);
-    assert!(best.objective() - best.dual_bound <= 1.01e-7 * optimum);
+    assert!(incumbent.dual_bound <= optimum + slack && optimum <= incumbent.objective() + slack);
+    assert!(incumbent.objective() - incumbent.dual_bound <= 1.01e-7 * optimum);
     let distance = z
         .iter()
-        .zip(&best.z)
+        .zip(&incumbent.z)
         .map(|(a, b)| (a - b).powi(2))
         .sum::<f64>();
     assert!(
-        lambda * distance <= best.objective() - optimum + slack,
+        lambda * distance <= incumbent.objective() - optimum + slack,
         "{distance:e}"
     );
 }

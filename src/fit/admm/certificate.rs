@@ -1,0 +1,168 @@
+//! The certificate of an iterate: objective, dual bound and residuals.
+
+use super::iterate::{CERTIFICATE_SUMS, Iterate, SumTerms};
+use crate::fit::energy::problem::Problem;
+use crate::fit::energy::spectral_penalty::{NuclearNorm, PenaltyKind, SpectralPenalty};
+use crate::fit::linear::z_step_solver::SolvableOperator;
+use crate::fit::operator::{Hessians, Matrices, Sums};
+use crate::math::lanes;
+use crate::math::sym2::Sym2;
+
+/// The first `n` terms of each sum of a run.
+#[inline(always)]
+fn terms_of(terms: &mut SumTerms, n: usize) -> [&mut [f64]; CERTIFICATE_SUMS] {
+    terms.each_mut().map(|row| &mut row[..n])
+}
+
+/// Adds the terms of a run to the sums.
+fn add_sums<const N: usize>(sums: &mut [f64; CERTIFICATE_SUMS], terms: [&mut [f64]; N]) {
+    for (sum, terms) in sums.iter_mut().zip(terms) {
+        *sum += lanes::sum(terms);
+    }
+}
+
+/// Objective, dual bound and residuals of an iterate.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Certificate {
+    /// `λ Σ w (z − z̃)²`.
+    pub fidelity: f64,
+    /// `Σ ω f(Cz)`.
+    pub nuclear_norm: f64,
+    /// `D(tY)` with the best `t`: a certified lower bound of the optimum.
+    pub dual_bound: f64,
+    /// `‖Cz − H‖`.
+    pub primal_residual: f64,
+    /// The larger of `‖Cz‖` and `‖H‖`, to which the primal residual is relative.
+    pub primal_size: f64,
+    /// `‖2λ(z − z̃) + CᵀY‖`, which is `ρ‖CᵀΔH‖` for exact z-steps.
+    pub dual_residual: f64,
+    /// `‖CᵀY‖`, to which the dual residual is relative.
+    pub dual_size: f64,
+    /// `‖Y‖`.
+    pub dual_norm: f64,
+    /// `Σ (2λw(z − z̃) + CᵀY)² / 4λw`: the part of `P − D` that the dual residual causes.
+    pub dual_cost: f64,
+}
+
+impl Certificate {
+    /// `P`, the sum of fidelity and penalty.
+    pub(crate) fn objective(&self) -> f64 {
+        self.fidelity + self.nuclear_norm
+    }
+}
+
+impl<O: SolvableOperator> Iterate<O> {
+    /// Computes objective, dual bound and residuals in one pass over the vertices.
+    pub(crate) fn certify(&mut self, problem: &Problem<O>) -> Certificate {
+        match problem.kind {
+            PenaltyKind::Nuclear => self.certify_under(NuclearNorm, problem),
+            _ => self.certify_under(self.penalty(problem), problem),
+        }
+    }
+
+    fn certify_under(
+        &mut self,
+        penalty: impl SpectralPenalty,
+        problem: &Problem<O>,
+    ) -> Certificate {
+        let Iterate {
+            z,
+            v,
+            rho,
+            scratch,
+            terms,
+        } = self;
+        let (z, inverse_rho) = (z.as_slice(), 1.0 / *rho);
+        let fidelity = 2.0 * problem.lambda;
+        let (mut stencil_sums, mut vertex_sums) =
+            ([0.0; CERTIFICATE_SUMS], [0.0; CERTIFICATE_SUMS]);
+        let [stencil_terms, vertex_terms] = terms;
+        problem.operator.sweep(
+            scratch,
+            z,
+            v,
+            |v, run, hessians, mut matrices| {
+                let v = v.run(run);
+                let weight = problem.weight.run(run);
+                let n = run.end - run.start;
+                let [t1, t2, t3, t4, t5, t6] = terms_of(stencil_terms, n);
+                for i in 0..n {
+                    let hessian = Sym2::from_coordinates(hessians.at(i));
+                    let value = v.get(i);
+                    let y = penalty.dual(value, weight[i]);
+                    matrices.set(i, y.coordinates());
+                    let rho_share = problem.operator.rho_share(run.start + i);
+                    let h = (value - y).scale(inverse_rho / rho_share);
+                    let gap = hessian - h;
+                    let area = problem.operator.area(run.start + i);
+                    t1[i] = area * penalty.value(hessian, weight[i]);
+                    t2[i] = area * gap.dot(gap);
+                    t3[i] = area * hessian.dot(hessian);
+                    t4[i] = area * h.dot(h);
+                    t5[i] = area * y.dot(y);
+                    t6[i] = area * penalty.conjugate(y, weight[i]);
+                }
+                add_sums(&mut stencil_sums, [t1, t2, t3, t4, t5, t6]);
+            },
+            |_, run, sums| {
+                let n = run.end - run.start;
+                let z = &z[run.start..][..n];
+                let target = &problem.target[run.start..][..n];
+                let weight = problem.fidelity.run(run);
+                let inverse = problem.inverse_fidelity.run(run);
+                let [t1, t2, t3, t4, t5, t6] = terms_of(vertex_terms, n);
+                for i in 0..n {
+                    let offset = z[i] - target[i];
+                    let adjoint = sums.at(i);
+                    let gradient = fidelity * (weight[i] * offset) + adjoint;
+                    let square = adjoint * adjoint;
+                    // Nothing is asked of the gradient at constrained vertices.
+                    let asked = inverse[i] > 0.0;
+                    t1[i] = weight[i] * (offset * offset);
+                    t2[i] = adjoint * target[i];
+                    t3[i] = square * inverse[i];
+                    t4[i] = if asked { gradient * gradient } else { 0.0 };
+                    t5[i] = if asked { square } else { 0.0 };
+                    t6[i] = gradient * gradient * inverse[i];
+                }
+                add_sums(&mut vertex_sums, [t1, t2, t3, t4, t5, t6]);
+            },
+        );
+        let [nuclear, primal, image, split, dual_norm, conjugate] = stencil_sums;
+        let [distance, inner, quadratic, dual, dual_size, cost] = vertex_sums;
+        let bound = dual_bound(problem, inner, quadratic, conjugate, penalty.largest());
+        Certificate {
+            fidelity: problem.lambda * distance - problem.offset,
+            nuclear_norm: nuclear,
+            dual_bound: bound,
+            primal_residual: primal.sqrt(),
+            primal_size: image.sqrt().max(split.sqrt()),
+            dual_residual: dual.sqrt(),
+            dual_size: dual_size.sqrt(),
+            dual_norm: dual_norm.sqrt(),
+            dual_cost: cost / (4.0 * problem.lambda),
+        }
+    }
+}
+
+/// The dual bound `D(tY) = t⟨CᵀY, z̃⟩ − t²(Σ (CᵀY)²/4λw + Σ (ωf)*(Y))` for the best factor `t` up to `largest`:
+/// it is concave in `t`, because the conjugates are 0 or quadratic. Where it overflows, `t` is 0. The result is
+/// finite, and at least 0 before the problem's offset is taken off.
+pub(super) fn dual_bound<O: SolvableOperator>(
+    problem: &Problem<O>,
+    inner: f64,
+    quadratic: f64,
+    conjugate: f64,
+    largest: f64,
+) -> f64 {
+    let square = quadratic / (4.0 * problem.lambda) + conjugate;
+    // With NaN as the larger one of two, the other is taken.
+    let t = (inner / (2.0 * square)).max(0.0).min(largest);
+    let bound = t * inner - t * t * square;
+    let bound = if square >= 0.0 && bound > 0.0 && bound.is_finite() {
+        bound
+    } else {
+        0.0
+    };
+    bound - problem.offset
+}

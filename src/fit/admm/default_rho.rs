@@ -1,0 +1,103 @@
+//! ρ under the default schedule: its start, its bounds, and its changes by relative residuals.
+//!
+//! `benches/choices.md` has what the constants were chosen by.
+
+use super::certificate::Certificate;
+use super::steps::Admm;
+use crate::fit::energy::problem::Problem;
+use crate::fit::linear::z_step_solver::SolvableOperator;
+
+/// Ratio by which one relative residual, both balanced, exceeds the other where ρ changes.
+const RESIDUAL_RATIO: f64 = 3.0;
+
+/// Factor by which ρ changes.
+const RHO_FACTOR: f64 = 2.0;
+
+/// Ratio of the relative primal to the relative dual residual that changes of ρ aim at: the dual residual is
+/// measured behind `Cᵀ`, which weighs its highest frequencies most, and those cost the bound least, because
+/// dual ascent takes them away.
+const RESIDUAL_BALANCE_RATIO: f64 = 0.025;
+
+/// Ratio that changes of ρ aim at where vertices have next to no fidelity: there the dual residual is the
+/// change of the Hessians.
+const RESIDUAL_BALANCE_RATIO_WEAK_FIDELITY: f64 = 10.0;
+
+/// Share of the gap below which the dual residual's part of it makes ρ grow, and keeps it from falling.
+const DUAL_COST_SHARE_LOW: f64 = 0.2;
+
+/// Share of the gap above which the dual residual's part of it makes ρ fall, where ρ goes by these shares alone.
+const DUAL_COST_SHARE_HIGH: f64 = 0.7;
+
+/// Ratio of ρ on a level to that at the end of the next coarser one.
+const RHO_REFINEMENT_FACTOR: f64 = 0.5;
+
+/// Maximum screening length of the z-step, in sizes of the domain: a longer one is of no use.
+const MAX_SCREENING_LENGTH_SIZES: f64 = 0.1;
+
+/// Maximum screening length of the z-step, in cells: its fourth power is the condition number. A longer one
+/// moves the surface faster and its bound more slowly.
+const MAX_SCREENING_LENGTH_CELLS: f64 = 10.0;
+
+/// Maximum of ρ where there is no screening length, in sizes of the domain: about the ratio of dual and Hessian
+/// of a surface as large as the domain.
+const MAX_RHO_SIZES: f64 = 10.0;
+
+/// ρ at the start of the first level. Creases have Hessians of the order of one over the spacing, which makes
+/// the spacing the natural unit of ρ.
+pub(super) fn initial_rho<O: SolvableOperator>(problem: &Problem<O>) -> f64 {
+    bounded_rho(problem.operator.spacing(), problem)
+}
+
+/// ρ at the start of a level, from that at the end of the next coarser one.
+pub(crate) fn refined_rho<O: SolvableOperator>(rho: f64, fine: &Problem<O>) -> f64 {
+    bounded_rho(RHO_REFINEMENT_FACTOR * rho, fine)
+}
+
+/// Limits ρ by the screening length `(ρ/2λ)^¼` of the z-step. Where the optimum is nearly affine, the relative
+/// primal residual stays at 1, and balancing alone would let ρ grow without end.
+fn bounded_rho<O: SolvableOperator>(rho: f64, problem: &Problem<O>) -> f64 {
+    let size = problem.operator.size();
+    if problem.has_weak_fidelity {
+        return rho.min(MAX_RHO_SIZES * size);
+    }
+    let length = (MAX_SCREENING_LENGTH_SIZES * size)
+        .min(MAX_SCREENING_LENGTH_CELLS * problem.operator.spacing());
+    rho.min(2.0 * problem.lambda * length.powi(4))
+}
+
+/// Residual balancing (Boyd et al., Sec. 3.4.1) of relative residuals, by what the dual one contributes to the
+/// gap: the next ρ.
+pub(super) fn next_rho<O: SolvableOperator>(
+    admm: &Admm<O>,
+    certificate: &Certificate,
+    change: f64,
+) -> f64 {
+    let (rho, problem) = (admm.iterate.rho, &admm.problem);
+    let primal = certificate.primal_residual / certificate.primal_size;
+    let (grows, falls) = if problem.has_weak_fidelity {
+        // At free vertices `CᵀY` itself is to vanish, and is no measure of anything.
+        let dual = RESIDUAL_BALANCE_RATIO_WEAK_FIDELITY * change / certificate.dual_norm;
+        (
+            primal > RESIDUAL_RATIO * dual,
+            dual > RESIDUAL_RATIO * primal,
+        )
+    } else {
+        let gap = certificate.objective() - certificate.dual_bound;
+        let is_cheap = certificate.dual_cost < DUAL_COST_SHARE_LOW * gap;
+        if admm.parameters.has_v_cycles {
+            let dual = RESIDUAL_BALANCE_RATIO * certificate.dual_residual / certificate.dual_size;
+            let grows = primal > RESIDUAL_RATIO * dual || is_cheap;
+            (grows, dual > RESIDUAL_RATIO * primal && !is_cheap)
+        } else {
+            // Without V-cycles, z-steps leave low frequencies of the residual, which cost the bound most, and
+            // the more the larger ρ is.
+            (is_cheap, certificate.dual_cost > DUAL_COST_SHARE_HIGH * gap)
+        }
+    };
+    let next = match (grows, falls) {
+        (_, true) => rho / RHO_FACTOR,
+        (true, false) => rho * RHO_FACTOR,
+        (false, false) => rho,
+    };
+    bounded_rho(next, problem)
+}

@@ -1,0 +1,86 @@
+//! Detection of iterates that diverge, as they may where z-steps are too inexact for their domain.
+
+/// Factor by which the objective must grow from one check to the next, and exceed that of the input, for
+/// the iterates to count as divergent.
+const DIVERGENCE_FACTOR: f64 = 10.0;
+
+/// Maximum number of restarts after a divergence; each doubles the conjugate-gradient iterations of a z-step,
+/// so that the last ones solve it nearly exactly.
+const MAX_DIVERGENCE_RESTARTS: u32 = 6;
+
+/// The objective at the last check, and the number of restarts so far.
+#[derive(Debug, Clone)]
+pub(super) struct DivergenceGuard {
+    last_objective: f64,
+    restarts: u32,
+}
+
+impl DivergenceGuard {
+    /// The guard of a solve that has not been checked yet.
+    pub(super) fn new() -> Self {
+        DivergenceGuard {
+            last_objective: f64::MAX,
+            restarts: 0,
+        }
+    }
+
+    /// Forgets the last objective, because the next one is that of another energy or surface.
+    pub(super) fn forget_objective(&mut self) {
+        self.last_objective = f64::MAX;
+    }
+
+    /// Whether the iterates diverge, by the objective and the dual residual of a check.
+    pub(super) fn is_divergent(
+        &mut self,
+        objective: f64,
+        dual_residual: f64,
+        input_objective: impl FnOnce() -> f64,
+    ) -> bool {
+        let last = std::mem::replace(&mut self.last_objective, objective);
+        let is_bounded = objective <= DIVERGENCE_FACTOR * last
+            || objective <= DIVERGENCE_FACTOR * input_objective();
+        !(is_bounded && dual_residual.is_finite())
+    }
+
+    /// Counts a restart; `false` if there were too many.
+    pub(super) fn restart(&mut self) -> bool {
+        self.forget_objective();
+        self.restarts += 1;
+        self.restarts <= MAX_DIVERGENCE_RESTARTS
+    }
+
+    /// Whether there was any restart.
+    pub(super) fn has_restarted(&self) -> bool {
+        self.restarts > 0
+    }
+
+    /// Factor for the conjugate-gradient iterations of a z-step.
+    pub(super) fn accuracy_factor(&self) -> usize {
+        1 << self.restarts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_beyond_the_input_is_divergence_and_each_restart_doubles_the_work() {
+        let mut guard = DivergenceGuard::new();
+        // Any first objective is within the bounds, whatever the input's.
+        assert!(!guard.is_divergent(1e9, 1.0, || 1.0));
+        // Growth below the input's own objective is none.
+        assert!(!guard.is_divergent(1.0, 1.0, || 1.0));
+        assert!(!guard.is_divergent(90.0, 1.0, || 10.0));
+        assert!(guard.is_divergent(1000.0, 1.0, || 10.0));
+        assert!(guard.is_divergent(f64::NAN, 1.0, || 10.0));
+        for restarts in 1..=MAX_DIVERGENCE_RESTARTS {
+            assert!(guard.restart() && guard.has_restarted());
+            assert_eq!(guard.accuracy_factor(), 2usize.pow(restarts));
+            // The objective before a restart says nothing.
+            assert!(!guard.is_divergent(1e30, 1.0, || 1.0));
+        }
+        assert!(!guard.restart());
+        assert!(guard.is_divergent(1.0, f64::INFINITY, || 1.0));
+    }
+}

@@ -1,0 +1,288 @@
+//! The iterate of ADMM, and the update of Hessians and dual (paper, Eq. 18 and 19).
+//!
+//! Both equations are about one matrix `V = Y + ρH` at each stencil: for the nuclear norm, the dual `Y = ρU` is
+//! the projection of `V` onto the dual ball, and `ρH = V − Y` its soft threshold
+//! ([`spectral_penalty`](crate::fit::energy::spectral_penalty) has the other energies). So `Y` is feasible by
+//! construction, and nothing else has to be stored.
+
+use crate::error::{Result, try_filled};
+use crate::fit::energy::problem::Problem;
+use crate::fit::energy::spectral_penalty::{AnyPenalty, NuclearNorm, PenaltyKind, SpectralPenalty};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
+use crate::fit::operator::{Hessians, Matrices, Sums};
+use crate::lattice::runs::Run;
+use crate::math::lanes;
+use crate::math::sym2::Sym2;
+
+/// Number of sums over stencils, and as many over vertices, that a certificate takes.
+pub(super) const CERTIFICATE_SUMS: usize = 6;
+
+/// The terms of these sums along one run.
+pub(super) type SumTerms = [Vec<f64>; CERTIFICATE_SUMS];
+
+/// The iterate: heights `z` at the operator's vertices and `V` at its stencils.
+#[derive(Debug, Clone)]
+pub(crate) struct Iterate<O: SolvableOperator> {
+    pub z: Vec<f64>,
+    pub(crate) v: MatrixField,
+    pub rho: f64,
+    pub(super) scratch: O::Scratch<f64>,
+    /// Room for the terms of a certificate, of sums over stencils and of sums over vertices.
+    pub(super) terms: [SumTerms; 2],
+}
+
+/// A symmetric matrix for each stencil, one array for each coordinate of [`Sym2`].
+#[derive(Debug, Clone)]
+pub(crate) struct MatrixField {
+    mean: Vec<f64>,
+    diff: Vec<f64>,
+    off: Vec<f64>,
+}
+
+/// One run of a [`MatrixField`].
+pub(super) struct MatrixRun<'a> {
+    mean: &'a mut [f64],
+    diff: &'a mut [f64],
+    off: &'a mut [f64],
+}
+
+impl MatrixField {
+    /// A field of zeros.
+    pub(super) fn new<O: SolvableOperator>(problem: &Problem<O>) -> Result<Self> {
+        let cells = problem.operator.stencil_cells();
+        let zeros = || try_filled("Hessians and dual", cells, 0.0);
+        Ok(MatrixField {
+            mean: zeros()?,
+            diff: zeros()?,
+            off: zeros()?,
+        })
+    }
+
+    pub(crate) fn get(&self, cell: usize) -> Sym2 {
+        Sym2 {
+            mean: self.mean[cell],
+            diff: self.diff[cell],
+            off: self.off[cell],
+        }
+    }
+
+    pub(crate) fn set(&mut self, cell: usize, value: Sym2) {
+        self.mean[cell] = value.mean;
+        self.diff[cell] = value.diff;
+        self.off[cell] = value.off;
+    }
+
+    /// Changes `V = Y + ρH` to `Y + factor · ρH`.
+    fn rescale<O: SolvableOperator>(
+        &mut self,
+        problem: &Problem<O>,
+        penalty: impl SpectralPenalty,
+        factor: f64,
+    ) {
+        for run in problem.operator.stencils().all() {
+            let weight = problem.weight.run(*run);
+            let mut v = self.run(*run);
+            for (i, weight) in weight.iter().enumerate() {
+                let value = v.get(i);
+                let dual = penalty.dual(value, *weight);
+                v.set(i, dual + (value - dual).scale(factor));
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn run(&mut self, run: Run) -> MatrixRun<'_> {
+        let n = run.end - run.start;
+        MatrixRun {
+            mean: &mut self.mean[run.start..][..n],
+            diff: &mut self.diff[run.start..][..n],
+            off: &mut self.off[run.start..][..n],
+        }
+    }
+}
+
+impl MatrixRun<'_> {
+    #[inline(always)]
+    pub(super) fn get(&self, i: usize) -> Sym2 {
+        Sym2 {
+            mean: self.mean[i],
+            diff: self.diff[i],
+            off: self.off[i],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, value: Sym2) {
+        self.mean[i] = value.mean;
+        self.diff[i] = value.diff;
+        self.off[i] = value.off;
+    }
+}
+
+impl<O: SolvableOperator> Iterate<O> {
+    /// The start of a solve: `z = z̃` and `H = U = 0`.
+    pub(crate) fn new(problem: &Problem<O>, rho: f64) -> Result<Self> {
+        let operator = &problem.operator;
+        let mut z = try_filled("heights", operator.vertex_cells(), 0.0)?;
+        z.copy_from_slice(&problem.target);
+        Ok(Iterate {
+            z,
+            v: MatrixField::new(problem)?,
+            rho,
+            scratch: operator.scratch()?,
+            terms: std::array::from_fn(|_| {
+                std::array::from_fn(|_| vec![0.0; operator.longest_run()])
+            }),
+        })
+    }
+
+    /// Starts again from another `z`, with `H = U = 0`.
+    pub(super) fn reset(&mut self, z: &[f64]) {
+        self.z.copy_from_slice(z);
+        let MatrixField { mean, diff, off } = &mut self.v;
+        for coordinate in [mean, diff, off] {
+            coordinate.fill(0.0);
+        }
+    }
+
+    /// Changes ρ and keeps `H` and `Y`.
+    pub(crate) fn set_rho(&mut self, problem: &Problem<O>, rho: f64) {
+        self.v
+            .rescale(problem, self.penalty(problem), rho / self.rho);
+        self.rho = rho;
+    }
+
+    /// `V` for the same `H` and `Y` and another ρ.
+    pub(crate) fn v_with_rho(&self, problem: &Problem<O>, rho: f64) -> Result<MatrixField> {
+        let mut v = MatrixField::new(problem)?;
+        for (to, from) in [
+            (&mut v.mean, &self.v.mean),
+            (&mut v.diff, &self.v.diff),
+            (&mut v.off, &self.v.off),
+        ] {
+            to.copy_from_slice(from);
+        }
+        v.rescale(problem, self.penalty(problem), rho / self.rho);
+        Ok(v)
+    }
+
+    /// The dual `Y` and the Hessian `H` at a stencil.
+    pub(crate) fn matrices(&self, problem: &Problem<O>, cell: usize) -> (Sym2, Sym2) {
+        let v = self.v.get(cell);
+        let weight = problem.weight.at(cell);
+        let dual = self.penalty(problem).dual(v, weight);
+        let rho = self.rho * problem.operator.rho_share(cell);
+        (dual, (v - dual).scale(1.0 / rho))
+    }
+
+    /// Sets the dual and the Hessian at a stencil whose share of ρ is 1.
+    pub(crate) fn set_matrices(&mut self, cell: usize, dual: Sym2, hessian: Sym2) {
+        self.v.set(cell, dual + hessian.scale(self.rho));
+    }
+
+    /// Sets the dual and the Hessian at a stencil with its own share of ρ.
+    pub(crate) fn set_matrices_with_rho_share(
+        &mut self,
+        problem: &Problem<O>,
+        cell: usize,
+        [dual, hessian]: [Sym2; 2],
+    ) {
+        let rho_share = problem.operator.rho_share(cell);
+        self.set_matrices(cell, dual, hessian.scale(rho_share));
+    }
+
+    /// Updates Hessians and dual with the given over-relaxation, and writes the residual
+    /// `b − A z = 2λ(z̃ − z) + Cᵀ(ρH − Y − ρCz)`, from which the next z-step starts, to its solver, all in one
+    /// pass. With relaxation 0, `H` and `Y` stay as they are.
+    pub(crate) fn update(&mut self, problem: &Problem<O>, relaxation: f64, solver: &mut O::Solver) {
+        match problem.kind {
+            PenaltyKind::Nuclear => {
+                self.update_under::<false>(NuclearNorm, problem, relaxation, solver)
+            }
+            PenaltyKind::Huber(bends) => {
+                self.update_under::<false>(bends.penalty(self.rho), problem, relaxation, solver)
+            }
+            // One kernel for all the others: less code, and measuring costs little.
+            _ => self.update_and_measure(problem, relaxation, solver),
+        };
+    }
+
+    /// Updates as [`Self::update`] does, and returns `ρ‖ΔH‖`, the change of the Hessians.
+    pub(crate) fn update_and_measure(
+        &mut self,
+        problem: &Problem<O>,
+        relaxation: f64,
+        solver: &mut O::Solver,
+    ) -> f64 {
+        self.update_under::<true>(self.penalty(problem), problem, relaxation, solver)
+    }
+
+    /// The problem's spectral penalty at the current ρ.
+    pub(super) fn penalty(&self, problem: &Problem<O>) -> AnyPenalty {
+        AnyPenalty::new(problem.kind, self.rho)
+    }
+
+    fn update_under<const MEASURE: bool>(
+        &mut self,
+        penalty: impl SpectralPenalty,
+        problem: &Problem<O>,
+        relaxation: f64,
+        solver: &mut O::Solver,
+    ) -> f64 {
+        let Iterate {
+            z,
+            v,
+            rho,
+            scratch,
+            terms,
+        } = self;
+        let [[squares, ..], [wide, ..]] = terms;
+        let mut change = 0.0;
+        let (z, rho) = (z.as_slice(), *rho);
+        let fidelity = 2.0 * problem.lambda;
+        let scale = solver.residual_scale();
+        let residual = solver.residual();
+        problem.operator.sweep(
+            scratch,
+            z,
+            v,
+            |v, run, hessians, mut matrices| {
+                let mut v = v.run(run);
+                let weight = problem.weight.run(run);
+                let n = run.end - run.start;
+                for i in 0..n {
+                    let rho = rho * problem.operator.rho_share(run.start + i);
+                    let hessian = Sym2::from_coordinates(hessians.at(i)).scale(rho);
+                    let old = v.get(i);
+                    let old_dual = penalty.dual(old, weight[i]);
+                    let step = hessian - old + old_dual;
+                    let new = old + step.scale(relaxation);
+                    v.set(i, new);
+                    let dual = penalty.dual(new, weight[i]);
+                    if MEASURE {
+                        let moved = new - dual - old + old_dual;
+                        squares[i] = problem.operator.area(run.start + i) * moved.dot(moved);
+                    }
+                    matrices.set(i, (new - dual - dual - hessian).coordinates());
+                }
+                if MEASURE {
+                    change += lanes::sum(&squares[..n]);
+                }
+            },
+            |_, run, sums| {
+                let n = run.end - run.start;
+                let z = &z[run.start..][..n];
+                let target = &problem.target[run.start..][..n];
+                let wide = &mut wide[..n];
+                let weight = problem.fidelity.run(run);
+                for i in 0..n {
+                    let value = fidelity * (weight[i] * (target[i] - z[i])) + sums.at(i);
+                    wide[i] = scale * value;
+                }
+                lanes::narrow(wide, &mut residual[run.start..][..n]);
+            },
+        );
+        solver.restart(&problem.operator);
+        change.sqrt()
+    }
+}

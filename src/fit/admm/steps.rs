@@ -1,0 +1,215 @@
+//! The steps of which both schedules are made: z-step, update of Hessians and dual, check, change of ρ.
+
+use web_time::Instant;
+
+use super::balance::{BALANCE_CRITERIA, balanced_bound};
+use super::certificate::Certificate;
+use super::divergence::DivergenceGuard;
+use super::incumbent::Incumbent;
+use super::iterate::Iterate;
+use super::parameters::AdmmParameters;
+use super::timing::{GrowingInterval, LoadWarmup};
+use super::z_step::{ZStep, ZStepAccuracy};
+use crate::error::Result;
+use crate::fit::energy::problem::Problem;
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
+use crate::fit::report::{Seconds, StopReason};
+
+/// Minimum number of iterations between two times that the dual is balanced, each of which costs about as much
+/// as that.
+const BALANCE_ITERATIONS: usize = 20;
+
+/// ADMM on one level without a schedule: the problem, the iterate, and what has been found so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Admm<O: SolvableOperator> {
+    pub problem: Problem<O>,
+    pub iterate: Iterate<O>,
+    pub incumbent: Incumbent,
+    /// ρ at the start of the level.
+    pub initial_rho: f64,
+    pub seconds: Seconds,
+    pub(super) parameters: AdmmParameters,
+    /// Solver of the z-steps.
+    pub(super) solver: O::Solver,
+    /// Number of complete z-steps.
+    pub(super) iteration: usize,
+    pub(super) cg_iterations: usize,
+    pub(super) divergence: DivergenceGuard,
+    pub(super) warmup: LoadWarmup,
+    z_step: ZStep,
+    balancing: GrowingInterval,
+}
+
+/// Outcome of a check.
+pub(super) enum Check {
+    Certified(Certificate),
+    /// The iterates diverged and start again from the incumbent, unless there is a reason to stop.
+    Restarted(Option<StopReason>),
+}
+
+impl<O: SolvableOperator> Admm<O> {
+    /// The first iterate as it is, with its certificate.
+    pub(super) fn new(
+        problem: Problem<O>,
+        mut iterate: Iterate<O>,
+        solver: O::Solver,
+        parameters: AdmmParameters,
+    ) -> (Self, Certificate) {
+        let certificate = iterate.certify(&problem);
+        // A start from a coarser level need not be better than the input.
+        let mut incumbent = Incumbent::from_input(&problem);
+        incumbent.update(&iterate.z, &certificate);
+        let admm = Admm {
+            initial_rho: iterate.rho,
+            problem,
+            iterate,
+            incumbent,
+            seconds: Seconds::default(),
+            parameters,
+            solver,
+            iteration: 0,
+            cg_iterations: 0,
+            divergence: DivergenceGuard::new(),
+            warmup: LoadWarmup::default(),
+            z_step: ZStep::default(),
+            balancing: GrowingInterval::default(),
+        };
+        (admm, certificate)
+    }
+
+    /// Makes the right-hand side of a z-step from the iterate.
+    pub(super) fn begin_z_step(&mut self) {
+        self.iterate.update(&self.problem, 0.0, &mut self.solver);
+        self.z_step = ZStep::new::<O>(&self.solver);
+    }
+
+    /// Continues the z-step (Eq. 17), and tells whether it is complete: then the next iteration has begun. The
+    /// budget of conjugate-gradient iterations that are `left` also counts the update that follows, which costs
+    /// about one of them, so that a solve without work for conjugate gradients ends as well.
+    pub(super) fn advance_z_step(&mut self, accuracy: ZStepAccuracy, left: &mut usize) -> bool {
+        let start = Instant::now();
+        let before = self.z_step.iterations();
+        let (problem, iterate, solver) = (&self.problem, &mut self.iterate, &mut self.solver);
+        let is_complete = self
+            .z_step
+            .advance(accuracy, problem, iterate, solver, left);
+        self.cg_iterations += self.z_step.iterations() - before;
+        if is_complete {
+            self.iteration += 1;
+            *left = left.saturating_sub(1);
+        }
+        self.seconds.z_step += start.elapsed().as_secs_f64();
+        is_complete
+    }
+
+    /// Updates Hessians and dual (Eq. 18 and 19) with the over-relaxation `relaxation`, and begins the next
+    /// z-step. Returns `ρ‖ΔH‖`, the change of the Hessians, or 0 where that is not measured.
+    pub(super) fn update_hessians_and_dual(
+        &mut self,
+        relaxation: f64,
+        measures_change: bool,
+    ) -> Result<f64> {
+        let start = Instant::now();
+        if self.parameters.follows_normals {
+            self.problem.set_normal_weights(&self.iterate.z)?;
+        }
+        let (iterate, problem, solver) = (&mut self.iterate, &self.problem, &mut self.solver);
+        let change = if measures_change {
+            iterate.update_and_measure(problem, relaxation, solver)
+        } else {
+            iterate.update(problem, relaxation, solver);
+            0.0
+        };
+        self.z_step = ZStep::new::<O>(&self.solver);
+        self.seconds.h_step += start.elapsed().as_secs_f64();
+        Ok(change)
+    }
+
+    /// Certifies the iterate and updates the incumbent; restarts from the incumbent if the iterates diverge.
+    pub(super) fn check(&mut self) -> Result<Check> {
+        let mut certificate = self.iterate.certify(&self.problem);
+        let input_objective = || self.problem.smoothness(&self.problem.target);
+        let (objective, residual) = (certificate.objective(), certificate.dual_residual);
+        let divergence = &mut self.divergence;
+        if divergence.is_divergent(objective, residual, input_objective) {
+            return Ok(Check::Restarted(self.restart()));
+        }
+        if self.problem.has_weak_fidelity && self.is_balance_due() {
+            self.balancing.restart(self.iteration);
+            let (z, rho) = (self.iterate.z.clone(), self.iterate.rho);
+            let (problem, solver) = (&self.problem, &mut self.solver);
+            let balanced = balanced_bound(
+                &mut self.iterate,
+                problem,
+                &z,
+                rho,
+                solver,
+                BALANCE_CRITERIA,
+            )?;
+            self.cg_iterations += balanced.iterations;
+            certificate.dual_bound = certificate.dual_bound.max(balanced.bound);
+        }
+        if self.replaces_incumbent() {
+            self.incumbent.replace(&self.iterate.z, &certificate);
+        } else {
+            self.incumbent.update(&self.iterate.z, &certificate);
+        }
+        Ok(Check::Certified(certificate))
+    }
+
+    fn is_balance_due(&self) -> bool {
+        self.balancing
+            .has_passed(self.iteration, BALANCE_ITERATIONS)
+            || self.is_last()
+    }
+
+    /// Whether the energy is another one than at the last check, so that the incumbent cannot be compared.
+    pub(super) fn replaces_incumbent(&self) -> bool {
+        self.parameters.follows_normals || self.warmup.replaces_incumbent(self.iteration)
+    }
+
+    /// Goes back to the incumbent, with z-steps that are more exact.
+    fn restart(&mut self) -> Option<StopReason> {
+        if !self.divergence.restart() {
+            return Some(StopReason::Diverged);
+        }
+        self.iterate.reset(&self.incumbent.z);
+        self.begin_z_step();
+        self.is_last().then_some(StopReason::MaxIterations)
+    }
+
+    /// Changes ρ between two iterations.
+    pub(super) fn set_rho(&mut self, rho: f64) {
+        self.iterate.set_rho(&self.problem, rho);
+        self.solver.set_rho(rho);
+        self.begin_z_step();
+    }
+
+    /// The reason to stop after a check: rounding errors, what the schedule says, or the number of iterations.
+    /// `gap` is the relative duality gap that is asked for.
+    pub(super) fn stop_reason(
+        &self,
+        gap: f64,
+        of_schedule: Option<StopReason>,
+    ) -> Option<StopReason> {
+        let reason = if self.incumbent.is_exact(gap) {
+            Some(StopReason::Rounding)
+        } else {
+            of_schedule.or(self.is_last().then_some(StopReason::MaxIterations))
+        };
+        reason.filter(|_| self.warmup.may_stop(self.iteration))
+    }
+
+    /// Whether there may be no further iteration.
+    pub(super) fn is_last(&self) -> bool {
+        self.parameters.is_last(self.iteration)
+    }
+
+    /// Begins a pass with other weights: the certificate of the iterate under these.
+    pub(super) fn begin_pass(&mut self) -> Certificate {
+        let certificate = self.iterate.certify(&self.problem);
+        self.incumbent.replace(&self.iterate.z, &certificate);
+        self.divergence.forget_objective();
+        certificate
+    }
+}

@@ -1,0 +1,134 @@
+//! Iterations at which a check does more than check: balancing the dual, changing ρ, and dual ascent.
+
+/// Something that is done again after a quarter more iterations than the last time.
+///
+/// For changes of ρ this makes it settle in the end, without which ADMM need not converge (Boyd et al.,
+/// Sec. 3.4.1); for costly work it bounds the share of the time.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct GrowingInterval {
+    last: usize,
+}
+
+impl GrowingInterval {
+    /// Whether it may be done at this iteration, `extra` iterations being added to the interval.
+    pub(super) fn has_passed(&self, iteration: usize, extra: usize) -> bool {
+        iteration >= self.last + self.last / 4 + extra
+    }
+
+    /// Notes that it was done at this iteration.
+    pub(super) fn restart(&mut self, iteration: usize) {
+        self.last = iteration;
+    }
+}
+
+/// Iterations in which a surface follows a load on its border. The load is next to nothing of the energy, so
+/// that the gap says nothing before the surface has followed it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct LoadWarmup {
+    last_iteration: usize,
+}
+
+impl LoadWarmup {
+    /// Begins after this iteration and lasts for a number of iterations.
+    pub(super) fn start(&mut self, iteration: usize, iterations: usize) {
+        self.last_iteration = iteration + iterations;
+    }
+
+    /// Whether an iterate replaces the incumbent even if its objective is larger.
+    pub(super) fn replaces_incumbent(&self, iteration: usize) -> bool {
+        iteration <= self.last_iteration
+    }
+
+    /// Whether the solve may stop at this iteration.
+    pub(super) fn may_stop(&self, iteration: usize) -> bool {
+        iteration >= self.last_iteration
+    }
+}
+
+/// When dual ascent is worth its time again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AscentTimer {
+    next_iteration: usize,
+    pass_start: usize,
+    has_settled: bool,
+}
+
+impl AscentTimer {
+    /// The timer of a solve in which no ascent is worth it before `first_iteration`.
+    pub(super) fn new(first_iteration: usize) -> Self {
+        AscentTimer {
+            next_iteration: first_iteration,
+            pass_start: 0,
+            has_settled: false,
+        }
+    }
+
+    /// Begins another pass, with other weights, at this iteration.
+    pub(super) fn begin_pass(&mut self, iteration: usize) {
+        *self = AscentTimer {
+            next_iteration: iteration,
+            pass_start: iteration,
+            has_settled: false,
+        };
+    }
+
+    /// Takes note of an objective that no longer falls: all that is left to find is a bound, which is looked
+    /// for at once the first time, however long coarser levels have taken.
+    pub(super) fn note_settled(&mut self, iteration: usize) {
+        if !self.has_settled {
+            self.has_settled = true;
+            self.next_iteration = self.next_iteration.min(iteration);
+        }
+    }
+
+    /// Whether an ascent is worth it at this iteration.
+    pub(super) fn is_due(&self, iteration: usize) -> bool {
+        iteration >= self.next_iteration
+    }
+
+    /// Takes note of an ascent that left a gap, as a multiple of the requested one: gaps hardly fall faster
+    /// than with the square of the iterations.
+    pub(super) fn note_ascent(&mut self, iteration: usize, gap_ratio: f64) {
+        let iterations = (iteration - self.pass_start) as f64;
+        self.next_iteration = self.pass_start + (iterations * gap_ratio.sqrt()) as usize;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_grow_by_a_quarter() {
+        let mut interval = GrowingInterval::default();
+        assert!(interval.has_passed(0, 0) && !interval.has_passed(19, 20));
+        interval.restart(40);
+        assert!(!interval.has_passed(49, 0) && interval.has_passed(50, 0));
+        assert!(!interval.has_passed(69, 20) && interval.has_passed(70, 20));
+    }
+
+    #[test]
+    fn a_surface_that_follows_a_load_does_not_stop() {
+        let mut warmup = LoadWarmup::default();
+        assert!(warmup.may_stop(0) && !warmup.replaces_incumbent(1));
+        warmup.start(7, 10);
+        assert!(warmup.replaces_incumbent(17) && !warmup.replaces_incumbent(18));
+        assert!(!warmup.may_stop(16) && warmup.may_stop(17));
+    }
+
+    #[test]
+    fn a_gap_of_four_times_the_goal_takes_twice_the_iterations() {
+        let mut timer = AscentTimer::new(30);
+        assert!(!timer.is_due(29) && timer.is_due(30));
+        timer.note_settled(20);
+        assert!(timer.is_due(20));
+        timer.begin_pass(50);
+        timer.note_ascent(70, 4.0);
+        assert!(!timer.is_due(89) && timer.is_due(90));
+        // Only the first time in a pass.
+        timer.note_settled(75);
+        timer.note_ascent(80, 4.0);
+        timer.note_settled(85);
+        assert!(!timer.is_due(109) && timer.is_due(110));
+    }
+}

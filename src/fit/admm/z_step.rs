@@ -1,0 +1,84 @@
+//! The z-step (paper, Eq. 17) under way: conjugate gradients that can be interrupted after any iteration.
+
+use super::iterate::Iterate;
+use crate::fit::energy::problem::Problem;
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
+
+/// How exactly a z-step is solved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ZStepAccuracy {
+    /// Maximum number of conjugate-gradient iterations, over all rounds.
+    pub max_iterations: usize,
+    /// Squared residual, relative to that at the start of a round, at which the round ends.
+    pub reduction: f64,
+    /// Residual relative to `2λ z̃` at which the z-step ends. Single precision does not reach it at once:
+    /// rounds follow each other, each with the residual made anew in double precision. Without a tolerance
+    /// there is one round.
+    pub tolerance: Option<f64>,
+}
+
+/// How far a z-step has come.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ZStep {
+    /// Conjugate-gradient iterations so far, and those of the current round.
+    iterations: usize,
+    round_iterations: usize,
+    /// Squared residual at the start of the current round.
+    initial_energy: f64,
+}
+
+impl ZStep {
+    /// The z-step for the right-hand side that was just given to the solver.
+    pub(super) fn new<O: SolvableOperator>(solver: &O::Solver) -> Self {
+        ZStep {
+            initial_energy: solver.energy(),
+            ..ZStep::default()
+        }
+    }
+
+    /// Continues until the z-step is complete, which it tells, or until the budget of conjugate-gradient
+    /// iterations is `left` empty.
+    pub(super) fn advance<O: SolvableOperator>(
+        &mut self,
+        accuracy: ZStepAccuracy,
+        problem: &Problem<O>,
+        iterate: &mut Iterate<O>,
+        solver: &mut O::Solver,
+        left: &mut usize,
+    ) -> bool {
+        let limit = accuracy.max_iterations;
+        loop {
+            if let Some(tolerance) = accuracy.tolerance
+                && self.round_iterations == 0
+                && solver.relative_residual(problem) <= tolerance
+            {
+                return true;
+            }
+            let goal = accuracy.reduction * self.initial_energy;
+            while self.iterations < limit && solver.energy() > goal {
+                if *left == 0 {
+                    return false;
+                }
+                *left -= 1;
+                if !solver.step(&problem.operator) {
+                    break;
+                }
+                self.iterations += 1;
+                self.round_iterations += 1;
+            }
+            let has_moved = self.round_iterations > 0;
+            self.round_iterations = 0;
+            solver.correct(&problem.operator, &mut iterate.z);
+            if accuracy.tolerance.is_none() || !has_moved || self.iterations >= limit {
+                return true;
+            }
+            iterate.update(problem, 0.0, solver);
+            self.initial_energy = solver.energy();
+        }
+    }
+
+    /// Conjugate-gradient iterations so far.
+    pub(super) fn iterations(&self) -> usize {
+        self.iterations
+    }
+}

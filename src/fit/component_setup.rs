@@ -1,0 +1,291 @@
+//! Set-up of one component in steps, before its first iteration: the energy, the coarser lattices, and the
+//! solver of the first z-step.
+
+use std::mem;
+use std::sync::Arc;
+
+use super::admm::incumbent::Incumbent;
+use super::admm::parameters::AdmmParameters;
+use super::admm::solver::initial_rho;
+use super::coarsen::coarsen;
+use super::coordinates::Coordinates;
+use super::energy::creases::Creases;
+use super::heightfields::{AdmmSolver, Iterate, Problem};
+use super::input::Input;
+use super::linear::cg::ConjugateGradients;
+use super::multilevel::{Answer, Multilevel};
+use super::operator::lattice::position;
+use super::options::Options;
+use super::report::{Seconds, StopReason};
+use super::thin_plate::{self, InitialGuess};
+use super::warm_start::WarmStart;
+use crate::error::{Error, Result};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::domain::Domain;
+
+/// Requested gap from which on a surface is a preview, so that the thin plate of an earlier solve is good
+/// enough a start for it.
+const PREVIEW_GAP: f64 = 0.05;
+
+/// Minimum number of interior vertices of a coarse lattice of the multigrid hierarchy.
+const COARSEST_GRID: usize = 20;
+
+/// The set-up of one component under way, which ends with its [`Multilevel`] solve.
+#[derive(Debug, Clone)]
+pub(crate) enum ComponentSetup {
+    Lattices(Box<Lattices>),
+    FirstLevel(Box<FirstLevel>),
+}
+
+/// Outcome of one step of the set-up.
+pub(crate) enum SetupStep {
+    Partly(ComponentSetup),
+    Fully(Box<Multilevel>),
+}
+
+/// The problem on the finest lattice, and the coarser lattices made so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Lattices {
+    input: Input,
+    options: Options,
+    coordinates: Coordinates,
+    parameters: AdmmParameters,
+    problem: Problem,
+    /// The first iterate on the finest lattice, if there is a warm start.
+    warm: Option<Iterate>,
+    /// How the heights of free vertices are guessed first.
+    guess: InitialGuess,
+    /// The domains of all lattices so far, the finest first.
+    domains: Vec<Arc<Domain>>,
+    /// The inputs of the coarser lattices.
+    coarse: Vec<Input>,
+    next: Next,
+}
+
+/// The next step of the set-up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Next {
+    /// One more lattice.
+    Coarsen,
+    /// Heights of free vertices, for which the lattices are needed.
+    Fill,
+    /// The lattices once more, with these heights.
+    CoarsenAgain,
+    Done,
+}
+
+/// The first level, all but its first certificate.
+#[derive(Debug, Clone)]
+pub(crate) struct FirstLevel {
+    options: Options,
+    parameters: AdmmParameters,
+    problem: Problem,
+    iterate: Iterate,
+    cg: ConjugateGradients,
+    /// The problems of the finer levels, the finest first.
+    finer: Vec<Problem>,
+    domains: Vec<Arc<Domain>>,
+}
+
+impl ComponentSetup {
+    /// Begins the set-up of a component. A `warm_start` is an earlier solve, with the vertex of the whole
+    /// lattice that is `(0, 0)` of the component's.
+    pub(crate) fn new(
+        input: Input,
+        domain: Arc<Domain>,
+        scale: f64,
+        options: &Options,
+        warm_start: Option<(&WarmStart, (usize, usize))>,
+    ) -> Result<Self> {
+        let parameters = AdmmParameters::new(options);
+        let coordinates = Coordinates::new(&input, &domain, scale);
+        let mut problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
+        let energy = problem.smoothness(&problem.target);
+        if !energy.is_finite() {
+            return Err(Error::Overflow {
+                spacing: problem.operator.domain.lattice().spacing(),
+            });
+        }
+        let trivial = energy <= problem.rounding && problem.free.is_empty();
+        let (guess, warm) = match warm_start {
+            Some((warm_start, corner)) => (
+                match options.gap_or_default() >= PREVIEW_GAP {
+                    true => warm_start.thin_plate(&mut problem, corner),
+                    false => InitialGuess::Plane,
+                },
+                warm_start.iterate(&problem, &parameters, corner)?,
+            ),
+            None => (InitialGuess::Plane, None),
+        };
+        Ok(ComponentSetup::Lattices(Box::new(Lattices {
+            warm,
+            guess,
+            input,
+            options: *options,
+            coordinates,
+            parameters,
+            problem,
+            domains: vec![domain],
+            coarse: Vec::new(),
+            next: if trivial { Next::Done } else { Next::Coarsen },
+        })))
+    }
+
+    /// Takes one step, which costs about [`SET_UP`](super::multilevel::SET_UP) conjugate-gradient iterations.
+    pub(crate) fn step(self) -> Result<SetupStep> {
+        Ok(match self {
+            ComponentSetup::Lattices(mut lattices) => SetupStep::Partly(match lattices.step()? {
+                true => ComponentSetup::Lattices(lattices),
+                false => ComponentSetup::FirstLevel(Box::new(lattices.into_level()?)),
+            }),
+            ComponentSetup::FirstLevel(level) => {
+                SetupStep::Fully(Box::new(level.into_multilevel()?))
+            }
+        })
+    }
+
+    /// The problem on the finest lattice.
+    pub(crate) fn problem(&self) -> &Problem {
+        match self {
+            ComponentSetup::Lattices(lattices) => &lattices.problem,
+            ComponentSetup::FirstLevel(level) => level.finer.first().unwrap_or(&level.problem),
+        }
+    }
+
+    /// The input as the result of a solve that was cancelled before its first iteration.
+    pub(crate) fn answer(&self) -> Result<Answer> {
+        let parameters = match self {
+            ComponentSetup::Lattices(lattices) => &lattices.parameters,
+            ComponentSetup::FirstLevel(level) => &level.parameters,
+        };
+        let problem = self.problem().clone();
+        let initial_rho = initial_rho(parameters, &problem);
+        Ok(Answer {
+            iterate: Iterate::new(&problem, initial_rho)?,
+            incumbent: Incumbent::from_input(&problem),
+            problem,
+            initial_rho,
+            reason: StopReason::Cancelled,
+            levels: Vec::new(),
+            passes: 0,
+            creases: Creases::default(),
+            seconds: Seconds::default(),
+        })
+    }
+}
+
+impl Lattices {
+    /// Takes one step; tells whether there is another one.
+    fn step(&mut self) -> Result<bool> {
+        match self.next {
+            Next::Coarsen | Next::CoarsenAgain => {
+                if !self.coarsen()? {
+                    let fill = self.next == Next::Coarsen && !self.problem.free.is_empty();
+                    self.next = if fill { Next::Fill } else { Next::Done };
+                }
+            }
+            Next::Fill => {
+                thin_plate::fill(
+                    &mut self.problem,
+                    &self.domains,
+                    &self.parameters,
+                    self.guess,
+                )?;
+                self.problem
+                    .set_input_normal_weights(self.options.energy_or_default())?;
+                give_back(&mut self.input, &self.problem)?;
+                self.domains.truncate(1);
+                self.coarse.clear();
+                self.next = Next::CoarsenAgain;
+            }
+            Next::Done => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Adds the next coarser lattice and tells whether it is of use: it has enough stencils, and each stands
+    /// for four of the finer ones, within a factor of 2. Where holes take most of them away, or close, the
+    /// coarse lattice says little about the fine one.
+    fn coarsen(&mut self) -> Result<bool> {
+        let finer = &self.domains[self.domains.len() - 1];
+        let next = coarsen(self.coarse.last().unwrap_or(&self.input), finer)?;
+        let Ok(domain) = next.domain() else {
+            return Ok(false);
+        };
+        let (fine, coarse) = (finer.interior_len(), domain.interior_len());
+        let is_of_use = coarse >= COARSEST_GRID && (fine / 8..=3 * fine / 8).contains(&coarse);
+        if is_of_use {
+            self.domains.push(Arc::new(domain));
+            self.coarse.push(next);
+        }
+        Ok(is_of_use)
+    }
+
+    /// The first level: the coarsest lattice that is worth a level of its own, or the finest one with a warm
+    /// start.
+    fn into_level(self) -> Result<FirstLevel> {
+        let Lattices {
+            mut problem,
+            domains,
+            options,
+            parameters,
+            ..
+        } = self;
+        let mut finer = Vec::new();
+        let iterate = match self.warm {
+            Some(iterate) => iterate,
+            None => {
+                for (input, domain) in self.coarse.iter().zip(&domains[1..]) {
+                    if !parameters.wants_level(domain.interior_len()) {
+                        break;
+                    }
+                    let coarse = Problem::new(input, domain.clone(), &self.coordinates, &options)?;
+                    finer.push(mem::replace(&mut problem, coarse));
+                }
+                Iterate::new(&problem, initial_rho(&parameters, &problem))?
+            }
+        };
+        let cg = ConjugateGradients::new(&problem, &domains[finer.len()..], iterate.rho)?;
+        Ok(FirstLevel {
+            options,
+            parameters,
+            problem,
+            iterate,
+            cg,
+            finer,
+            domains,
+        })
+    }
+}
+
+impl FirstLevel {
+    fn into_multilevel(self) -> Result<Multilevel> {
+        let parameters = self.parameters.on_level(!self.finer.is_empty(), 0);
+        let (level, reason) =
+            AdmmSolver::new(self.problem, self.iterate, self.cg, parameters, 0, true)?;
+        Multilevel::new(
+            level,
+            reason,
+            self.finer,
+            self.domains,
+            self.parameters,
+            &self.options,
+        )
+    }
+}
+
+/// Writes the heights that were found for free vertices into the input.
+fn give_back(input: &mut Input, problem: &Problem) -> Result<()> {
+    let domain = &problem.operator.domain;
+    let lattice = *input.field.lattice();
+    let mut heights = input.field.heights().to_vec();
+    for cell in &problem.free {
+        let cell = *cell as usize;
+        heights[domain.lattice_index(cell)] = problem
+            .operator
+            .coordinates
+            .outward(position(domain, cell), problem.target[cell]);
+    }
+    input.field = Heightfield::new(lattice, heights)?;
+    Ok(())
+}

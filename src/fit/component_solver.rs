@@ -1,0 +1,426 @@
+//! A solve whose options are known, one connected component of the surface after the other.
+
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::component_setup::{ComponentSetup, SetupStep};
+use super::components::{Components, check_held};
+use super::coordinates::Coordinates;
+use super::extrapolate_omitted::extrapolate_omitted;
+use super::heightfields::Problem;
+use super::input::Input;
+use super::multilevel::{Answer, Multilevel, SET_UP};
+use super::options::{Bending, Energy, Options};
+use super::report::{HuberReport, LevelReport, Progress, Report, Seconds, StopReason};
+use super::surface::Surface;
+use super::totals::{Totals, add_levels};
+use super::warm_start::WarmStart;
+use crate::error::{Error, Result, try_filled};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::domain::Domain;
+use crate::lattice::hexagonal::Lattice;
+
+/// Whether a [`Solver`](crate::Solver) has more to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Status {
+    /// [`Solver::advance`](crate::Solver::advance) should be called again.
+    Running,
+    /// The solve is done; further calls change nothing.
+    Stopped(StopReason),
+}
+
+/// An input that can be solved: its small holes are bridged, and each of its components is held in place.
+#[derive(Debug, Clone)]
+pub(super) struct PreparedInput {
+    pub input: Input,
+    pub domain: Arc<Domain>,
+}
+
+impl PreparedInput {
+    /// Bridges small holes of the input and checks that it determines a surface.
+    ///
+    /// # Errors
+    /// [`Error::NoInterior`], [`Error::Underdetermined`], [`Error::OutOfMemory`].
+    pub(super) fn new(input: Input) -> Result<Self> {
+        let input = input.bridge()?;
+        let domain = Arc::new(input.domain()?);
+        check_held(&input, &domain)?;
+        Ok(PreparedInput { input, domain })
+    }
+}
+
+/// A solve of all components under way.
+#[derive(Debug, Clone)]
+pub(super) struct ComponentSolver {
+    input: Input,
+    /// The options, without anything left to be chosen.
+    options: Options,
+    /// Factor from the input's units to normalised coordinates.
+    scale: f64,
+    domain: Arc<Domain>,
+    components: Components,
+    /// The results of the components that are done.
+    answers: Vec<Answer>,
+    /// The set-up of the component under way, before its first iteration.
+    preparing: Option<ComponentSetup>,
+    /// The solve of the component under way, after its set-up.
+    running: Option<Multilevel>,
+    /// Energy `P(z̃)` of the input in each component, if there are several.
+    energies: Vec<f64>,
+    /// The last answer, from which components to come and the next restart may start.
+    warm_start: Option<Arc<WarmStart>>,
+    status: Status,
+    started: Instant,
+    setup: f64,
+}
+
+/// When a solve begins with its first component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum StartMode {
+    /// When it is made.
+    Immediate,
+    /// When its options are known.
+    Deferred,
+}
+
+impl ComponentSolver {
+    /// A solve of a prepared input. `started` is when the caller's wait began.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`], [`Error::Underflow`], [`Error::OutOfMemory`].
+    pub(super) fn new(
+        PreparedInput { input, domain }: PreparedInput,
+        options: &Options,
+        scale: f64,
+        warm_start: Option<Arc<WarmStart>>,
+        start_mode: StartMode,
+        started: Instant,
+    ) -> Result<Self> {
+        let components = Components::new(&domain)?;
+        let energies = match components.list.len() {
+            1 if start_mode == StartMode::Immediate => Vec::new(),
+            n => {
+                let coordinates = Coordinates::new(&input, &domain, scale);
+                let problem = Problem::new(&input, domain.clone(), &coordinates, options)?;
+                problem.smoothness_by(n, |cell| components.component(cell))
+            }
+        };
+        if energies.iter().any(|energy| !energy.is_finite()) {
+            return Err(Error::Overflow {
+                spacing: input.field.lattice().spacing(),
+            });
+        }
+        let mut solve = ComponentSolver {
+            input,
+            options: *options,
+            scale,
+            domain,
+            components,
+            answers: Vec::new(),
+            preparing: None,
+            running: None,
+            energies,
+            warm_start,
+            status: Status::Running,
+            started,
+            setup: 0.0,
+        };
+        if start_mode == StartMode::Immediate {
+            solve.next_part()?;
+        }
+        solve.setup = started.elapsed().as_secs_f64();
+        Ok(solve)
+    }
+
+    /// Begins a deferred solve with the options that were chosen.
+    pub(super) fn begin_with(&mut self, options: &Options) -> Result<()> {
+        self.options = *options;
+        if self.components.list.len() == 1 {
+            self.energies.clear();
+        }
+        self.next_part()
+    }
+
+    /// The warm start for another solve on a lattice of the same shape; `None` for another shape.
+    pub(super) fn warm_start(&self, lattice: &Lattice) -> Option<Arc<WarmStart>> {
+        let shape = |lattice: &Lattice| [lattice.rows(), lattice.cols()];
+        if shape(lattice) != shape(self.input.field.lattice()) {
+            None
+        } else if self.next_number().is_none() {
+            Some(Arc::new(WarmStart {
+                domain: self.domain.clone(),
+                components: self.components.clone(),
+                answers: self.answers.clone(),
+                lambda: self.options.lambda_or_default().value(),
+            }))
+        } else {
+            // What was overtaken is no answer yet.
+            self.warm_start.clone()
+        }
+    }
+
+    pub(super) fn input(&self) -> &Input {
+        &self.input
+    }
+
+    pub(super) fn status(&self) -> Status {
+        self.status
+    }
+
+    /// Begins with the next component, if there is one left.
+    fn next_part(&mut self) -> Result<()> {
+        let Some(number) = self.next_number() else {
+            self.warm_start = None;
+            self.status = Status::Stopped(self.reason());
+            return Ok(());
+        };
+        let (input, domain) = match self.components.list.len() {
+            1 => (self.input.clone(), self.domain.clone()),
+            _ => {
+                let input = self.components.crop(&self.input, &self.domain, number)?;
+                let domain = Arc::new(input.domain()?);
+                (input, domain)
+            }
+        };
+        let corner = self.components.corner(number);
+        let warm_start = self
+            .warm_start
+            .as_deref()
+            .map(|warm_start| (warm_start, corner));
+        let part = ComponentSetup::new(input, domain, self.scale, &self.options, warm_start)?;
+        self.preparing = Some(part);
+        Ok(())
+    }
+
+    /// Goes on from the set-up of a component to its solve.
+    fn begin(&mut self, part: Multilevel) -> Result<()> {
+        match part.reason() {
+            Some(reason) => {
+                self.answers.push(part.into_answer(reason));
+                self.next_part()
+            }
+            None => {
+                self.running = Some(part);
+                Ok(())
+            }
+        }
+    }
+
+    /// Number of the component under way; `None` when all are done.
+    fn next_number(&self) -> Option<usize> {
+        let next = self.answers.len();
+        (next < self.components.list.len()).then_some(next)
+    }
+
+    /// The worst of the reasons why components stopped. Rounding errors of some components may be too large for
+    /// the gap of all.
+    fn reason(&self) -> StopReason {
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.incumbent, 1.0);
+        }
+        let certified = total
+            .gap()
+            .is_some_and(|gap| gap <= self.options.gap_or_default());
+        let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
+        [
+            StopReason::Cancelled,
+            StopReason::Diverged,
+            StopReason::MaxIterations,
+            StopReason::Residuals,
+            StopReason::Gap,
+        ]
+        .into_iter()
+        .find(|reason| any(*reason))
+        .filter(|reason| *reason != StopReason::Gap || certified)
+        .unwrap_or(StopReason::Rounding)
+    }
+
+    /// Continues until `left` conjugate-gradient iterations are used up.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] on the way to the first level or a finer one.
+    pub(super) fn advance(&mut self, left: &mut usize) -> Result<Status> {
+        while *left > 0 && self.status == Status::Running {
+            if let Some(preparing) = self.preparing.take() {
+                let start = Instant::now();
+                *left = left.saturating_sub(SET_UP);
+                let prepared = preparing.step()?;
+                self.setup += start.elapsed().as_secs_f64();
+                match prepared {
+                    SetupStep::Partly(part) => self.preparing = Some(part),
+                    SetupStep::Fully(part) => self.begin(*part)?,
+                }
+                continue;
+            }
+            let Some(running) = &mut self.running else {
+                // Where memory was short the last time.
+                self.next_part()?;
+                continue;
+            };
+            if let Some(reason) = running.advance(left)? {
+                let done = self.running.take();
+                self.answers.extend(done.map(|c| c.into_answer(reason)));
+                self.next_part()?;
+            }
+        }
+        Ok(self.status)
+    }
+
+    /// Figures of the last check. Before the first one they are those of the input, on a level above 0.
+    pub(super) fn progress(&self) -> Progress {
+        let mut total = Totals::default();
+        for answer in &self.answers {
+            total.add(&answer.incumbent, 1.0);
+            total.add_work(&answer.levels);
+        }
+        let mut pending = self.answers.len();
+        if let Some(preparing) = &self.preparing {
+            let problem = preparing.problem();
+            total.nuclear_norm += problem.smoothness(&problem.target);
+            pending += 1;
+        }
+        if let Some(running) = &self.running {
+            let level = running.level();
+            let share = running.problem().operator.domain.interior_len() as f64
+                / level.admm.problem.operator.domain.interior_len() as f64;
+            total.add(&level.admm.incumbent, share);
+            total.add_work(&running.levels());
+            pending += 1;
+        }
+        let pending = self.energies.iter().skip(pending);
+        total.nuclear_norm += pending.sum::<f64>();
+        let level = match &self.preparing {
+            None => self.running.as_ref().map_or(0, Multilevel::levels_left),
+            Some(_) => 1,
+        };
+        Progress {
+            level,
+            iteration: total.iterations,
+            cg_iterations: total.cg_iterations,
+            objective: total.objective(),
+            dual_bound: total.dual_bound,
+            gap: self.known_gap(&total),
+            rho: self.rho(),
+            elapsed: self.started.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// The relative duality gap of all components; `None` where rounding errors are all that is left of it.
+    fn known_gap(&self, total: &Totals) -> Option<f64> {
+        let rounding = self.status == Status::Stopped(StopReason::Rounding);
+        total.gap().filter(|_| !rounding)
+    }
+
+    /// ρ of the largest component.
+    fn rho(&self) -> f64 {
+        let running = || self.running.as_ref().map(|c| c.level().admm.iterate.rho);
+        let first = self.answers.first().map(|answer| answer.iterate.rho);
+        first.or_else(running).unwrap_or(0.0)
+    }
+
+    /// Stops a running solve.
+    pub(super) fn cancel(&mut self) {
+        if self.status == Status::Running {
+            self.status = Status::Stopped(StopReason::Cancelled);
+        }
+    }
+
+    /// The best surface so far, without how λ was chosen.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(super) fn surface(&self) -> Result<Surface> {
+        let unfinished = match (&self.preparing, &self.running) {
+            (Some(preparing), _) => Some(preparing.answer()?),
+            (None, running) => running.as_ref().map(Multilevel::answer).transpose()?,
+        };
+        let answers = || self.answers.iter().chain(&unfinished);
+        let lattice = *self.input.field.lattice();
+        let mut heights = try_filled("surface", lattice.len(), f64::NAN)?;
+        let mut total = Totals::default();
+        let mut levels: Vec<LevelReport> = Vec::new();
+        let mut seconds = Seconds::default();
+        for (number, answer) in answers().enumerate() {
+            let (top, left) = self.components.corner(number);
+            answer
+                .problem
+                .write_heights(&answer.incumbent.z, |(row, col), z| {
+                    heights[lattice.index(top + row, left + col)] = z;
+                });
+            total.add(&answer.incumbent, 1.0);
+            total.add_work(&answer.levels);
+            add_levels(&mut levels, &answer.levels);
+            seconds = seconds + answer.seconds;
+        }
+        let pending = answers().count();
+        for cell in self.domain.active().cells() {
+            let vertex = self.domain.lattice_index(cell);
+            let given = self.input.weight(vertex) > 0.0;
+            if self.components.component(cell) >= pending && given {
+                heights[vertex] = self.input.field.heights()[vertex];
+            }
+        }
+        extrapolate_omitted(&self.domain, &self.input, &mut heights);
+        let constrained = (0..lattice.len()).filter(|v| self.input.is_constrained(*v));
+        for vertex in constrained.clone() {
+            // To the last bit.
+            heights[vertex] = self.input.field.heights()[vertex];
+        }
+        total.nuclear_norm += self.energies.iter().skip(pending).sum::<f64>();
+        let stop_reason = match self.status {
+            Status::Running => StopReason::Cancelled,
+            Status::Stopped(reason) => reason,
+        };
+        let passes = answers().map(|answer| answer.passes).max().unwrap_or(0);
+        let at_creases = self.options.energy_or_default() == Energy::Huber;
+        let Bending {
+            bend_radius,
+            flatness,
+            crease_radius,
+        } = Bending::SMOOTH.within(&self.options);
+        let report = Report {
+            interior: self.domain.interior_len(),
+            boundary: self.domain.boundary_len(),
+            omitted: self.domain.omitted_len(),
+            occluded: self.domain.occluded_len(),
+            constrained: constrained.count(),
+            bridged: self.input.bridged,
+            free: answers().map(|answer| answer.problem.free.len()).sum(),
+            components: self.components.list.len(),
+            iterations: total.iterations,
+            cg_iterations: total.cg_iterations,
+            levels,
+            energy: self.options.energy_or_default(),
+            reweighting: if at_creases { 0 } else { passes },
+            huber: at_creases.then(|| HuberReport {
+                bend_radius,
+                flatness,
+                crease_radius,
+                crease_passes: passes,
+                creases: answers().map(|answer| answer.creases.vertices).sum(),
+            }),
+            objective: total.objective(),
+            fidelity: total.fidelity,
+            nuclear_norm: total.nuclear_norm,
+            dual_bound: total.dual_bound,
+            gap: self.known_gap(&total),
+            lambda: self.options.lambda_or_default().value(),
+            lambda_choice: None,
+            rho: answers().next().map_or(0.0, |answer| answer.iterate.rho),
+            scale: self.scale,
+            stop_reason,
+            seconds: Seconds {
+                setup: self.setup,
+                total: self.started.elapsed().as_secs_f64(),
+                ..seconds
+            },
+        };
+        Ok(Surface {
+            heightfield: Heightfield::new(lattice, heights)?,
+            report,
+        })
+    }
+}

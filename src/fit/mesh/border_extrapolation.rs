@@ -1,0 +1,104 @@
+//! Extrapolation of border vertices from the surface inside.
+
+use super::geometry::{Frame, Point};
+use super::input::MeshInput;
+use super::quadratic::{Neighbour, Quadratic};
+use super::smooth_regions::SmoothRegions;
+use super::topology::Topology;
+
+/// Number of rings around a border vertex in which an interior vertex is searched for.
+const INNER_SEARCH_RINGS: usize = 3;
+
+/// Weight of a second-ring vertex relative to a first-ring vertex, where first-ring vertices are missing.
+const SECOND_RING_WEIGHT: f64 = 0.3;
+
+/// Maximum noise amplification of a quadratic that a surface is continued by, relative to a hexagonal ring: one
+/// that amplifies more says nothing beyond its vertices.
+const MAX_CONTINUATION_AMPLIFICATION: f64 = 100.0;
+
+/// Extrapolates each border vertex from the quadratics fitted at its interior neighbours, on the same side of
+/// every crease where `sides` are known. A vertex without interior neighbours stays.
+pub(super) fn extrapolate_border(
+    given: &MeshInput,
+    x: &mut [Point],
+    frames: &[Frame],
+    sides: Option<&SmoothRegions>,
+) {
+    let topology = &given.topology;
+    let old = x.to_vec();
+    for vertex in 0..topology.len() {
+        if topology.inside[vertex] || given.held[vertex] {
+            continue;
+        }
+        let mut ring: Vec<u32> = topology.around(vertex).to_vec();
+        for _ in 1..INNER_SEARCH_RINGS {
+            if ring.iter().any(|other| topology.inside[*other as usize]) {
+                break;
+            }
+            let wider = ring
+                .iter()
+                .flat_map(|other| topology.around(*other as usize));
+            let mut wider: Vec<u32> = wider.copied().collect();
+            wider.sort_unstable();
+            wider.dedup();
+            ring = wider;
+        }
+        let (mut sum, mut count) = (Point::zeros(), 0.0);
+        for inner in ring.into_iter().map(|other| other as usize) {
+            // Where sides meet, the border is on all of them.
+            let own = sides.filter(|sides| !sides.is_on_crease(vertex));
+            let inside = |other: usize| {
+                let fits = own.is_none_or(|sides| sides.region[other] == sides.region[vertex]);
+                topology.inside[other] && fits
+            };
+            if !inside(inner) {
+                continue;
+            }
+            let frame = &frames[inner];
+            if let Some((rise, up)) =
+                continue_surface(topology, &old, frame, inner, inside, old[vertex])
+            {
+                // Along the normal of the vertex inside, as far as that one's surface is above.
+                sum += frame.normal * (rise / up.dot(&frame.normal));
+                count += 1.0;
+            }
+        }
+        if count > 0.0 {
+            x[vertex] += sum / count;
+        }
+    }
+}
+
+/// Continues the surface to a point by the quadratic fitted at an inner vertex to those of its neighbours that
+/// are `usable`. Returns how far the quadratic is above the point along its normal there, and that normal.
+pub(super) fn continue_surface(
+    topology: &Topology,
+    x: &[Point],
+    frame: &Frame,
+    inner: usize,
+    usable: impl Fn(usize) -> bool,
+    at: Point,
+) -> Option<(f64, Point)> {
+    let mut second = Vec::new();
+    topology.second_ring(inner, &mut second);
+    let near = topology.around(inner).iter().map(|other| (other, 1.0));
+    let all = near.chain(second.iter().map(|other| (other, SECOND_RING_WEIGHT)));
+    let neighbours: Vec<Neighbour> = all
+        .filter(|(other, _)| usable(**other as usize))
+        .map(|(other, weight)| Neighbour {
+            offset: x[*other as usize] - x[inner],
+            weight,
+        })
+        .collect();
+    if neighbours.iter().filter(|n| n.weight == 1.0).count() < 2 {
+        return None;
+    }
+    let fit = Quadratic::fit(frame, &neighbours)
+        .filter(|fit| fit.amplification() <= MAX_CONTINUATION_AMPLIFICATION)?;
+    let [a, b, height] = frame.coordinates(at - x[inner]);
+    let [along, across] = fit.gradient([a, b]);
+    let [t1, t2] = &frame.tangents;
+    let up = (frame.normal - along * t1 - across * t2).normalize();
+    let rise = (fit.height([a, b]) - height) * up.dot(&frame.normal);
+    rise.is_finite().then_some((rise, up))
+}

@@ -1,0 +1,70 @@
+//! Directions in which vertices on creases move besides that of their normal.
+//!
+//! The surface has two normals on a crease, and three in a corner. Along one ray alone a vertex cannot be on
+//! all of these sides, and its distance from them would stay a dent in both.
+
+use super::geometry::{Frame, Point};
+use super::input::MeshInput;
+use super::smooth_regions::SmoothRegions;
+
+/// Directions across the rays, each with an unknown of its own.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CreaseDirections {
+    /// The vertex and the direction of each unknown.
+    pub all: Vec<(u32, Point)>,
+    /// Number of the first direction of each vertex.
+    first: Vec<u32>,
+}
+
+impl CreaseDirections {
+    /// The direction across the crease where two sides meet, and two directions where three sides do.
+    pub(super) fn new(
+        given: &MeshInput,
+        sides: &SmoothRegions,
+        base: &[Point],
+        frames: &[Frame],
+    ) -> CreaseDirections {
+        let topology = &given.topology;
+        let creases = sides.creases(topology);
+        let mut directions = CreaseDirections {
+            all: Vec::new(),
+            first: vec![0],
+        };
+        for (vertex, frame) in frames.iter().enumerate() {
+            let own = match topology.inside[vertex] && !given.held[vertex] {
+                true => sides.around(vertex).len(),
+                false => 0,
+            };
+            match (own, creases[vertex]) {
+                (2, Some([a, b])) => {
+                    let along = base[b as usize] - base[a as usize];
+                    let way = frame.normal.cross(&along).try_normalize(0.0);
+                    directions.all.extend(way.map(|way| (vertex as u32, way)));
+                }
+                (3.., _) => {
+                    let ring = topology.around(vertex).iter();
+                    let longest = ring
+                        .map(|other| base[*other as usize] - base[vertex])
+                        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+                    let hint = longest.unwrap_or(frame.tangents[0]);
+                    let [a, b] = Frame::from_normal(frame.normal, hint).tangents;
+                    directions
+                        .all
+                        .extend([(vertex as u32, a), (vertex as u32, b)]);
+                }
+                _ => {}
+            }
+            directions.first.push(directions.all.len() as u32);
+        }
+        directions
+    }
+
+    /// The directions of a vertex, with their numbers.
+    pub(super) fn at_vertex(&self, vertex: usize) -> impl Iterator<Item = (u32, Point)> + '_ {
+        let own = match self.first.get(vertex..vertex + 2) {
+            Some([first, end]) => *first..*end,
+            _ => 0..0,
+        };
+        own.map(|way| (way, self.all[way as usize].1))
+    }
+}

@@ -1,0 +1,84 @@
+//! Loads on the border and the creases of a mesh, neither of which bears bending moments: see
+//! [`energy::moment_load`](crate::fit::energy::moment_load).
+
+use nalgebra::Matrix3;
+
+use super::geometry::Frame;
+use super::linearisation::Linearisation;
+use super::options::MeshOptions;
+use super::topology::Topology;
+use crate::error::{Result, try_filled};
+use crate::fit::energy::moment_load::Rings;
+use crate::math::index::NO_INDEX;
+use crate::math::sym2::Sym2;
+
+/// Number of rings that the load along a border or crease acts on: the ring next to it, and two further ones
+/// that its stencils reach. Further inside equal moments cancel.
+const LOAD_REACH_RINGS: u32 = 3;
+
+/// Loads the border, and the creases whose stencils are `known`, with the `moments` of the stencils inside;
+/// tells whether there are any. A moment smaller than the `flatness` is none of a bend: noise leaves so much on
+/// flat faces.
+///
+/// # Errors
+/// Out of memory.
+pub(super) fn load_border(
+    topology: &Topology,
+    linear: &mut Linearisation,
+    moments: &[Sym2],
+    options: &MeshOptions,
+    known: &[bool],
+) -> Result<bool> {
+    if topology.closed && !known.contains(&true) {
+        return Ok(false);
+    }
+    let around = |vertex: usize| topology.around(vertex).iter().map(|v| *v as usize);
+    let vertices = 0..topology.len() as u32;
+    let outermost = vertices.filter(|v| match linear.about[*v as usize] {
+        NO_INDEX => true,
+        stencil => known[stencil as usize],
+    });
+    let reach = linear.problem.reach(options.bend_radius);
+    let rings = Rings::new(outermost.collect(), topology.len(), around, reach)?;
+    // In space, where the frames of neighbours have something in common.
+    let mut spatial = try_filled("moments", topology.len(), Matrix3::zeros())?;
+    for (vertex, moment) in linear.centres.iter().zip(moments) {
+        let vertex = *vertex as usize;
+        spatial[vertex] = in_space(&linear.frames[vertex], *moment);
+    }
+    if !rings.continue_outwards(&mut spatial, around)? {
+        return Ok(false);
+    }
+    let centres = linear.centres.iter().map(|vertex| *vertex as usize);
+    let planar: Vec<Sym2> = centres
+        .map(|vertex| in_plane(&linear.frames[vertex], &spatial[vertex]))
+        .map(|moment| match moment.spectral_norm() < options.flatness {
+            true => Sym2::default(),
+            false => moment,
+        })
+        .collect();
+    let (across, directions) = (topology.len() + 1, &linear.directions.all);
+    linear.problem.load(&planar, |unknown| {
+        let vertex = match unknown.checked_sub(across) {
+            Some(way) => directions[way].0 as usize,
+            None => unknown,
+        };
+        rings.are_within(vertex, LOAD_REACH_RINGS)
+    })?;
+    Ok(true)
+}
+
+/// A moment in the plane of a frame as a matrix in space.
+fn in_space(frame: &Frame, moment: Sym2) -> Matrix3<f64> {
+    let [xx, xy, yy] = moment.entries();
+    let [a, b] = &frame.tangents;
+    let mixed = a * b.transpose();
+    xx * a * a.transpose() + xy * (mixed + mixed.transpose()) + yy * b * b.transpose()
+}
+
+/// The part of a matrix in space that is in the plane of a frame.
+fn in_plane(frame: &Frame, moment: &Matrix3<f64>) -> Sym2 {
+    let [a, b] = &frame.tangents;
+    let on = |u: &super::geometry::Point, v: &super::geometry::Point| u.dot(&(moment * v));
+    Sym2::new(on(a, a), on(a, b), on(b, b))
+}

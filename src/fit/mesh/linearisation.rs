@@ -1,0 +1,302 @@
+//! Linearisation of the energy of a mesh about a base, from which its vertices move along rays.
+//!
+//! The unknowns are `√w s`, where `s` is the distance along the ray and `w` each vertex's share of the area, so
+//! that the fidelity has the same weight at all of them. The second fundamental form of the base itself is the
+//! column of one more vertex, which is held at 1.
+
+use super::crease_directions::CreaseDirections;
+use super::geometry::{Frame, Point, areas};
+use super::input::MeshInput;
+use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT};
+use super::smooth_regions::SmoothRegions;
+use super::topology::Topology;
+use crate::error::{Error, Result, try_filled};
+use crate::fit::energy::problem;
+use crate::fit::energy::spectral_penalty::{HuberParameters, PenaltyKind};
+use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
+use crate::lattice::per_cell::PerCell;
+use crate::math::index::NO_INDEX;
+use crate::math::sym2::Sym2;
+
+pub(super) type Problem = problem::Problem<SparseOperator>;
+
+/// Minimum area of a vertex, relative to the mean.
+const MIN_AREA_SHARE: f64 = 0.1;
+
+/// Maximum noise amplification of a quadratic over the first ring, relative to a hexagonal one; above it the
+/// second ring is added. Including the second ring on all irregular meshes reduces the angle between normals of
+/// surface and truth by a third.
+const MAX_RING_AMPLIFICATION: f64 = 1.05;
+
+/// Minimum number of first-ring vertices at which the second ring may be left out.
+const MIN_RING_VERTICES: usize = 6;
+
+/// Number of entries reserved per matrix row: two rings of a hexagonal mesh, the vertex itself and the
+/// constant.
+const STENCIL_ROW_CAPACITY: usize = 20;
+
+/// Minimum confidence of a vertex: a smaller one would need a linear system of its own.
+const MIN_CONFIDENCE: f64 = 1e-4;
+
+/// The problem that is linearised about a base.
+#[derive(Debug, Clone)]
+pub(super) struct Linearisation {
+    pub problem: Problem,
+    /// Positions of the vertices about which the energy is linearised.
+    pub base: Vec<Point>,
+    /// Frames of the vertices, whose normals are the rays.
+    pub frames: Vec<Frame>,
+    /// Vertex in the middle of each stencil.
+    pub centres: Vec<u32>,
+    /// Stencil about each vertex, or [`NO_INDEX`].
+    pub about: Vec<u32>,
+    /// Factor from each unknown to a distance along the ray.
+    pub scales: Vec<f64>,
+    /// Further directions of vertices on creases; their unknowns follow those of the vertices and the constant.
+    pub directions: CreaseDirections,
+    /// Spacing of a hexagonal lattice with vertices of the same mean area.
+    pub spacing: f64,
+}
+
+/// Spacing of a hexagonal lattice whose vertices have an area.
+pub(super) fn hexagonal_spacing(area: f64) -> f64 {
+    (2.0 * area / 3f64.sqrt()).sqrt()
+}
+
+impl Linearisation {
+    /// Linearises about vertices at `base`, which move along the normals of their frames, and across these as
+    /// well on creases, where `sides` meet.
+    ///
+    /// # Errors
+    /// [`Error::Topology`] if no vertex has triangles all around, or out of memory.
+    pub(super) fn new(
+        given: &MeshInput,
+        base: Vec<Point>,
+        frames: Vec<Frame>,
+        bends: HuberParameters,
+        lambda: impl Fn(f64) -> f64,
+        sides: Option<&SmoothRegions>,
+    ) -> Result<Self> {
+        let MeshInput { topology, .. } = given;
+        let count = topology.len();
+        let constant = count as u32;
+        let areas = areas(topology, &base);
+        let directions = sides.map_or_else(CreaseDirections::default, |s| {
+            CreaseDirections::new(given, s, &base, &frames)
+        });
+        let across = constant + 1;
+        let unknowns = count + 1 + directions.all.len();
+        let mut about = try_filled("stencils", count, NO_INDEX)?;
+        let (mut centres, mut rows) = (Vec::new(), Rows::new());
+        rows.reserve(count, STENCIL_ROW_CAPACITY);
+        let mut row = Vec::new();
+        for vertex in 0..count {
+            if !topology.inside[vertex] {
+                continue;
+            }
+            let ray = &frames[vertex];
+            let Some((fit, vertices, frame)) =
+                fit_quadratic_on_side(topology, &base, ray, vertex, sides)
+            else {
+                continue;
+            };
+            row.clear();
+            let mut own = Sym2::default();
+            for (k, other) in vertices.iter().enumerate() {
+                let change = fit.change(&frame, k, frames[*other as usize].normal);
+                row.push((*other, change.coordinates()));
+                own = own - fit.change(&frame, k, ray.normal);
+                for (way, along) in directions.at_vertex(*other as usize) {
+                    row.push((across + way, fit.change(&frame, k, along).coordinates()));
+                }
+            }
+            for (way, along) in directions.at_vertex(vertex) {
+                let all = (0..vertices.len()).map(|k| fit.change(&frame, k, along));
+                let own = all.fold(Sym2::default(), |sum, change| sum - change);
+                row.push((across + way, own.coordinates()));
+            }
+            row.push((vertex as u32, own.coordinates()));
+            row.push((constant, fit.hessian().coordinates()));
+            if row
+                .iter()
+                .any(|(_, entry)| entry.iter().any(|x| !x.is_finite()))
+            {
+                continue;
+            }
+            about[vertex] = centres.len() as u32;
+            centres.push(vertex as u32);
+            rows.push(row.iter().copied());
+        }
+        if centres.is_empty() {
+            return Err(Error::Topology {
+                reason:
+                    "no vertex has triangles all around it that say how the surface bends there"
+                        .into(),
+                advice: "take a mesh with vertices inside, not a strip or separate triangles",
+            });
+        }
+        let mean = centres.iter().map(|v| areas[*v as usize]).sum::<f64>() / centres.len() as f64;
+        let spacing = hexagonal_spacing(mean);
+        if !(mean > 0.0 && mean.is_finite()) {
+            return Err(Error::Topology {
+                reason: "its triangles have no area".into(),
+                advice: "check its coordinates",
+            });
+        }
+        let share = |vertex: usize| (areas[vertex] / mean).max(MIN_AREA_SHARE);
+        let mut scales = try_filled("vertices", count, 0.0)?;
+        for (vertex, scale) in scales.iter_mut().enumerate() {
+            let trust = given
+                .confidence
+                .get(vertex)
+                .map_or(1.0, |c| c.max(MIN_CONFIDENCE));
+            *scale = (share(vertex) * trust).sqrt().recip();
+        }
+        rows.scale_columns(|unknown| match unknown.checked_sub(across) {
+            Some(way) => scales[directions.all[way as usize].0 as usize],
+            None => scales.get(unknown as usize).copied().unwrap_or(1.0),
+        });
+        let beside = centres.iter().map(|vertex| {
+            let ring = topology.around(*vertex as usize).iter();
+            let ring = ring.map(|other| about[*other as usize]);
+            ring.filter(|stencil| *stencil != NO_INDEX).collect()
+        });
+        let operator = SparseOperator::new(Parts {
+            beside: beside.collect(),
+            areas: centres
+                .iter()
+                .map(|vertex| share(*vertex as usize))
+                .collect(),
+            rows,
+            constant: Some(constant),
+            places: try_filled("vertices", unknowns, [0.0; 2])?,
+            spacing,
+            size: 1.0,
+        })?;
+        let mut target = try_filled("vertices", unknowns, 1.0)?;
+        for vertex in 0..count {
+            let off = given.noisy[vertex] - base[vertex];
+            target[vertex] = off.dot(&frames[vertex].normal) / scales[vertex];
+        }
+        for (target, (vertex, along)) in target[count + 1..].iter_mut().zip(&directions.all) {
+            let vertex = *vertex as usize;
+            *target = (given.noisy[vertex] - base[vertex]).dot(along) / scales[vertex];
+        }
+        let mut problem =
+            Problem::unweighted(operator, lambda(spacing), target, PenaltyKind::Huber(bends));
+        problem.constrained.push(constant);
+        let mut inverse = try_filled("fidelity", unknowns, 1.0)?;
+        inverse[count] = 0.0;
+        for (vertex, held) in given.held.iter().enumerate() {
+            if *held {
+                problem.constrained.push(vertex as u32);
+                inverse[vertex] = 0.0;
+            }
+        }
+        problem.inverse_fidelity = PerCell::Each(inverse);
+        let sizes = given.noisy.iter().map(|x| x.norm());
+        let largest = sizes.fold(0.0, f64::max);
+        problem.set_rounding(largest);
+        Ok(Linearisation {
+            problem,
+            base,
+            frames,
+            centres,
+            about,
+            scales,
+            directions,
+            spacing,
+        })
+    }
+
+    /// The unknowns of the base itself.
+    pub(super) fn start(&self) -> Vec<f64> {
+        let mut z = vec![0.0; self.problem.target.len()];
+        z[self.base.len()] = 1.0;
+        for vertex in &self.problem.constrained {
+            z[*vertex as usize] = self.problem.target[*vertex as usize];
+        }
+        z
+    }
+
+    /// Positions of the vertices for these unknowns.
+    pub(super) fn moved(&self, z: &[f64]) -> Vec<Point> {
+        let all = self
+            .base
+            .iter()
+            .zip(&self.frames)
+            .zip(z.iter().zip(&self.scales));
+        let mut x: Vec<Point> = all
+            .map(|((base, frame), (z, scale))| base + frame.normal * (scale * z))
+            .collect();
+        for (z, (vertex, along)) in z[self.base.len() + 1..].iter().zip(&self.directions.all) {
+            let vertex = *vertex as usize;
+            x[vertex] += along * (self.scales[vertex] * z);
+        }
+        x
+    }
+}
+
+/// Maximum slope of a local quadratic fit against its frame. Above it the frame is rotated into the fit's
+/// tangent plane, because second derivatives over a slanting plane are not the second fundamental form.
+const MAX_FRAME_SLOPE: f64 = 0.02;
+
+/// Fits the quadratic about a vertex over its tangent plane. Returns it with the vertices that it was fitted to
+/// and its frame.
+pub(crate) fn fit_quadratic(
+    topology: &Topology,
+    x: &[Point],
+    frame: &Frame,
+    vertex: usize,
+) -> Option<(Quadratic, Vec<u32>, Frame)> {
+    fit_quadratic_on_side(topology, x, frame, vertex, None)
+}
+
+/// Fits as [`fit_quadratic`] does, to vertices on the same side of every crease alone.
+fn fit_quadratic_on_side(
+    topology: &Topology,
+    x: &[Point],
+    frame: &Frame,
+    vertex: usize,
+    sides: Option<&SmoothRegions>,
+) -> Option<(Quadratic, Vec<u32>, Frame)> {
+    let offset = |other: &u32, weight| Neighbour {
+        offset: x[*other as usize] - x[vertex],
+        weight,
+    };
+    let ring = topology.around(vertex);
+    let mut vertices = Vec::with_capacity(4 * ring.len());
+    vertices.extend_from_slice(ring);
+    let mut neighbours = Vec::with_capacity(4 * ring.len());
+    neighbours.extend(ring.iter().map(|other| offset(other, 1.0)));
+    let mut fit = match vertices.len() >= MIN_RING_VERTICES {
+        true => Quadratic::fit(frame, &neighbours)
+            .filter(|fit| fit.amplification() <= MAX_RING_AMPLIFICATION),
+        false => None,
+    };
+    if fit.is_none() {
+        let mut second = Vec::with_capacity(8 * ring.len());
+        topology.second_ring(vertex, &mut second);
+        if let Some(sides) = sides.filter(|sides| !sides.is_on_crease(vertex)) {
+            let own = sides.region[vertex];
+            second.retain(|other| sides.touches(*other as usize, own));
+        }
+        neighbours.extend(
+            second
+                .iter()
+                .map(|other| offset(other, SECOND_RING_FIT_WEIGHT)),
+        );
+        vertices.extend(second);
+        fit = Quadratic::fit(frame, &neighbours);
+    }
+    let fit = fit?;
+    let [a, b] = fit.slope();
+    if a.hypot(b) > MAX_FRAME_SLOPE {
+        let [t1, t2] = &frame.tangents;
+        let turned = Frame::from_normal((frame.normal - a * t1 - b * t2).normalize(), *t1);
+        if let Some(fit) = Quadratic::fit(&turned, &neighbours) {
+            return Some((fit, vertices, turned));
+        }
+    }
+    Some((fit, vertices, frame.clone()))
+}

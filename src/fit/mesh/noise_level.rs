@@ -1,0 +1,62 @@
+//! Estimate of the noise of a mesh.
+
+use nalgebra::Vector6;
+
+use super::geometry::{Frame, Point};
+use super::topology::Topology;
+use crate::math::least_squares::LeastSquares;
+use crate::math::statistics::{MAD_TO_SIGMA, median};
+
+/// Minimum number of samples from which noise is estimated.
+const MIN_NOISE_SAMPLES: usize = 50;
+
+/// Maximum number of samples from which noise is estimated: more do not make the estimate better.
+const MAX_NOISE_SAMPLES: usize = 20_000;
+
+/// Standard deviation of the noise along the normals of the base, from the median distance of a vertex to the
+/// quadratic fitted to those around it, so that creases do not count; `None` if there are too few samples.
+pub(super) fn noise(
+    topology: &Topology,
+    base: &[Point],
+    frames: &[Frame],
+    noisy: &[Point],
+) -> Option<f64> {
+    let inside = topology.vertices_inside();
+    let step = inside.clone().count().div_ceil(MAX_NOISE_SAMPLES).max(1);
+    let mut second = Vec::new();
+    let mut samples = Vec::new();
+    for vertex in inside.step_by(step) {
+        let frame = &frames[vertex];
+        let off = |other: usize| frame.normal.dot(&(noisy[other] - base[vertex]));
+        topology.second_ring(vertex, &mut second);
+        let all = topology
+            .around(vertex)
+            .iter()
+            .chain(&second)
+            .map(|other| *other as usize);
+        let ring = topology
+            .around(vertex)
+            .iter()
+            .map(|n| (base[*n as usize] - base[vertex]).norm());
+        let scale = ring.sum::<f64>() / topology.around(vertex).len() as f64;
+        let mut quadratic = LeastSquares::<6>::new();
+        for other in all {
+            let [x, y, _] = frame.coordinates((base[other] - base[vertex]) / scale);
+            let q = Vector6::new(1.0, x, y, x * x, x * y, y * y);
+            quadratic.add(&q, [off(other)], 1.0);
+        }
+        // The variance of the prediction is that entry of the inverse, in units of the noise's.
+        let Some(inverse) = quadratic.factor().map(|factor| factor.inverse()) else {
+            continue;
+        };
+        let predicted = (inverse * quadratic.right)[0];
+        let sample = (off(vertex) - predicted).abs() / (1.0 + inverse[(0, 0)]).sqrt();
+        if sample.is_finite() {
+            samples.push(sample);
+        }
+    }
+    if samples.len() < MIN_NOISE_SAMPLES {
+        return None;
+    }
+    Some(MAD_TO_SIGMA * median(&mut samples)?)
+}

@@ -1,0 +1,52 @@
+//! Shares of ρ at creases.
+//!
+//! One ρ fits all stencils whose dual and Hessian have about the same ratio. Where smooth regions of the
+//! surface meet, the Hessian is large and its cost next to nothing: the usual ρ would hold on to the last
+//! Hessian there, and the fold would take many iterations to move.
+
+use super::linearisation::Problem;
+use crate::fit::energy::spectral_penalty::PenaltyKind;
+
+/// Sets the shares of ρ by the weights of the stencils.
+pub(super) fn set_rho_shares(problem: &mut Problem) {
+    if let PenaltyKind::Huber(bends) = problem.kind {
+        let weight = &problem.weight;
+        let of = |stencil| share(weight.at(stencil), bends.flatness);
+        problem.operator.set_rho_shares(of);
+    }
+}
+
+/// Share of ρ for a weight ω. The dual is at most ω, and the weight was one over the Hessian, so that their
+/// ratio falls with ω². Where ω exceeds the slope of the penalty at 0, the dual would depend on ρ, and the
+/// share is 1.
+fn share(weight: f64, flatness: f64) -> f64 {
+    let least = weight / flatness.min(1.0);
+    if least < 1.0 { least * least } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::energy::spectral_penalty::{HuberParameters, SpectralPenalty};
+    use crate::math::sym2::Sym2;
+
+    /// `Y` follows from `V` without ρ wherever ρ has a share: so one penalty does for all stencils.
+    #[test]
+    fn the_dual_does_not_depend_on_the_penalty_where_it_is_less() {
+        let (flatness, delta) = (0.3, 0.07);
+        let bends = HuberParameters { flatness, delta };
+        let mut shared = 0;
+        for weight in [0.01, 0.05, 0.2, 0.299, 0.31, 0.6, 1.0] {
+            let rho = 0.8;
+            let own = rho * share(weight, flatness);
+            shared += usize::from(own < rho);
+            for v in [Sym2::new(0.3, 0.1, -0.2), Sym2::new(2.0, -0.7, 0.4)] {
+                let duals = [rho, own].map(|rho| bends.penalty(rho).dual(v, weight));
+                let [a, b] = duals.map(|dual| dual.entries());
+                assert_eq!(a, b, "of {weight}");
+            }
+        }
+        assert_eq!(shared, 4);
+        assert_eq!(share(0.5, 0.0), 1.0);
+    }
+}

@@ -1,0 +1,199 @@
+//! Self-intersections: triangles that cross others near them, or are folded over, are separated.
+//!
+//! Where the rays of vertices converge, as they do along creases in coarse noise, vertices can pass each other,
+//! and the triangles between them turn over together, so that their normals do not tell. Parts of a surface
+//! that intersect far from each other along it, as those of bodies put through each other, stay.
+
+use super::geometry::{Point, twice_area};
+use super::topology::Topology;
+use super::vertex_fans::VertexFans;
+
+/// Cosine of the angle between a triangle's normal and its vertex's normal above which no triangles there
+/// cross.
+const MIN_NORMAL_COSINE: f64 = 0.5;
+
+/// Number of rings around a vertex whose triangles are tested for crossing.
+const CROSSING_SEARCH_RINGS: usize = 3;
+
+/// Maximum number of rounds in which crossing triangles are separated.
+const MAX_MENDING_ROUNDS: usize = 60;
+
+/// Maximum number of crossing tests per vertex, on average over the mesh: bounds the time on a mesh that
+/// intersects itself everywhere.
+const MAX_VISITS_PER_VERTEX: usize = 4;
+
+/// Number of crossing tests that are allowed on any mesh in addition to those per vertex, so that small
+/// meshes are mended completely.
+const EXTRA_VISITS: usize = 100_000;
+
+/// Number of mending rounds after which the neighbours of moved vertices are moved, too.
+const WIDENING_ROUNDS: usize = 10;
+
+/// Moves the vertices of crossing and folded triangles towards the mean of their neighbours, those on creases
+/// along these first. Vertices that are `held` stay.
+pub(super) fn separate_self_intersections(
+    topology: &Topology,
+    vertex_fans: &VertexFans,
+    x: &mut [Point],
+    held: &[bool],
+    creased: &dyn Fn(usize) -> bool,
+) {
+    let all: Vec<u32> = (0..topology.len() as u32).collect();
+    let mut bad = entangled_triangles(topology, vertex_fans, x, &all);
+    let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
+    let mut moving: Vec<u32> = Vec::new();
+    for round in 0..MAX_MENDING_ROUNDS {
+        if bad.is_empty() || left == 0 {
+            return;
+        }
+        for triangle in &bad {
+            moving.extend(topology.triangles[*triangle as usize]);
+        }
+        if round % WIDENING_ROUNDS == WIDENING_ROUNDS - 1 {
+            moving = around(topology, &moving);
+        }
+        moving.sort_unstable();
+        moving.dedup();
+        for &vertex in &moving {
+            let vertex = vertex as usize;
+            if held[vertex] {
+                continue;
+            }
+            let along = round < WIDENING_ROUNDS && creased(vertex);
+            let beside = mean_beside(topology, x, vertex, along.then_some(creased));
+            if let Some(mean) = beside {
+                x[vertex] += 0.5 * (mean - x[vertex]);
+            }
+        }
+        let mut near = moving.clone();
+        for _ in 0..CROSSING_SEARCH_RINGS {
+            near = around(topology, &near);
+        }
+        left = left.saturating_sub(near.len());
+        bad = entangled_triangles(topology, vertex_fans, x, &near);
+    }
+}
+
+/// These vertices and their neighbours, each once.
+fn around(topology: &Topology, vertices: &[u32]) -> Vec<u32> {
+    let mut all = vertices.to_vec();
+    for vertex in vertices {
+        all.extend_from_slice(topology.around(*vertex as usize));
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// Mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`
+/// vertices, where the vertex is on one.
+fn mean_beside(
+    topology: &Topology,
+    x: &[Point],
+    vertex: usize,
+    creased: Option<&dyn Fn(usize) -> bool>,
+) -> Option<Point> {
+    let ring = topology.around(vertex);
+    let mean_of = |of: &dyn Fn(usize) -> bool| {
+        let (mut sum, mut count) = (Point::zeros(), 0);
+        for other in ring.iter().map(|i| *i as usize).filter(|i| of(*i)) {
+            sum += x[other];
+            count += 1;
+        }
+        (sum / f64::from(count), count)
+    };
+    if !topology.inside[vertex] {
+        let beside = |other| topology.along_rim(vertex).any(|i| i == other);
+        return Some(mean_of(&beside))
+            .filter(|(_, count)| *count == 2)
+            .map(|(mean, _)| mean);
+    }
+    let along = creased.map(mean_of).filter(|(_, count)| *count == 2);
+    Some(along.unwrap_or_else(|| mean_of(&|_| true)).0)
+}
+
+/// Triangles at these vertices that cross one near them, those that they cross, and those that face away from
+/// the normals of their corners.
+fn entangled_triangles(
+    topology: &Topology,
+    vertex_fans: &VertexFans,
+    x: &[Point],
+    vertices: &[u32],
+) -> Vec<u32> {
+    let triangles = &topology.triangles;
+    let mut bad = Vec::new();
+    let mut suspects = Vec::new();
+    for vertex in vertices {
+        let own = vertex_fans.around(*vertex as usize);
+        let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
+        let up = sides.clone().sum::<Point>();
+        if sides
+            .clone()
+            .any(|side| side.dot(&up) <= MIN_NORMAL_COSINE * side.norm() * up.norm())
+        {
+            suspects.extend(own);
+        }
+    }
+    suspects.sort_unstable();
+    suspects.dedup();
+    let up = |vertex: &u32| {
+        let own = vertex_fans.around(*vertex as usize).iter();
+        let sum: Point = own.map(|t| twice_area(x, &triangles[*t as usize])).sum();
+        sum.try_normalize(0.0).unwrap_or_default()
+    };
+    for &triangle in &suspects {
+        let corners = &triangles[triangle as usize];
+        if twice_area(x, corners).dot(&corners.iter().map(up).sum()) < 0.0 {
+            bad.push(triangle);
+        }
+        let mut near = corners.to_vec();
+        for _ in 1..CROSSING_SEARCH_RINGS {
+            near = around(topology, &near);
+        }
+        let mut others = Vec::new();
+        for vertex in near {
+            others.extend_from_slice(vertex_fans.around(vertex as usize));
+        }
+        others.sort_unstable();
+        others.dedup();
+        for other in others {
+            if cross(x, corners, &triangles[other as usize]) {
+                bad.extend([triangle, other]);
+            }
+        }
+    }
+    bad.sort_unstable();
+    bad.dedup();
+    bad
+}
+
+/// Whether an edge of one triangle passes through the other one, except edges with a corner of both.
+fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
+    let [a, b] = [one, other].map(|t| t.map(|i| x[i as usize]));
+    let apart = |k: usize| {
+        let [a, b] = [&a, &b].map(|t| t.map(|p| p[k]));
+        a.iter().all(|p| b.iter().all(|q| p < q)) || a.iter().all(|p| b.iter().all(|q| p > q))
+    };
+    if (0..3).any(apart) {
+        return false;
+    }
+    let through = |one: &[u32; 3], a: &[Point; 3], other: &[u32; 3], b: &[Point; 3]| {
+        (0..3).any(|k| {
+            let next = (k + 1) % 3;
+            !other.contains(&one[k]) && !other.contains(&one[next]) && pierces(a[k], a[next], b)
+        })
+    };
+    through(one, &a, other, &b) || through(other, &b, one, &a)
+}
+
+/// Whether the segment from `p` to `q` passes through the inside of a triangle.
+fn pierces(p: Point, q: Point, [a, b, c]: &[Point; 3]) -> bool {
+    let normal = (b - a).cross(&(c - a));
+    if normal.dot(&(p - a)) * normal.dot(&(q - a)) >= 0.0 {
+        return false;
+    }
+    let way = q - p;
+    let turn = |from: &Point, to: &Point| way.dot(&(from - p).cross(&(to - p)));
+    let turns = [turn(a, b), turn(b, c), turn(c, a)];
+    turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0)
+}

@@ -1,0 +1,306 @@
+//! The solve of one connected component: from its coarsest level to its finest, and through the reweighting
+//! passes there.
+
+use std::sync::Arc;
+
+use super::admm::default_rho::refined_rho;
+use super::admm::incumbent::Incumbent;
+use super::admm::parameters::AdmmParameters;
+use super::admm::steps::Admm;
+use super::border_load::load_border;
+use super::energy::creases::Creases;
+use super::heightfields::{AdmmSolver, Iterate, Problem};
+use super::linear::cg::ConjugateGradients;
+use super::options::{Bending, Border, Energy, Options};
+use super::prolong::prolong;
+use super::report::{LevelReport, Seconds, StopReason};
+use crate::error::Result;
+use crate::lattice::domain::Domain;
+
+/// Cost of one step of setting a level up, in conjugate-gradient iterations on it.
+pub(crate) const SET_UP: usize = 10;
+
+/// The solve of one component under way.
+#[derive(Debug, Clone)]
+pub(crate) struct Multilevel {
+    /// The level under way, and the finest one at the end.
+    level: AdmmSolver,
+    /// The problems of the finer levels, the finest first.
+    finer: Vec<Problem>,
+    /// The first iterate of the next finer level once the level under way is done, and then the solver of its
+    /// z-steps as well.
+    carried: Option<(Iterate, Option<ConjugateGradients>)>,
+    /// The domains of all lattices, the finest first.
+    domains: Vec<Arc<Domain>>,
+    /// Reports of the coarser levels, the coarsest first.
+    coarser: Vec<LevelReport>,
+    parameters: AdmmParameters,
+    /// Number of reweighting passes so far.
+    passes: usize,
+    /// Maximum number of reweighting passes still to come.
+    passes_left: usize,
+    /// Radius of bend below which a vertex is on a crease, for passes at creases; `None` for passes that
+    /// reweight all vertices.
+    crease_radius: Option<f64>,
+    /// Bend radius of a border that is to be loaded with moments, until that is done.
+    loads_within: Option<f64>,
+    /// Creases of the last pass.
+    creases: Creases,
+    /// Whether the rank reduction has begun, after which nothing follows.
+    ends: bool,
+    seconds: Seconds,
+    reason: Option<StopReason>,
+}
+
+/// The result of a component that is done: its surface, and the iterate to start another solve from.
+#[derive(Debug, Clone)]
+pub(crate) struct Answer {
+    pub problem: Problem,
+    pub iterate: Iterate,
+    pub incumbent: Incumbent,
+    /// ρ at the start of the finest level.
+    pub initial_rho: f64,
+    pub reason: StopReason,
+    pub levels: Vec<LevelReport>,
+    pub passes: usize,
+    pub creases: Creases,
+    pub seconds: Seconds,
+}
+
+impl Multilevel {
+    /// Starts with the first level, which may have a reason to stop at once.
+    pub(crate) fn new(
+        level: AdmmSolver,
+        reason: Option<StopReason>,
+        finer: Vec<Problem>,
+        domains: Vec<Arc<Domain>>,
+        parameters: AdmmParameters,
+        options: &Options,
+    ) -> Result<Self> {
+        let (crease_radius, passes_left) = match options.energy_or_default() {
+            Energy::Huber => {
+                let Bending { crease_radius, .. } = Bending::SMOOTH.within(options);
+                (Some(crease_radius), options.crease_passes_or_default())
+            }
+            _ => (None, options.reweighting),
+        };
+        let mut multilevel = Multilevel {
+            level,
+            finer,
+            carried: None,
+            domains,
+            coarser: Vec::new(),
+            parameters,
+            passes: 0,
+            passes_left,
+            crease_radius,
+            loads_within: (options.border_or_default() == Border::Loaded)
+                .then(|| Bending::SMOOTH.within(options).bend_radius),
+            creases: Creases::default(),
+            ends: false,
+            seconds: Seconds::default(),
+            reason: None,
+        };
+        if let Some(reason) = reason {
+            multilevel.finish_level(reason)?;
+        }
+        Ok(multilevel)
+    }
+
+    /// Continues until `left` conjugate-gradient iterations are used up, or until the solve is done; then
+    /// returns the reason.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
+        while *left > 0 && self.reason.is_none() {
+            if let Some((iterate, cg)) = self.carried.take() {
+                *left = left.saturating_sub(SET_UP);
+                match (cg, self.finer.last()) {
+                    (None, Some(fine)) => {
+                        let domains = &self.domains[self.finer.len() - 1..];
+                        let cg = ConjugateGradients::new(fine, domains, iterate.rho)?;
+                        self.carried = Some((iterate, Some(cg)));
+                    }
+                    (Some(cg), _) => self.enter_level(iterate, cg)?,
+                    (None, None) => (),
+                }
+            } else if let Some(reason) = self.level.advance(left)? {
+                self.finish_level(reason)?;
+            }
+        }
+        Ok(self.reason)
+    }
+
+    /// Goes on to the finer level, which is set up in steps of its own, or to further passes until one of them
+    /// has something to do.
+    fn finish_level(&mut self, mut reason: StopReason) -> Result<()> {
+        if let Some(fine) = self.finer.last() {
+            let rho = refined_rho(self.level.admm.iterate.rho, fine);
+            let iterate = prolong(
+                &self.level.admm.problem,
+                &self.level.admm.iterate,
+                fine,
+                rho,
+            )?;
+            self.carried = Some((iterate, None));
+            return Ok(());
+        }
+        while !self.ends
+            && self.passes_left > 0
+            && matches!(reason, StopReason::Gap | StopReason::Residuals)
+        {
+            self.passes_left -= 1;
+            let next = match self.crease_radius {
+                None => {
+                    self.passes += 1;
+                    self.level.reweight()?
+                }
+                Some(radius) => {
+                    let creases = self.level.reweight_creases(radius)?;
+                    let loaded = self.load_border()?;
+                    if !creases.is_worth() && !loaded {
+                        break;
+                    }
+                    let next = self.level.begin_pass_at_creases(loaded)?;
+                    // A pass for the border alone is none at creases.
+                    if creases.is_worth() {
+                        self.creases = creases;
+                        self.passes += 1;
+                    }
+                    next
+                }
+            };
+            match next {
+                Some(next) => reason = next,
+                None => return Ok(()),
+            }
+        }
+        if !self.ends && self.level.begin_rank_reduction(reason)? {
+            self.ends = true;
+            return Ok(());
+        }
+        self.reason = Some(reason);
+        Ok(())
+    }
+
+    /// Loads the border with moments, once; tells whether there are any.
+    fn load_border(&mut self) -> Result<bool> {
+        let Admm {
+            problem, iterate, ..
+        } = &mut self.level.admm;
+        match self.loads_within.take() {
+            Some(radius) => load_border(problem, iterate, radius),
+            None => Ok(false),
+        }
+    }
+
+    /// Begins with the next finer level.
+    fn enter_level(&mut self, iterate: Iterate, cg: ConjugateGradients) -> Result<()> {
+        let Some(fine) = self.finer.pop() else {
+            return Ok(());
+        };
+        self.coarser.push(self.level.report());
+        self.seconds = self.seconds + self.level.admm.seconds;
+        let done = self.coarser.iter().map(|level| level.iterations).sum();
+        let parameters = self.parameters.on_level(!self.finer.is_empty(), done);
+        // Levels take about as many iterations as the one before.
+        let next_climb = 2 * self.level.report().iterations / 3;
+        let may_be_affine = self.level.admm.incumbent.is_affine;
+        let (level, stop) =
+            AdmmSolver::new(fine, iterate, cg, parameters, next_climb, may_be_affine)?;
+        self.level = level;
+        match stop {
+            Some(reason) => self.finish_level(reason),
+            None => Ok(()),
+        }
+    }
+
+    /// The reason why the solve stopped; `None` while it runs.
+    pub(crate) fn reason(&self) -> Option<StopReason> {
+        self.reason
+    }
+
+    /// Number of finer levels still to come.
+    pub(crate) fn levels_left(&self) -> usize {
+        self.finer.len()
+    }
+
+    /// The level under way.
+    pub(crate) fn level(&self) -> &AdmmSolver {
+        &self.level
+    }
+
+    /// The problem on the finest lattice.
+    pub(crate) fn problem(&self) -> &Problem {
+        self.finer.first().unwrap_or(&self.level.admm.problem)
+    }
+
+    /// The levels that were worked on, the coarsest first.
+    pub(crate) fn levels(&self) -> Vec<LevelReport> {
+        let mut levels = self.coarser.clone();
+        levels.push(self.level.report());
+        levels
+    }
+
+    /// The result so far, whether the solve is done or not. From a coarse level it is prolonged to the finest
+    /// lattice and certified there.
+    pub(crate) fn answer(&self) -> Result<Answer> {
+        let carried = self.carry_to_finest()?;
+        let (iterate, incumbent) = carried.unwrap_or((
+            self.level.admm.iterate.clone(),
+            self.level.admm.incumbent.clone(),
+        ));
+        Ok(Answer {
+            problem: self.problem().clone(),
+            iterate,
+            incumbent,
+            initial_rho: self.level.admm.initial_rho,
+            reason: self.reason.unwrap_or(StopReason::Cancelled),
+            levels: self.levels(),
+            passes: self.passes,
+            creases: self.creases,
+            seconds: self.seconds + self.level.admm.seconds,
+        })
+    }
+
+    /// The result of a solve that is done.
+    pub(crate) fn into_answer(self, reason: StopReason) -> Answer {
+        let levels = self.levels();
+        Answer {
+            seconds: self.seconds + self.level.admm.seconds,
+            initial_rho: self.level.admm.initial_rho,
+            problem: self.level.admm.problem,
+            iterate: self.level.admm.iterate,
+            incumbent: self.level.admm.incumbent,
+            reason,
+            levels,
+            passes: self.passes,
+            creases: self.creases,
+        }
+    }
+
+    /// The iterate of a coarse level prolonged to the finest lattice, with the input as the incumbent where
+    /// that is better or where there was no iteration yet; `None` on the finest level.
+    fn carry_to_finest(&self) -> Result<Option<(Iterate, Incumbent)>> {
+        if let Some(finest) = self.finer.first()
+            && self.coarser.is_empty()
+            && self.level.report().iterations == 0
+        {
+            let start = Iterate::new(finest, self.level.admm.iterate.rho)?;
+            return Ok(Some((start, Incumbent::from_input(finest))));
+        }
+        let mut iterate: Option<Iterate> = None;
+        let mut coarse = &self.level.admm.problem;
+        for fine in self.finer.iter().rev() {
+            let from = iterate.as_ref().unwrap_or(&self.level.admm.iterate);
+            let rho = refined_rho(from.rho, fine);
+            iterate = Some(prolong(coarse, from, fine, rho)?);
+            coarse = fine;
+        }
+        let Some(mut iterate) = iterate else {
+            return Ok(None);
+        };
+        let certificate = iterate.certify(coarse);
+        let mut incumbent = Incumbent::from_input(coarse);
+        incumbent.update(&iterate.z, &certificate);
+        Ok(Some((iterate, incumbent)))
+    }
+}

@@ -41,7 +41,9 @@ impl Noise {
     /// Standard deviation.
     pub fn sigma(self, truth: &Heightfield) -> f64 {
         match self {
-            Noise::White(share) | Noise::Correlated(share) | Noise::Blurred(share, _) => share * range(truth),
+            Noise::White(share) | Noise::Correlated(share) | Noise::Blurred(share, _) => {
+                share * range(truth)
+            }
             Noise::Voxels(share) => share * range(truth) / 12f64.sqrt(),
         }
     }
@@ -133,7 +135,11 @@ fn blurred(lattice: &Lattice, noise: &[f64], [along, across]: [f64; 2]) -> Vec<f
             let col = (vertex as isize % cols + step * right).rem_euclid(cols);
             values[(row * cols + col) as usize]
         };
-        let sum = |vertex| (-reach..=reach).map(|step| weight(step) * at(vertex, step)).sum();
+        let sum = |vertex| {
+            (-reach..=reach)
+                .map(|step| weight(step) * at(vertex, step))
+                .sum()
+        };
         (0..values.len()).map(sum).collect()
     };
     let rows_apart = lattice.row_spacing() / lattice.spacing();

@@ -68,7 +68,9 @@ impl Solver {
                 search = Search::new(&solvable.input, &asked, &first, known)?;
             }
             options = match search {
-                None if found.reason == LambdaReason::Noise => tuning::without_search(&first, noise),
+                None if found.reason == LambdaReason::Noise => {
+                    tuning::without_search(&first, noise)
+                }
                 _ => first,
             };
             choice = Some(found);

@@ -8,9 +8,9 @@ use super::curvature_scales::{CurvatureScale, Disc};
 
 /// Least ratio of smaller to larger curvature of noise. Isotropic noise has 0.30 to 0.34 at every scale; a developable
 /// shape that shows beside it lowers the ratio.
-const MIN_NOISE_RATIO: f64 = 0.27;
+const MIN_NOISE_RATIO: f64 = 0.22;
 
-/// Least ratio of noise that is as large in all directions as can be told.
+/// Least ratio of noise that is as large in all directions, as far as can be told.
 const MIN_ISOTROPIC_RATIO: f64 = 0.28;
 
 /// Least ratio of noise that is rougher in one direction than in another, as that of scan lines. It counts as noise only
@@ -20,9 +20,15 @@ const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
 /// Largest coherence of neighbouring Hessians at which they are incoherent.
 const MAX_NOISE_COHERENCE: f64 = 0.15;
 
+/// Least coherence that shows a shape beside noise.
+const MIN_SHAPE_COHERENCE: f64 = 0.05;
+
 /// Largest radius, in spacings, of discs in which incoherence is a sign of noise: in larger ones bends and creases of a shape
 /// are incoherent, too.
 const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
+
+/// Largest radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
+const MAX_FIRST_RADIUS: f64 = 4.0;
 
 /// Least number of discs whose medians count.
 const MIN_DISCS: usize = 100;
@@ -30,20 +36,25 @@ const MIN_DISCS: usize = 100;
 /// Number of scales, up to the largest one that is used, to which a covariance is fitted.
 const FITTED_SCALES: usize = 3;
 
-/// Largest ratio of the whole noise to what discs show of it at which no larger discs are looked at. In larger ones the
-/// shape shows more.
-const MAX_HIDDEN_RATIO: f64 = 3.0;
+/// Largest ratio of the whole noise to what discs show of it. Where more is hidden, the covariance that is fitted is
+/// uncertain.
+const MAX_HIDDEN_RATIO: f64 = 6.0;
 
 /// Largest ratio of the noise in larger discs to what the fitted covariance predicts there.
 const MAX_PREDICTION_RATIO: f64 = 1.5;
 
-/// Number of correlation lengths that are tried, and their range in radii of the largest disc that is used.
+/// Number of correlation lengths that are tried.
 const LENGTH_TRIALS: u32 = 40;
-const LENGTH_RANGE: [f64; 2] = [0.02, 1.2];
 
-/// Variance along one axis of the mean over a cell of the doubled lattice, in squares of half its spacing, by which means
-/// blur noise a little more.
-const CELL_VARIANCE: f64 = 0.24;
+/// Shortest correlation length that is tried but 0, in radii of the largest disc that is used.
+const MIN_LENGTH_RADII: f64 = 0.02;
+
+/// Longest correlation length that is tried, in radii of the largest disc that is used.
+const MAX_LENGTH_RADII: f64 = 1.2;
+
+/// Variance along one axis of the points of a cell, in squares of its lattice's spacing: means over cells blur noise by
+/// as much.
+const CELL_VARIANCE: f64 = 0.08;
 
 /// Noise with a Gaussian covariance.
 #[derive(Debug, Clone, Copy)]
@@ -59,39 +70,52 @@ pub(super) struct CorrelatedNoise {
 }
 
 impl CorrelatedNoise {
-    /// The noise of heights with these curvatures; `None` if a shape hides it at all scales.
+    /// The noise of heights with these curvatures, from small discs to large ones; `None` if a shape hides it.
+    ///
+    /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one of
+    /// the least noise counts.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
         let first = scales.iter().position(is_noise)?;
-        let noisy = &scales[first..];
-        let count = noisy.iter().position(|scale| !is_noise(scale));
-        let last = first + count.unwrap_or(noisy.len()) - 1;
-        let fit = |last: usize| Fit::new(&scales[first.max((last + 1).saturating_sub(FITTED_SCALES))..=last], discs);
-        let explains = |fit: &Fit, larger: &[CurvatureScale]| {
-            larger.iter().filter(|scale| is_plain_noise(scale)).all(|scale| {
-                scale.white_equivalent <= MAX_PREDICTION_RATIO * fit.predict(scale, discs)
-            })
-        };
-        let found = (first + 1..last)
-            .map(|end| (end, fit(end)))
-            .find(|(end, fit)| {
-                scales[*end].ratio >= MIN_ISOTROPIC_RATIO
-                    && fit.hidden_ratio <= MAX_HIDDEN_RATIO
-                    && explains(fit, &scales[end + 1..=last])
-            });
-        let (end, fit) = found.unwrap_or_else(|| (last, fit(last)));
-        let root = fit.shared_vertices.sqrt();
-        // In larger discs a shape adds to the noise, and nothing takes away from it.
-        let shown = scales[end].white_equivalent;
-        let most = (scales[end + 1..].iter())
-            .take_while(|scale| scale.count >= MIN_DISCS / 2)
-            .map(|scale| scale.white_equivalent * fit.sigma * root / fit.predict(scale, discs))
-            .fold(fit.sigma * root, f64::min)
-            .max(shown);
+        if scales[first].radius() > MAX_FIRST_RADIUS {
+            return None;
+        }
+        let noisy = scales[first..].iter().take_while(|scale| is_noise(scale));
+        let scales = &scales[first..first + noisy.count()];
+        let fits = (1..scales.len()).map(|last| {
+            let covariance = Covariance::fit(
+                &scales[(last + 1).saturating_sub(FITTED_SCALES)..=last],
+                discs,
+            );
+            (&scales[last], &scales[last + 1..], covariance)
+        });
+        let explains =
+            |(last, larger, covariance): &(&CurvatureScale, &[CurvatureScale], Covariance)| {
+                let whole =
+                    last.ratio >= MIN_ISOTROPIC_RATIO || last.coherence > MIN_SHAPE_COHERENCE;
+                let predicted = |scale: &CurvatureScale| {
+                    scale.white_equivalent
+                        <= MAX_PREDICTION_RATIO * covariance.predict(scale, discs)
+                };
+                whole
+                    && covariance.hidden_ratio <= MAX_HIDDEN_RATIO
+                    && larger
+                        .iter()
+                        .filter(|scale| is_plain_noise(scale))
+                        .all(predicted)
+            };
+        let least = fits
+            .filter(explains)
+            .map(|(.., covariance)| covariance)
+            .min_by(|a, b| a.spectral_root().total_cmp(&b.spectral_root()));
+        let ambiguous = least.is_none();
+        let found = least.unwrap_or_else(|| {
+            Covariance::fit(&scales[scales.len().saturating_sub(FITTED_SCALES)..], discs)
+        });
         Some(CorrelatedNoise {
-            sigma: most / root,
-            length: fit.length,
-            shared_vertices: fit.shared_vertices,
-            ambiguous: fit.hidden_ratio > MAX_HIDDEN_RATIO,
+            sigma: found.sigma,
+            length: found.length,
+            shared_vertices: found.shared_vertices,
+            ambiguous,
         })
     }
 }
@@ -110,8 +134,8 @@ fn is_plain_noise(scale: &CurvatureScale) -> bool {
     scale.ratio > MIN_ISOTROPIC_RATIO && scale.coherence < MAX_NOISE_COHERENCE
 }
 
-/// A covariance fitted to the curvatures of some scales.
-struct Fit {
+/// Gaussian covariance fitted to the curvatures of some scales.
+struct Covariance {
     sigma: f64,
     length: f64,
     shared_vertices: f64,
@@ -119,16 +143,18 @@ struct Fit {
     hidden_ratio: f64,
 }
 
-impl Fit {
-    fn new(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
+impl Covariance {
+    /// Least squares of the logarithms.
+    fn fit(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
         let largest = scales.last().map_or(0.0, CurvatureScale::radius);
-        let [shortest, longest] = LENGTH_RANGE.map(|share| share * largest);
+        let [shortest, longest] = [MIN_LENGTH_RADII, MAX_LENGTH_RADII].map(|radii| radii * largest);
         let step = (longest / shortest).powf(1.0 / f64::from(LENGTH_TRIALS - 1));
         let lengths = (0..LENGTH_TRIALS).map(|trial| shortest * step.powi(trial as i32));
         let mut best = (f64::INFINITY, 0.0, 0.0);
         for length in [0.0].into_iter().chain(lengths) {
             let logs = || {
-                (scales.iter()).map(|scale| (scale.white_equivalent / response(scale, discs, length)).ln())
+                (scales.iter())
+                    .map(|scale| (scale.white_equivalent / response(scale, discs, length)).ln())
             };
             let count = scales.len() as f64;
             let mean = logs().sum::<f64>() / count;
@@ -139,13 +165,20 @@ impl Fit {
         }
         let (_, length, sigma) = best;
         let shared_vertices = shared_vertices(length);
-        let shown = scales.last().map_or(1.0, |scale| response(scale, discs, length));
-        Fit {
+        let shown = scales
+            .last()
+            .map_or(1.0, |scale| response(scale, discs, length));
+        Covariance {
             sigma,
             length,
             shared_vertices,
             hidden_ratio: shared_vertices.sqrt() / shown,
         }
+    }
+
+    /// Root of the noise's spectral density over large areas: the standard deviation of white noise that has the same.
+    fn spectral_root(&self) -> f64 {
+        self.sigma * self.shared_vertices.sqrt()
     }
 
     /// The white equivalent that this noise has at a scale.
@@ -158,7 +191,7 @@ impl Fit {
 fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
     let spacing = f64::from(1u32 << scale.lattice);
     // Means over cells are blurred by the cell, and have less variance by that.
-    let cell = CELL_VARIANCE * (1.0 - 1.0 / (spacing * spacing)) / 3.0;
+    let cell = CELL_VARIANCE * (1.0 - 1.0 / (spacing * spacing));
     let squared = (length / spacing).powi(2) + cell;
     let variance = match squared > 0.0 && scale.lattice > 0 {
         true => (length / spacing).powi(2) / squared,
@@ -229,11 +262,15 @@ mod tests {
         };
         for length in [1.0, 2.5] {
             let whole = shared_vertices(length).sqrt();
-            assert!((response(&scale(4, 1), &discs, length) / whole - 1.0).abs() < 0.05);
+            let seen = response(&scale(4, 1), &discs, length) / whole;
+            assert!((seen - 1.0).abs() < 0.12, "{length} {seen}");
             let mut last = 0.0;
             for lattice in 0..4 {
                 let response = response(&scale(lattice, 1), &discs, length);
-                assert!(response > last && response < 1.1 * whole, "{length} {lattice} {response} {whole}");
+                assert!(
+                    response > last && response < 1.1 * whole,
+                    "{length} {lattice} {response} {whole}"
+                );
                 last = response;
             }
         }

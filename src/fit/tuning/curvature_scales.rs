@@ -6,8 +6,8 @@
 
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
-use crate::lattice::hexagonal::{Lattice, ROW_SPACING};
 use crate::lattice::coarsening::coarse_lattice;
+use crate::lattice::hexagonal::{Lattice, ROW_SPACING};
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::median;
 use crate::math::sym2::Sym2;
@@ -78,12 +78,15 @@ impl Disc {
 
     /// Places of the vertices, the centre being the origin of a lattice of spacing 1.
     pub(super) fn positions(&self) -> Vec<[f64; 2]> {
-        self.offsets.iter().map(|offset| position(*offset)).collect()
+        self.offsets
+            .iter()
+            .map(|offset| position(*offset))
+            .collect()
     }
 }
 
 fn position((row, half): (isize, isize)) -> [f64; 2] {
-    [0.5 * half as f64, ROW_SPACING * row as f64]
+    [0.5 * half as f64, -ROW_SPACING * row as f64]
 }
 
 /// Principal curvatures of an input in discs of one size.
@@ -167,7 +170,10 @@ impl MeanHeights {
                 confidence[vertex] = weight;
             }
         }
-        let known = heights.iter().zip(&confidence).filter(|(z, _)| z.is_finite());
+        let known = heights
+            .iter()
+            .zip(&confidence)
+            .filter(|(z, _)| z.is_finite());
         let largest = known.map(|(_, weight)| *weight).fold(0.0, f64::max);
         Ok(MeanHeights {
             lattice,
@@ -187,7 +193,8 @@ impl MeanHeights {
                 if let Some(four) = super::merge::rhombus(&self.lattice, row, col) {
                     let vertex = lattice.index(row, col);
                     heights[vertex] = 0.25 * four.map(|v| self.heights[v]).iter().sum::<f64>();
-                    confidence[vertex] = 0.25 * four.map(|v| self.confidence[v]).iter().sum::<f64>();
+                    confidence[vertex] =
+                        0.25 * four.map(|v| self.confidence[v]).iter().sum::<f64>();
                 }
             }
         }

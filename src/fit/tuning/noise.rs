@@ -11,7 +11,7 @@ const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Least number of vertices, along a line, that share a value of noise that counts as correlated. Resampling alone makes
 /// noise alike from one vertex to the next by less.
-const MIN_CORRELATED_VERTICES: f64 = 1.5;
+const MIN_CORRELATED_VERTICES: f64 = 2.0;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
@@ -85,41 +85,38 @@ fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
     Ok(found.filter(|noise| noise.shared_vertices >= least))
 }
 
-/// What rings of six neighbours have in excess of any quadratic: the sum of their heights with
-/// alternating signs.
+/// Standard deviation of white noise, by the rings of six neighbours: the sum of a ring's heights with alternating signs
+/// vanishes for every quadratic. The median is over all rings, so that creases do not count.
 fn ring_noise(input: &Input) -> Option<f64> {
-    let found = median_of_rings(input, |_, [w, e, nw, ne, sw, se]| {
-        (w - nw) + (ne - e) + (se - sw)
-    })?;
-    Some(MAD_TO_SIGMA * found / 6f64.sqrt())
-}
-
-/// The median of absolute values at rings of six neighbours, so that creases do not count.
-fn median_of_rings(input: &Input, value: impl Fn(f64, [f64; 6]) -> f64) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
-    let sample = |vertex| sample(input, vertex, least);
     let mut samples = Vec::new();
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
-            let ring = lattice
-                .neighbours(row, col)
-                .map(|n| n.map_or(f64::NAN, |(row, col)| sample(lattice.index(row, col))));
-            let value = value(sample(lattice.index(row, col)), ring);
-            if value.is_finite() {
-                samples.push(value.abs());
+            if sample(input, lattice.index(row, col), least).is_nan() {
+                continue;
+            }
+            let [w, e, nw, ne, sw, se] = lattice.neighbours(row, col).map(|neighbour| {
+                neighbour.map_or(f64::NAN, |(row, col)| {
+                    sample(input, lattice.index(row, col), least)
+                })
+            });
+            let excess = (w - nw) + (ne - e) + (se - sw);
+            if excess.is_finite() {
+                samples.push(excess.abs());
             }
         }
     }
     if samples.len() < MIN_NOISE_SAMPLES {
         return None;
     }
-    median(&mut samples)
+    Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
 }
 
 /// Least confidence of a sample, as a share of the largest: bridged vertices have less.
 const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
+/// Largest confidence of a height that is not constrained.
 fn largest_trust(input: &Input) -> f64 {
     match input.confidence.is_empty() {
         true => 1.0,
@@ -130,7 +127,7 @@ fn largest_trust(input: &Input) -> f64 {
     }
 }
 
-/// A height of at least some confidence; NaN where there is none, or one that was made up.
+/// The height of a vertex; NaN where it has less than the least confidence, or is constrained.
 fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     let weight = input.weight(vertex);
     if input.is_constrained(vertex) || weight < least || weight == 0.0 {
@@ -139,7 +136,7 @@ fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     input.field.heights()[vertex]
 }
 
-/// The step that all heights are multiples of, from some height on, if many are the same.
+/// The step of quantised heights: all differences of heights are multiples of it. `None` if too few heights are equal.
 fn step(input: &Input) -> Option<f64> {
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
@@ -159,7 +156,7 @@ fn step(input: &Input) -> Option<f64> {
     gaps.into_iter().all(multiple).then_some(step)
 }
 
-/// About how many vertices in a row are rounded to the same step.
+/// Mean number of vertices in a row that are rounded to the same height.
 fn plateau(input: &Input, step: f64) -> f64 {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
@@ -209,7 +206,9 @@ mod tests {
     #[test]
     fn white_noise_is_measured_beside_bends_and_creases() {
         for sigma in [1e-4, 1e-3, 1e-2] {
-            let noise = Noise::from_input(&roof(sigma, &white(3)).into()).unwrap().unwrap();
+            let noise = Noise::from_input(&roof(sigma, &white(3)).into())
+                .unwrap()
+                .unwrap();
             assert!(
                 (noise.sigma / sigma - 1.0).abs() < 0.06,
                 "{sigma}: {noise:?}"
@@ -219,79 +218,111 @@ mod tests {
         }
     }
 
-    #[test]
-    fn correlated_noise_counts_for_more() {
+    /// Noise of variance 1: white noise after a Gaussian blur along rows and across them, in spacings.
+    fn blurred(seed: u64, [along, across]: [f64; 2]) -> Vec<f64> {
         let lattice = lattice();
-        let mut noise = white(5);
-        for _ in 0..3 {
-            let old = noise.clone();
-            for (i, value) in noise.iter_mut().enumerate() {
-                let ring = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-                let ring = ring
-                    .into_iter()
-                    .flatten()
-                    .map(|(r, c)| old[lattice.index(r, c)]);
-                let (sum, count) = ring.fold((2.0 * old[i], 2.0), |(s, n), z| (s + z, n + 1.0));
-                *value = sum / count;
-            }
-        }
-        let noise = Noise::from_input(&roof(1e-2, &noise).into()).unwrap().unwrap();
-        // Smoothing leaves the mean over large areas as it is, and so `σh` there.
-        assert!(noise.merged > 0, "{noise:?}");
-        assert!((0.4..1.3).contains(&(noise.product / 1e-4)), "{noise:?}");
-    }
-
-    /// As a depth camera's is that rounds: over so many vertices, behind small noise that is rough.
-    fn smooth(vertices: f64, rough: f64) -> Vec<f64> {
-        let lattice = lattice();
-        let reach = (3.0 * vertices).ceil() as isize;
-        let kernel = |d: isize| (-0.5 * (d as f64 / vertices).powi(2)).exp();
-        let along = |noise: &[f64], rows: isize, cols: isize| -> Vec<f64> {
-            let size = [lattice.rows() as isize, lattice.cols() as isize];
-            let at = |i: usize, d: isize| {
-                let row = i as isize / size[1] + d * rows;
-                let col = i as isize % size[1] + d * cols;
+        let size = [lattice.rows() as isize, lattice.cols() as isize];
+        let pass = |noise: &[f64], blur: f64, [down, right]: [isize; 2]| -> Vec<f64> {
+            let reach = (3.5 * blur).ceil() as isize;
+            let kernel = |step: isize| (-0.5 * (step as f64 / blur.max(1e-9)).powi(2)).exp();
+            let at = |i: usize, step: isize| {
+                let row = i as isize / size[1] + step * down;
+                let col = i as isize % size[1] + step * right;
                 noise[(row.rem_euclid(size[0]) * size[1] + col.rem_euclid(size[1])) as usize]
             };
-            let sum = |i| (-reach..=reach).map(|d| kernel(d) * at(i, d)).sum();
+            let sum = |i| {
+                (-reach..=reach)
+                    .map(|step| kernel(step) * at(i, step))
+                    .sum()
+            };
             (0..noise.len()).map(sum).collect()
         };
-        let noise = along(&along(&white(8), 1, 0), 0, 1);
+        let rows_apart = 0.75f64.sqrt();
+        let noise = pass(
+            &pass(&white(seed), along, [0, 1]),
+            across / rows_apart,
+            [1, 0],
+        );
         let size = (noise.iter().map(|n| n * n).sum::<f64>() / noise.len() as f64).sqrt();
-        noise
-            .iter()
-            .zip(white(9))
-            .map(|(n, w)| n / size + rough * w)
-            .collect()
+        noise.iter().map(|n| n / size).collect()
+    }
+
+    /// `√A` of blurred noise: the sum of its correlations, `2√π` times the blur for each axis over the area of a cell.
+    fn shared_root(blur: [f64; 2]) -> f64 {
+        let along_axis = |blur: f64| (2.0 * std::f64::consts::PI.sqrt() * blur).max(1.0).sqrt();
+        blur.map(along_axis).iter().product()
     }
 
     #[test]
+    fn blurred_noise_has_its_size_and_its_length() {
+        for blur in [1.0, 1.6, 2.5] {
+            for seed in [3, 5] {
+                let field = roof(1e-2, &blurred(seed, [blur; 2]));
+                let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+                let length = noise.correlation_length / 0.01;
+                assert!((0.8..1.4).contains(&(length / blur)), "{blur} {noise:?}");
+                assert!(
+                    (0.8..1.3).contains(&(noise.sigma / 1e-2)),
+                    "{blur} {noise:?}"
+                );
+                let product = noise.product / (1e-4 * shared_root([blur; 2]));
+                assert!((0.7..1.7).contains(&product), "{blur} {product} {noise:?}");
+                assert!(!noise.ambiguous);
+            }
+        }
+    }
+
+    /// Scan lines: each line is smooth, and has little to do with the next.
+    #[test]
+    fn noise_of_scan_lines_is_seen() {
+        for blur in [[3.0, 0.0], [0.0, 3.0], [4.0, 1.0]] {
+            let field = roof(1e-2, &blurred(7, blur));
+            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            let product = noise.product / (1e-4 * shared_root(blur));
+            assert!(
+                (0.5..2.5).contains(&product),
+                "{blur:?} {product} {noise:?}"
+            );
+        }
+    }
+
+    /// A depth camera rounds as well: the noise that counts is the smooth one, though the other is rougher.
+    #[test]
     fn smooth_noise_is_seen_behind_rough_noise() {
-        let (sigma, vertices) = (1e-2, 3.0);
-        let field = roof(sigma, &smooth(vertices, 0.03));
-        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
-        assert_eq!(noise.merged, 3, "{noise:?}");
-        // No more than it has, and more than rough noise a tenth of its size.
-        assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
-        // Nor is it lost where what is rougher goes over to it little by little.
-        let (own, beside) = (smooth(vertices, 0.0), smooth(1.0, 0.0));
-        let both = own
-            .iter()
-            .zip(beside.iter().rev())
-            .map(|(n, m)| n + 0.3 * m);
-        let field = roof(sigma, &both.collect::<Vec<_>>());
-        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
-        assert_eq!(noise.merged, 3, "{noise:?}");
-        assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
-        // A shape that shows behind rough noise alike is none.
-        let [rough, shape] = [3e-4, 0.028];
-        let wave = |x: f64, _: f64| shape * (8.0 * x).sin();
-        let wave = Heightfield::from_fn(lattice(), wave).unwrap();
-        let heights = wave.heights().iter().zip(smooth(0.7, 0.0));
-        let heights = heights.map(|(z, n)| z + rough * n).collect();
-        let field = Heightfield::new(lattice(), heights).unwrap();
-        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
-        assert!(noise.merged < 3 && noise.sigma < 3.0 * rough, "{noise:?}");
+        let rough = white(9);
+        for (blur, share) in [(1.6, 0.03), (2.5, 0.03), (2.5, 0.1)] {
+            let smooth = blurred(8, [blur; 2]);
+            let both: Vec<f64> = smooth
+                .iter()
+                .zip(&rough)
+                .map(|(n, w)| n + share * w)
+                .collect();
+            let noise = Noise::from_input(&roof(1e-2, &both).into())
+                .unwrap()
+                .unwrap();
+            let product = noise.product / (1e-4 * shared_root([blur; 2]));
+            assert!(
+                (0.5..1.8).contains(&product),
+                "{blur} {share} {product} {noise:?}"
+            );
+        }
+    }
+
+    /// Smooth bends are no noise, whether they stand alone or behind small noise.
+    #[test]
+    fn shapes_are_no_noise() {
+        for rough in [0.0, 3e-4] {
+            let wave = |x: f64, _: f64| 0.028 * (8.0 * x).sin();
+            let wave = Heightfield::from_fn(lattice(), wave).unwrap();
+            let heights = wave.heights().iter().zip(white(6));
+            let heights = heights.map(|(z, n)| z + rough * n).collect();
+            let field = Heightfield::new(lattice(), heights).unwrap();
+            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            assert!(
+                noise.merged == 0 && noise.sigma < 1.1 * rough + 1e-5,
+                "{rough} {noise:?}"
+            );
+        }
     }
 
     #[test]

@@ -90,7 +90,11 @@ impl Known {
         let wanted = options.lambda == Lambda::Auto || options.energy_or_default() == Energy::Huber;
         Ok(Known {
             scale: options.normalization.factor(&input.field),
-            noise: if wanted { Noise::from_input(input)? } else { None },
+            noise: if wanted {
+                Noise::from_input(input)?
+            } else {
+                None
+            },
         })
     }
 }
@@ -106,6 +110,8 @@ pub(crate) fn first(
         reason: LambdaReason::Unknown,
         sigma: noise.map(|noise| noise.sigma),
         step: noise.and_then(|noise| noise.step),
+        correlation_length: noise.map_or(0.0, |noise| noise.correlation_length),
+        ambiguous: noise.is_some_and(|noise| noise.ambiguous),
         merged: noise.map_or(0, |noise| noise.merged),
         solves: 0,
         iterations: 0,

@@ -357,9 +357,8 @@ export interface LambdaChoice {
   /**
    * Where lambda comes from:
    * - `'prediction'`: it predicts best what heights are that were held out;
-   * - `'noise'`: there are too few heights to hold some out, or their noise is alike from one to the
-   *   next, so that lambda follows from how large that is; what bends cost is compared by prediction all
-   *   the same, where there are enough;
+   * - `'noise'`: it follows from the size and the correlation length of the noise: there are too few heights to hold
+   *   some out, or their noise is alike from one to the next, so that it would predict itself;
    * - `'noNoise'`: the heights have no noise to speak of, and lambda is `'big'`;
    * - `'unknown'`: there are too few heights to tell their noise, and lambda is `'medium'`.
    */
@@ -368,6 +367,16 @@ export interface LambdaChoice {
   sigma?: number;
   /** The step of quantised heights, where that is what their noise comes from. */
   step?: number;
+  /**
+   * Standard deviation of the Gaussian blur that makes noise like that of the heights of white noise, in the input's
+   * units; 0 for noise that is independent from vertex to vertex.
+   */
+  correlationLength: number;
+  /**
+   * Whether the noise is alike over distances at which the shape bends, too, so that they could not be told apart:
+   * sigma and lambda are uncertain.
+   */
+  ambiguous: boolean;
   /** Noise is independent from vertex to vertex on the lattice of `2 ** merged` times the spacing. */
   merged: number;
   /** How many ways were compared, each by up to three solves. */

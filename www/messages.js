@@ -158,11 +158,13 @@ export const BY_NOISE = 'By the noise of the input, with smooth bends and sharp 
  */
 export function lambdaFound({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
-  const { reason, sigma, step, solves } = lambdaChoice;
-  const noise = step === undefined ? `noise of ${number(sigma ?? 0)}` : `steps of ${number(step)}`;
+  const { reason, sigma, step, solves, correlationLength, ambiguous } = lambdaChoice;
+  const length = correlationLength > 0 ? ` that is alike over distances of ${number(correlationLength)}` : '';
+  const noise = step === undefined ? `noise of ${number(sigma ?? 0)}${length}` : `steps of ${number(step)}`;
+  const doubt = ambiguous ? ' The shape bends over such distances, too, so that the two cannot be told apart for certain: try other λ.' : '';
   switch (reason) {
-    case 'prediction': return `The heights have ${noise}, in their own unit. Of ${count(solves)} tries, λ = ${shortest(lambda)} predicts best what heights are that were held out.`;
-    case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.`;
+    case 'prediction': return `The heights have ${noise}, in their own unit. λ = ${shortest(lambda)} had the smallest prediction error of ${count(solves)} tries.${doubt}`;
+    case 'noise': return `The heights have ${noise}, in their own unit: λ = ${shortest(lambda)} follows from that.${doubt}`;
     case 'noNoise': return `The heights have no noise to speak of: λ = ${shortest(lambda)}. A smaller one makes fewer, larger sheets.`;
     default: return `There are too few heights to tell their noise: λ = ${shortest(lambda)}.`;
   }

@@ -26,7 +26,7 @@ use shapes::Scene;
 
 const SIZES: [usize; 2] = [80, 200];
 
-const NOISES: [Noise; 10] = [
+const NOISES: [Noise; 20] = [
     Noise::White(0.005),
     Noise::White(0.01),
     Noise::White(0.02),
@@ -34,13 +34,23 @@ const NOISES: [Noise; 10] = [
     Noise::White(0.1),
     Noise::Correlated(0.01),
     Noise::Correlated(0.05),
+    Noise::Blurred(0.005, [1.0, 1.0]),
+    Noise::Blurred(0.01, [1.0, 1.0]),
+    Noise::Blurred(0.01, [1.6, 1.6]),
+    Noise::Blurred(0.02, [1.6, 1.6]),
+    Noise::Blurred(0.005, [2.5, 2.5]),
+    Noise::Blurred(0.01, [2.5, 2.5]),
+    Noise::Blurred(0.01, [4.0, 4.0]),
+    Noise::Blurred(0.02, [4.0, 4.0]),
+    Noise::Blurred(0.01, [3.0, 0.0]),
+    Noise::Blurred(0.01, [4.0, 1.0]),
     Noise::Voxels(0.01),
     Noise::Voxels(0.03),
     Noise::Voxels(0.1),
 ];
 
 /// Half-decades about `8/σh` among which the best λ is picked, for normals and heights apart.
-const DECADES: [f64; 6] = [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0];
+const DECADES: [f64; 8] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5];
 
 /// One scene under one noise.
 struct Row {

@@ -124,9 +124,8 @@ pub struct LevelReport {
 pub enum LambdaReason {
     /// It predicts held-out heights best.
     Prediction,
-    /// There are too few heights to hold some out, or their noise is alike from one to the next, as
-    /// that of quantised heights is: it follows from how large that is. What bends cost is compared by
-    /// prediction all the same, where there are enough.
+    /// It follows from the size and the correlation length of the noise: there are too few heights to hold some out, or
+    /// their noise is alike from one to the next, so that it would predict itself.
     Noise,
     /// The heights have no noise to speak of: λ is [`Lambda::Big`](crate::Lambda::Big).
     NoNoise,
@@ -150,6 +149,12 @@ pub struct LambdaChoice {
     /// The step of quantised heights, in the input's units, where that is what their noise comes
     /// from.
     pub step: Option<f64>,
+    /// Standard deviation of the Gaussian blur that makes noise like that of the heights of white noise, in the
+    /// input's units; 0 for noise that is independent from vertex to vertex.
+    pub correlation_length: f64,
+    /// Whether the noise is alike over distances at which the shape bends, too, so that they could not be told apart:
+    /// σ and λ are uncertain.
+    pub ambiguous: bool,
     /// Noise is independent from vertex to vertex on the lattice of `2^merged` times the spacing.
     pub merged: usize,
     /// How many ways were compared, each by up to three solves, and their ADMM iterations, which the

@@ -68,7 +68,9 @@ impl Solver {
                 search = Search::new(&prepared.input, &asked, &first, known)?;
             }
             options = match search {
-                None if found.reason == LambdaReason::Noise => tuning::without(&first),
+                None if found.reason == LambdaReason::Noise => {
+                    tuning::without_search(&first, noise)
+                }
                 _ => first,
             };
             choice = Some(found);

@@ -41,7 +41,7 @@ pub(crate) fn merge(input: &Input) -> Result<Input> {
 }
 
 /// The vertices of the fine lattice that a coarse one stands for.
-fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 4]> {
+pub(super) fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 4]> {
     let left = (2 * col).checked_sub(row % 2)?;
     let (bottom, right) = (2 * row + 1, left + 1);
     let inside = bottom < fine.rows() && right < fine.cols();

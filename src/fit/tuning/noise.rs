@@ -1,40 +1,17 @@
 //! How large the noise of heights is.
 
-use super::merge::merge;
+use super::correlated_noise::CorrelatedNoise;
+use super::curvature_scales::{DISC_RADII, Disc, curvature_scales};
 use crate::error::Result;
 use crate::fit::input::Input;
-use crate::lattice::stencil::Quadratic;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
-
-/// The same of the smaller principal curvature, at a spacing of 1, for noise of standard deviation 1 that is
-/// independent from vertex to vertex.
-const SMALLER_BEND: f64 = 0.93;
 
 /// Least number of samples that say anything about noise.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Most merging for correlated noise.
-const MOST_MERGED: usize = 2;
-
-/// Least and largest factor by which `σh` of correlated noise grows from one merging to the next. Noise that
-/// is independent from vertex to vertex has `σh` as before. What grows by more than the largest each time is
-/// no noise but the surface's own shape, which grows by up to 16; where that comes in later, noise ends where
-/// it grows least.
-const CORRELATED_GROWTH_RANGE: [f64; 2] = [1.3, 5.0];
-
-/// Factor by which growth rises where noise is smooth over several vertices: it shows late, behind what is
-/// rougher and smaller, such as rounding or the edges of pixels.
-const SMOOTH_NOISE_RISE: f64 = 1.1;
-
-/// Least growth on each lattice where noise is smooth on all of them.
-const MIN_SMOOTH_NOISE_GROWTH: f64 = 3.0;
-
-/// Largest growth of noise that is still smooth.
-const MAX_SMOOTH_NOISE_GROWTH: f64 = 12.0;
-
-/// Least share of curvature that bends both ways at which what grows so is noise: a developable surface does not bend
-/// both ways.
-const BOTH_WAYS: f64 = 0.75;
+/// Least number of vertices, along a line, that share a value of noise that counts as correlated. Resampling alone makes
+/// noise alike from one vertex to the next by less.
+const MIN_CORRELATED_VERTICES: f64 = 2.0;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
@@ -47,135 +24,99 @@ const EQUAL_HEIGHT_TOLERANCE: f64 = 1e-3;
 pub(crate) struct Noise {
     /// Standard deviation, in the user's units.
     pub sigma: f64,
-    /// How often vertices are merged, four into one, until noise is independent from vertex to vertex.
+    /// Standard deviation of the Gaussian blur that makes such noise of white noise, in the user's units; 0 for noise
+    /// that is independent from vertex to vertex.
+    pub correlation_length: f64,
+    /// Number of times that four vertices are averaged to one until noise is independent from vertex to vertex.
     pub merged: usize,
-    /// `σh` there, in the user's units squared, times the confidence of what it was measured at. In
-    /// normalised coordinates `8` over it is about the best λ.
+    /// `σ h √A`, in the user's units squared, times the confidence of what it was measured at, where `A` vertices share a
+    /// value of the noise. In normalised coordinates `8` over it is about the best λ.
     pub product: f64,
     /// The step of quantised heights, if noise is no larger than what that makes.
     pub step: Option<f64>,
+    /// Whether the noise is alike over distances at which the shape bends, so that the two could not be told apart.
+    pub ambiguous: bool,
 }
 
 impl Noise {
-    /// Nothing where there is too little to tell from.
-    pub(crate) fn of(input: &Input) -> Result<Option<Self>> {
-        let trust = largest_trust(input);
-        let Some(own) = ring_noise(input) else {
+    /// The noise of an input; `None` if it has too few heights.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub(crate) fn from_input(input: &Input) -> Result<Option<Self>> {
+        let Some(white) = ring_noise(input) else {
             return Ok(None);
         };
-        let step = step(input).filter(|step| step / 12f64.sqrt() > own);
-        let sigma = step.map_or(own, |step| step / 12f64.sqrt());
-        let mut spacing = input.field.lattice().spacing();
+        let trust = largest_trust(input);
+        let spacing = input.field.lattice().spacing();
+        let step = step(input).filter(|step| step / 12f64.sqrt() > white);
         let mut noise = Noise {
-            sigma,
+            sigma: step.map_or(white, |step| step / 12f64.sqrt()),
+            correlation_length: 0.0,
             merged: 0,
-            product: trust * sigma * spacing,
+            product: 0.0,
             step,
+            ambiguous: false,
         };
+        let mut shared = 1.0;
         if let Some(step) = step {
-            // Heights that are rounded alike are off alike; the square root is by experience.
+            // Heights that are rounded alike have errors that are alike. The square root is by experience.
             let width = plateau(input, step);
-            noise.product *= width.sqrt();
+            shared = width.sqrt();
             noise.merged = width.log2().round() as usize;
-            return Ok(Some(noise));
+        } else if let Some(found) = correlated_noise(input)? {
+            shared = found.shared_vertices.sqrt();
+            noise.sigma = found.sigma;
+            noise.correlation_length = found.length * spacing;
+            noise.merged = shared.log2().round() as usize;
+            noise.ambiguous = found.ambiguous;
         }
-        let [least, most] = CORRELATED_GROWTH_RANGE;
-        let mut merged = merge(input)?;
-        let mut last = noise;
-        let mut slowest = most;
-        let mut grown = Vec::new();
-        for count in 1..=MOST_MERGED + 1 {
-            spacing *= 2.0;
-            let Some(found) = ring_noise(&merged) else {
-                break;
-            };
-            let next = Noise {
-                sigma: noise.sigma.max(found),
-                merged: count,
-                product: trust * found * spacing,
-                step,
-            };
-            let growth = next.product / last.product;
-            if growth <= least || growth.is_nan() {
-                return Ok(Some(last));
-            }
-            grown.push(growth);
-            if count > MOST_MERGED
-                && shows_late(&grown)
-                && bend_noise(&merged) > Some(BOTH_WAYS * found)
-            {
-                return Ok(Some(next));
-            }
-            if growth < slowest && count <= MOST_MERGED {
-                (noise, slowest) = (next, growth);
-            }
-            last = next;
-            merged = merge(&merged)?;
-        }
-        if noise.merged > 0 {
-            // Not all of it is seen there yet.
-            noise.product *= slowest.sqrt();
-        }
+        noise.product = trust * noise.sigma * spacing * shared;
         Ok(Some(noise))
     }
 }
 
-/// Whether noise shows on the lattices merged last, behind what grows slowly on those before or as much.
-fn shows_late(growth: &[f64]) -> bool {
-    let (first, later) = (growth[0], &growth[1..]);
-    let fastest = later.iter().copied().fold(0.0, f64::max);
-    let rises = fastest > SMOOTH_NOISE_RISE * first
-        && (CORRELATED_GROWTH_RANGE[1]..MAX_SMOOTH_NOISE_GROWTH).contains(&fastest);
-    rises
-        || (growth.iter())
-            .all(|growth| (MIN_SMOOTH_NOISE_GROWTH..CORRELATED_GROWTH_RANGE[1]).contains(growth))
+/// Noise that several vertices share; `None` where it is independent from vertex to vertex.
+fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
+    let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
+    let scales = curvature_scales(input, &discs)?;
+    let found = CorrelatedNoise::from_scales(&scales, &discs);
+    let least = MIN_CORRELATED_VERTICES * MIN_CORRELATED_VERTICES;
+    Ok(found.filter(|noise| noise.shared_vertices >= least))
 }
 
-/// What rings of six neighbours have in excess of any quadratic: the sum of their heights with
-/// alternating signs.
+/// Standard deviation of white noise, by the rings of six neighbours: the sum of a ring's heights with alternating signs
+/// vanishes for every quadratic. The median is over all rings, so that creases do not count.
 fn ring_noise(input: &Input) -> Option<f64> {
-    let found = median_of_rings(input, |_, [w, e, nw, ne, sw, se]| {
-        (w - nw) + (ne - e) + (se - sw)
-    })?;
-    Some(MAD_TO_SIGMA * found / 6f64.sqrt())
-}
-
-/// The same by how far surfaces bend both ways: the smaller principal curvature. Of a developable surface it
-/// is noise's alone, however smooth that is.
-fn bend_noise(input: &Input) -> Option<f64> {
-    let found = median_of_rings(input, |centre, ring| {
-        let [a, b] = Quadratic::fit(centre, ring, 1.0).hessian.eigenvalues();
-        a.abs().min(b.abs())
-    })?;
-    Some(found / SMALLER_BEND)
-}
-
-/// The median of absolute values at rings of six neighbours, so that creases do not count.
-fn median_of_rings(input: &Input, value: impl Fn(f64, [f64; 6]) -> f64) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
-    let sample = |vertex| sample(input, vertex, least);
     let mut samples = Vec::new();
     for row in 0..lattice.rows() {
         for col in 0..lattice.cols() {
-            let ring = lattice
-                .neighbours(row, col)
-                .map(|n| n.map_or(f64::NAN, |(row, col)| sample(lattice.index(row, col))));
-            let value = value(sample(lattice.index(row, col)), ring);
-            if value.is_finite() {
-                samples.push(value.abs());
+            if sample(input, lattice.index(row, col), least).is_nan() {
+                continue;
+            }
+            let [w, e, nw, ne, sw, se] = lattice.neighbours(row, col).map(|neighbour| {
+                neighbour.map_or(f64::NAN, |(row, col)| {
+                    sample(input, lattice.index(row, col), least)
+                })
+            });
+            let excess = (w - nw) + (ne - e) + (se - sw);
+            if excess.is_finite() {
+                samples.push(excess.abs());
             }
         }
     }
     if samples.len() < MIN_NOISE_SAMPLES {
         return None;
     }
-    median(&mut samples)
+    Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
 }
 
 /// Least confidence of a sample, as a share of the largest: bridged vertices have less.
 const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
+/// Largest confidence of a height that is not constrained.
 fn largest_trust(input: &Input) -> f64 {
     match input.confidence.is_empty() {
         true => 1.0,
@@ -186,7 +127,7 @@ fn largest_trust(input: &Input) -> f64 {
     }
 }
 
-/// A height of at least some confidence; NaN where there is none, or one that was made up.
+/// The height of a vertex; NaN where it has less than the least confidence, or is constrained.
 fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     let weight = input.weight(vertex);
     if input.is_constrained(vertex) || weight < least || weight == 0.0 {
@@ -195,7 +136,7 @@ fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
     input.field.heights()[vertex]
 }
 
-/// The step that all heights are multiples of, from some height on, if many are the same.
+/// The step of quantised heights: all differences of heights are multiples of it. `None` if too few heights are equal.
 fn step(input: &Input) -> Option<f64> {
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
     let samples = (0..input.field.lattice().len()).map(|v| sample(input, v, least));
@@ -215,7 +156,7 @@ fn step(input: &Input) -> Option<f64> {
     gaps.into_iter().all(multiple).then_some(step)
 }
 
-/// About how many vertices in a row are rounded to the same step.
+/// Mean number of vertices in a row that are rounded to the same height.
 fn plateau(input: &Input, step: f64) -> f64 {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
@@ -265,7 +206,9 @@ mod tests {
     #[test]
     fn white_noise_is_measured_beside_bends_and_creases() {
         for sigma in [1e-4, 1e-3, 1e-2] {
-            let noise = Noise::of(&roof(sigma, &white(3)).into()).unwrap().unwrap();
+            let noise = Noise::from_input(&roof(sigma, &white(3)).into())
+                .unwrap()
+                .unwrap();
             assert!(
                 (noise.sigma / sigma - 1.0).abs() < 0.06,
                 "{sigma}: {noise:?}"
@@ -275,79 +218,111 @@ mod tests {
         }
     }
 
-    #[test]
-    fn correlated_noise_counts_for_more() {
+    /// Noise of variance 1: white noise after a Gaussian blur along rows and across them, in spacings.
+    fn blurred(seed: u64, [along, across]: [f64; 2]) -> Vec<f64> {
         let lattice = lattice();
-        let mut noise = white(5);
-        for _ in 0..3 {
-            let old = noise.clone();
-            for (i, value) in noise.iter_mut().enumerate() {
-                let ring = lattice.neighbours(i / lattice.cols(), i % lattice.cols());
-                let ring = ring
-                    .into_iter()
-                    .flatten()
-                    .map(|(r, c)| old[lattice.index(r, c)]);
-                let (sum, count) = ring.fold((2.0 * old[i], 2.0), |(s, n), z| (s + z, n + 1.0));
-                *value = sum / count;
-            }
-        }
-        let noise = Noise::of(&roof(1e-2, &noise).into()).unwrap().unwrap();
-        // Smoothing leaves the mean over large areas as it is, and so `σh` there.
-        assert!(noise.merged > 0, "{noise:?}");
-        assert!((0.4..1.3).contains(&(noise.product / 1e-4)), "{noise:?}");
-    }
-
-    /// As a depth camera's is that rounds: over so many vertices, behind small noise that is rough.
-    fn smooth(vertices: f64, rough: f64) -> Vec<f64> {
-        let lattice = lattice();
-        let reach = (3.0 * vertices).ceil() as isize;
-        let kernel = |d: isize| (-0.5 * (d as f64 / vertices).powi(2)).exp();
-        let along = |noise: &[f64], rows: isize, cols: isize| -> Vec<f64> {
-            let size = [lattice.rows() as isize, lattice.cols() as isize];
-            let at = |i: usize, d: isize| {
-                let row = i as isize / size[1] + d * rows;
-                let col = i as isize % size[1] + d * cols;
+        let size = [lattice.rows() as isize, lattice.cols() as isize];
+        let pass = |noise: &[f64], blur: f64, [down, right]: [isize; 2]| -> Vec<f64> {
+            let reach = (3.5 * blur).ceil() as isize;
+            let kernel = |step: isize| (-0.5 * (step as f64 / blur.max(1e-9)).powi(2)).exp();
+            let at = |i: usize, step: isize| {
+                let row = i as isize / size[1] + step * down;
+                let col = i as isize % size[1] + step * right;
                 noise[(row.rem_euclid(size[0]) * size[1] + col.rem_euclid(size[1])) as usize]
             };
-            let sum = |i| (-reach..=reach).map(|d| kernel(d) * at(i, d)).sum();
+            let sum = |i| {
+                (-reach..=reach)
+                    .map(|step| kernel(step) * at(i, step))
+                    .sum()
+            };
             (0..noise.len()).map(sum).collect()
         };
-        let noise = along(&along(&white(8), 1, 0), 0, 1);
+        let rows_apart = 0.75f64.sqrt();
+        let noise = pass(
+            &pass(&white(seed), along, [0, 1]),
+            across / rows_apart,
+            [1, 0],
+        );
         let size = (noise.iter().map(|n| n * n).sum::<f64>() / noise.len() as f64).sqrt();
-        noise
-            .iter()
-            .zip(white(9))
-            .map(|(n, w)| n / size + rough * w)
-            .collect()
+        noise.iter().map(|n| n / size).collect()
+    }
+
+    /// `√A` of blurred noise: the sum of its correlations, `2√π` times the blur for each axis over the area of a cell.
+    fn shared_root(blur: [f64; 2]) -> f64 {
+        let along_axis = |blur: f64| (2.0 * std::f64::consts::PI.sqrt() * blur).max(1.0).sqrt();
+        blur.map(along_axis).iter().product()
     }
 
     #[test]
+    fn blurred_noise_has_its_size_and_its_length() {
+        for blur in [1.0, 1.6, 2.5] {
+            for seed in [3, 5] {
+                let field = roof(1e-2, &blurred(seed, [blur; 2]));
+                let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+                let length = noise.correlation_length / 0.01;
+                assert!((0.8..1.4).contains(&(length / blur)), "{blur} {noise:?}");
+                assert!(
+                    (0.8..1.3).contains(&(noise.sigma / 1e-2)),
+                    "{blur} {noise:?}"
+                );
+                let product = noise.product / (1e-4 * shared_root([blur; 2]));
+                assert!((0.7..1.7).contains(&product), "{blur} {product} {noise:?}");
+                assert!(!noise.ambiguous);
+            }
+        }
+    }
+
+    /// Scan lines: each line is smooth, and has little to do with the next.
+    #[test]
+    fn noise_of_scan_lines_is_seen() {
+        for blur in [[3.0, 0.0], [0.0, 3.0], [4.0, 1.0]] {
+            let field = roof(1e-2, &blurred(7, blur));
+            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            let product = noise.product / (1e-4 * shared_root(blur));
+            assert!(
+                (0.5..2.5).contains(&product),
+                "{blur:?} {product} {noise:?}"
+            );
+        }
+    }
+
+    /// A depth camera rounds as well: the noise that counts is the smooth one, though the other is rougher.
+    #[test]
     fn smooth_noise_is_seen_behind_rough_noise() {
-        let (sigma, vertices) = (1e-2, 3.0);
-        let field = roof(sigma, &smooth(vertices, 0.03));
-        let noise = Noise::of(&field.into()).unwrap().unwrap();
-        assert_eq!(noise.merged, 3, "{noise:?}");
-        // No more than it has, and more than rough noise a tenth of its size.
-        assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
-        // Nor is it lost where what is rougher goes over to it little by little.
-        let (own, beside) = (smooth(vertices, 0.0), smooth(1.0, 0.0));
-        let both = own
-            .iter()
-            .zip(beside.iter().rev())
-            .map(|(n, m)| n + 0.3 * m);
-        let field = roof(sigma, &both.collect::<Vec<_>>());
-        let noise = Noise::of(&field.into()).unwrap().unwrap();
-        assert_eq!(noise.merged, 3, "{noise:?}");
-        assert!((0.3..1.1).contains(&(noise.sigma / sigma)), "{noise:?}");
-        // A shape that shows behind rough noise alike is none.
-        let [rough, shape] = [3e-4, 0.028];
-        let wave = |x: f64, _: f64| shape * (8.0 * x).sin();
-        let wave = Heightfield::from_fn(lattice(), wave).unwrap();
-        let heights = wave.heights().iter().zip(smooth(0.7, 0.0));
-        let heights = heights.map(|(z, n)| z + rough * n).collect();
-        let field = Heightfield::new(lattice(), heights).unwrap();
-        let noise = Noise::of(&field.into()).unwrap().unwrap();
-        assert!(noise.merged < 3 && noise.sigma < 3.0 * rough, "{noise:?}");
+        let rough = white(9);
+        for (blur, share) in [(1.6, 0.03), (2.5, 0.03), (2.5, 0.1)] {
+            let smooth = blurred(8, [blur; 2]);
+            let both: Vec<f64> = smooth
+                .iter()
+                .zip(&rough)
+                .map(|(n, w)| n + share * w)
+                .collect();
+            let noise = Noise::from_input(&roof(1e-2, &both).into())
+                .unwrap()
+                .unwrap();
+            let product = noise.product / (1e-4 * shared_root([blur; 2]));
+            assert!(
+                (0.5..1.8).contains(&product),
+                "{blur} {share} {product} {noise:?}"
+            );
+        }
+    }
+
+    /// Smooth bends are no noise, whether they stand alone or behind small noise.
+    #[test]
+    fn shapes_are_no_noise() {
+        for rough in [0.0, 3e-4] {
+            let wave = |x: f64, _: f64| 0.028 * (8.0 * x).sin();
+            let wave = Heightfield::from_fn(lattice(), wave).unwrap();
+            let heights = wave.heights().iter().zip(white(6));
+            let heights = heights.map(|(z, n)| z + rough * n).collect();
+            let field = Heightfield::new(lattice(), heights).unwrap();
+            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            assert!(
+                noise.merged == 0 && noise.sigma < 1.1 * rough + 1e-5,
+                "{rough} {noise:?}"
+            );
+        }
     }
 
     #[test]
@@ -359,14 +334,14 @@ mod tests {
             .iter()
             .map(|z| 1.0 + (z / step).round() * step);
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
-        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
         assert!((noise.step.unwrap() / step - 1.0).abs() < 1e-9, "{noise:?}");
         assert!((noise.sigma / (step / 12f64.sqrt()) - 1.0).abs() < 1e-6);
         // Noise that is larger than the step is what counts.
         let rough = roof(0.05, &white(2));
         let heights = rough.heights().iter().map(|z| (z / step).round() * step);
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
-        let noise = Noise::of(&field.into()).unwrap().unwrap();
+        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
         assert!(
             noise.step.is_none() && (noise.sigma / 0.05 - 1.0).abs() < 0.1,
             "{noise:?}"
@@ -376,8 +351,8 @@ mod tests {
     #[test]
     fn constant_and_tiny_inputs_have_none() {
         let flat = Heightfield::from_fn(lattice(), |_, _| 0.0).unwrap();
-        assert_eq!(Noise::of(&flat.into()).unwrap().unwrap().sigma, 0.0);
+        assert_eq!(Noise::from_input(&flat.into()).unwrap().unwrap().sigma, 0.0);
         let tiny = Heightfield::from_fn(Lattice::new(3, 3, 1.0).unwrap(), |x, _| x).unwrap();
-        assert_eq!(Noise::of(&tiny.into()).unwrap(), None);
+        assert_eq!(Noise::from_input(&tiny.into()).unwrap(), None);
     }
 }

@@ -29,8 +29,8 @@ const LAMBDA_STEP_FACTOR: f64 = 3.0;
 /// Largest number of steps down from the first λ.
 const MAX_STEPS_DOWN: i32 = 3;
 
-/// Most merging before a search.
-const MOST_MERGED: usize = 2;
+/// Maximum number of times that four vertices are averaged to one before a search.
+const MAX_MERGES: usize = 4;
 
 /// Relative duality gap of the solves that are compared: their surfaces differ by more than it leaves open.
 const SEARCH_GAP: f64 = 0.02;
@@ -91,7 +91,11 @@ impl Known {
             || options.energy_or_default() == Energy::Huber;
         Ok(Known {
             scale: options.normalization.factor(&input.field),
-            noise: if wanted { Noise::of(input)? } else { None },
+            noise: if wanted {
+                Noise::from_input(input)?
+            } else {
+                None
+            },
         })
     }
 }
@@ -107,6 +111,8 @@ pub(crate) fn first(
         reason: LambdaReason::Unknown,
         sigma: noise.map(|noise| noise.sigma),
         step: noise.and_then(|noise| noise.step),
+        correlation_length: noise.map_or(0.0, |noise| noise.correlation_length),
+        ambiguous: noise.is_some_and(|noise| noise.ambiguous),
         merged: noise.map_or(0, |noise| noise.merged),
         solves: 0,
         iterations: 0,
@@ -133,9 +139,13 @@ pub(crate) fn guarded(options: &Options, noise: Option<Noise>, scale: f64) -> Op
     at_loudness(options, Bending::SMOOTH, loudness)
 }
 
-/// The options that [`first`] gives, where there can be no search.
-pub(crate) fn without(first: &Options) -> Options {
-    at_loudness(first, Bending::ANY, 1.0)
+/// The options that [`first`] gives, where there can be no search. Under noise that is alike from one vertex to the
+/// next, anything but the nuclear norm would follow it.
+pub(crate) fn without_search(first: &Options, noise: Option<Noise>) -> Options {
+    match noise.is_some_and(|noise| noise.merged > 0) {
+        true => at_loudness(first, Bending::NUCLEAR, f64::INFINITY),
+        false => at_loudness(first, Bending::ANY, 1.0),
+    }
 }
 
 /// The options with what is not given as in `bending`, but without what would make a surface of noise:
@@ -163,7 +173,7 @@ fn searchable(input: &Input, noise: Noise) -> Result<(Input, bool)> {
         Ok((merged, size))
     };
     // What is rounded alike predicts itself, on any lattice.
-    if noise.step.is_none() && (1..=MOST_MERGED).contains(&noise.merged) {
+    if noise.step.is_none() && (1..=MAX_MERGES).contains(&noise.merged) {
         let mut coarse = input.clone();
         let mut size = usize::MAX;
         for _ in 0..noise.merged {
@@ -225,6 +235,9 @@ impl Search {
             return Ok(None);
         };
         let (input, dependent) = searchable(input, noise)?;
+        if dependent && noise.step.is_none() {
+            return Ok(None);
+        }
         let Some(class) = HeldOut::of(&input, 0)? else {
             return Ok(None);
         };

@@ -1,0 +1,279 @@
+//! Size and correlation length of noise, from the curvatures that it has at several scales.
+//!
+//! The covariance of the noise is taken to be Gaussian, as that of white noise after a Gaussian blur: `σ² exp(−d²/4ℓ²)` at
+//! the distance `d`, where `ℓ` is the blur's standard deviation. The curvature that such noise has in discs of some radius
+//! follows from the coefficients of the least-squares fit, so that `σ` and `ℓ` can be fitted to what was measured.
+
+use super::curvature_scales::{CurvatureScale, Disc};
+
+/// Least ratio of smaller to larger curvature of noise. Isotropic noise has 0.30 to 0.34 at every scale; a developable
+/// shape that shows beside it lowers the ratio.
+const MIN_NOISE_RATIO: f64 = 0.22;
+
+/// Least ratio of noise that is as large in all directions, as far as can be told.
+const MIN_ISOTROPIC_RATIO: f64 = 0.28;
+
+/// Least ratio of noise that is rougher in one direction than in another, as that of scan lines. It counts as noise only
+/// where its Hessians are incoherent.
+const MIN_ANISOTROPIC_RATIO: f64 = 0.1;
+
+/// Largest coherence of neighbouring Hessians at which they are incoherent.
+const MAX_NOISE_COHERENCE: f64 = 0.15;
+
+/// Least coherence that shows a shape beside noise.
+const MIN_SHAPE_COHERENCE: f64 = 0.05;
+
+/// Largest radius, in spacings, of discs in which incoherence is a sign of noise: in larger ones bends and creases of a shape
+/// are incoherent, too.
+const MAX_INCOHERENCE_RADIUS: f64 = 12.0;
+
+/// Largest radius, in spacings, of the smallest discs that show noise. What shows in larger discs only is a shape.
+const MAX_FIRST_RADIUS: f64 = 4.0;
+
+/// Least number of discs whose medians count.
+const MIN_DISCS: usize = 100;
+
+/// Number of scales, up to the largest one that is used, to which a covariance is fitted.
+const FITTED_SCALES: usize = 3;
+
+/// Largest ratio of the whole noise to what discs show of it. Where more is hidden, the covariance that is fitted is
+/// uncertain.
+const MAX_HIDDEN_RATIO: f64 = 6.0;
+
+/// Largest ratio of the noise in larger discs to what the fitted covariance predicts there.
+const MAX_PREDICTION_RATIO: f64 = 1.5;
+
+/// Number of correlation lengths that are tried.
+const LENGTH_TRIALS: u32 = 40;
+
+/// Shortest correlation length that is tried but 0, in radii of the largest disc that is used.
+const MIN_LENGTH_RADII: f64 = 0.02;
+
+/// Longest correlation length that is tried, in radii of the largest disc that is used.
+const MAX_LENGTH_RADII: f64 = 1.2;
+
+/// Variance along one axis of the points of a cell, in squares of its lattice's spacing: means over cells blur noise by
+/// as much.
+const CELL_VARIANCE: f64 = 0.08;
+
+/// Noise with a Gaussian covariance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CorrelatedNoise {
+    /// Standard deviation, in the heights' unit.
+    pub sigma: f64,
+    /// Standard deviation of the blur that makes such noise of white noise, in spacings.
+    pub length: f64,
+    /// Number of vertices that share one value of the noise: the sum of its correlations.
+    pub shared_vertices: f64,
+    /// Whether its scale is so large that most of it could not be told from the shape.
+    pub ambiguous: bool,
+}
+
+impl CorrelatedNoise {
+    /// The noise of heights with these curvatures, from small discs to large ones; `None` if a shape hides it.
+    ///
+    /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one of
+    /// the least noise counts.
+    pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
+        let first = scales.iter().position(is_noise)?;
+        if scales[first].radius() > MAX_FIRST_RADIUS {
+            return None;
+        }
+        let noisy = scales[first..].iter().take_while(|scale| is_noise(scale));
+        let scales = &scales[first..first + noisy.count()];
+        let fits = (1..scales.len()).map(|last| {
+            let covariance = Covariance::fit(
+                &scales[(last + 1).saturating_sub(FITTED_SCALES)..=last],
+                discs,
+            );
+            (&scales[last], &scales[last + 1..], covariance)
+        });
+        let explains =
+            |(last, larger, covariance): &(&CurvatureScale, &[CurvatureScale], Covariance)| {
+                let whole =
+                    last.ratio >= MIN_ISOTROPIC_RATIO || last.coherence > MIN_SHAPE_COHERENCE;
+                let predicted = |scale: &CurvatureScale| {
+                    scale.white_equivalent
+                        <= MAX_PREDICTION_RATIO * covariance.predict(scale, discs)
+                };
+                whole
+                    && covariance.hidden_ratio <= MAX_HIDDEN_RATIO
+                    && larger
+                        .iter()
+                        .filter(|scale| is_plain_noise(scale))
+                        .all(predicted)
+            };
+        let least = fits
+            .filter(explains)
+            .map(|(.., covariance)| covariance)
+            .min_by(|a, b| a.spectral_root().total_cmp(&b.spectral_root()));
+        let ambiguous = least.is_none();
+        let found = least.unwrap_or_else(|| {
+            Covariance::fit(&scales[scales.len().saturating_sub(FITTED_SCALES)..], discs)
+        });
+        Some(CorrelatedNoise {
+            sigma: found.sigma,
+            length: found.length,
+            shared_vertices: found.shared_vertices,
+            ambiguous,
+        })
+    }
+}
+
+/// Whether noise makes the curvatures of a scale, at least for the most part.
+fn is_noise(scale: &CurvatureScale) -> bool {
+    let bends_both_ways = scale.ratio > MIN_NOISE_RATIO;
+    let incoherent = scale.coherence < MAX_NOISE_COHERENCE
+        && scale.ratio > MIN_ANISOTROPIC_RATIO
+        && scale.radius() < MAX_INCOHERENCE_RADIUS;
+    scale.count >= MIN_DISCS && (bends_both_ways || incoherent)
+}
+
+/// Whether noise alone makes them.
+fn is_plain_noise(scale: &CurvatureScale) -> bool {
+    scale.ratio > MIN_ISOTROPIC_RATIO && scale.coherence < MAX_NOISE_COHERENCE
+}
+
+/// Gaussian covariance fitted to the curvatures of some scales.
+struct Covariance {
+    sigma: f64,
+    length: f64,
+    shared_vertices: f64,
+    /// Ratio of the noise's standard deviation over large areas to what the largest disc shows of it.
+    hidden_ratio: f64,
+}
+
+impl Covariance {
+    /// Least squares of the logarithms.
+    fn fit(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
+        let largest = scales.last().map_or(0.0, CurvatureScale::radius);
+        let [shortest, longest] = [MIN_LENGTH_RADII, MAX_LENGTH_RADII].map(|radii| radii * largest);
+        let step = (longest / shortest).powf(1.0 / f64::from(LENGTH_TRIALS - 1));
+        let lengths = (0..LENGTH_TRIALS).map(|trial| shortest * step.powi(trial as i32));
+        let mut best = (f64::INFINITY, 0.0, 0.0);
+        for length in [0.0].into_iter().chain(lengths) {
+            let logs = || {
+                (scales.iter())
+                    .map(|scale| (scale.white_equivalent / response(scale, discs, length)).ln())
+            };
+            let count = scales.len() as f64;
+            let mean = logs().sum::<f64>() / count;
+            let misfit = logs().map(|log| (log - mean).powi(2)).sum::<f64>();
+            if misfit < best.0 {
+                best = (misfit, length, mean.exp());
+            }
+        }
+        let (_, length, sigma) = best;
+        let shared_vertices = shared_vertices(length);
+        let shown = scales
+            .last()
+            .map_or(1.0, |scale| response(scale, discs, length));
+        Covariance {
+            sigma,
+            length,
+            shared_vertices,
+            hidden_ratio: shared_vertices.sqrt() / shown,
+        }
+    }
+
+    /// Root of the noise's spectral density over large areas: the standard deviation of white noise that has the same.
+    fn spectral_root(&self) -> f64 {
+        self.sigma * self.shared_vertices.sqrt()
+    }
+
+    /// The white equivalent that this noise has at a scale.
+    fn predict(&self, scale: &CurvatureScale, discs: &[Disc]) -> f64 {
+        self.sigma * response(scale, discs, self.length)
+    }
+}
+
+/// White equivalent of noise of standard deviation 1 and a correlation length, in spacings, at a scale.
+fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
+    let spacing = f64::from(1u32 << scale.lattice);
+    // Means over cells are blurred by the cell, and have less variance by that.
+    let cell = CELL_VARIANCE * (1.0 - 1.0 / (spacing * spacing));
+    let squared = (length / spacing).powi(2) + cell;
+    let variance = match squared > 0.0 && scale.lattice > 0 {
+        true => (length / spacing).powi(2) / squared,
+        false => 1.0,
+    };
+    if length == 0.0 {
+        return 1.0;
+    }
+    let disc = &discs[scale.disc];
+    let positions = disc.positions();
+    let norm = |[xx, xy, yy]: [f64; 3], [uu, uv, vv]: [f64; 3]| xx * uu + 2.0 * xy * uv + yy * vv;
+    let (mut sum, mut white) = (0.0, 0.0);
+    for (a, p) in disc.hessian.iter().zip(&positions) {
+        white += norm(*a, *a);
+        for (b, q) in disc.hessian.iter().zip(&positions) {
+            let distance = (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
+            sum += norm(*a, *b) * (-distance / (4.0 * squared)).exp();
+        }
+    }
+    spacing * (variance * sum / white).sqrt()
+}
+
+/// Sum of the correlations of a vertex's noise with that of all vertices.
+fn shared_vertices(length: f64) -> f64 {
+    if length == 0.0 {
+        return 1.0;
+    }
+    let reach = (8.0 * length).ceil() as i64 + 1;
+    let correlation = |row: i64, half: i64| {
+        let squares = 0.25 * (half * half) as f64 + 0.75 * (row * row) as f64;
+        (-squares / (4.0 * length * length)).exp()
+    };
+    (-reach..=reach)
+        .flat_map(|row| (-2 * reach..=2 * reach).map(move |half| (row, half)))
+        .filter(|(row, half)| (row + half) % 2 == 0)
+        .map(|(row, half)| correlation(row, half))
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::tuning::curvature_scales::DISC_RADII;
+
+    /// Far more than a spacing, the sum is the integral over the plane: `4πℓ²` over the area of a cell.
+    #[test]
+    fn vertices_share_values_over_the_correlated_area() {
+        let area = 0.75f64.sqrt();
+        for length in [1.0, 3.0] {
+            let integral = 4.0 * std::f64::consts::PI * length * length / area;
+            assert!((shared_vertices(length) / integral - 1.0).abs() < 1e-6);
+        }
+        assert!((shared_vertices(1e-3) - 1.0).abs() < 1e-12);
+    }
+
+    /// Discs that are much larger than the correlation length see white noise of the same spectrum; the response grows
+    /// with the disc until then.
+    #[test]
+    fn large_discs_see_the_whole_noise() {
+        let discs: Vec<Disc> = DISC_RADII.iter().filter_map(|r| Disc::new(*r)).collect();
+        let scale = |lattice, disc| CurvatureScale {
+            lattice,
+            disc,
+            count: 1000,
+            ratio: 0.32,
+            white_equivalent: 0.0,
+            coherence: 0.0,
+        };
+        for length in [1.0, 2.5] {
+            let whole = shared_vertices(length).sqrt();
+            let seen = response(&scale(4, 1), &discs, length) / whole;
+            assert!((seen - 1.0).abs() < 0.12, "{length} {seen}");
+            let mut last = 0.0;
+            for lattice in 0..4 {
+                let response = response(&scale(lattice, 1), &discs, length);
+                assert!(
+                    response > last && response < 1.1 * whole,
+                    "{length} {lattice} {response} {whole}"
+                );
+                last = response;
+            }
+        }
+        assert_eq!(response(&scale(2, 0), &discs, 0.0), 1.0);
+    }
+}

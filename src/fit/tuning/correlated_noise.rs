@@ -40,8 +40,9 @@ const FITTED_SCALES: usize = 3;
 /// uncertain.
 const MAX_HIDDEN_RATIO: f64 = 6.0;
 
-/// Largest ratio of the noise in larger discs to what the fitted covariance predicts there.
-const MAX_PREDICTION_RATIO: f64 = 1.5;
+/// Largest ratio of the noise in larger discs to what the fitted covariance predicts there. Creases in the discs raise it,
+/// smooth noise behind rough noise raises it more.
+const MAX_PREDICTION_RATIO: f64 = 2.2;
 
 /// Number of correlation lengths that are tried.
 const LENGTH_TRIALS: u32 = 40;

@@ -1,0 +1,143 @@
+//! The search for a page: candidates, their outlines, and the verdict about the best of them.
+
+use super::candidates::candidate_masks;
+use super::morphology::closed;
+use super::outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
+use super::planes::Planes;
+use super::quadrilateral::Quadrilateral;
+use super::region::regions;
+use super::tracing::{Views, traced};
+use crate::dewarp::Photo;
+use crate::math::planar::{distance, polygon_area, polygon_contains};
+
+/// Width of print that is suppressed, as a share of the photo's longer side: bars of colour across a page are as high.
+const PRINT_WIDTH_SHARE: f64 = 0.03;
+
+/// Minimum share of the photo that a page takes.
+const MIN_PAGE_SHARE: f64 = 0.05;
+
+/// Maximum number of components of a mask that may be pages.
+const MAX_MASK_REGIONS: usize = 3;
+
+/// Maximum number of candidates whose edges are traced.
+const MAX_TRACED_CANDIDATES: usize = 6;
+
+/// Maximum distance of the corners of candidates that are the same, as a share of the photo's longer side.
+const SAME_CORNER_SHARE: f64 = 0.03;
+
+/// Minimum score of a page that was found.
+const MIN_FOUND_SCORE: f64 = 0.35;
+
+/// Minimum score of a page that is doubtful.
+const MIN_DOUBTFUL_SCORE: f64 = 0.2;
+
+/// Minimum score of a second page, as a share of the first one's.
+const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
+
+/// Whether all corners of two quadrilaterals, each clockwise from any corner on, are within a distance.
+fn are_same(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4], tolerance: f64) -> bool {
+    (0..4).any(|turn| (0..4).all(|k| distance(one[k], other[(k + turn) % 4]) <= tolerance))
+}
+
+/// Whether two quadrilaterals have no corner and no middle of the other one inside.
+fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
+    let free = |a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]| {
+        let middle = [0, 1].map(|j| b.iter().map(|p| 0.25 * p[j]).sum());
+        // Corners a little towards the middle, so that pages may touch.
+        !polygon_contains(a, middle)
+            && b.iter().all(|p| {
+                !polygon_contains(a, [0, 1].map(|j: usize| p[j] + 0.1 * (middle[j] - p[j])))
+            })
+    };
+    free(one, other) && free(other, one)
+}
+
+/// Turns an outline so that the corner nearest to the photo's upper left, along its diagonal, is first.
+fn upright_in_photo(outline: PageOutline) -> PageOutline {
+    let first = (0..4).min_by(|a, b| {
+        let height = |k: &usize| {
+            let [p, q] = [outline.corners[*k], outline.corners[(*k + 1) % 4]];
+            // The upper edge is the one that runs to the right most.
+            -(q[0] - p[0]) / distance(p, q).max(1e-9)
+        };
+        height(a).total_cmp(&height(b))
+    });
+    outline.turned(first.unwrap_or(0))
+}
+
+/// Finds the outline of the page in a photo: its corners and edges, with a verdict.
+pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
+    let raw = Planes::from_photo(photo);
+    let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
+    let half = clean.halved();
+    let min_area = (MIN_PAGE_SHARE * half.len() as f64) as usize;
+    let tolerance = SAME_CORNER_SHARE * half.longer_side();
+    let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
+    for mask in candidate_masks(&half) {
+        for region in regions(&mask, half.width, min_area.max(1)).iter().take(MAX_MASK_REGIONS) {
+            quadrilaterals.extend(Quadrilateral::new(region, half.width));
+        }
+    }
+    quadrilaterals.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
+    let mut distinct: Vec<Quadrilateral> = Vec::new();
+    for one in quadrilaterals {
+        if distinct.len() == MAX_TRACED_CANDIDATES {
+            break;
+        }
+        if !distinct.iter().any(|other| are_same(&one.corners(), &other.corners(), tolerance)) {
+            distinct.push(one);
+        }
+    }
+    let views = Views { raw, clean };
+    let mut outlines: Vec<PageOutline> = distinct
+        .iter()
+        .filter_map(|one| {
+            let arcs = one.arcs.each_ref().map(|arc| {
+                arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect()
+            });
+            traced(&views, arcs, one.likeness)
+        })
+        .map(upright_in_photo)
+        .collect();
+    // Of a page and a part of it that light or a fold sets off, the page.
+    let rank = |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().sqrt();
+    outlines.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    report(outlines)
+}
+
+/// The verdict about outlines, the best first.
+fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
+    let Some(best) = outlines.first() else {
+        return OutlineReport {
+            verdict: OutlineVerdict::NotFound,
+            reasons: vec![OutlineReason::NoPage],
+            pages: outlines,
+        };
+    };
+    let (corners, score) = (best.corners, best.score);
+    let mut reasons = best.reasons.clone();
+    let verdict = if score < MIN_DOUBTFUL_SCORE {
+        reasons.push(OutlineReason::NoPage);
+        OutlineVerdict::NotFound
+    } else if score < MIN_FOUND_SCORE || !reasons.is_empty() {
+        OutlineVerdict::Doubtful
+    } else {
+        OutlineVerdict::Found
+    };
+    let mut first = true;
+    outlines.retain(|other| {
+        std::mem::take(&mut first)
+            || (verdict != OutlineVerdict::NotFound
+                && other.score >= MIN_SECOND_SCORE_RATIO * score
+                && are_apart(&corners, &other.corners))
+    });
+    OutlineReport {
+        verdict: if outlines.len() > 1 {
+            OutlineVerdict::Several
+        } else {
+            verdict
+        },
+        reasons,
+        pages: outlines,
+    }
+}

@@ -1,5 +1,6 @@
 //! Edges of a page to a fraction of a pixel: the path of the strongest contrast in a band along a region's border.
 
+use super::corners::is_outside;
 use super::planes::Planes;
 use crate::math::planar::distance;
 
@@ -20,6 +21,9 @@ const WEAK_CONTRAST: f32 = 0.15;
 
 /// Minimum difference of logarithmic colour across an edge that can be seen: 4 % of the light.
 const MIN_EDGE_CONTRAST: f32 = 0.04;
+
+/// Minimum distance of an edge from the photo's rim, in pixels, at which its ground is seen.
+const MIN_SIDE_PIXELS: f64 = 1.5;
 
 /// Minimum number of points of a border along which an edge is looked for.
 const MIN_BORDER_POINTS: usize = 24;
@@ -79,91 +83,78 @@ fn inward_normals(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Mean of some colours; `None` without any.
-fn mean_colour(colours: impl Iterator<Item = [f32; 3]>) -> Option<[f32; 3]> {
+/// Mean of some colours.
+fn mean_colour<'a>(colours: impl Iterator<Item = &'a [f32; 3]>) -> [f32; 3] {
     let (mut sum, mut count) = ([0.0; 3], 0.0_f32);
     for colour in colours {
         (0..3).for_each(|k| sum[k] += colour[k]);
         count += 1.0;
     }
-    (count > 0.0).then(|| sum.map(|value| value / count))
+    sum.map(|value| value / count.max(1.0))
 }
 
-/// Colours along normals of a border, from outside to inside.
+/// Distance of two colours.
+fn difference(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|j| (b[j] - a[j]).powi(2)).sum::<f32>().sqrt()
+}
+
+/// Colours along the normals of a border, from outside to inside.
 struct Band {
-    profiles: Vec<Vec<Option<[f32; 3]>>>,
+    profiles: Vec<[[f32; 3]; PROFILE_LENGTH]>,
 }
 
-/// Number of places in a profile, and the place of the border in it.
+/// Number of places in a profile.
 const PROFILE_LENGTH: usize = 2 * PROFILE_MIDDLE + 1;
+
+/// Place of the border in a profile.
 const PROFILE_MIDDLE: usize = BAND_RADIUS + BAND_MARGIN;
+
+/// Number of places at either end of a profile whose colours are those of ground and paper.
+const SIDE_LENGTH: usize = BAND_MARGIN + BAND_RADIUS / 2;
 
 impl Band {
     fn new(planes: &Planes, border: &[[f64; 2]], normals: &[[f64; 2]]) -> Self {
         let profile = |(point, normal): (&[f64; 2], &[f64; 2])| {
-            (0..PROFILE_LENGTH)
-                .map(|k| {
-                    let offset = k as f64 - PROFILE_MIDDLE as f64;
-                    planes.colour([0, 1].map(|j| point[j] + offset * normal[j]))
-                })
-                .collect()
+            std::array::from_fn(|k| {
+                let offset = k as f64 - PROFILE_MIDDLE as f64;
+                planes.colour([0, 1].map(|j| point[j] + offset * normal[j]))
+            })
         };
         Band {
             profiles: border.iter().zip(normals).map(profile).collect(),
         }
     }
 
-    /// Mean colour of a range of places in the profiles near a point of the border.
-    fn mean(&self, i: usize, places: std::ops::Range<usize>) -> Option<[f32; 3]> {
-        let (from, to) = (
-            i.saturating_sub(SMOOTHING_LENGTH),
-            (i + SMOOTHING_LENGTH + 1).min(self.profiles.len()),
-        );
-        mean_colour(
-            self.profiles[from..to]
-                .iter()
-                .flat_map(|profile| profile[places.clone()].iter().copied().flatten()),
-        )
+    /// Mean colours of ground and paper near a point of the border.
+    fn sides(&self, i: usize) -> [[f32; 3]; 2] {
+        let from = i.saturating_sub(SMOOTHING_LENGTH);
+        let near = &self.profiles[from..(i + SMOOTHING_LENGTH + 1).min(self.profiles.len())];
+        [
+            mean_colour(near.iter().flat_map(|profile| &profile[..SIDE_LENGTH])),
+            mean_colour(near.iter().flat_map(|profile| &profile[PROFILE_LENGTH - SIDE_LENGTH..])),
+        ]
     }
 }
 
-/// Worth of an edge at each place of a band's profile: 1 for a step from the ground's colour to the paper's.
+/// Worth of an edge at each place of a profile: 1 for a step from the ground's colour to the paper's.
 fn edge_strengths(clean: &Band, raw: &Band, i: usize) -> [f32; PROFILE_LENGTH] {
-    let mut strengths = [0.0; PROFILE_LENGTH];
-    let (Some(ground), Some(paper)) = (
-        clean.mean(i, 0..BAND_MARGIN + BAND_RADIUS / 2),
-        clean.mean(i, PROFILE_LENGTH - BAND_MARGIN - BAND_RADIUS / 2..PROFILE_LENGTH),
-    ) else {
-        return strengths;
-    };
-    let difference = [0, 1, 2].map(|k| paper[k] - ground[k]);
-    let squared = difference.iter().map(|d| d * d).sum::<f32>();
-    let contrast = squared.sqrt();
-    let share = |k: usize| {
-        clean.profiles[i][k].map(|colour| {
-            let along: f32 = (0..3).map(|j| (colour[j] - ground[j]) * difference[j]).sum();
-            (along / squared.max(1e-8)).clamp(0.0, 1.0)
-        })
-    };
-    let raw_weight = WEAK_CONTRAST / (WEAK_CONTRAST + contrast);
-    let clean_weight = 1.0 - raw_weight;
-    for (k, strength) in strengths
-        .iter_mut()
-        .enumerate()
-        .take(PROFILE_LENGTH - BAND_MARGIN)
-        .skip(BAND_MARGIN)
-    {
-        if let (Some(a), Some(b), Some(c), Some(d)) =
-            (share(k - 2), share(k - 1), share(k + 1), share(k + 2))
-        {
-            *strength += clean_weight * (0.5 * (c + d - a - b)).max(0.0);
+    let [ground, paper] = clean.sides(i);
+    let direction = [0, 1, 2].map(|k| paper[k] - ground[k]);
+    let squared = direction.iter().map(|d| d * d).sum::<f32>();
+    let share = clean.profiles[i].map(|colour| {
+        let along: f32 = (0..3).map(|j| (colour[j] - ground[j]) * direction[j]).sum();
+        (along / squared.max(1e-8)).clamp(0.0, 1.0)
+    });
+    let raw_weight = WEAK_CONTRAST / (WEAK_CONTRAST + squared.sqrt());
+    let own = &raw.profiles[i];
+    std::array::from_fn(|k| {
+        if !(BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN).contains(&k) {
+            return 0.0;
         }
-        if let (Some(a), Some(b)) = (raw.profiles[i][k - 1], raw.profiles[i][k + 1]) {
-            let step = (0..3).map(|j| (b[j] - a[j]).powi(2)).sum::<f32>().sqrt();
-            *strength += raw_weight * (step / WEAK_CONTRAST).min(1.0);
-        }
-    }
-    strengths
+        let step = 0.5 * (share[k + 1] + share[k + 2] - share[k - 1] - share[k - 2]);
+        let any = (difference(own[k - 1], own[k + 1]) / WEAK_CONTRAST).min(1.0);
+        (1.0 - raw_weight) * step.max(0.0) + raw_weight * any
+    })
 }
 
 /// The place in each profile of the path with the largest sum of strengths minus the cost of its steps (Viterbi).
@@ -201,6 +192,7 @@ impl EdgePath {
     /// The edge near a border, given from one corner to the next and clockwise, in a reduced photo as it is and without
     /// print. `None` if the border is too short.
     pub fn new(raw: &Planes, clean: &Planes, border: &[[f64; 2]]) -> Option<Self> {
+        let size = [raw.width, raw.height];
         let border = resampled(&smoothed(&resampled(border), SMOOTHING_LENGTH));
         if border.len() < MIN_BORDER_POINTS {
             return None;
@@ -223,14 +215,16 @@ impl EdgePath {
                 } else {
                     0.0
                 };
-                let outside = mean_colour(clean.profiles[i][k - BAND_MARGIN..k].iter().copied().flatten());
-                let inside =
-                    mean_colour(clean.profiles[i][k + 1..=k + BAND_MARGIN].iter().copied().flatten());
-                if let (Some(a), Some(b)) = (outside, inside) {
-                    contrasts.push((0..3).map(|j| (b[j] - a[j]).powi(2)).sum::<f32>().sqrt());
-                }
                 let offset = k as f64 + shift - PROFILE_MIDDLE as f64;
-                [0, 1].map(|j| border[i][j] + offset * normals[i][j])
+                let at = |offset: f64| [0, 1].map(|j| border[i][j] + offset * normals[i][j]);
+                if !is_outside(at(offset - MIN_SIDE_PIXELS), size, 0.0) {
+                    let profile = &clean.profiles[i];
+                    contrasts.push(difference(
+                        mean_colour(profile[k - BAND_MARGIN..k].iter()),
+                        mean_colour(profile[k + 1..=k + BAND_MARGIN].iter()),
+                    ));
+                }
+                at(offset)
             })
             .collect();
         let seen = contrasts.iter().filter(|c| **c > MIN_EDGE_CONTRAST).count();

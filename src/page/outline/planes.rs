@@ -94,24 +94,20 @@ impl Planes {
         self.width.max(self.height) as f64
     }
 
-    /// Bilinear colour at a point; `[0, 0]` is the centre of the upper left pixel. `None` outside of the image.
-    pub fn colour(&self, [x, y]: [f64; 2]) -> Option<[f32; 3]> {
-        let (right, bottom) = (self.width as f64 - 1.0, self.height as f64 - 1.0);
-        if !(x >= 0.0 && y >= 0.0 && x <= right && y <= bottom) {
-            return None;
-        }
+    /// Bilinear colour at a point; `[0, 0]` is the centre of the upper left pixel. The image continues beyond its rim.
+    pub fn colour(&self, [x, y]: [f64; 2]) -> [f32; 3] {
+        let x = x.clamp(0.0, self.width as f64 - 1.0);
+        let y = y.clamp(0.0, self.height as f64 - 1.0);
         let (col, row) = (x as usize, y as usize);
         let (fx, fy) = ((x - col as f64) as f32, (y - row as f64) as f32);
-        let (next, below) = (
-            (col + 1).min(self.width - 1) - col,
-            ((row + 1).min(self.height - 1) - row) * self.width,
-        );
+        let next = (col + 1).min(self.width - 1) - col;
+        let below = ((row + 1).min(self.height - 1) - row) * self.width;
         let i = row * self.width + col;
-        Some(self.channels.each_ref().map(|plane| {
+        self.channels.each_ref().map(|plane| {
             let upper = plane[i] + fx * (plane[i + next] - plane[i]);
             let lower = plane[i + below] + fx * (plane[i + below + next] - plane[i + below]);
             upper + fy * (lower - upper)
-        }))
+        })
     }
 
     /// The point in the photo's pixels of a point here.

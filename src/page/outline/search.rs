@@ -89,6 +89,7 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
         }
     }
     let views = Views { raw, clean };
+    if std::env::var("DBG").is_ok() { for q in &distinct { eprintln!("cand {:.3} {:?} {:?}", q.likeness, q.corners(), traced(&views, q.arcs.each_ref().map(|arc| arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect()), q.likeness).map(|o| (o.score, o.reasons))); } eprintln!("{} {}", half.width, half.height); }
     let mut outlines: Vec<PageOutline> = distinct
         .iter()
         .filter_map(|one| {
@@ -100,7 +101,7 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
         .map(upright_in_photo)
         .collect();
     // Of a page and a part of it that light or a fold sets off, the page.
-    let rank = |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().sqrt();
+    let rank = |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
     outlines.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     report(outlines)
 }

@@ -112,6 +112,7 @@ pub(super) fn traced(
     if support < MIN_EDGE_SUPPORT {
         reasons.push(OutlineReason::FaintEdge);
     }
+    let visible = paths.iter().map(|path| path.visible).sum::<f64>() / 4.0;
     let contrast = paths
         .iter()
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
@@ -135,7 +136,7 @@ pub(super) fn traced(
     Some(PageOutline {
         corners: corners.map(place),
         edges,
-        score: likeness * support * contrast,
+        score: likeness * support * visible * contrast,
         reasons,
     })
 }

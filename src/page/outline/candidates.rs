@@ -30,9 +30,9 @@ fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
 
 /// The thresholds that divide values into two, and into three, classes of the least variance (Otsu): one, and two.
 fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
-    let (low, high) = values
-        .iter()
-        .fold((f32::MAX, f32::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    let (low, high) = values.iter().fold((f32::MAX, f32::MIN), |(low, high), v| {
+        (low.min(*v), high.max(*v))
+    });
     let step = (high - low) / THRESHOLD_LEVELS as f32;
     if !(step > 0.0) {
         return Vec::new();

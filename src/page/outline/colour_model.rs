@@ -80,10 +80,7 @@ impl ColourModel {
         }
         let floor = UNIFORM_SHARE / counts.len() as f32;
         let norm = 1.0 / counts.iter().sum::<f32>().max(1.0);
-        counts
-            .iter()
-            .map(|count| count * norm + floor)
-            .collect()
+        counts.iter().map(|count| count * norm + floor).collect()
     }
 
     /// Mask of the pixels whose colour is likelier on the page than on the ground.
@@ -94,7 +91,11 @@ impl ColourModel {
     ) -> Vec<bool> {
         let (page, ground) = (self.histogram(page), self.histogram(ground));
         let share: Vec<f32> = page.iter().zip(&ground).map(|(p, q)| p / (p + q)).collect();
-        let mut plane: Vec<f32> = self.bins.iter().map(|bin| share[usize::from(*bin)]).collect();
+        let mut plane: Vec<f32> = self
+            .bins
+            .iter()
+            .map(|bin| share[usize::from(*bin)])
+            .collect();
         box_mean(&mut plane, self.width, self.height, SMOOTHING_RADIUS);
         plane.iter().map(|share| *share > 0.5).collect()
     }

@@ -39,10 +39,7 @@ fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
         (xx, xy, yy) = (xx + dx * dx, xy + dx * dy, yy + dy * dy);
     }
     let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    Some([
-        mean,
-        [mean[0] + angle.cos(), mean[1] + angle.sin()],
-    ])
+    Some([mean, [mean[0] + angle.cos(), mean[1] + angle.sin()]])
 }
 
 /// The corner between two edges, both given from their ends there on; `None` if they do not meet near their ends.

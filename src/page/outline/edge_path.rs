@@ -131,7 +131,10 @@ impl Band {
         let near = &self.profiles[from..(i + SMOOTHING_LENGTH + 1).min(self.profiles.len())];
         [
             mean_colour(near.iter().flat_map(|profile| &profile[..SIDE_LENGTH])),
-            mean_colour(near.iter().flat_map(|profile| &profile[PROFILE_LENGTH - SIDE_LENGTH..])),
+            mean_colour(
+                near.iter()
+                    .flat_map(|profile| &profile[PROFILE_LENGTH - SIDE_LENGTH..]),
+            ),
         ]
     }
 }

@@ -70,7 +70,10 @@ pub(super) fn closed(planes: &Planes, radius: usize) -> Planes {
             .flat_map(|row| row[radius..radius + planes.width].iter().copied())
             .collect()
     });
-    Planes { channels, ..*planes }
+    Planes {
+        channels,
+        ..*planes
+    }
 }
 
 /// Means over squares with sides of `2 radius + 1` pixels, which end at the image's rim.

@@ -1,10 +1,11 @@
 //! The result of a search for pages: outlines with corners and edges, a verdict, and the reasons for it.
 
+use crate::error::{Error, Result};
 use crate::page::edges::{Edges, Trace};
 
 /// Verdict of a search for the outline of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 #[non_exhaustive]
 pub enum OutlineVerdict {
@@ -20,7 +21,7 @@ pub enum OutlineVerdict {
 
 /// Reason why an outline is doubtful or was not found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "camelCase"))]
 #[non_exhaustive]
 pub enum OutlineReason {
@@ -83,4 +84,20 @@ pub struct OutlineReport {
     /// Outlines, the best first: one of them if the verdict is `Found` or `Doubtful`, more if it is `Several`; of
     /// `NotFound` the best guess, if there is any.
     pub pages: Vec<PageOutline>,
+}
+
+impl OutlineReport {
+    /// The page to be made flat: the best outline.
+    ///
+    /// # Errors
+    /// [`Error::Edges`] if no page was found.
+    pub fn page(&self) -> Result<&PageOutline> {
+        match self.pages.first() {
+            Some(page) if self.verdict != OutlineVerdict::NotFound => Ok(page),
+            _ => Err(Error::edges(
+                "no page was found in the photo; trace its edges, or take the photo anew, with the whole page on a ground of \
+                 another colour",
+            )),
+        }
+    }
 }

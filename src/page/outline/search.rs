@@ -74,7 +74,10 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     let tolerance = SAME_CORNER_SHARE * half.longer_side();
     let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
     for mask in candidate_masks(&half) {
-        for region in regions(&mask, half.width, min_area.max(1)).iter().take(MAX_MASK_REGIONS) {
+        for region in regions(&mask, half.width, min_area.max(1))
+            .iter()
+            .take(MAX_MASK_REGIONS)
+        {
             quadrilaterals.extend(Quadrilateral::new(region, half.width));
         }
     }
@@ -84,24 +87,28 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
         if distinct.len() == MAX_TRACED_CANDIDATES {
             break;
         }
-        if !distinct.iter().any(|other| are_same(&one.corners(), &other.corners(), tolerance)) {
+        if !distinct
+            .iter()
+            .any(|other| are_same(&one.corners(), &other.corners(), tolerance))
+        {
             distinct.push(one);
         }
     }
     let views = Views { raw, clean };
-    if std::env::var("DBG").is_ok() { for q in &distinct { eprintln!("cand {:.3} {:?} {:?}", q.likeness, q.corners(), traced(&views, q.arcs.each_ref().map(|arc| arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect()), q.likeness).map(|o| (o.score, o.reasons))); } eprintln!("{} {}", half.width, half.height); }
     let mut outlines: Vec<PageOutline> = distinct
         .iter()
         .filter_map(|one| {
-            let arcs = one.arcs.each_ref().map(|arc| {
-                arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect()
-            });
+            let arcs = one
+                .arcs
+                .each_ref()
+                .map(|arc| arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect());
             traced(&views, arcs, one.likeness)
         })
         .map(upright_in_photo)
         .collect();
     // Of a page and a part of it that light or a fold sets off, the page.
-    let rank = |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
+    let rank =
+        |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
     outlines.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     report(outlines)
 }

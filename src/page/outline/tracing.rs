@@ -5,7 +5,7 @@ use super::edge_path::EdgePath;
 use super::outline::{OutlineReason, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::{is_at_rim, rectangularity};
-use crate::math::planar::{distance, polyline_length};
+use crate::math::planar::distance;
 
 /// Difference of logarithmic colour across an edge that gives half of the full score.
 const HALF_SCORE_CONTRAST: f64 = 0.25;
@@ -94,7 +94,11 @@ pub(super) fn traced(
         one.reverse();
         edges[before] = one;
         edges[k] = other;
-        if is_outside(corners[k], size, MAX_OUTSIDE_SHARE * views.raw.longer_side()) {
+        if is_outside(
+            corners[k],
+            size,
+            MAX_OUTSIDE_SHARE * views.raw.longer_side(),
+        ) {
             reasons.push(OutlineReason::CornerOutside);
         }
     }

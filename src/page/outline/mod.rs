@@ -10,6 +10,7 @@ mod planes;
 mod quadrilateral;
 mod region;
 mod search;
+mod straight_lines;
 mod tracing;
 
 pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};

@@ -6,6 +6,7 @@ use super::outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::Quadrilateral;
 use super::region::regions;
+use super::straight_lines::best_line_quadrilateral;
 use super::tracing::{Views, traced};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
@@ -30,6 +31,12 @@ const MIN_FOUND_SCORE: f64 = 0.35;
 
 /// Minimum score of a page that is doubtful.
 const MIN_DOUBTFUL_SCORE: f64 = 0.2;
+
+/// Minimum share of the photo that a page found by straight lines takes.
+const MIN_LINE_PAGE_SHARE: f64 = 0.15;
+
+/// Score of a quadrilateral of lines over its worth: of real photos most of those with a worth above 0.08 are pages.
+const LINE_SCORE_FACTOR: f64 = 2.5;
 
 /// Minimum score of a second page, as a share of the first one's.
 const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
@@ -110,7 +117,32 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     let rank =
         |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
     outlines.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    if outlines
+        .first()
+        .is_none_or(|best| best.score < MIN_FOUND_SCORE)
+    {
+        outlines.extend(by_lines(&views, &half));
+        outlines.sort_by(|a, b| b.score.total_cmp(&a.score));
+    }
     report(outlines)
+}
+
+/// The outline of a page on a ground of its own colour, by straight lines of contrast; always doubtful. `half` is the photo
+/// without print at half the reduced size.
+fn by_lines(views: &Views, half: &Planes) -> Option<PageOutline> {
+    let raw = views.raw.halved();
+    let min_area = MIN_LINE_PAGE_SHARE * raw.len() as f64;
+    let (corners, worth) = best_line_quadrilateral(&raw, half, min_area)?;
+    let arcs = [0, 1, 2, 3].map(|k| {
+        let ends = [corners[k], corners[(k + 1) % 4]];
+        ends.map(|p| p.map(|at| 2.0 * at + 0.5)).to_vec()
+    });
+    let mut outline = traced(views, arcs, 1.0)?;
+    outline.score = (LINE_SCORE_FACTOR * worth).min(1.0);
+    if !outline.reasons.contains(&OutlineReason::FaintEdge) {
+        outline.reasons.push(OutlineReason::FaintEdge);
+    }
+    Some(upright_in_photo(outline))
 }
 
 /// The verdict about outlines, the best first.

@@ -9,6 +9,9 @@ const FRAME_SHARE: f64 = 0.04;
 /// Distance from the photo's rim of the middle that is taken for the page at first, as a share of its sides.
 const MIDDLE_SHARE: f64 = 0.25;
 
+/// Variance of a reduced photo's noise in each axis of colour.
+const COLOUR_NOISE_VARIANCE: f64 = 1e-4;
+
 /// Number of levels of grey that thresholds are chosen from.
 const THRESHOLD_LEVELS: usize = 128;
 
@@ -69,43 +72,42 @@ fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
         .to_vec()
 }
 
-/// The direction in colour that separates middle and frame best (Fisher's linear discriminant), applied to all pixels.
-fn discriminant(colours: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Option<Vec<f32>> {
-    let vector = |colour: &[f32; 3]| nalgebra::Vector3::from(*colour).cast::<f64>();
-    let statistics = |mask: &[bool]| {
-        let own: Vec<_> = (colours.iter().zip(mask))
-            .filter_map(|(colour, own)| own.then(|| vector(colour)))
-            .collect();
-        let count = own.len().max(1) as f64;
-        let mean = own.iter().sum::<nalgebra::Vector3<f64>>() / count;
-        let scatter = own
-            .iter()
-            .map(|colour| (colour - mean) * (colour - mean).transpose())
-            .sum::<nalgebra::Matrix3<f64>>()
-            / count;
-        (mean, scatter)
+/// Lightness and colour differences summed with the weights that separate middle and frame best (Fisher's linear
+/// discriminant, with the axes taken for independent).
+fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> {
+    let moments = |mask: &[bool]| {
+        let mut sums = [[0.0_f64; 2]; 3];
+        let mut count = 0.0_f64;
+        for (colour, _) in axes.iter().zip(mask).filter(|(_, own)| **own) {
+            count += 1.0;
+            for (sum, value) in sums.iter_mut().zip(colour) {
+                let value = f64::from(*value);
+                sum[0] += value;
+                sum[1] += value * value;
+            }
+        }
+        sums.map(|[sum, squares]| {
+            let mean = sum / count.max(1.0);
+            (mean, squares / count.max(1.0) - mean * mean)
+        })
     };
-    let ((ground, one), (page, other)) = (statistics(frame), statistics(middle));
-    // The square of the noise of a reduced photo, so that the matrix has an inverse.
-    let scatter = one + other + nalgebra::Matrix3::identity() * 1e-4;
-    let direction = scatter.cholesky()?.solve(&(page - ground));
-    let norm = direction.norm();
-    if !(norm > 0.0) {
-        return None;
-    }
-    let direction = direction / norm;
-    Some(
-        colours
-            .iter()
-            .map(|colour| vector(colour).dot(&direction) as f32)
-            .collect(),
-    )
+    let (ground, page) = (moments(frame), moments(middle));
+    let weights = [0, 1, 2].map(|k| {
+        ((page[k].0 - ground[k].0) / (page[k].1 + ground[k].1 + COLOUR_NOISE_VARIANCE)) as f32
+    });
+    (axes.iter())
+        .map(|colour| (0..3).map(|k| weights[k] * colour[k]).sum())
+        .collect()
 }
 
 /// Masks that may be a page, of an image without print; most of them are alike where the page is easily seen.
 pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
     let [r, g, b] = &planes.channels;
     let colours: Vec<[f32; 3]> = (0..planes.len()).map(|i| [r[i], g[i], b[i]]).collect();
+    let axes: Vec<[f32; 3]> = colours
+        .iter()
+        .map(|colour| opponent_axes(*colour))
+        .collect();
     let [frame, middle] = frame_and_middle(planes.width, planes.height);
     let model = ColourModel::new(planes);
     let pixels = |mask: &'_ [bool]| {
@@ -113,13 +115,17 @@ pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
         found.into_iter()
     };
     let mut masks = vec![model.refine(model.classify(pixels(&middle), pixels(&frame)))];
-    let axis = |k: usize| -> Vec<f32> { colours.iter().map(|c| opponent_axes(*c)[k]).collect() };
+    let axis = |k: usize| axes.iter().map(|colour| colour[k]).collect();
     let saturation: Vec<f32> = colours
         .iter()
         .map(|[r, g, b]| r.min(*g).min(*b) - r.max(*g).max(*b))
         .collect();
-    let mut features = vec![axis(0), saturation, axis(2)];
-    features.extend(discriminant(&colours, &frame, &middle));
+    let features: [Vec<f32>; 4] = [
+        axis(0),
+        saturation,
+        axis(2),
+        discriminant(&axes, &frame, &middle),
+    ];
     for feature in features {
         for threshold in otsu_thresholds(&feature) {
             let mask: Vec<bool> = feature.iter().map(|value| *value > threshold).collect();

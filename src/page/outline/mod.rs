@@ -5,6 +5,7 @@ mod colour_model;
 mod corners;
 mod edge_path;
 mod morphology;
+mod orientation;
 mod outline;
 mod planes;
 mod quadrilateral;

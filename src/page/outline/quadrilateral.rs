@@ -2,6 +2,7 @@
 
 use super::region::Region;
 use crate::math::planar::{cross, distance, orientation, polygon_area, polyline_length};
+use crate::page::text::ranking::ranked;
 
 /// Maximum number of vertices of a convex hull among which corners are looked for; their cost is its third power.
 const MAX_HULL_VERTICES: usize = 64;
@@ -17,22 +18,20 @@ pub(super) struct Quadrilateral {
     pub likeness: f64,
 }
 
-/// The vertices of the convex hull of some points, as their numbers, anticlockwise in a frame whose y goes up (monotone chain).
+/// The vertices of the convex hull of pixels, as their numbers, around the hull (monotone chain).
 fn convex_hull(points: &[[f64; 2]]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|i, j| {
-        let (p, q) = (points[*i], points[*j]);
-        p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
-    });
+    // Coordinates of pixels are whole, so that one number orders them by column, then by row.
+    let order = ranked(
+        &points
+            .iter()
+            .map(|[x, y]| x * 65536.0 + y)
+            .collect::<Vec<_>>(),
+    );
     let mut hull: Vec<usize> = Vec::new();
     for pass in 0..2 {
         let start = hull.len();
-        let chain: Box<dyn Iterator<Item = &usize>> = if pass == 0 {
-            Box::new(order.iter())
-        } else {
-            Box::new(order.iter().rev())
-        };
-        for &i in chain {
+        for k in 0..order.len() {
+            let i = order[if pass == 0 { k } else { order.len() - 1 - k }];
             while hull.len() >= start + 2 {
                 let [a, b] = [hull[hull.len() - 2], hull[hull.len() - 1]];
                 if orientation(points[a], points[b], points[i]) > 0.0 {
@@ -127,8 +126,9 @@ impl Quadrilateral {
         let hull_area = polygon_area(&hull.iter().map(|i| border[*i]).collect::<Vec<_>>()).abs();
         simplify_hull(&border, &mut hull);
         let polygon: Vec<[f64; 2]> = hull.iter().map(|i| border[*i]).collect();
-        let mut places = largest_quadrilateral(&polygon)?.map(|k| hull[k]);
-        places.sort_unstable();
+        let found = largest_quadrilateral(&polygon)?.map(|k| hull[k]);
+        let order = ranked(&found.map(|i| i as f64));
+        let places = [0, 1, 2, 3].map(|k| found[order[k]]);
         let n = border.len();
         let arcs = [0, 1, 2, 3].map(|k| {
             let (from, to) = (places[k], places[(k + 1) % 4]);

@@ -47,7 +47,7 @@ fn flood(
     found
 }
 
-/// The components of a mask with at least `min_area` pixels, their holes filled, the largest first.
+/// The components of a mask with at least `min_area` pixels, their holes filled.
 pub(super) fn regions(mask: &[bool], width: usize, min_area: usize) -> Vec<Region> {
     let mut seen = vec![false; mask.len()];
     let mut found = Vec::new();
@@ -59,7 +59,6 @@ pub(super) fn regions(mask: &[bool], width: usize, min_area: usize) -> Vec<Regio
             }
         }
     }
-    found.sort_by_key(|region| std::cmp::Reverse(region.area));
     found
 }
 

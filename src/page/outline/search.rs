@@ -2,6 +2,7 @@
 
 use super::candidates::candidate_masks;
 use super::morphology::closed;
+use super::orientation::quarter_turns;
 use super::outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::Quadrilateral;
@@ -10,15 +11,13 @@ use super::straight_lines::best_line_quadrilateral;
 use super::tracing::{Views, traced};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
+use crate::page::text::ranking::ranked;
 
 /// Width of print that is suppressed, as a share of the photo's longer side: bars of colour across a page are as high.
 const PRINT_WIDTH_SHARE: f64 = 0.03;
 
 /// Minimum share of the photo that a page takes.
 const MIN_PAGE_SHARE: f64 = 0.05;
-
-/// Maximum number of components of a mask that may be pages.
-const MAX_MASK_REGIONS: usize = 3;
 
 /// Maximum number of candidates whose edges are traced.
 const MAX_TRACED_CANDIDATES: usize = 6;
@@ -59,8 +58,8 @@ fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
     free(one, other) && free(other, one)
 }
 
-/// Turns an outline so that the corner nearest to the photo's upper left, along its diagonal, is first.
-fn upright_in_photo(outline: PageOutline) -> PageOutline {
+/// Turns an outline so that its upper edge is that of the page as it is read, or that of the photo if the print does not tell.
+fn upright(outline: PageOutline, views: &Views) -> PageOutline {
     let first = (0..4).min_by(|a, b| {
         let height = |k: &usize| {
             let [p, q] = [outline.corners[*k], outline.corners[(*k + 1) % 4]];
@@ -69,7 +68,12 @@ fn upright_in_photo(outline: PageOutline) -> PageOutline {
         };
         height(a).total_cmp(&height(b))
     });
-    outline.turned(first.unwrap_or(0))
+    let outline = outline.turned(first.unwrap_or(0));
+    let corners = outline
+        .corners
+        .map(|point| views.raw.from_photo_point(point));
+    let turns = quarter_turns(&views.raw, &views.clean, &corners);
+    outline.turned(turns)
 }
 
 /// Finds the outline of the page in a photo: its corners and edges, with a verdict.
@@ -81,16 +85,13 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     let tolerance = SAME_CORNER_SHARE * half.longer_side();
     let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
     for mask in candidate_masks(&half) {
-        for region in regions(&mask, half.width, min_area.max(1))
-            .iter()
-            .take(MAX_MASK_REGIONS)
-        {
-            quadrilaterals.extend(Quadrilateral::new(region, half.width));
+        for region in regions(&mask, half.width, min_area.max(1)) {
+            quadrilaterals.extend(Quadrilateral::new(&region, half.width));
         }
     }
-    quadrilaterals.sort_by(|a, b| b.likeness.total_cmp(&a.likeness));
-    let mut distinct: Vec<Quadrilateral> = Vec::new();
-    for one in quadrilaterals {
+    let unlikeness: Vec<f64> = quadrilaterals.iter().map(|one| -one.likeness).collect();
+    let mut distinct: Vec<&Quadrilateral> = Vec::new();
+    for one in ranked(&unlikeness).iter().map(|k| &quadrilaterals[*k]) {
         if distinct.len() == MAX_TRACED_CANDIDATES {
             break;
         }
@@ -111,20 +112,32 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
                 .map(|arc| arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect());
             traced(&views, arcs, one.likeness)
         })
-        .map(upright_in_photo)
         .collect();
     // Of a page and a part of it that light or a fold sets off, the page.
     let rank =
         |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
-    outlines.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    move_best_first(&mut outlines, rank);
     if outlines
         .first()
         .is_none_or(|best| best.score < MIN_FOUND_SCORE)
     {
         outlines.extend(by_lines(&views, &half));
-        outlines.sort_by(|a, b| b.score.total_cmp(&a.score));
+        move_best_first(&mut outlines, |outline| outline.score);
     }
-    report(outlines)
+    let mut report = report(outlines);
+    report.pages = (report.pages.into_iter())
+        .map(|outline| upright(outline, &views))
+        .collect();
+    report
+}
+
+/// Swaps the outline of the highest rank with the first one.
+fn move_best_first(outlines: &mut [PageOutline], rank: impl Fn(&PageOutline) -> f64) {
+    for k in 1..outlines.len() {
+        if rank(&outlines[k]) > rank(&outlines[0]) {
+            outlines.swap(0, k);
+        }
+    }
 }
 
 /// The outline of a page on a ground of its own colour, by straight lines of contrast; always doubtful. `half` is the photo
@@ -142,7 +155,7 @@ fn by_lines(views: &Views, half: &Planes) -> Option<PageOutline> {
     if !outline.reasons.contains(&OutlineReason::FaintEdge) {
         outline.reasons.push(OutlineReason::FaintEdge);
     }
-    Some(upright_in_photo(outline))
+    Some(outline)
 }
 
 /// The verdict about outlines, the best first.

@@ -6,9 +6,13 @@ use super::planes::Planes;
 use super::quadrilateral::rectangularity;
 use crate::math::planar::{cross, distance, line_intersection, polygon_area, polygon_contains};
 use crate::math::statistics::median;
+use crate::page::text::ranking::ranked;
 
 /// Number of directions of lines: one for each degree.
 const DIRECTIONS: usize = 180;
+
+/// Minimum number of votes of a line.
+const MIN_LINE_VOTES: f32 = 8.0;
 
 /// Number of directions on either side of a pixel's own one for which it votes, because gradients are noisy.
 const VOTED_DIRECTIONS: usize = 2;
@@ -226,11 +230,13 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
             votes[direction * offsets + offset as usize] += vote;
         }
     }
-    let mut peaks: Vec<usize> = (0..votes.len()).filter(|i| votes[*i] > 0.0).collect();
-    peaks.sort_by(|a, b| votes[*b].total_cmp(&votes[*a]));
+    let peaks: Vec<usize> = (0..votes.len())
+        .filter(|i| votes[*i] >= MIN_LINE_VOTES)
+        .collect();
+    let fewness: Vec<f64> = peaks.iter().map(|i| -f64::from(votes[*i])).collect();
     let mut taken: Vec<(usize, usize)> = Vec::new();
     let mut lines = Vec::new();
-    for peak in peaks {
+    for peak in ranked(&fewness).into_iter().map(|k| peaks[k]) {
         let (direction, offset) = (peak / offsets, peak % offsets);
         let same = |(other, at): &(usize, usize)| {
             let turn = direction.abs_diff(*other);

@@ -79,6 +79,7 @@ pub(super) fn traced(
     }
     let mut edges: Vec<Vec<[f64; 2]>> = paths.iter().map(|path| path.points.clone()).collect();
     let mut corners = [[0.0; 2]; 4];
+    let mut is_corner_outside = false;
     for k in 0..4 {
         let before = (k + 3) % 4;
         let [mut one, mut other] = [edges[before].clone(), edges[k].clone()];
@@ -99,8 +100,11 @@ pub(super) fn traced(
             size,
             MAX_OUTSIDE_SHARE * views.raw.longer_side(),
         ) {
-            reasons.push(OutlineReason::CornerOutside);
+            is_corner_outside = true;
         }
+    }
+    if is_corner_outside {
+        reasons.push(OutlineReason::CornerOutside);
     }
     if paths.iter().any(|path| path.visible < MIN_VISIBLE_SHARE) {
         reasons.push(OutlineReason::EdgeOutside);
@@ -123,8 +127,6 @@ pub(super) fn traced(
         .map(|path| path.contrast / (path.contrast + HALF_SCORE_CONTRAST))
         .product::<f64>()
         .powf(0.25);
-    reasons.sort_by_key(|reason| *reason as u8);
-    reasons.dedup();
     let place = |p: [f64; 2]| views.raw.to_photo(p);
     let thinned = |edge: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
         let last = edge.len() - 1;

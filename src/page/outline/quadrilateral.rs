@@ -137,6 +137,7 @@ impl Quadrilateral {
         });
         let corners = places.map(|i| border[i]);
         let area = polygon_area(&corners).abs();
+        // Its square, so that a disc, which fills 2/π, is no page.
         let fill = (area / hull_area.max(1.0)).min(1.0);
         let solidity = (region.area as f64 / hull_area.max(1.0)).min(1.0);
         // Every fourth pixel, so that the stairs of the pixels do not count.
@@ -150,7 +151,7 @@ impl Quadrilateral {
             .product::<f64>();
         Some(Quadrilateral {
             arcs,
-            likeness: rectangularity(&corners) * solidity * fill * straightness,
+            likeness: rectangularity(&corners) * solidity * fill.powi(2) * straightness,
         })
     }
 

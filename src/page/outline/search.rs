@@ -26,16 +26,16 @@ const MAX_TRACED_CANDIDATES: usize = 6;
 const SAME_CORNER_SHARE: f64 = 0.03;
 
 /// Minimum score of a page that was found.
-const MIN_FOUND_SCORE: f64 = 0.35;
+const MIN_FOUND_SCORE: f64 = 0.45;
 
 /// Minimum score of a page that is doubtful.
-const MIN_DOUBTFUL_SCORE: f64 = 0.2;
+const MIN_DOUBTFUL_SCORE: f64 = 0.3;
 
 /// Minimum share of the photo that a page found by straight lines takes.
 const MIN_LINE_PAGE_SHARE: f64 = 0.15;
 
 /// Score of a quadrilateral of lines over its worth: of real photos most of those with a worth above 0.08 are pages.
-const LINE_SCORE_FACTOR: f64 = 2.5;
+const LINE_SCORE_FACTOR: f64 = 3.75;
 
 /// Minimum score of a second page, as a share of the first one's.
 const MIN_SECOND_SCORE_RATIO: f64 = 0.7;

@@ -53,11 +53,17 @@ const MIN_SIDE_SUPPORT: f64 = 0.45;
 /// Length beyond a corner along which a side must not continue, as a share of the side.
 const BEYOND_SHARE: f64 = 0.12;
 
+/// Weight of an edge that continues beyond a corner all the way, as do joints of tiles and folds of a page.
+const BEYOND_WEIGHT: f64 = 0.8;
+
 /// Minimum sine of the angle between neighbouring sides.
 const MIN_SIDE_SINE: f64 = 0.75;
 
 /// Maximum sine of the angle between opposite sides.
 const MAX_OPPOSITE_SINE: f64 = 0.5;
+
+/// Minimum share of the photo that is print: without print, lines may be those of anything.
+const MIN_PRINT_SHARE: f64 = 0.002;
 
 /// Maximum number of pixels of print by which it is counted how much print a quadrilateral contains.
 const MAX_PRINT_SAMPLES: usize = 200;
@@ -265,7 +271,8 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
 }
 
 /// The quadrilateral of four lines, clockwise, whose sides are seen best, with its worth from 0 to 1; in images of the
-/// same size, as they are and without print. `None` if none has enough edges along each side.
+/// same size, as they are and without print. `None` if none has enough edges
+/// along each side, or there is no print.
 pub(super) fn best_line_quadrilateral(
     raw: &Planes,
     clean: &Planes,
@@ -287,6 +294,9 @@ pub(super) fn best_line_quadrilateral(
         .filter(|i| gradients.print[*i])
         .map(|i| [(i % raw.width) as f64, (i / raw.width) as f64])
         .collect();
+    if (print.len() as f64) < MIN_PRINT_SHARE * raw.len() as f64 {
+        return None;
+    }
     let step = print.len() / MAX_PRINT_SAMPLES + 1;
     let margin = 0.03 * raw.longer_side();
     let mut best: Option<([[f64; 2]; 4], f64)> = None;
@@ -321,7 +331,7 @@ pub(super) fn best_line_quadrilateral(
                     .support(from - reach, from)
                     .max(line.support(to, to + reach));
                 least = least.min(own);
-                worth *= own * (1.0 - 0.5 * beyond);
+                worth *= own * (1.0 - BEYOND_WEIGHT * beyond);
             }
             if least < MIN_SIDE_SUPPORT {
                 continue;

@@ -16,6 +16,9 @@ const MIN_EDGE_SUPPORT: f64 = 0.85;
 /// Minimum share of an edge that has to be in the photo with both its sides.
 const MIN_VISIBLE_SHARE: f64 = 0.5;
 
+/// Minimum number of edges in the photo of a page: with fewer it can hardly be told from a table.
+const MIN_VISIBLE_EDGES: usize = 3;
+
 /// Maximum distance of a corner outside of the photo of which nothing is said, as a share of the photo's longer side.
 const MAX_OUTSIDE_SHARE: f64 = 0.01;
 
@@ -64,7 +67,7 @@ fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64;
 }
 
 /// The outline of a candidate, whose border is given as four arcs in pixels of the reduced photo, clockwise; `None` if an
-/// edge is too short.
+/// edge is too short, or too few of them are in the photo.
 pub(super) fn traced(
     views: &Views,
     mut arcs: [Vec<[f64; 2]>; 4],
@@ -106,7 +109,13 @@ pub(super) fn traced(
     if is_corner_outside {
         reasons.push(OutlineReason::CornerOutside);
     }
-    if paths.iter().any(|path| path.visible < MIN_VISIBLE_SHARE) {
+    let visible_edges = (paths.iter())
+        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
+        .count();
+    if visible_edges < MIN_VISIBLE_EDGES {
+        return None;
+    }
+    if visible_edges < 4 {
         reasons.push(OutlineReason::EdgeOutside);
     }
     let shape = rectangularity(&corners);

@@ -2,6 +2,7 @@
 
 use super::morphology::box_mean;
 use super::planes::Planes;
+use crate::page::text::ranking::ranked;
 
 /// Number of bins for lightness, and for each of the two differences of colour.
 const BINS: [usize; 3] = [24, 16, 16];
@@ -11,6 +12,9 @@ const MIN_BIN_WIDTH: f32 = 0.02;
 
 /// Share of the pixels left out at either end of each axis before it is divided into bins.
 const BIN_RANGE_TRIM: f64 = 0.01;
+
+/// Step between the pixels of which the range of an axis is taken.
+const SAMPLE_STEP: usize = 7;
 
 /// Number of times that both histograms are counted anew with the mask of the round before.
 const REFINEMENTS: usize = 4;
@@ -42,11 +46,12 @@ impl ColourModel {
             .collect();
         let mut bins = vec![0_u16; axes.len()];
         for (axis, &count) in BINS.iter().enumerate() {
-            let mut sorted: Vec<f32> = axes.iter().map(|colour| colour[axis]).collect();
-            let cut = ((sorted.len() - 1) as f64 * BIN_RANGE_TRIM) as usize;
-            let last = sorted.len() - 1 - cut;
-            let low = *sorted.select_nth_unstable_by(cut, f32::total_cmp).1;
-            let high = *sorted.select_nth_unstable_by(last, f32::total_cmp).1;
+            let sample: Vec<f64> = (axes.iter().step_by(SAMPLE_STEP))
+                .map(|colour| f64::from(colour[axis]))
+                .collect();
+            let order = ranked(&sample);
+            let cut = ((order.len() - 1) as f64 * BIN_RANGE_TRIM) as usize;
+            let [low, high] = [cut, order.len() - 1 - cut].map(|k| sample[order[k]] as f32);
             let step = ((high - low) / count as f32).max(MIN_BIN_WIDTH);
             for (bin, colour) in bins.iter_mut().zip(&axes) {
                 let place = ((colour[axis] - low) / step).clamp(0.0, (count - 1) as f32);

@@ -7,7 +7,7 @@ use crate::dewarp::Photo;
 const MAX_REDUCED_SIDE: usize = 800;
 
 /// Value added to a byte of colour before its logarithm, so that noise of dark pixels does not count much.
-const LOG_OFFSET: f32 = 8.0;
+const LOG_OFFSET: f64 = 8.0;
 
 /// Three planes of the same size: logarithms of red, green and blue, in which light that falls on a scene is a term.
 #[derive(Clone)]
@@ -49,9 +49,9 @@ impl Planes {
             }
             for (col, sum) in sums.iter().enumerate() {
                 let cols = ((col + 1) * block).min(w) - col * block;
-                let count = (rows * cols).max(1) as f32;
+                let count = (rows * cols).max(1) as f64;
                 for (plane, one) in channels.iter_mut().zip(sum) {
-                    plane.push((*one as f32 / count + LOG_OFFSET).ln());
+                    plane.push((f64::from(*one) / count + LOG_OFFSET).ln() as f32);
                 }
             }
         }

@@ -16,6 +16,9 @@ use crate::page::text::ranking::ranked;
 /// Width of print that is suppressed, as a share of the photo's longer side: bars of colour across a page are as high.
 const PRINT_WIDTH_SHARE: f64 = 0.03;
 
+/// Minimum length of a photo's shorter side, in pixels: in a smaller one an edge has too few of them.
+const MIN_PHOTO_SIDE: usize = 64;
+
 /// Minimum share of the photo that a page takes.
 const MIN_PAGE_SHARE: f64 = 0.05;
 
@@ -79,6 +82,9 @@ fn upright(outline: PageOutline, views: &Views) -> PageOutline {
 /// Finds the outline of the page in a photo: its corners and edges, with a verdict.
 pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     let raw = Planes::from_photo(photo);
+    if raw.width.min(raw.height) < MIN_PHOTO_SIDE {
+        return report(Vec::new());
+    }
     let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
     let half = clean.halved();
     let min_area = (MIN_PAGE_SHARE * half.len() as f64) as usize;
@@ -115,7 +121,7 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
         .collect();
     // Of a page and a part of it that light or a fold sets off, the page.
     let rank =
-        |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
+        |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().sqrt().sqrt();
     move_best_first(&mut outlines, rank);
     if outlines
         .first()
@@ -177,6 +183,9 @@ fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
     } else {
         OutlineVerdict::Found
     };
+    if verdict == OutlineVerdict::Doubtful && reasons.is_empty() {
+        reasons.push(OutlineReason::UnlikelyShape);
+    }
     let mut first = true;
     outlines.retain(|other| {
         std::mem::take(&mut first)

@@ -41,11 +41,14 @@ const MIN_ALIGNMENT: f32 = 0.9;
 /// Difference of logarithmic colour to the same image without print from which a pixel is print.
 const MIN_PRINT_CONTRAST: f32 = 0.2;
 
-/// Vote of an edge of print, where one of anything else is 1: shadows along a page's edge look like print, and there is more of that.
+/// Vote of an edge of print, where one of anything else is 1: there is more print than edges of pages.
 const PRINT_VOTE: f32 = 0.25;
 
-/// Distance from print, in pixels, within which edges are those of print.
-const PRINT_MARGIN: usize = 2;
+/// Radius, in pixels, of the square in which print is counted: a few lines of text.
+const PRINT_RADIUS: usize = 10;
+
+/// Share of such a square from which print is text or a picture, and not a thin shadow along an edge.
+const MIN_PRINT_DENSITY: f32 = 0.15;
 
 /// Minimum share of each side along which there is an edge.
 const MIN_SIDE_SUPPORT: f64 = 0.45;
@@ -111,14 +114,17 @@ impl Gradients {
             .map(|i| (0..3).any(|k| clean.channels[k][i] - raw.channels[k][i] > MIN_PRINT_CONTRAST))
             .collect();
         let mut near: Vec<f32> = print.iter().map(|p| f32::from(u8::from(*p))).collect();
-        box_mean(&mut near, width, height, PRINT_MARGIN);
+        box_mean(&mut near, width, height, PRINT_RADIUS);
         Gradients {
             width,
             height,
             vectors,
             threshold: ((MIN_GRADIENT_RATIO * usual) as f32).max(MIN_GRADIENT),
             print,
-            near_print: near.iter().map(|share| *share > 0.0).collect(),
+            near_print: near
+                .iter()
+                .map(|share| *share > MIN_PRINT_DENSITY)
+                .collect(),
         }
     }
 
@@ -134,7 +140,7 @@ impl Gradients {
             }
             let [gx, gy] = self.vectors[row as usize * self.width + col as usize];
             let along = (gx * nx + gy * ny).abs();
-            along > self.threshold && along > MIN_ALIGNMENT * gx.hypot(gy)
+            along > self.threshold && along > MIN_ALIGNMENT * (gx * gx + gy * gy).sqrt()
         })
     }
 }
@@ -213,12 +219,12 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
     let mut votes = vec![0.0_f32; DIRECTIONS * offsets];
     let turns: Vec<[f32; 2]> = (0..DIRECTIONS)
         .map(|k| {
-            let (sin, cos) = (k as f32).to_radians().sin_cos();
-            [cos, sin]
+            let (sin, cos) = (k as f64).to_radians().sin_cos();
+            [cos as f32, sin as f32]
         })
         .collect();
     for (i, [gx, gy]) in gradients.vectors.iter().enumerate() {
-        let size = gx.hypot(*gy);
+        let size = (gx * gx + gy * gy).sqrt();
         if size <= gradients.threshold {
             continue;
         }
@@ -228,12 +234,13 @@ fn find_lines(gradients: &Gradients) -> Vec<Line> {
             1.0
         };
         let (x, y) = ((i % gradients.width) as f32, (i / gradients.width) as f32);
-        let degrees = gy.atan2(*gx).to_degrees().rem_euclid(180.0).round() as usize;
+        let angle = f64::from(*gy).atan2(f64::from(*gx)).to_degrees();
+        let degrees = (angle + 180.5) as usize % DIRECTIONS;
         for k in 0..=2 * VOTED_DIRECTIONS {
             let direction = (degrees + DIRECTIONS + k - VOTED_DIRECTIONS) % DIRECTIONS;
             let [cos, sin] = turns[direction];
-            let offset = (x * cos + y * sin).round() as isize + middle as isize;
-            votes[direction * offsets + offset as usize] += vote;
+            let offset = (x * cos + y * sin + middle as f32 + 0.5) as usize;
+            votes[direction * offsets + offset] += vote;
         }
     }
     let peaks: Vec<usize> = (0..votes.len())
@@ -320,7 +327,7 @@ pub(super) fn best_line_quadrilateral(
             if area < min_area {
                 continue;
             }
-            let mut worth = (area / raw.len() as f64).powf(0.5);
+            let mut worth = (area / raw.len() as f64).sqrt();
             let mut least: f64 = 1.0;
             for k in 0..4 {
                 let line = &lines[sides[k]];

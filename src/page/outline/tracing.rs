@@ -135,7 +135,8 @@ pub(super) fn traced(
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
         .map(|path| path.contrast / (path.contrast + HALF_SCORE_CONTRAST))
         .product::<f64>()
-        .powf(0.25);
+        .sqrt()
+        .sqrt();
     let place = |p: [f64; 2]| views.raw.to_photo(p);
     let thinned = |edge: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
         let last = edge.len() - 1;

@@ -38,6 +38,9 @@
 //! # }
 //! ```
 //!
+//! [`find_outline`] finds the edges in the photo, with a verdict: [`PageOutline::to_edges`] gives them in the form that
+//! [`CurledPage::in_photo`] takes.
+//!
 //! Limits of two edges: an edge whose plane passes near the camera appears straight however the
 //! page is bent, so that nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
 //! slight fold, which both edges fit nearly as well as a curve, is recognised by its known

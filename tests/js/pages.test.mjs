@@ -314,7 +314,7 @@ test('the page in a photo is found, and made flat without edges', async () => {
 test('a photo without a page is refused', () => {
   const table = { ...sheet, data: sheet.data.map((_, i) => (i % 4 === 3 ? 255 : 70 + ((i >> 2) % 3))) };
   assert.equal(direct.findPage(table).verdict, 'notFound');
-  assert.throws(() => direct.dewarpPage(table), error('EDGES', /no page was found in the photo; trace its edges/));
+  assert.throws(() => direct.dewarpPage(table), error('NO_PAGE', /trace its edges, or take the photo anew/));
 });
 
 test('the command finds the page by itself', async () => {

@@ -37,7 +37,7 @@ fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
         (low.min(*v), high.max(*v))
     });
     let step = (high - low) / THRESHOLD_LEVELS as f32;
-    if !(step > 0.0) {
+    if step.is_nan() || step <= 0.0 {
         return Vec::new();
     }
     let mut counts = [0.0_f64; THRESHOLD_LEVELS];

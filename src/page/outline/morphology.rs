@@ -32,11 +32,11 @@ fn running_extreme(line: &mut [f32], radius: usize, extreme: fn(f32, f32) -> f32
     let mut prefix: Vec<f32> = (0..total).map(padded).collect();
     let mut suffix = prefix.clone();
     for i in 1..total {
-        if i % window != 0 {
+        if !i.is_multiple_of(window) {
             prefix[i] = extreme(prefix[i], prefix[i - 1]);
         }
         let j = total - 1 - i;
-        if (j + 1) % window != 0 {
+        if !(j + 1).is_multiple_of(window) {
             suffix[j] = extreme(suffix[j], suffix[j + 1]);
         }
     }

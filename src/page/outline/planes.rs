@@ -111,7 +111,7 @@ impl Planes {
     }
 
     /// The point here of a point in the photo's pixels.
-    pub fn from_photo_point(&self, point: [f64; 2]) -> [f64; 2] {
+    pub fn reduced_point(&self, point: [f64; 2]) -> [f64; 2] {
         point.map(|at| (at + 0.5) / self.scale - 0.5)
     }
 

@@ -3,7 +3,7 @@
 use super::candidates::candidate_masks;
 use super::morphology::closed;
 use super::orientation::quarter_turns;
-use super::outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
+use super::outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::Quadrilateral;
 use super::region::regions;
@@ -72,9 +72,7 @@ fn upright(outline: PageOutline, views: &Views) -> PageOutline {
         height(a).total_cmp(&height(b))
     });
     let outline = outline.turned(first.unwrap_or(0));
-    let corners = outline
-        .corners
-        .map(|point| views.raw.from_photo_point(point));
+    let corners = outline.corners.map(|point| views.raw.reduced_point(point));
     let turns = quarter_turns(&views.raw, &views.clean, &corners);
     outline.turned(turns)
 }

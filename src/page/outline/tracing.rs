@@ -2,7 +2,7 @@
 
 use super::corners::{corner, end_at, is_convex, is_outside, outside_corner};
 use super::edge_path::EdgePath;
-use super::outline::{OutlineReason, PageOutline};
+use super::outline_report::{OutlineReason, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::{is_at_rim, rectangularity};
 use crate::math::planar::distance;

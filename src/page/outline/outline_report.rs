@@ -90,14 +90,11 @@ impl OutlineReport {
     /// The page to be made flat: the best outline.
     ///
     /// # Errors
-    /// [`Error::Edges`] if no page was found.
+    /// [`Error::NoPage`] if no page was found.
     pub fn page(&self) -> Result<&PageOutline> {
         match self.pages.first() {
             Some(page) if self.verdict != OutlineVerdict::NotFound => Ok(page),
-            _ => Err(Error::edges(
-                "no page was found in the photo; trace its edges, or take the photo anew, with the whole page on a ground of \
-                 another colour",
-            )),
+            _ => Err(Error::NoPage),
         }
     }
 }

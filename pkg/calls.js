@@ -167,10 +167,11 @@ export const CALLS = {
     parts: ['unroll'],
     send(photo, edges, given) {
       const { transfer: handOver, ...options } = /** @type {import('./index.js').HandOver} */ (pageOptions(photo, given));
-      const pages = plainEdges(asEdges(edges));
+      const pages = edges === undefined ? undefined : plainEdges(asEdges(edges));
       return [sentPhoto(photo, handOver), pages, options];
     },
   },
+  findPage: { parts: ['unroll'], send: (photo) => [sentPhoto(photo, false)] },
   example: {
     parts: [],
     send(name, given) {

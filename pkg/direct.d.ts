@@ -6,7 +6,7 @@ import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
-  OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
+  OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
   SolverOptions, Surface, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
@@ -196,11 +196,13 @@ export function writeDxf(drawing: Drawing): Uint8Array<ArrayBuffer>;
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions): Dewarped;
 /**
  * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
- * edges that are bent: without depth.
+ * edges that are bent: without depth. Without edges, those of the one page that is found in the photo.
  */
 export function dewarpPage(
-  photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
+  photo: Photo & { film35?: number }, edges?: PageEdges | readonly PageEdges[], options?: DewarpPageOptions,
 ): DewarpedPage;
+/** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
+export function findPage(photo: Photo): PageOutlines;
 /**
  * Decodes a PNG, JPEG (the way up that its Exif data state) or WebP file as RGBA bytes; all but PNG
  * take `load('images')`.

@@ -387,8 +387,14 @@ export function dewarp(input, photo, given) {
 /** @type {typeof import('./direct.js').dewarpPage} */
 export function dewarpPage(photo, edges, given) {
   const { transfer, ...options } = /** @type {Handed<ReturnType<typeof pageOptions>>} */ (pageOptions(photo, given));
-  const [pixels, pages] = [asPhoto(photo), asEdges(edges)];
+  const [pixels, pages] = [asPhoto(photo), edges === undefined ? undefined : asEdges(edges)];
   return sheets.call((wasm) => wasm.dewarpPage(pixels, pages, options));
+}
+
+/** @type {typeof import('./direct.js').findPage} */
+export function findPage(photo) {
+  const pixels = asPhoto(photo);
+  return sheets.call((wasm) => wasm.findPage(pixels));
 }
 
 /** @type {typeof import('./direct.js').writePhoto} */

@@ -6,7 +6,7 @@ import type {
   Analysis, AnalyzeOptions, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
   DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray,
-  ExploredPatterns, OcclusionOptions, PageEdges, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
+  ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
   SolverOptions, Surface, SurfaceOf, SurfacePicture, Unrolling, UnrollOptions, WritePdfOptions, WritePhotoOptions,
@@ -216,11 +216,13 @@ export function writeDxf(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
 export function dewarp(input: HeightImage | Heightfield, photo: Photo, options?: DewarpOptions & HandOver): Promise<Dewarped>;
 /**
  * Makes a photo of a page flat that is curled one way, or of the two pages of a spread, by the two
- * edges that are bent: without depth.
+ * edges that are bent: without depth. Without edges, those of the one page that is found in the photo.
  */
 export function dewarpPage(
-  photo: Photo & { film35?: number }, edges: PageEdges | readonly PageEdges[], options?: DewarpPageOptions & HandOver,
+  photo: Photo & { film35?: number }, edges?: PageEdges | readonly PageEdges[], options?: DewarpPageOptions & HandOver,
 ): Promise<DewarpedPage>;
+/** Finds the page in a photo: its corners and edges, which can be corrected and given to `dewarpPage`. */
+export function findPage(photo: Photo): Promise<PageOutlines>;
 export function readPhoto(bytes: Uint8Array | ArrayBuffer | Blob): Promise<DecodedPhoto>;
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
 export function example(name: ExampleName, options?: ExampleOptions): Promise<Example>;

@@ -1085,6 +1085,37 @@ export interface DewarpedPage extends Omit<Dewarped, 'verdict' | 'report' | 'uni
   lines: [number, number][][][];
   verdict: PageVerdict;
   report: PageReport;
+  /** What was found in the photo, if no edges were given. */
+  outline?: PageOutlines;
+}
+
+/** Whether one page was found, one that is doubtful, several beside each other, or none that can be told from its ground. */
+export type OutlineVerdict = 'found' | 'doubtful' | 'several' | 'notFound';
+
+/**
+ * Why an outline is doubtful or was not found: a corner is outside of the photo and was extrapolated; most of an edge is
+ * outside or on the rim; part of an edge has no contrast; the shape is unlike that of paper; nothing looks like a page.
+ */
+export type OutlineReason = 'cornerOutside' | 'edgeOutside' | 'faintEdge' | 'unlikelyShape' | 'noPage';
+
+/** The outline of one page in a photo. */
+export interface PageOutline {
+  /** Upper left, upper right, lower right and lower left corner, in pixels of the photo; they may be outside of it. */
+  corners: [number, number][];
+  /** The four edges, to be given to `dewarpPage`. */
+  edges: { top: [number, number][]; bottom: [number, number][]; left: [number, number][]; right: [number, number][] };
+  /** How sure the outline is, from 0 to 1. */
+  score: number;
+  reasons: OutlineReason[];
+}
+
+/** The pages that were found in a photo. */
+export interface PageOutlines {
+  verdict: OutlineVerdict;
+  /** Why the verdict is not `found`. */
+  reasons: OutlineReason[];
+  /** The outlines, the best first: more than one if the verdict is `several`; of `notFound` the best guess, if any. */
+  pages: PageOutline[];
 }
 
 /** What can be read. */

@@ -121,6 +121,13 @@ pub enum Error {
         reason: String,
     },
 
+    /// No page can be told from its ground in a photo.
+    #[error(
+        "no page was found in the photo; trace its edges, or take the photo anew, with the whole \
+         page on a ground of another colour"
+    )]
+    NoPage,
+
     /// The focal length of a photo is not known and cannot be found.
     #[error(
         "the camera's focal length cannot be found from these edges, for they show too little \
@@ -232,6 +239,7 @@ impl Error {
             Error::Mismatch { .. } => "MISMATCH",
             Error::Option { .. } => "OPTION",
             Error::Edges { .. } => "EDGES",
+            Error::NoPage => "NO_PAGE",
             Error::FocalLength => "FOCAL_LENGTH",
             Error::Topology { .. } => "TOPOLOGY",
             Error::NotFlat { .. } => "NOT_FLAT",

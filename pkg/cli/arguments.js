@@ -65,7 +65,7 @@ import { refuseSameFiles } from './same-file.js';
  *   quality?: number, shape: Shape,
  * }} DewarpTask
  * @typedef {{
- *   command: 'page', input: string, output: string, extension: Extension, written: string[], edges: string, report?: string,
+ *   command: 'page', input: string, output: string, extension: Extension, written: string[], edges?: string, report?: string,
  *   map?: string, quality?: number,
  *   options: import('../types.js').DewarpPageOptions,
  * }} PageTask
@@ -122,9 +122,9 @@ export function parse(args) {
   if (command === 'info') return { command, input, array };
   if (values.output === undefined && !telling.includes(command) && !values.explore) throw usage('the output is missing: -o FILE', command);
   if (command === 'dewarp') {
-    if (values.edges !== undefined) return page(input, output, values.edges, values);
+    if (values.edges !== undefined || isPhotoAlone(input, values)) return page(input, output, values.edges, values);
     const stray = pageFlags.find((flag) => values[flag] !== undefined);
-    if (stray !== undefined) throw usage(`--${stray} is for a photo alone, with --edges`, command);
+    if (stray !== undefined) throw usage(`--${stray} is for a photo alone, without --texture`, command);
   }
   const photoCamera = values['photo-camera'];
   const read = { input, mask, confidence, constraints, texture, camera: photoCamera, 'occlusion mask': values.occlusions };
@@ -211,7 +211,7 @@ export function parse(args) {
       return { command, ...fitting, asIs, ...patterned(values), ...exploring(values, about.extension) };
     case 'dewarp':
       if (texture === undefined && kind !== 'mesh') {
-        throw usage("the photo is missing: --texture PHOTO; or INPUT is the photo, then the page's edges: --edges FILE");
+        throw usage("the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png or .webp");
       }
       if (map !== undefined) extension('map', map, ['.npy', '.json']);
       return {
@@ -290,10 +290,21 @@ function whole(make, { input, output, written, force, extension: kind }, values)
 const pageFlags = flagNames(dewarpPage, 'page');
 
 /**
+ * Whether an input of `dewarp` is a photo of a page, in which the page is to be found: an image with neither a photo beside
+ * it nor anything said of its heights.
+ * @param {string} input
+ * @param {Values} values
+ */
+function isPhotoAlone(input, values) {
+  return values.texture === undefined && ['.jpg', '.jpeg', '.png', '.webp'].includes(extname(input).toLowerCase()) &&
+    values.intrinsics === undefined;
+}
+
+/**
  * A photo alone.
  * @param {string} input
  * @param {string} output
- * @param {string} edges
+ * @param {string | undefined} edges
  * @param {Values} values
  * @returns {PageTask}
  */
@@ -301,7 +312,7 @@ function page(input, output, edges, values) {
   const { report, map } = values;
   const known = ['edges', 'output', 'force', 'report', 'map', 'dots', 'quality', ...pageFlags];
   const stray = Object.keys(values).find((flag) => !known.includes(flag));
-  if (stray !== undefined) throw usage(`--${stray} is for heights, and with --edges the input is a photo`, 'dewarp');
+  if (stray !== undefined) throw usage(`--${stray} is for heights, and without --texture the input is a photo of a page`, 'dewarp');
   if (values['focal-length'] !== undefined && values['field-of-view'] !== undefined) {
     throw usage('--focal-length and --field-of-view say the same: give one of them', 'dewarp');
   }

@@ -146,13 +146,13 @@ export const commands = {
     about:
       'Fits a surface and makes a photo of it flat. What the photo shows where is known for heights seen straight from ' +
       'above, for depths by their camera, and for scans by their texture coordinates. Or makes a photo alone of a curled ' +
-      'page flat, by the edges of the page.',
+      'page flat, by the edges of the page, which are found in it or given.',
     terms: {
-      INPUT: `${INPUT}. With --edges the photo`,
+      INPUT: `${INPUT}. Without --texture a photo of a page: .jpg, .png or .webp`,
       PHOTO: 'a PNG, JPEG or WebP of what the heights show, with as many pixels as it likes; a textured mesh has its own',
       IMAGE:
         '.png, transparent where there is no sheet, .jpg or .pdf, white there. A page of a .pdf has the true size, and the ' +
-        'others state their resolution, where the unit of lengths is known: --unit, or with --edges --page',
+        'others state their resolution, where the unit of lengths is known: --unit, or of a page --page',
     },
     flags: [...shaped, 'report', 'texture', 'photo-camera', 'shape', ...flagNames(dewarp), ...printed, ...page],
     words: { texture: 'the photo', report: 'JSON file for the strain and the verdict' },
@@ -160,6 +160,7 @@ export const commands = {
       'dewarp scan.png --texture photo.png -o page.png --trim',
       'dewarp d.png --intrinsics cam.csv --texture photo.jpg -o page.pdf',
       'dewarp scan.glb -o page.png --view best-fit',
+      'dewarp photo.jpg -o page.png',
       'dewarp photo.jpg --edges edges.json --page a4 -o page.png',
     ],
   },

@@ -195,7 +195,7 @@ export const sections = {
     flags: {
       edges: {
         value: 'FILE',
-        help: 'INPUT is a photo of a page that is curled one way, and this JSON file has its two bent edges: top and ' +
+        help: 'INPUT is a photo of a page, and this JSON file has its two bent edges (default: found in the photo): top and ' +
           'bottom, each a list of [x, y] from left to right, or left and right, from top to bottom; in pixels of the ' +
           'photo, with corners at the ends. Of the two pages of a spread, a list of two of these. Lines of text are found ' +
           'in the photo, unless lines says where they are',

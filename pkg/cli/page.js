@@ -1,4 +1,4 @@
-/** `developable dewarp PHOTO --edges EDGES`. */
+/** `developable dewarp PHOTO`, with or without `--edges EDGES`. */
 import * as developable from '../index.js';
 import { messageOf } from '../errors.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
@@ -13,18 +13,43 @@ import { percent } from './terminal.js';
  */
 export async function page(task, signal) {
   await checkPlaces(...task.written);
-  const edges = await readEdges(task.edges);
+  const edges = task.edges === undefined ? undefined : await readEdges(task.edges);
   const bytes = await readBytes(task.input);
   const photo = await about(task.input, () => developable.readPhoto(bytes));
   const options = Object.fromEntries(Object.entries(task.options).filter(([, value]) => value !== undefined));
   const flat = await developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), transfer: true });
   const files = [{ path: task.output, bytes: await printed(task, flat) }];
-  const { size, unit, report } = flat;
-  if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...report, size, unit }) });
+  const { size, unit, report, outline } = flat;
+  if (task.report !== undefined) files.push({ path: task.report, bytes: json({ ...report, size, unit, ...(outline && { outline }) }) });
   if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, photo) });
   await writeWhole(files, signal);
-  const told = words(report);
-  if (told !== undefined) process.stderr.write(`developable: ${told}\n`);
+  for (const told of [outline && outlineWords(outline), words(report)]) {
+    if (told !== undefined) process.stderr.write(`developable: ${told}\n`);
+  }
+}
+
+/** @type {Record<import('../types.js').OutlineReason, string>} */
+const reasonWords = {
+  cornerOutside: 'a corner is outside of the photo, and was extrapolated',
+  edgeOutside: "an edge is outside of the photo or on its rim, which is taken for the page's edge",
+  faintEdge: 'part of an edge is covered, or looks like the ground',
+  unlikelyShape: 'it has hardly the shape of a sheet of paper',
+  noPage: 'nothing looks like a page on a ground',
+};
+
+/** @param {import('../types.js').PageOutlines} outline */
+function outlineWords({ verdict, reasons, pages }) {
+  switch (verdict) {
+    case 'doubtful': {
+      const why = reasons.map((reason) => reasonWords[reason]).join('; ') || 'its edges have little contrast';
+      return `warning: the outline that was found may be wrong: ${why}. --report FILE has it; --edges FILE takes a corrected one`;
+    }
+    case 'several':
+      return `warning: there are ${pages.length} pages in the photo, and the clearest one was made flat: cut the photo, or choose ` +
+        'with --edges one of those that --report FILE has';
+    default:
+      return undefined;
+  }
 }
 
 /** @param {import('../types.js').PageReport} report */

@@ -38,6 +38,9 @@
 //! # }
 //! ```
 //!
+//! [`find_outline`] finds the edges in the photo, with a verdict: [`PageOutline::to_edges`] gives them in the form that
+//! [`CurledPage::in_photo`] takes.
+//!
 //! Limits of two edges: an edge whose plane passes near the camera appears straight however the
 //! page is bent, so that nothing checks the other edge ([`PageVerdict::Unchecked`]). A page with a
 //! slight fold, which both edges fit nearly as well as a curve, is recognised by its known
@@ -57,6 +60,7 @@ mod in_photo;
 mod known_sizes;
 mod levenberg_marquardt;
 mod options;
+mod outline;
 mod output;
 mod prior;
 mod read_traces;
@@ -70,4 +74,5 @@ mod traces;
 pub use curled_page::CurledPage;
 pub use edges::{Edges, Trace};
 pub use options::{FocalLength, Format, PageOptions, Ruler};
+pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
 pub use report::{PageReport, PageVerdict};

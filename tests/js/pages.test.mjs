@@ -281,3 +281,51 @@ test('lines of text, and all four edges', async () => {
   assert.equal(told.status, 0);
   assert.match(told.stderr, /its edges and lines of text disagree \(by .*folded or crumpled/);
 });
+
+/** A white page with lines of text on a dark table, seen from above. */
+const sheet = {
+  width: 600,
+  height: 700,
+  data: Uint8ClampedArray.from({ length: 4 * 600 * 700 }, (_, i) => {
+    const [x, y] = [Math.floor(i / 4) % 600, Math.floor(i / 4 / 600)];
+    const onPage = x >= 100 && x < 500 && y >= 80 && y < 646;
+    const onText = x >= 140 && x < 460 && y >= 120 && y < 500 && y % 16 < 5 && x % 40 < 32;
+    return i % 4 === 3 ? 255 : onPage ? (onText ? 60 : 230) : 70;
+  }),
+};
+
+test('the page in a photo is found, and made flat without edges', async () => {
+  const found = direct.findPage(sheet);
+  assert.equal(found.verdict, 'found', JSON.stringify(found.reasons));
+  assert.equal(found.pages.length, 1);
+  const corners = [[99.5, 79.5], [499.5, 79.5], [499.5, 645.5], [99.5, 645.5]];
+  found.pages[0].corners.forEach(([x, y], k) => {
+    assert.ok(Math.hypot(x - corners[k][0], y - corners[k][1]) < 1, `corner ${k}: ${x}, ${y}`);
+  });
+  assert.deepEqual(await developable.findPage(sheet), found);
+  const flat = direct.dewarpPage(sheet, undefined, { focalLength: 700, page: 'a4', dots: 1 });
+  assert.deepEqual([flat.width, flat.height], [210, 297]);
+  assert.deepEqual(flat.outline, found);
+  const given = direct.dewarpPage(sheet, found.pages[0].edges, { focalLength: 700, page: 'a4', dots: 1 });
+  assert.deepEqual(given.data, flat.data);
+  assert.equal(given.outline, undefined);
+});
+
+test('a photo without a page is refused', () => {
+  const table = { ...sheet, data: sheet.data.map((_, i) => (i % 4 === 3 ? 255 : 70 + ((i >> 2) % 3))) };
+  assert.equal(direct.findPage(table).verdict, 'notFound');
+  assert.throws(() => direct.dewarpPage(table), error('NO_PAGE', /trace its edges, or take the photo anew/));
+});
+
+test('the command finds the page by itself', async () => {
+  const folder = await temporaryFolder();
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(sheet, { format: 'png' }));
+  const { status, stderr } = await run(folder, [
+    'dewarp', 'photo.png', '--page', 'a4', '--dots', '1', '--focal-length', '700', '-o', 'page.png', '--report', 'report.json',
+  ]);
+  assert.equal(status, 0, stderr);
+  const flat = direct.readPhoto(await readFile(join(folder, 'page.png')));
+  assert.deepEqual([flat.width, flat.height], [210, 297]);
+  const { outline } = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
+  assert.equal(outline.verdict, 'found');
+});

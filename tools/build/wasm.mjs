@@ -28,7 +28,7 @@ const files = [
   { name: 'images', limit: 560_000 },
   { name: 'meshes', limit: 295_000 },
   { name: 'fitmesh', limit: 176_000 },
-  { name: 'unroll', limit: 272_000 },
+  { name: 'unroll', limit: 302_000 },
   { name: 'patterns', limit: 526_000 },
 ];
 

@@ -9,6 +9,6 @@ mod bands;
 mod baseline;
 mod ink;
 mod lines;
-mod ranking;
+pub(super) mod ranking;
 
 pub(super) use lines::find_lines;

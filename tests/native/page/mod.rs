@@ -3,6 +3,7 @@
 mod found;
 mod lines;
 mod measure;
+mod outline;
 mod scene;
 
 use developable::dewarp::{DewarpOptions, Photo};

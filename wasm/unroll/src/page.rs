@@ -7,7 +7,8 @@ use wasm_bindgen::prelude::*;
 
 use developable::dewarp::DewarpOptions;
 use developable::page::{
-    CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
+    CurledPage, Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict,
+    PageOptions, PageOutline, PageReport, PageVerdict, Ruler, Trace, find_outline,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{Given, entries, option, renamed, unknown};
@@ -102,6 +103,9 @@ struct PageOutput {
     lines: Vec<Vec<Vec<[f64; 2]>>>,
     verdict: PageVerdict,
     report: PageReport,
+    /// What was found in the photo, if no edges were given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outline: Option<OutlinesOutput>,
 }
 
 #[derive(Serialize)]
@@ -114,7 +118,68 @@ struct MeshOutput {
     uvs: Float32Array,
 }
 
-/// A photo of a page, or of a spread, made flat by the page's edges.
+/// `PageOutlines` of `types.d.ts`.
+#[derive(Serialize)]
+struct OutlinesOutput {
+    verdict: OutlineVerdict,
+    reasons: Vec<OutlineReason>,
+    pages: Vec<OutlineOutput>,
+}
+
+/// `PageOutline` of `types.d.ts`.
+#[derive(Serialize)]
+struct OutlineOutput {
+    corners: [[f64; 2]; 4],
+    edges: EdgesOutput,
+    score: f64,
+    reasons: Vec<OutlineReason>,
+}
+
+#[derive(Serialize)]
+struct EdgesOutput {
+    top: Vec<[f64; 2]>,
+    bottom: Vec<[f64; 2]>,
+    left: Vec<[f64; 2]>,
+    right: Vec<[f64; 2]>,
+}
+
+impl From<&PageOutline> for OutlineOutput {
+    fn from(outline: &PageOutline) -> Self {
+        let [top, right, bottom, left] = &outline.edges;
+        let reversed = |edge: &[[f64; 2]]| edge.iter().rev().copied().collect();
+        OutlineOutput {
+            corners: outline.corners,
+            edges: EdgesOutput {
+                top: top.clone(),
+                bottom: reversed(bottom),
+                left: reversed(left),
+                right: right.clone(),
+            },
+            score: outline.score,
+            reasons: outline.reasons.clone(),
+        }
+    }
+}
+
+impl From<&OutlineReport> for OutlinesOutput {
+    fn from(report: &OutlineReport) -> Self {
+        OutlinesOutput {
+            verdict: report.verdict,
+            reasons: report.reasons.clone(),
+            pages: report.pages.iter().map(OutlineOutput::from).collect(),
+        }
+    }
+}
+
+/// The outline of the page in a photo.
+#[wasm_bindgen(js_name = findPage)]
+pub fn find_page(photo: JsValue) -> Result<JsValue> {
+    let pixels = Pixels::new(photo)?;
+    let report = find_outline(&pixels.photo()?);
+    Ok(to_value(&OutlinesOutput::from(&report))?)
+}
+
+/// A photo of a page, or of a spread, made flat by the page's edges; without edges by those that are found in it.
 #[wasm_bindgen(js_name = dewarpPage)]
 pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<JsValue> {
     let (mut wanted, mut known) = (DewarpOptions::default(), PageOptions::default());
@@ -163,16 +228,25 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             ));
         }
     }
-    let edges: Vec<EdgesInput> = from_value(edges)?;
-    let find = finding.unwrap_or_else(|| edges.iter().all(|page| page.open));
-    let (mut pages, mut lines) = (Vec::new(), Vec::new());
-    for page in edges {
-        let (edges, own) = page.into_edges()?;
-        pages.push(edges);
-        lines.push(own);
-    }
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
+    let (mut pages, mut lines, mut find) = (Vec::new(), Vec::new(), true);
+    let outline = if edges.is_undefined() {
+        let found = find_outline(&photo);
+        pages.push(found.page()?.to_edges());
+        lines.push(Vec::new());
+        Some(OutlinesOutput::from(&found))
+    } else {
+        let edges: Vec<EdgesInput> = from_value(edges)?;
+        find = edges.iter().all(|page| page.open);
+        for page in edges {
+            let (edges, own) = page.into_edges()?;
+            pages.push(edges);
+            lines.push(own);
+        }
+        None
+    };
+    let find = finding.unwrap_or(find);
     let page = if find {
         CurledPage::in_photo(&pages, &lines, &photo, &known)
     } else {
@@ -201,6 +275,7 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
             .collect(),
         verdict: page.report().verdict,
         report: *page.report(),
+        outline,
     })?)
 }
 

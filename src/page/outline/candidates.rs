@@ -1,0 +1,137 @@
+//! Candidate masks of a page, by thresholds of lightness and colour and by models of both.
+
+use super::colour_model::{ColourModel, opponent_axes};
+use super::planes::Planes;
+
+/// Width of the photo's frame that is taken for ground at first, as a share of its sides.
+const FRAME_SHARE: f64 = 0.04;
+
+/// Distance from the photo's rim of the middle that is taken for the page at first, as a share of its sides.
+const MIDDLE_SHARE: f64 = 0.25;
+
+/// Variance of a reduced photo's noise in each axis of colour.
+const COLOUR_NOISE_VARIANCE: f64 = 1e-4;
+
+/// Number of levels of grey that thresholds are chosen from.
+const THRESHOLD_LEVELS: usize = 128;
+
+/// Whether each pixel is of the photo's frame, and whether it is of its middle.
+fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
+    let depth = |i: usize| {
+        let share = |at: usize, size: usize| {
+            let at = (at as f64 + 0.5) / size as f64;
+            at.min(1.0 - at)
+        };
+        share(i % width, width).min(share(i / width, height))
+    };
+    let within = |test: &dyn Fn(f64) -> bool| (0..width * height).map(|i| test(depth(i))).collect();
+    [
+        within(&|depth| depth < FRAME_SHARE),
+        within(&|depth| depth > MIDDLE_SHARE),
+    ]
+}
+
+/// The thresholds that divide values into two, and into three, classes of the least variance (Otsu): one, and two.
+fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
+    let (low, high) = values.iter().fold((f32::MAX, f32::MIN), |(low, high), v| {
+        (low.min(*v), high.max(*v))
+    });
+    let step = (high - low) / THRESHOLD_LEVELS as f32;
+    if step.is_nan() || step <= 0.0 {
+        return Vec::new();
+    }
+    let mut counts = [0.0_f64; THRESHOLD_LEVELS];
+    for value in values {
+        counts[(((value - low) / step) as usize).min(THRESHOLD_LEVELS - 1)] += 1.0;
+    }
+    // Sums of counts and of levels below each one.
+    let mut sums = [[0.0_f64; 2]; THRESHOLD_LEVELS + 1];
+    for (k, count) in counts.iter().enumerate() {
+        sums[k + 1] = [sums[k][0] + count, sums[k][1] + count * k as f64];
+    }
+    // What a class of these levels adds to the variance between classes.
+    let between = |from: usize, to: usize| {
+        let [count, sum] = [0, 1].map(|j| sums[to][j] - sums[from][j]);
+        if count > 0.0 { sum * sum / count } else { 0.0 }
+    };
+    let (mut one, mut two) = ((f64::MIN, 0), (f64::MIN, [0, 0]));
+    for t in 1..THRESHOLD_LEVELS {
+        let value = between(0, t) + between(t, THRESHOLD_LEVELS);
+        if value > one.0 {
+            one = (value, t);
+        }
+        for u in t + 1..THRESHOLD_LEVELS {
+            let value = between(0, t) + between(t, u) + between(u, THRESHOLD_LEVELS);
+            if value > two.0 {
+                two = (value, [t, u]);
+            }
+        }
+    }
+    [two.1[0], one.1, two.1[1]]
+        .map(|level| low + step * level as f32)
+        .to_vec()
+}
+
+/// Lightness and colour differences summed with the weights that separate middle and frame best (Fisher's linear
+/// discriminant, with the axes taken for independent).
+fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> {
+    let moments = |mask: &[bool]| {
+        let mut sums = [[0.0_f64; 2]; 3];
+        let mut count = 0.0_f64;
+        for (colour, _) in axes.iter().zip(mask).filter(|(_, own)| **own) {
+            count += 1.0;
+            for (sum, value) in sums.iter_mut().zip(colour) {
+                let value = f64::from(*value);
+                sum[0] += value;
+                sum[1] += value * value;
+            }
+        }
+        sums.map(|[sum, squares]| {
+            let mean = sum / count.max(1.0);
+            (mean, squares / count.max(1.0) - mean * mean)
+        })
+    };
+    let (ground, page) = (moments(frame), moments(middle));
+    let weights = [0, 1, 2].map(|k| {
+        ((page[k].0 - ground[k].0) / (page[k].1 + ground[k].1 + COLOUR_NOISE_VARIANCE)) as f32
+    });
+    (axes.iter())
+        .map(|colour| (0..3).map(|k| weights[k] * colour[k]).sum())
+        .collect()
+}
+
+/// Masks that may be a page, of an image without print; most of them are alike where the page is easily seen.
+pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
+    let [r, g, b] = &planes.channels;
+    let colours: Vec<[f32; 3]> = (0..planes.len()).map(|i| [r[i], g[i], b[i]]).collect();
+    let axes: Vec<[f32; 3]> = colours
+        .iter()
+        .map(|colour| opponent_axes(*colour))
+        .collect();
+    let [frame, middle] = frame_and_middle(planes.width, planes.height);
+    let model = ColourModel::new(planes);
+    let pixels = |mask: &'_ [bool]| {
+        let found: Vec<usize> = (0..mask.len()).filter(|i| mask[*i]).collect();
+        found.into_iter()
+    };
+    let mut masks = vec![model.refine(model.classify(pixels(&middle), pixels(&frame)))];
+    let axis = |k: usize| axes.iter().map(|colour| colour[k]).collect();
+    let saturation: Vec<f32> = colours
+        .iter()
+        .map(|[r, g, b]| r.min(*g).min(*b) - r.max(*g).max(*b))
+        .collect();
+    let features: [Vec<f32>; 4] = [
+        axis(0),
+        saturation,
+        axis(2),
+        discriminant(&axes, &frame, &middle),
+    ];
+    for feature in features {
+        for threshold in otsu_thresholds(&feature) {
+            let mask: Vec<bool> = feature.iter().map(|value| *value > threshold).collect();
+            masks.push(model.refine(mask.clone()));
+            masks.push(mask);
+        }
+    }
+    masks
+}

@@ -1,0 +1,124 @@
+//! Colours of page and ground as histograms, and masks by their likelihood ratio.
+
+use super::morphology::box_mean;
+use super::planes::Planes;
+use crate::page::text::ranking::ranked;
+
+/// Number of bins for lightness, and for each of the two differences of colour.
+const BINS: [usize; 3] = [24, 16, 16];
+
+/// Minimum width of a bin, in logarithms: about twice the noise of a reduced photo.
+const MIN_BIN_WIDTH: f32 = 0.02;
+
+/// Share of the pixels left out at either end of each axis before it is divided into bins.
+const BIN_RANGE_TRIM: f64 = 0.01;
+
+/// Step between the pixels of which the range of an axis is taken.
+const SAMPLE_STEP: usize = 7;
+
+/// Number of times that both histograms are counted anew with the mask of the round before.
+const REFINEMENTS: usize = 4;
+
+/// Radius, in pixels of half the reduced size, of the square over which likelihood ratios are averaged.
+const SMOOTHING_RADIUS: usize = 2;
+
+/// Count added to each bin, as a share of a uniform histogram, so that unseen colours decide nothing.
+const UNIFORM_SHARE: f32 = 0.02;
+
+/// The bin of colour of each pixel.
+pub(super) struct ColourModel {
+    bins: Vec<u16>,
+    width: usize,
+    height: usize,
+}
+
+/// Lightness and two differences of colour, which light of one colour does not change.
+pub(super) fn opponent_axes([r, g, b]: [f32; 3]) -> [f32; 3] {
+    [(r + g + b) / 3.0, r - g, b - g]
+}
+
+impl ColourModel {
+    /// Divides the colours of an image into bins.
+    pub fn new(planes: &Planes) -> Self {
+        let [r, g, b] = &planes.channels;
+        let axes: Vec<[f32; 3]> = (0..planes.len())
+            .map(|i| opponent_axes([r[i], g[i], b[i]]))
+            .collect();
+        let mut bins = vec![0_u16; axes.len()];
+        for (axis, &count) in BINS.iter().enumerate() {
+            let sample: Vec<f64> = (axes.iter().step_by(SAMPLE_STEP))
+                .map(|colour| f64::from(colour[axis]))
+                .collect();
+            let order = ranked(&sample);
+            let cut = ((order.len() - 1) as f64 * BIN_RANGE_TRIM) as usize;
+            let [low, high] = [cut, order.len() - 1 - cut].map(|k| sample[order[k]] as f32);
+            let step = ((high - low) / count as f32).max(MIN_BIN_WIDTH);
+            for (bin, colour) in bins.iter_mut().zip(&axes) {
+                let place = ((colour[axis] - low) / step).clamp(0.0, (count - 1) as f32);
+                *bin = *bin * count as u16 + place as u16;
+            }
+        }
+        ColourModel {
+            bins,
+            width: planes.width,
+            height: planes.height,
+        }
+    }
+
+    /// Relative frequencies of the colours at some pixels, smoothed over neighbouring bins.
+    fn histogram(&self, pixels: impl Iterator<Item = usize>) -> Vec<f32> {
+        let [n, m, k] = BINS;
+        let mut counts = vec![0.0_f32; n * m * k];
+        pixels.for_each(|i| counts[usize::from(self.bins[i])] += 1.0);
+        for (stride, length) in [(m * k, n), (k, m), (1, k)] {
+            let before = counts.clone();
+            for (i, count) in counts.iter_mut().enumerate() {
+                let place = (i / stride) % length;
+                let lower = if place > 0 { before[i - stride] } else { 0.0 };
+                let upper = if place + 1 < length {
+                    before[i + stride]
+                } else {
+                    0.0
+                };
+                *count = 0.25 * (lower + 2.0 * before[i] + upper);
+            }
+        }
+        let floor = UNIFORM_SHARE / counts.len() as f32;
+        let norm = 1.0 / counts.iter().sum::<f32>().max(1.0);
+        counts.iter().map(|count| count * norm + floor).collect()
+    }
+
+    /// Mask of the pixels whose colour is likelier on the page than on the ground.
+    pub fn classify(
+        &self,
+        page: impl Iterator<Item = usize>,
+        ground: impl Iterator<Item = usize>,
+    ) -> Vec<bool> {
+        let (page, ground) = (self.histogram(page), self.histogram(ground));
+        let share: Vec<f32> = page.iter().zip(&ground).map(|(p, q)| p / (p + q)).collect();
+        let mut plane: Vec<f32> = self
+            .bins
+            .iter()
+            .map(|bin| share[usize::from(*bin)])
+            .collect();
+        box_mean(&mut plane, self.width, self.height, SMOOTHING_RADIUS);
+        plane.iter().map(|share| *share > 0.5).collect()
+    }
+
+    /// Refines a mask: counts the colours inside and outside of it, classifies all pixels by them, and repeats that.
+    pub fn refine(&self, mut mask: Vec<bool>) -> Vec<bool> {
+        for _ in 0..REFINEMENTS {
+            let pixels = |inside: bool| {
+                let mask = &mask;
+                (0..mask.len()).filter(move |i| mask[*i] == inside)
+            };
+            let next = self.classify(pixels(true), pixels(false));
+            let unchanged = next == mask;
+            mask = next;
+            if unchanged {
+                break;
+            }
+        }
+        mask
+    }
+}

@@ -1,0 +1,245 @@
+//! Edges of a page to a fraction of a pixel: the path of the strongest contrast in a band along a region's border.
+
+use super::corners::is_outside;
+use super::planes::Planes;
+use crate::math::planar::distance;
+
+/// Half of the width of the band in which an edge is looked for, in pixels of the reduced photo.
+const BAND_RADIUS: usize = 10;
+
+/// Number of pixels beyond the band from which the colours of paper and ground are taken.
+const BAND_MARGIN: usize = 4;
+
+/// Length of the window over which a border is smoothed, and colours along it, on either side and in pixels.
+const SMOOTHING_LENGTH: usize = 8;
+
+/// Cost of a step of one pixel across the band, where an edge of full contrast is worth 1 for each pixel of its length.
+const STEP_COST: f32 = 0.15;
+
+/// Difference of logarithmic colour at which contrast in direction of the paper's colour and any contrast count alike.
+const WEAK_CONTRAST: f32 = 0.15;
+
+/// Minimum difference of logarithmic colour across an edge that can be seen: 4 % of the light.
+const MIN_EDGE_CONTRAST: f32 = 0.04;
+
+/// Minimum distance of an edge from the photo's rim, in pixels, at which its ground is seen.
+const MIN_SIDE_PIXELS: f64 = 1.5;
+
+/// Minimum number of points of a border along which an edge is looked for.
+const MIN_BORDER_POINTS: usize = 24;
+
+/// An edge in the reduced photo.
+pub(super) struct EdgePath {
+    /// Points about one pixel from each other, in the border's order.
+    pub points: Vec<[f64; 2]>,
+    /// Share of the points, of those with both sides in the photo, across which a contrast can be seen.
+    pub support: f64,
+    /// Share of the points with both sides in the photo.
+    pub visible: f64,
+    /// Median difference of logarithmic colour across the edge.
+    pub contrast: f64,
+}
+
+/// Points at distances of one on a polyline.
+fn resampled(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut found = Vec::new();
+    let mut ahead = 0.0;
+    for pair in points.windows(2) {
+        let length = distance(pair[0], pair[1]);
+        while ahead < length {
+            let t = ahead / length;
+            found.push([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])));
+            ahead += 1.0;
+        }
+        ahead -= length;
+    }
+    found
+}
+
+/// Means of each point and its neighbours on either side, as many as there are on both.
+fn smoothed(points: &[[f64; 2]], radius: usize) -> Vec<[f64; 2]> {
+    let n = points.len();
+    (0..n)
+        .map(|i| {
+            let reach = radius.min(i).min(n - 1 - i);
+            let near = &points[i - reach..=i + reach];
+            [0, 1].map(|k| near.iter().map(|p| p[k]).sum::<f64>() / near.len() as f64)
+        })
+        .collect()
+}
+
+/// Unit normals to the right of a polyline's direction, as seen in an image: into the page.
+fn inward_normals(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let n = points.len();
+    (0..n)
+        .map(|i| {
+            let (a, b) = (
+                points[i.saturating_sub(SMOOTHING_LENGTH)],
+                points[(i + SMOOTHING_LENGTH).min(n - 1)],
+            );
+            let length = distance(a, b).max(1e-9);
+            [(a[1] - b[1]) / length, (b[0] - a[0]) / length]
+        })
+        .collect()
+}
+
+/// Mean of some colours.
+fn mean_colour<'a>(colours: impl Iterator<Item = &'a [f32; 3]>) -> [f32; 3] {
+    let (mut sum, mut count) = ([0.0; 3], 0.0_f32);
+    for colour in colours {
+        (0..3).for_each(|k| sum[k] += colour[k]);
+        count += 1.0;
+    }
+    sum.map(|value| value / count.max(1.0))
+}
+
+/// Distance of two colours.
+fn difference(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|j| (b[j] - a[j]).powi(2)).sum::<f32>().sqrt()
+}
+
+/// Colours along the normals of a border, from outside to inside.
+struct Band {
+    profiles: Vec<[[f32; 3]; PROFILE_LENGTH]>,
+}
+
+/// Number of places in a profile.
+const PROFILE_LENGTH: usize = 2 * PROFILE_MIDDLE + 1;
+
+/// Place of the border in a profile.
+const PROFILE_MIDDLE: usize = BAND_RADIUS + BAND_MARGIN;
+
+/// Number of places at either end of a profile whose colours are those of ground and paper.
+const SIDE_LENGTH: usize = BAND_MARGIN + BAND_RADIUS / 2;
+
+impl Band {
+    fn new(planes: &Planes, border: &[[f64; 2]], normals: &[[f64; 2]]) -> Self {
+        let profile = |(point, normal): (&[f64; 2], &[f64; 2])| {
+            std::array::from_fn(|k| {
+                let offset = k as f64 - PROFILE_MIDDLE as f64;
+                planes.colour([0, 1].map(|j| point[j] + offset * normal[j]))
+            })
+        };
+        Band {
+            profiles: border.iter().zip(normals).map(profile).collect(),
+        }
+    }
+
+    /// Mean colours of ground and paper near a point of the border.
+    fn sides(&self, i: usize) -> [[f32; 3]; 2] {
+        let from = i.saturating_sub(SMOOTHING_LENGTH);
+        let near = &self.profiles[from..(i + SMOOTHING_LENGTH + 1).min(self.profiles.len())];
+        [
+            mean_colour(near.iter().flat_map(|profile| &profile[..SIDE_LENGTH])),
+            mean_colour(
+                near.iter()
+                    .flat_map(|profile| &profile[PROFILE_LENGTH - SIDE_LENGTH..]),
+            ),
+        ]
+    }
+}
+
+/// Worth of an edge at each place of a profile: 1 for a step from the ground's colour to the paper's.
+fn edge_strengths(clean: &Band, raw: &Band, i: usize) -> [f32; PROFILE_LENGTH] {
+    let [ground, paper] = clean.sides(i);
+    let direction = [0, 1, 2].map(|k| paper[k] - ground[k]);
+    let squared = direction.iter().map(|d| d * d).sum::<f32>();
+    let share = clean.profiles[i].map(|colour| {
+        let along: f32 = (0..3).map(|j| (colour[j] - ground[j]) * direction[j]).sum();
+        (along / squared.max(1e-8)).clamp(0.0, 1.0)
+    });
+    let raw_weight = WEAK_CONTRAST / (WEAK_CONTRAST + squared.sqrt());
+    let own = &raw.profiles[i];
+    std::array::from_fn(|k| {
+        if !(BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN).contains(&k) {
+            return 0.0;
+        }
+        let step = 0.5 * (share[k + 1] + share[k + 2] - share[k - 1] - share[k - 2]);
+        let any = (difference(own[k - 1], own[k + 1]) / WEAK_CONTRAST).min(1.0);
+        (1.0 - raw_weight) * step.max(0.0) + raw_weight * any
+    })
+}
+
+/// The place in each profile of the path with the largest sum of strengths minus the cost of its steps (Viterbi).
+fn best_path(strengths: &[[f32; PROFILE_LENGTH]]) -> Vec<usize> {
+    let range = BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN;
+    let mut worth = [f32::MIN; PROFILE_LENGTH];
+    range.clone().for_each(|k| worth[k] = strengths[0][k]);
+    let mut from = vec![[0_u8; PROFILE_LENGTH]; strengths.len()];
+    for (i, own) in strengths.iter().enumerate().skip(1) {
+        let before = worth;
+        for k in range.clone() {
+            let mut best = (before[k], k);
+            for j in [k - 1, k + 1] {
+                let value = before[j] - STEP_COST;
+                if value > best.0 {
+                    best = (value, j);
+                }
+            }
+            worth[k] = best.0 + own[k];
+            from[i][k] = best.1 as u8;
+        }
+    }
+    let mut place = range
+        .max_by(|a, b| worth[*a].total_cmp(&worth[*b]))
+        .unwrap_or(PROFILE_MIDDLE);
+    let mut path = vec![place; strengths.len()];
+    for i in (1..strengths.len()).rev() {
+        place = usize::from(from[i][place]);
+        path[i - 1] = place;
+    }
+    path
+}
+
+impl EdgePath {
+    /// The edge near a border, given from one corner to the next and clockwise, in a reduced photo as it is and without
+    /// print. `None` if the border is too short.
+    pub fn new(raw: &Planes, clean: &Planes, border: &[[f64; 2]]) -> Option<Self> {
+        let size = [raw.width, raw.height];
+        let border = resampled(&smoothed(&resampled(border), SMOOTHING_LENGTH));
+        if border.len() < MIN_BORDER_POINTS {
+            return None;
+        }
+        let normals = inward_normals(&border);
+        let clean = Band::new(clean, &border, &normals);
+        let raw = Band::new(raw, &border, &normals);
+        let strengths: Vec<_> = (0..border.len())
+            .map(|i| edge_strengths(&clean, &raw, i))
+            .collect();
+        let path = best_path(&strengths);
+        let mut contrasts = Vec::new();
+        let points = (0..border.len())
+            .map(|i| {
+                let k = path[i];
+                let [a, b, c] = [k - 1, k, k + 1].map(|k| f64::from(strengths[i][k]));
+                let bend = 2.0 * b - a - c;
+                let shift = if bend > 1e-6 {
+                    (0.5 * (c - a) / bend).clamp(-0.5, 0.5)
+                } else {
+                    0.0
+                };
+                let offset = k as f64 + shift - PROFILE_MIDDLE as f64;
+                let at = |offset: f64| [0, 1].map(|j| border[i][j] + offset * normals[i][j]);
+                if !is_outside(at(offset - MIN_SIDE_PIXELS), size, 0.0) {
+                    let profile = &clean.profiles[i];
+                    contrasts.push(difference(
+                        mean_colour(profile[k - BAND_MARGIN..k].iter()),
+                        mean_colour(profile[k + 1..=k + BAND_MARGIN].iter()),
+                    ));
+                }
+                at(offset)
+            })
+            .collect();
+        let seen = contrasts.iter().filter(|c| **c > MIN_EDGE_CONTRAST).count();
+        let support = seen as f64 / contrasts.len().max(1) as f64;
+        let visible = contrasts.len() as f64 / border.len() as f64;
+        let mut contrasts: Vec<f64> = contrasts.iter().map(|c| f64::from(*c)).collect();
+        let contrast = crate::math::statistics::median(&mut contrasts).unwrap_or(0.0);
+        Some(EdgePath {
+            points,
+            support,
+            visible,
+            contrast,
+        })
+    }
+}

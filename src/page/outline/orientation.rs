@@ -1,0 +1,66 @@
+//! Orientation of a page by its print: lines of text run across it, and there is more print in its upper half.
+
+use super::planes::Planes;
+
+/// Number of samples along each side of the page.
+const SAMPLES: usize = 320;
+
+/// Number of strips across the page in which rows of print are looked for, so that lines may be bent.
+const STRIPS: usize = 10;
+
+/// Share of the page at each of its edges that is left out, because of shadows.
+const MARGIN_SHARE: f64 = 0.05;
+
+/// Minimum ratio of the energies of rows and columns from which the print has a direction.
+const MIN_ENERGY_RATIO: f64 = 1.6;
+
+/// Minimum mean print, in logarithmic colour, of a page with an orientation.
+const MIN_PRINT: f64 = 0.003;
+
+/// Sum of the squared differences of neighbouring values of profiles across strips of `print`; `at` is the place of a sample
+/// of a strip in it.
+fn profile_energy(print: &[f32], at: impl Fn(usize, usize) -> usize) -> f64 {
+    let width = SAMPLES / STRIPS;
+    let mut energy = 0.0;
+    for strip in 0..STRIPS {
+        let mut before = None;
+        for row in 0..SAMPLES {
+            let sum: f32 = (0..width).map(|k| print[at(row, strip * width + k)]).sum();
+            if let Some(last) = before {
+                energy += f64::from(sum - last).powi(2);
+            }
+            before = Some(sum);
+        }
+    }
+    energy
+}
+
+/// The number of corners by which the first corner has to move, clockwise, to be the upper left one of the page as it is read; 0
+/// if the print does not tell. Corners are clockwise, in pixels of a reduced photo as it is and without print.
+pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4]) -> usize {
+    let [a, b, c, d] = corners;
+    let share =
+        |i: usize| MARGIN_SHARE + (1.0 - 2.0 * MARGIN_SHARE) * (i as f64 + 0.5) / SAMPLES as f64;
+    let mut print = vec![0.0_f32; SAMPLES * SAMPLES];
+    let (mut total, mut right) = (0.0, 0.0);
+    for (i, value) in print.iter_mut().enumerate() {
+        let (u, v) = (share(i % SAMPLES), share(i / SAMPLES));
+        let [x, y] = [0, 1]
+            .map(|k| (1.0 - v) * ((1.0 - u) * a[k] + u * b[k]) + v * ((1.0 - u) * d[k] + u * c[k]));
+        let pixel = |at: f64, size: usize| at.round().clamp(0.0, size as f64 - 1.0) as usize;
+        let place = pixel(y, raw.height) * raw.width + pixel(x, raw.width);
+        *value = clean.channels[1][place] - raw.channels[1][place];
+        total += f64::from(*value);
+        right += f64::from(*value) * u;
+    }
+    if total < MIN_PRINT * print.len() as f64 {
+        return 0;
+    }
+    let rows = profile_energy(&print, |row, col| row * SAMPLES + col);
+    let cols = profile_energy(&print, |row, col| col * SAMPLES + row);
+    if cols < MIN_ENERGY_RATIO * rows {
+        return 0;
+    }
+    // Lines run down in the photo: the page's top is where there is more print, at the right or at the left.
+    if right > 0.5 * total { 1 } else { 3 }
+}

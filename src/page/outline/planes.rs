@@ -1,0 +1,122 @@
+//! Reduced photos as planes of logarithmic colour.
+
+use crate::dewarp::Photo;
+
+/// Maximum length of a reduced photo's longer side, in pixels: edges are found to a tenth of such a pixel, and twelve
+/// megapixels cost one pass over the photo.
+const MAX_REDUCED_SIDE: usize = 800;
+
+/// Value added to a byte of colour before its logarithm, so that noise of dark pixels does not count much.
+const LOG_OFFSET: f64 = 8.0;
+
+/// Three planes of the same size: logarithms of red, green and blue, in which light that falls on a scene is a term.
+#[derive(Clone)]
+pub(super) struct Planes {
+    /// Number of columns.
+    pub width: usize,
+    /// Number of rows.
+    pub height: usize,
+    /// Red, green and blue, row by row.
+    pub channels: [Vec<f32>; 3],
+    /// Pixels of the photo along a side of one pixel here.
+    pub scale: f64,
+}
+
+impl Planes {
+    /// Reduces a photo by averages of square blocks.
+    pub fn from_photo(photo: &Photo<'_>) -> Self {
+        let (w, h) = (photo.width(), photo.height());
+        let block = w.max(h).div_ceil(MAX_REDUCED_SIDE);
+        let (width, height) = ((w / block).max(1), (h / block).max(1));
+        let mut channels = [const { Vec::new() }; 3];
+        channels
+            .iter_mut()
+            .for_each(|plane| plane.reserve(width * height));
+        let mut sums = vec![[0_u32; 3]; width];
+        for row in 0..height {
+            sums.fill([0; 3]);
+            let mut rows = 0;
+            for y in row * block..((row + 1) * block).min(h) {
+                rows += 1;
+                let line = &photo.rgba()[4 * w * y..4 * w * (y + 1)];
+                for (sum, pixels) in sums.iter_mut().zip(line.chunks(4 * block)) {
+                    for pixel in pixels.chunks_exact(4) {
+                        for (one, value) in sum.iter_mut().zip(pixel) {
+                            *one += u32::from(*value);
+                        }
+                    }
+                }
+            }
+            for (col, sum) in sums.iter().enumerate() {
+                let cols = ((col + 1) * block).min(w) - col * block;
+                let count = (rows * cols).max(1) as f64;
+                for (plane, one) in channels.iter_mut().zip(sum) {
+                    plane.push((f64::from(*one) / count + LOG_OFFSET).ln() as f32);
+                }
+            }
+        }
+        Planes {
+            width,
+            height,
+            channels,
+            scale: block as f64,
+        }
+    }
+
+    /// The planes at half the resolution.
+    pub fn halved(&self) -> Self {
+        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let half = |plane: &Vec<f32>| {
+            let at = |x: usize, y: usize| {
+                plane[y.min(self.height - 1) * self.width + x.min(self.width - 1)]
+            };
+            let mean = |i: usize| {
+                let (x, y) = (2 * (i % width), 2 * (i / width));
+                0.25 * (at(x, y) + at(x + 1, y) + at(x, y + 1) + at(x + 1, y + 1))
+            };
+            (0..width * height).map(mean).collect()
+        };
+        Planes {
+            width,
+            height,
+            channels: self.channels.each_ref().map(half),
+            scale: 2.0 * self.scale,
+        }
+    }
+
+    /// Number of pixels.
+    pub fn len(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// Length of the longer side, in pixels.
+    pub fn longer_side(&self) -> f64 {
+        self.width.max(self.height) as f64
+    }
+
+    /// Bilinear colour at a point; `[0, 0]` is the centre of the upper left pixel. The image continues beyond its rim.
+    pub fn colour(&self, [x, y]: [f64; 2]) -> [f32; 3] {
+        let x = x.clamp(0.0, self.width as f64 - 1.0);
+        let y = y.clamp(0.0, self.height as f64 - 1.0);
+        let (col, row) = (x as usize, y as usize);
+        let (fx, fy) = ((x - col as f64) as f32, (y - row as f64) as f32);
+        let next = (col + 1).min(self.width - 1) - col;
+        let below = ((row + 1).min(self.height - 1) - row) * self.width;
+        let i = row * self.width + col;
+        self.channels.each_ref().map(|plane| {
+            let upper = plane[i] + fx * (plane[i + next] - plane[i]);
+            let lower = plane[i + below] + fx * (plane[i + below + next] - plane[i + below]);
+            upper + fy * (lower - upper)
+        })
+    }
+
+    /// The point here of a point in the photo's pixels.
+    pub fn reduced_point(&self, point: [f64; 2]) -> [f64; 2] {
+        point.map(|at| (at + 0.5) / self.scale - 0.5)
+    }
+
+    /// The point in the photo's pixels of a point here.
+    pub fn to_photo(&self, point: [f64; 2]) -> [f64; 2] {
+        point.map(|at| (at + 0.5) * self.scale - 0.5)
+    }
+}

@@ -1,0 +1,162 @@
+//! The quadrilateral of a region: its four corners on the border, and how much the region is like a page.
+
+use super::region::Region;
+use crate::math::planar::{cross, distance, orientation, polygon_area, polyline_length};
+use crate::page::text::ranking::ranked;
+
+/// Maximum number of vertices of a convex hull among which corners are looked for; their cost is its third power.
+const MAX_HULL_VERTICES: usize = 64;
+
+/// Number of pixels from the photo's rim within which a border pixel is none of the page's edge.
+const RIM_PIXELS: f64 = 1.0;
+
+/// A region's border with four corners, clockwise.
+pub(super) struct Quadrilateral {
+    /// The four arcs of the border from each corner to the next, in pixels of the mask.
+    pub arcs: [Vec<[f64; 2]>; 4],
+    /// How much the region is like a page, from 0 to 1.
+    pub likeness: f64,
+}
+
+/// The vertices of the convex hull of pixels, as their numbers, around the hull (monotone chain).
+fn convex_hull(points: &[[f64; 2]]) -> Vec<usize> {
+    // Coordinates of pixels are whole, so that one number orders them by column, then by row.
+    let order = ranked(
+        &points
+            .iter()
+            .map(|[x, y]| x * 65536.0 + y)
+            .collect::<Vec<_>>(),
+    );
+    let mut hull: Vec<usize> = Vec::new();
+    for pass in 0..2 {
+        let start = hull.len();
+        for k in 0..order.len() {
+            let i = order[if pass == 0 { k } else { order.len() - 1 - k }];
+            while hull.len() >= start + 2 {
+                let [a, b] = [hull[hull.len() - 2], hull[hull.len() - 1]];
+                if orientation(points[a], points[b], points[i]) > 0.0 {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(i);
+        }
+        hull.pop();
+    }
+    hull
+}
+
+/// Leaves out the vertices of a convex hull that change its area least, until there are few.
+fn simplify_hull(points: &[[f64; 2]], hull: &mut Vec<usize>) {
+    while hull.len() > MAX_HULL_VERTICES {
+        let n = hull.len();
+        let area = |k: usize| {
+            let at = |j: usize| points[hull[j % n]];
+            orientation(at(k + n - 1), at(k), at(k + 1)).abs()
+        };
+        let Some(least) = (0..n).min_by(|i, j| area(*i).total_cmp(&area(*j))) else {
+            return;
+        };
+        hull.remove(least);
+    }
+}
+
+/// The four vertices of a convex polygon whose quadrilateral is largest, as places in it.
+fn largest_quadrilateral(polygon: &[[f64; 2]]) -> Option<[usize; 4]> {
+    let n = polygon.len();
+    let mut best = (0.0, None);
+    for i in 0..n {
+        for k in i + 2..n {
+            let farthest = |from: usize, to: usize| {
+                (from + 1..to)
+                    .map(|j| {
+                        let area = orientation(polygon[i], polygon[j % n], polygon[k]).abs();
+                        (area, j % n)
+                    })
+                    .max_by(|a, b| a.0.total_cmp(&b.0))
+            };
+            let (Some((one, j)), Some((other, l))) = (farthest(i, k), farthest(k, i + n)) else {
+                continue;
+            };
+            if one + other > best.0 {
+                best = (one + other, Some([i, j, k, l]));
+            }
+        }
+    }
+    best.1
+}
+
+/// Whether a point is so near to the rim of an image of a size that it may be the rim itself.
+pub(super) fn is_at_rim([x, y]: [f64; 2], [width, height]: [usize; 2]) -> bool {
+    x.min(y) <= RIM_PIXELS
+        || x >= width as f64 - 1.0 - RIM_PIXELS
+        || y >= height as f64 - 1.0 - RIM_PIXELS
+}
+
+/// The angle at each corner of a quadrilateral, in radians.
+fn corner_angles(corners: &[[f64; 2]; 4]) -> [f64; 4] {
+    [0, 1, 2, 3].map(|k| {
+        let [before, at, after] = [corners[(k + 3) % 4], corners[k], corners[(k + 1) % 4]];
+        let (u, v) = (
+            [before[0] - at[0], before[1] - at[1]],
+            [after[0] - at[0], after[1] - at[1]],
+        );
+        cross(u, v).abs().atan2(u[0] * v[0] + u[1] * v[1])
+    })
+}
+
+/// How much four corners are like those of a sheet of paper seen by a camera, from 0 to 1.
+pub(super) fn rectangularity(corners: &[[f64; 2]; 4]) -> f64 {
+    let angles = corner_angles(corners).map(|angle| angle.sin().max(0.0));
+    let lengths = [0, 1, 2, 3].map(|k| distance(corners[k], corners[(k + 1) % 4]));
+    let ratio = |a: f64, b: f64| (a.min(b) / a.max(b).max(1e-9)).sqrt();
+    let sides = ratio(lengths[0], lengths[2]) * ratio(lengths[1], lengths[3]);
+    angles.iter().product::<f64>().sqrt() * sides
+}
+
+impl Quadrilateral {
+    /// The quadrilateral of a region of a mask `width` pixels wide; `None` if the region is too small to have corners.
+    pub fn new(region: &Region, width: usize) -> Option<Self> {
+        let border: Vec<[f64; 2]> = region
+            .border(width)
+            .iter()
+            .map(|pixel| pixel.map(f64::from))
+            .collect();
+        let mut hull = convex_hull(&border);
+        let hull_area = polygon_area(&hull.iter().map(|i| border[*i]).collect::<Vec<_>>()).abs();
+        simplify_hull(&border, &mut hull);
+        let polygon: Vec<[f64; 2]> = hull.iter().map(|i| border[*i]).collect();
+        let found = largest_quadrilateral(&polygon)?.map(|k| hull[k]);
+        let order = ranked(&found.map(|i| i as f64));
+        let places = [0, 1, 2, 3].map(|k| found[order[k]]);
+        let n = border.len();
+        let arcs = [0, 1, 2, 3].map(|k| {
+            let (from, to) = (places[k], places[(k + 1) % 4]);
+            let to = if to > from { to } else { to + n };
+            (from..=to).map(|i| border[i % n]).collect::<Vec<_>>()
+        });
+        let corners = places.map(|i| border[i]);
+        let area = polygon_area(&corners).abs();
+        // Its square, so that a disc, which fills 2/π, is no page.
+        let fill = (area / hull_area.max(1.0)).min(1.0);
+        let solidity = (region.area as f64 / hull_area.max(1.0)).min(1.0);
+        // Every fourth pixel, so that the stairs of the pixels do not count.
+        let straightness = arcs
+            .iter()
+            .map(|arc| {
+                let coarse: Vec<_> = arc.iter().step_by(4).copied().collect();
+                let chord = distance(coarse[0], coarse[coarse.len() - 1]);
+                (chord / polyline_length(&coarse).max(1.0)).min(1.0)
+            })
+            .product::<f64>();
+        Some(Quadrilateral {
+            arcs,
+            likeness: rectangularity(&corners) * solidity * fill.powi(2) * straightness,
+        })
+    }
+
+    /// The corners, in pixels of the mask.
+    pub fn corners(&self) -> [[f64; 2]; 4] {
+        self.arcs.each_ref().map(|arc| arc[0])
+    }
+}

@@ -1,0 +1,203 @@
+//! The search for a page: candidates, their outlines, and the verdict about the best of them.
+
+use super::candidates::candidate_masks;
+use super::morphology::closed;
+use super::orientation::quarter_turns;
+use super::outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
+use super::planes::Planes;
+use super::quadrilateral::Quadrilateral;
+use super::region::regions;
+use super::straight_lines::best_line_quadrilateral;
+use super::tracing::{Views, traced};
+use crate::dewarp::Photo;
+use crate::math::planar::{distance, polygon_area, polygon_contains};
+use crate::page::text::ranking::ranked;
+
+/// Width of print that is suppressed, as a share of the photo's longer side: bars of colour across a page are as high.
+const PRINT_WIDTH_SHARE: f64 = 0.03;
+
+/// Minimum length of a photo's shorter side, in pixels: in a smaller one an edge has too few of them.
+const MIN_PHOTO_SIDE: usize = 64;
+
+/// Minimum share of the photo that a page takes.
+const MIN_PAGE_SHARE: f64 = 0.05;
+
+/// Maximum number of candidates whose edges are traced.
+const MAX_TRACED_CANDIDATES: usize = 6;
+
+/// Maximum distance of the corners of candidates that are the same, as a share of the photo's longer side.
+const SAME_CORNER_SHARE: f64 = 0.03;
+
+/// Minimum score of a page that was found.
+const MIN_FOUND_SCORE: f64 = 0.45;
+
+/// Minimum score of a page that is doubtful.
+const MIN_DOUBTFUL_SCORE: f64 = 0.3;
+
+/// Minimum share of the photo that a page found by straight lines takes.
+const MIN_LINE_PAGE_SHARE: f64 = 0.15;
+
+/// Score of a quadrilateral of lines over its worth: of real photos most of those with a worth above 0.08 are pages.
+const LINE_SCORE_FACTOR: f64 = 3.75;
+
+/// Minimum score of a second page, as a share of the first one's.
+const MIN_SECOND_SCORE_RATIO: f64 = 0.7;
+
+/// Whether all corners of two quadrilaterals, each clockwise from any corner on, are within a distance.
+fn are_same(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4], tolerance: f64) -> bool {
+    (0..4).any(|turn| (0..4).all(|k| distance(one[k], other[(k + turn) % 4]) <= tolerance))
+}
+
+/// Whether two quadrilaterals have no corner and no middle of the other one inside.
+fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
+    let free = |a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]| {
+        let middle = [0, 1].map(|j| b.iter().map(|p| 0.25 * p[j]).sum());
+        // Corners a little towards the middle, so that pages may touch.
+        !polygon_contains(a, middle)
+            && b.iter().all(|p| {
+                !polygon_contains(a, [0, 1].map(|j: usize| p[j] + 0.1 * (middle[j] - p[j])))
+            })
+    };
+    free(one, other) && free(other, one)
+}
+
+/// Turns an outline so that its upper edge is that of the page as it is read, or that of the photo if the print does not tell.
+fn upright(outline: PageOutline, views: &Views) -> PageOutline {
+    let first = (0..4).min_by(|a, b| {
+        let height = |k: &usize| {
+            let [p, q] = [outline.corners[*k], outline.corners[(*k + 1) % 4]];
+            // The upper edge is the one that runs to the right most.
+            -(q[0] - p[0]) / distance(p, q).max(1e-9)
+        };
+        height(a).total_cmp(&height(b))
+    });
+    let outline = outline.turned(first.unwrap_or(0));
+    let corners = outline.corners.map(|point| views.raw.reduced_point(point));
+    let turns = quarter_turns(&views.raw, &views.clean, &corners);
+    outline.turned(turns)
+}
+
+/// Finds the outline of the page in a photo: its corners and edges, with a verdict.
+pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
+    let raw = Planes::from_photo(photo);
+    if raw.width.min(raw.height) < MIN_PHOTO_SIDE {
+        return report(Vec::new());
+    }
+    let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
+    let half = clean.halved();
+    let min_area = (MIN_PAGE_SHARE * half.len() as f64) as usize;
+    let tolerance = SAME_CORNER_SHARE * half.longer_side();
+    let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
+    for mask in candidate_masks(&half) {
+        for region in regions(&mask, half.width, min_area.max(1)) {
+            quadrilaterals.extend(Quadrilateral::new(&region, half.width));
+        }
+    }
+    let unlikeness: Vec<f64> = quadrilaterals.iter().map(|one| -one.likeness).collect();
+    let mut distinct: Vec<&Quadrilateral> = Vec::new();
+    for one in ranked(&unlikeness).iter().map(|k| &quadrilaterals[*k]) {
+        if distinct.len() == MAX_TRACED_CANDIDATES {
+            break;
+        }
+        if !distinct
+            .iter()
+            .any(|other| are_same(&one.corners(), &other.corners(), tolerance))
+        {
+            distinct.push(one);
+        }
+    }
+    let views = Views { raw, clean };
+    let mut outlines: Vec<PageOutline> = distinct
+        .iter()
+        .filter_map(|one| {
+            let arcs = one
+                .arcs
+                .each_ref()
+                .map(|arc| arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect());
+            traced(&views, arcs, one.likeness)
+        })
+        .collect();
+    // Of a page and a part of it that light or a fold sets off, the page.
+    let rank =
+        |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().sqrt().sqrt();
+    move_best_first(&mut outlines, rank);
+    if outlines
+        .first()
+        .is_none_or(|best| best.score < MIN_FOUND_SCORE)
+    {
+        outlines.extend(by_lines(&views, &half));
+        move_best_first(&mut outlines, |outline| outline.score);
+    }
+    let mut report = report(outlines);
+    report.pages = (report.pages.into_iter())
+        .map(|outline| upright(outline, &views))
+        .collect();
+    report
+}
+
+/// Swaps the outline of the highest rank with the first one.
+fn move_best_first(outlines: &mut [PageOutline], rank: impl Fn(&PageOutline) -> f64) {
+    for k in 1..outlines.len() {
+        if rank(&outlines[k]) > rank(&outlines[0]) {
+            outlines.swap(0, k);
+        }
+    }
+}
+
+/// The outline of a page on a ground of its own colour, by straight lines of contrast; always doubtful. `half` is the photo
+/// without print at half the reduced size.
+fn by_lines(views: &Views, half: &Planes) -> Option<PageOutline> {
+    let raw = views.raw.halved();
+    let min_area = MIN_LINE_PAGE_SHARE * raw.len() as f64;
+    let (corners, worth) = best_line_quadrilateral(&raw, half, min_area)?;
+    let arcs = [0, 1, 2, 3].map(|k| {
+        let ends = [corners[k], corners[(k + 1) % 4]];
+        ends.map(|p| p.map(|at| 2.0 * at + 0.5)).to_vec()
+    });
+    let mut outline = traced(views, arcs, 1.0)?;
+    outline.score = (LINE_SCORE_FACTOR * worth).min(1.0);
+    if !outline.reasons.contains(&OutlineReason::FaintEdge) {
+        outline.reasons.push(OutlineReason::FaintEdge);
+    }
+    Some(outline)
+}
+
+/// The verdict about outlines, the best first.
+fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
+    let Some(best) = outlines.first() else {
+        return OutlineReport {
+            verdict: OutlineVerdict::NotFound,
+            reasons: vec![OutlineReason::NoPage],
+            pages: outlines,
+        };
+    };
+    let (corners, score) = (best.corners, best.score);
+    let mut reasons = best.reasons.clone();
+    let verdict = if score < MIN_DOUBTFUL_SCORE {
+        reasons.push(OutlineReason::NoPage);
+        OutlineVerdict::NotFound
+    } else if score < MIN_FOUND_SCORE || !reasons.is_empty() {
+        OutlineVerdict::Doubtful
+    } else {
+        OutlineVerdict::Found
+    };
+    if verdict == OutlineVerdict::Doubtful && reasons.is_empty() {
+        reasons.push(OutlineReason::UnlikelyShape);
+    }
+    let mut first = true;
+    outlines.retain(|other| {
+        std::mem::take(&mut first)
+            || (verdict != OutlineVerdict::NotFound
+                && other.score >= MIN_SECOND_SCORE_RATIO * score
+                && are_apart(&corners, &other.corners))
+    });
+    OutlineReport {
+        verdict: if outlines.len() > 1 {
+            OutlineVerdict::Several
+        } else {
+            verdict
+        },
+        reasons,
+        pages: outlines,
+    }
+}

@@ -1,0 +1,364 @@
+//! Quadrilaterals of straight lines of contrast, for pages on a ground of their own colour.
+
+use super::corners::{is_convex, is_outside};
+use super::morphology::box_mean;
+use super::planes::Planes;
+use super::quadrilateral::rectangularity;
+use crate::math::planar::{cross, distance, line_intersection, polygon_area, polygon_contains};
+use crate::math::statistics::median;
+use crate::page::text::ranking::ranked;
+
+/// Number of directions of lines: one for each degree.
+const DIRECTIONS: usize = 180;
+
+/// Minimum number of votes of a line.
+const MIN_LINE_VOTES: f32 = 8.0;
+
+/// Number of directions on either side of a pixel's own one for which it votes, because gradients are noisy.
+const VOTED_DIRECTIONS: usize = 2;
+
+/// Difference of direction, in degrees, below which two lines may be the same one.
+const SAME_LINE_DEGREES: usize = 4;
+
+/// Distance of two lines of about one direction, in pixels, below which they are the same one.
+const SAME_LINE_DISTANCE: usize = 5;
+
+/// Maximum number of lines from which quadrilaterals are made; the cost is its fourth power.
+const MAX_LINES: usize = 64;
+
+/// Ratio to the median gradient from which a gradient counts as an edge.
+const MIN_GRADIENT_RATIO: f64 = 3.0;
+
+/// Minimum gradient of an edge, in logarithmic colour per pixel: about the noise of a reduced photo.
+const MIN_GRADIENT: f32 = 0.006;
+
+/// Distance from a line, in pixels, within which an edge belongs to it: slightly bent edges have straight lines.
+const LINE_RADIUS: i32 = 2;
+
+/// Cosine of the largest angle between an edge and its line.
+const MIN_ALIGNMENT: f32 = 0.9;
+
+/// Difference of logarithmic colour to the same image without print from which a pixel is print.
+const MIN_PRINT_CONTRAST: f32 = 0.2;
+
+/// Vote of an edge of print, where one of anything else is 1: there is more print than edges of pages.
+const PRINT_VOTE: f32 = 0.25;
+
+/// Radius, in pixels, of the square in which print is counted: a few lines of text.
+const PRINT_RADIUS: usize = 10;
+
+/// Share of such a square from which print is text or a picture, and not a thin shadow along an edge.
+const MIN_PRINT_DENSITY: f32 = 0.15;
+
+/// Minimum share of each side along which there is an edge.
+const MIN_SIDE_SUPPORT: f64 = 0.45;
+
+/// Length beyond a corner along which a side must not continue, as a share of the side.
+const BEYOND_SHARE: f64 = 0.12;
+
+/// Weight of an edge that continues beyond a corner all the way, as do joints of tiles and folds of a page.
+const BEYOND_WEIGHT: f64 = 0.8;
+
+/// Minimum sine of the angle between neighbouring sides.
+const MIN_SIDE_SINE: f64 = 0.75;
+
+/// Maximum sine of the angle between opposite sides.
+const MAX_OPPOSITE_SINE: f64 = 0.5;
+
+/// Minimum share of the photo that is print: without print, lines may be those of anything.
+const MIN_PRINT_SHARE: f64 = 0.002;
+
+/// Maximum number of pixels of print by which it is counted how much print a quadrilateral contains.
+const MAX_PRINT_SAMPLES: usize = 200;
+
+/// Power of the share of the print inside of a page, since a page has all of it: a tenth outside costs a third.
+const PRINT_POWER: i32 = 4;
+
+/// Gradients of an image: in each pixel that of the channel where it is largest.
+struct Gradients {
+    width: usize,
+    height: usize,
+    vectors: Vec<[f32; 2]>,
+    threshold: f32,
+    print: Vec<bool>,
+    near_print: Vec<bool>,
+}
+
+impl Gradients {
+    fn new(raw: &Planes, clean: &Planes) -> Self {
+        let (width, height) = (raw.width, raw.height);
+        let mut vectors = vec![[0.0_f32; 2]; raw.len()];
+        let square = |v: [f32; 2]| v[0] * v[0] + v[1] * v[1];
+        for plane in &raw.channels {
+            for y in 1..height.saturating_sub(1) {
+                for x in 1..width.saturating_sub(1) {
+                    let i = y * width + x;
+                    // Sobel's filter.
+                    let at = |dx: isize, dy: isize| {
+                        plane[i.wrapping_add_signed(dy * width as isize + dx)]
+                    };
+                    let side = |dx: isize| at(dx, -1) + 2.0 * at(dx, 0) + at(dx, 1);
+                    let row = |dy: isize| at(-1, dy) + 2.0 * at(0, dy) + at(1, dy);
+                    let vector = [(side(1) - side(-1)) / 8.0, (row(1) - row(-1)) / 8.0];
+                    if square(vector) > square(vectors[i]) {
+                        vectors[i] = vector;
+                    }
+                }
+            }
+        }
+        let mut sizes: Vec<f64> = (vectors.iter().step_by(7))
+            .map(|v| f64::from(square(*v).sqrt()))
+            .collect();
+        let usual = median(&mut sizes).unwrap_or(0.0);
+        let print: Vec<bool> = (0..raw.len())
+            .map(|i| (0..3).any(|k| clean.channels[k][i] - raw.channels[k][i] > MIN_PRINT_CONTRAST))
+            .collect();
+        let mut near: Vec<f32> = print.iter().map(|p| f32::from(u8::from(*p))).collect();
+        box_mean(&mut near, width, height, PRINT_RADIUS);
+        Gradients {
+            width,
+            height,
+            vectors,
+            threshold: ((MIN_GRADIENT_RATIO * usual) as f32).max(MIN_GRADIENT),
+            print,
+            near_print: near
+                .iter()
+                .map(|share| *share > MIN_PRINT_DENSITY)
+                .collect(),
+        }
+    }
+
+    /// Whether there is an edge across a direction near a point.
+    fn has_edge(&self, [x, y]: [f64; 2], [nx, ny]: [f32; 2]) -> bool {
+        (-LINE_RADIUS..=LINE_RADIUS).any(|k| {
+            let (col, row) = (
+                (x + f64::from(nx) * f64::from(k)).round(),
+                (y + f64::from(ny) * f64::from(k)).round(),
+            );
+            if col < 0.0 || row < 0.0 || col >= self.width as f64 || row >= self.height as f64 {
+                return false;
+            }
+            let [gx, gy] = self.vectors[row as usize * self.width + col as usize];
+            let along = (gx * nx + gy * ny).abs();
+            along > self.threshold && along > MIN_ALIGNMENT * (gx * gx + gy * gy).sqrt()
+        })
+    }
+}
+
+/// A line across the image, with the number of edge pixels along it.
+struct Line {
+    ends: [[f64; 2]; 2],
+    /// Number of places with an edge before each place, at distances of one pixel from the first end on.
+    sums: Vec<u32>,
+}
+
+impl Line {
+    /// The line `x cos φ + y sin φ = distance` within an image; `None` if it does not cross it.
+    fn new(gradients: &Gradients, degrees: usize, offset: f64) -> Option<Self> {
+        let (sin, cos) = (degrees as f64).to_radians().sin_cos();
+        let (width, height) = (gradients.width as f64 - 1.0, gradients.height as f64 - 1.0);
+        // The range of the parameter along (−sin, cos) inside of the image.
+        let (mut from, mut to) = (f64::MIN, f64::MAX);
+        for (start, step, size) in [(offset * cos, -sin, width), (offset * sin, cos, height)] {
+            if step.abs() < 1e-9 {
+                if !(0.0..=size).contains(&start) {
+                    return None;
+                }
+            } else {
+                let (a, b) = (-start / step, (size - start) / step);
+                from = from.max(a.min(b));
+                to = to.min(a.max(b));
+            }
+        }
+        if to - from < 2.0 {
+            return None;
+        }
+        let at = |t: f64| [offset * cos - t * sin, offset * sin + t * cos];
+        let normal = [cos as f32, sin as f32];
+        let mut sums = vec![0];
+        for i in 0..(to - from) as usize {
+            let hit = gradients.has_edge(at(from + i as f64 + 0.5), normal);
+            sums.push(sums[i] + u32::from(hit));
+        }
+        Some(Line {
+            ends: [at(from), at(to)],
+            sums,
+        })
+    }
+
+    fn direction(&self) -> [f64; 2] {
+        let [a, b] = self.ends;
+        let length = distance(a, b);
+        [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
+    }
+
+    /// The place of a point along the line.
+    fn place(&self, point: [f64; 2]) -> f64 {
+        let d = self.direction();
+        (point[0] - self.ends[0][0]) * d[0] + (point[1] - self.ends[0][1]) * d[1]
+    }
+
+    /// The share of the places between two with an edge, of those in the image; 0 without any.
+    fn support(&self, from: f64, to: f64) -> f64 {
+        let last = self.sums.len() - 1;
+        let clamp = |t: f64| t.clamp(0.0, last as f64) as usize;
+        let (i, j) = (clamp(from.min(to)), clamp(from.max(to)));
+        if j > i {
+            f64::from(self.sums[j] - self.sums[i]) / (j - i) as f64
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The lines along which there are most edges (Hough transform), print left out.
+fn find_lines(gradients: &Gradients) -> Vec<Line> {
+    let diagonal = (gradients.width as f64).hypot(gradients.height as f64);
+    let offsets = 2 * diagonal as usize + 3;
+    let middle = diagonal as usize + 1;
+    let mut votes = vec![0.0_f32; DIRECTIONS * offsets];
+    let turns: Vec<[f32; 2]> = (0..DIRECTIONS)
+        .map(|k| {
+            let (sin, cos) = (k as f64).to_radians().sin_cos();
+            [cos as f32, sin as f32]
+        })
+        .collect();
+    for (i, [gx, gy]) in gradients.vectors.iter().enumerate() {
+        let size = (gx * gx + gy * gy).sqrt();
+        if size <= gradients.threshold {
+            continue;
+        }
+        let vote = if gradients.near_print[i] {
+            PRINT_VOTE
+        } else {
+            1.0
+        };
+        let (x, y) = ((i % gradients.width) as f32, (i / gradients.width) as f32);
+        let angle = f64::from(*gy).atan2(f64::from(*gx)).to_degrees();
+        let degrees = (angle + 180.5) as usize % DIRECTIONS;
+        for k in 0..=2 * VOTED_DIRECTIONS {
+            let direction = (degrees + DIRECTIONS + k - VOTED_DIRECTIONS) % DIRECTIONS;
+            let [cos, sin] = turns[direction];
+            let offset = (x * cos + y * sin + middle as f32 + 0.5) as usize;
+            votes[direction * offsets + offset] += vote;
+        }
+    }
+    let peaks: Vec<usize> = (0..votes.len())
+        .filter(|i| votes[*i] >= MIN_LINE_VOTES)
+        .collect();
+    let fewness: Vec<f64> = peaks.iter().map(|i| -f64::from(votes[*i])).collect();
+    let mut taken: Vec<(usize, usize)> = Vec::new();
+    let mut lines = Vec::new();
+    for peak in ranked(&fewness).into_iter().map(|k| peaks[k]) {
+        let (direction, offset) = (peak / offsets, peak % offsets);
+        let same = |(other, at): &(usize, usize)| {
+            let turn = direction.abs_diff(*other);
+            // A line turned by 180 degrees has the opposite offset.
+            let (turn, at) = if turn > DIRECTIONS / 2 {
+                (DIRECTIONS - turn, 2 * middle - at)
+            } else {
+                (turn, *at)
+            };
+            turn < SAME_LINE_DEGREES && at.abs_diff(offset) < SAME_LINE_DISTANCE
+        };
+        if taken.iter().any(same) {
+            continue;
+        }
+        taken.push((direction, offset));
+        lines.extend(Line::new(
+            gradients,
+            direction,
+            offset as f64 - middle as f64,
+        ));
+        if lines.len() == MAX_LINES {
+            break;
+        }
+    }
+    lines
+}
+
+/// The quadrilateral of four lines, clockwise, whose sides are seen best, with its worth from 0 to 1; in images of the
+/// same size, as they are and without print. `None` if none has enough edges
+/// along each side, or there is no print.
+pub(super) fn best_line_quadrilateral(
+    raw: &Planes,
+    clean: &Planes,
+    min_area: f64,
+) -> Option<([[f64; 2]; 4], f64)> {
+    let gradients = Gradients::new(raw, clean);
+    let lines = find_lines(&gradients);
+    let size = [raw.width, raw.height];
+    let sine = |i: usize, j: usize| cross(lines[i].direction(), lines[j].direction()).abs();
+    let mut opposite = Vec::new();
+    for i in 0..lines.len() {
+        for j in i + 1..lines.len() {
+            if sine(i, j) < MAX_OPPOSITE_SINE {
+                opposite.push([i, j]);
+            }
+        }
+    }
+    let print: Vec<[f64; 2]> = (0..raw.len())
+        .filter(|i| gradients.print[*i])
+        .map(|i| [(i % raw.width) as f64, (i / raw.width) as f64])
+        .collect();
+    if (print.len() as f64) < MIN_PRINT_SHARE * raw.len() as f64 {
+        return None;
+    }
+    let step = print.len() / MAX_PRINT_SAMPLES + 1;
+    let margin = 0.03 * raw.longer_side();
+    let mut best: Option<([[f64; 2]; 4], f64)> = None;
+    for (n, [a, c]) in opposite.iter().enumerate() {
+        for [b, d] in &opposite[n + 1..] {
+            let sides = [*a, *b, *c, *d];
+            if (0..4).any(|k| sine(sides[k], sides[(k + 1) % 4]) < MIN_SIDE_SINE) {
+                continue;
+            }
+            let meet = |k: usize| {
+                line_intersection(lines[sides[(k + 3) % 4]].ends, lines[sides[k]].ends, 0.0)
+            };
+            let (Some(p), Some(q), Some(r), Some(s)) = (meet(0), meet(1), meet(2), meet(3)) else {
+                continue;
+            };
+            let mut corners = [p, q, r, s];
+            if corners.iter().any(|p| is_outside(*p, size, margin)) {
+                continue;
+            }
+            let area = polygon_area(&corners).abs();
+            if area < min_area {
+                continue;
+            }
+            let mut worth = (area / raw.len() as f64).sqrt();
+            let mut least: f64 = 1.0;
+            for k in 0..4 {
+                let line = &lines[sides[k]];
+                let (from, to) = (line.place(corners[k]), line.place(corners[(k + 1) % 4]));
+                let own = line.support(from, to);
+                let reach = BEYOND_SHARE * (to - from);
+                let beyond = line
+                    .support(from - reach, from)
+                    .max(line.support(to, to + reach));
+                least = least.min(own);
+                worth *= own * (1.0 - BEYOND_WEIGHT * beyond);
+            }
+            if least < MIN_SIDE_SUPPORT {
+                continue;
+            }
+            if polygon_area(&corners) < 0.0 {
+                corners.reverse();
+            }
+            // The print, which costs most, is counted only where it can matter.
+            if is_convex(&corners) && best.is_none_or(|(_, other)| worth > other) {
+                let inside = (print.iter().step_by(step))
+                    .filter(|point| polygon_contains(&corners, **point))
+                    .count();
+                let all = print.len().div_ceil(step);
+                worth *= ((inside + 1) as f64 / (all + 1) as f64).powi(PRINT_POWER);
+                worth *= rectangularity(&corners);
+                if best.is_none_or(|(_, other)| worth > other) {
+                    best = Some((corners, worth));
+                }
+            }
+        }
+    }
+    best
+}

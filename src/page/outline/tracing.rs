@@ -1,0 +1,158 @@
+//! Outlines of candidates: their edges traced to a fraction of a pixel, their corners, and their scores.
+
+use super::corners::{corner, end_at, is_convex, is_outside, outside_corner};
+use super::edge_path::EdgePath;
+use super::outline_report::{OutlineReason, PageOutline};
+use super::planes::Planes;
+use super::quadrilateral::{is_at_rim, rectangularity};
+use crate::math::planar::distance;
+
+/// Difference of logarithmic colour across an edge that gives half of the full score.
+const HALF_SCORE_CONTRAST: f64 = 0.25;
+
+/// Minimum share of an edge that has to be seen.
+const MIN_EDGE_SUPPORT: f64 = 0.85;
+
+/// Minimum share of an edge that has to be in the photo with both its sides.
+const MIN_VISIBLE_SHARE: f64 = 0.5;
+
+/// Minimum number of edges in the photo of a page: with fewer it can hardly be told from a table.
+const MIN_VISIBLE_EDGES: usize = 3;
+
+/// Maximum distance of a corner outside of the photo of which nothing is said, as a share of the photo's longer side.
+const MAX_OUTSIDE_SHARE: f64 = 0.01;
+
+/// Share of an edge's length, at its end on the photo's rim, from which on a corner counts as cut off.
+const CUT_LENGTH_SHARE: f64 = 0.02;
+
+/// Minimum rectangularity of a page's corners.
+const MIN_RECTANGULARITY: f64 = 0.45;
+
+/// Distance of the points of an edge, in pixels of the reduced photo.
+const POINT_DISTANCE: usize = 3;
+
+/// The reduced photo as it is, and without print.
+pub(super) struct Views {
+    pub raw: Planes,
+    pub clean: Planes,
+}
+
+/// Number of points at the start of an arc on the rim of an image of a size, or 0 if they are a small share of it.
+fn cut_points(arc: &[[f64; 2]], size: [usize; 2]) -> usize {
+    let count = arc.iter().take_while(|p| is_at_rim(**p, size)).count();
+    if count as f64 > CUT_LENGTH_SHARE * arc.len() as f64 {
+        count
+    } else {
+        0
+    }
+}
+
+/// Corners that the rim of an image of a size cuts off; the arcs next to them lose their parts along the rim.
+fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64; 2]>; 4] {
+    [0, 1, 2, 3].map(|k| {
+        let before = (k + 3) % 4;
+        let mut one = arcs[before].clone();
+        one.reverse();
+        let other = &arcs[k];
+        let cuts = [cut_points(&one, size), cut_points(other, size)];
+        if cuts == [0, 0] || cuts[0] == one.len() || cuts[1] == other.len() {
+            return None;
+        }
+        let corner = outside_corner(&one[cuts[0]..], &other[cuts[1]..], size)?;
+        let kept = one.len() - cuts[0];
+        arcs[before].truncate(kept);
+        arcs[k].drain(..cuts[1]);
+        Some(corner)
+    })
+}
+
+/// The outline of a candidate, whose border is given as four arcs in pixels of the reduced photo, clockwise; `None` if an
+/// edge is too short, or too few of them are in the photo.
+pub(super) fn traced(
+    views: &Views,
+    mut arcs: [Vec<[f64; 2]>; 4],
+    likeness: f64,
+) -> Option<PageOutline> {
+    let size = [views.raw.width, views.raw.height];
+    let mut reasons = Vec::new();
+    let cut = cut_corners(&mut arcs, size);
+    let mut paths = Vec::new();
+    for arc in &arcs {
+        paths.push(EdgePath::new(&views.raw, &views.clean, arc)?);
+    }
+    let mut edges: Vec<Vec<[f64; 2]>> = paths.iter().map(|path| path.points.clone()).collect();
+    let mut corners = [[0.0; 2]; 4];
+    let mut is_corner_outside = false;
+    for k in 0..4 {
+        let before = (k + 3) % 4;
+        let [mut one, mut other] = [edges[before].clone(), edges[k].clone()];
+        one.reverse();
+        let (a, b) = (one[0], other[0]);
+        let exact = match cut[k] {
+            Some(_) => outside_corner(&one, &other, size).or(cut[k]),
+            None => corner(&one, &other),
+        };
+        corners[k] = exact.unwrap_or_else(|| [0, 1].map(|j| 0.5 * (a[j] + b[j])));
+        end_at(&mut one, corners[k]);
+        end_at(&mut other, corners[k]);
+        one.reverse();
+        edges[before] = one;
+        edges[k] = other;
+        if is_outside(
+            corners[k],
+            size,
+            MAX_OUTSIDE_SHARE * views.raw.longer_side(),
+        ) {
+            is_corner_outside = true;
+        }
+    }
+    if is_corner_outside {
+        reasons.push(OutlineReason::CornerOutside);
+    }
+    let visible_edges = (paths.iter())
+        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
+        .count();
+    if visible_edges < MIN_VISIBLE_EDGES {
+        return None;
+    }
+    if visible_edges < 4 {
+        reasons.push(OutlineReason::EdgeOutside);
+    }
+    let shape = rectangularity(&corners);
+    if shape < MIN_RECTANGULARITY || !is_convex(&corners) {
+        reasons.push(OutlineReason::UnlikelyShape);
+    }
+    let support = (paths.iter())
+        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
+        .map(|path| path.support)
+        .fold(1.0, f64::min);
+    if support < MIN_EDGE_SUPPORT {
+        reasons.push(OutlineReason::FaintEdge);
+    }
+    let visible = paths.iter().map(|path| path.visible).sum::<f64>() / 4.0;
+    let contrast = paths
+        .iter()
+        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
+        .map(|path| path.contrast / (path.contrast + HALF_SCORE_CONTRAST))
+        .product::<f64>()
+        .sqrt()
+        .sqrt();
+    let place = |p: [f64; 2]| views.raw.to_photo(p);
+    let thinned = |edge: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+        let last = edge.len() - 1;
+        (0..last)
+            .step_by(POINT_DISTANCE)
+            .filter(|i| *i == 0 || distance(edge[*i], edge[last]) > 1.0)
+            .chain([last])
+            .map(|i| place(edge[i]))
+            .collect()
+    };
+    let mut edges = edges.iter().map(thinned);
+    let edges = [edges.next()?, edges.next()?, edges.next()?, edges.next()?];
+    Some(PageOutline {
+        corners: corners.map(place),
+        edges,
+        score: likeness * support * visible * contrast,
+        reasons,
+    })
+}

@@ -1,0 +1,353 @@
+//! Outlines of pages in rendered photos, whose corners are known.
+
+use developable::dewarp::Photo;
+use developable::page::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
+use oorandom::Rand64;
+
+use super::scene::normal;
+
+type Colour = [f64; 3];
+type Corners = [[f64; 2]; 4];
+
+const SIZE: [usize; 2] = [1200, 1000];
+
+/// A page seen at a slant.
+const PAGE: Corners = [
+    [310.0, 120.0],
+    [880.0, 160.0],
+    [960.0, 880.0],
+    [230.0, 820.0],
+];
+
+const DARK: Colour = [60.0, 62.0, 66.0];
+const PAPER: Colour = [232.0, 230.0, 226.0];
+
+/// The projective map that takes the plane of the photo to the unit square of a page (Heckbert's, inverted).
+struct ToPage([[f64; 3]; 3]);
+
+impl ToPage {
+    fn new([a, b, c, d]: Corners) -> Self {
+        let sum = [0, 1].map(|k| a[k] - b[k] + c[k] - d[k]);
+        let (u, v) = ([b[0] - c[0], b[1] - c[1]], [d[0] - c[0], d[1] - c[1]]);
+        let area = u[0] * v[1] - u[1] * v[0];
+        let g = (sum[0] * v[1] - sum[1] * v[0]) / area;
+        let h = (u[0] * sum[1] - u[1] * sum[0]) / area;
+        let row = |k: usize| [b[k] - a[k] + g * b[k], d[k] - a[k] + h * d[k], a[k]];
+        let m = [row(0), row(1), [g, h, 1.0]];
+        // The adjugate, which is the inverse up to its scale.
+        let minor = |i: usize, j: usize| {
+            let (i1, i2, j1, j2) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1]
+        };
+        ToPage([0, 1, 2].map(|i| [0, 1, 2].map(|j| minor(j, i))))
+    }
+
+    fn apply(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [u, v, w] = self.0.map(|row| row[0] * x + row[1] * y + row[2]);
+        [u / w, v / w]
+    }
+}
+
+/// A letter: lines of words, of which the upper ones are more.
+fn letter([u, v]: [f64; 2]) -> Colour {
+    let (line, word) = ((v * 45.0) as usize, (u * 30.0) as usize);
+    let is_text = (0.1..0.9).contains(&u)
+        && (0.08..0.7).contains(&v)
+        && (v * 45.0).fract() < 0.45
+        && (line * 7 + word * 13) % 6 != 0
+        && !(line.is_multiple_of(6) || (line % 5 == 4 && u > 0.5));
+    if is_text { [50.0; 3] } else { PAPER }
+}
+
+/// A poster with broad bars of colour up to its border.
+fn poster(place: [f64; 2]) -> Colour {
+    let [u, v] = place;
+    if (0.1..0.125).contains(&v) || (0.6..0.62).contains(&v) || (0.3..0.32).contains(&u) {
+        [40.0, 60.0, 140.0]
+    } else {
+        letter(place)
+    }
+}
+
+fn wood([x, y]: [f64; 2]) -> Colour {
+    let grain = 1.0 + 0.08 * (0.11 * y + 2.0 * (0.004 * x).sin()).sin();
+    let gap = if (y / 150.0).fract() < 0.02 { 0.5 } else { 1.0 };
+    [150.0, 96.0, 48.0].map(|value| value * grain * gap)
+}
+
+fn tiles([x, y]: [f64; 2]) -> Colour {
+    let odd = ((x / 130.0) as usize + (y / 130.0) as usize) % 2 == 1;
+    if odd {
+        [96.0, 70.0, 64.0]
+    } else {
+        [66.0, 78.0, 92.0]
+    }
+}
+
+/// A photo: what is at each place, in light of a brightness, with noise of two levels of grey.
+fn photo(colour: impl Fn([f64; 2]) -> Colour, light: impl Fn([f64; 2]) -> f64) -> Vec<u8> {
+    let mut rng = Rand64::new(5);
+    let [width, height] = SIZE;
+    (0..width * height)
+        .flat_map(|i| {
+            let (x, y) = ((i % width) as f64, (i / width) as f64);
+            let mut sum = [0.0; 3];
+            for [dx, dy] in [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]] {
+                let place = [x + dx, y + dy];
+                let shade = light(place);
+                let own = colour(place);
+                (0..3).for_each(|k| sum[k] += 0.25 * own[k] * shade);
+            }
+            let [r, g, b] =
+                sum.map(|value| (value + 2.0 * normal(&mut rng)).clamp(0.0, 255.0) as u8);
+            [r, g, b, 255]
+        })
+        .collect()
+}
+
+/// Pages with a print, on a ground.
+fn pages<'a>(
+    all: &[Corners],
+    print: impl Fn([f64; 2]) -> Colour + 'a,
+    ground: impl Fn([f64; 2]) -> Colour + 'a,
+) -> impl Fn([f64; 2]) -> Colour + 'a {
+    let maps: Vec<ToPage> = all.iter().map(|corners| ToPage::new(*corners)).collect();
+    move |place| {
+        let on = maps
+            .iter()
+            .map(|map| map.apply(place))
+            .find(|[u, v]| (0.0..1.0).contains(u) && (0.0..1.0).contains(v));
+        on.map_or_else(|| ground(place), &print)
+    }
+}
+
+fn even(_: [f64; 2]) -> f64 {
+    1.0
+}
+
+/// A hard shadow across page and table, and a second one at a corner.
+fn shadows([x, y]: [f64; 2]) -> f64 {
+    let first = x + 0.6 * y < 780.0;
+    let second = (x - 900.0).hypot(y - 800.0) < 170.0;
+    if first || second { 0.45 } else { 1.0 }
+}
+
+fn found(rgba: &[u8]) -> OutlineReport {
+    find_outline(&Photo::new(SIZE[0], SIZE[1], rgba).unwrap())
+}
+
+/// The largest distance of a corner from its true place, in pixels.
+fn corner_error(outline: &PageOutline, truth: &Corners) -> f64 {
+    (outline.corners.iter().zip(truth))
+        .map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1]))
+        .fold(0.0, f64::max)
+}
+
+/// The root mean square distance of the edges' points from the straight edges between the true corners, in pixels.
+fn edge_error(outline: &PageOutline, truth: &Corners) -> f64 {
+    let squares: Vec<f64> = (0..4)
+        .flat_map(|k| {
+            let (a, b) = (truth[k], truth[(k + 1) % 4]);
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            outline.edges[k].iter().map(move |p| {
+                (((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])) / length).powi(2)
+            })
+        })
+        .collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+fn check(name: &str, rgba: &[u8], truth: &Corners) {
+    let report = found(rgba);
+    assert_eq!(
+        report.verdict,
+        OutlineVerdict::Found,
+        "{name}: {:?}",
+        report.reasons
+    );
+    assert!(report.reasons.is_empty());
+    let (corner, edge) = (
+        corner_error(&report.pages[0], truth),
+        edge_error(&report.pages[0], truth),
+    );
+    // A reduced photo has pixels of two by two.
+    assert!(
+        corner < 2.0 && edge < 0.5,
+        "{name}: corners {corner:.2}, edges {edge:.2}"
+    );
+}
+
+#[test]
+fn a_page_is_found_on_any_ground_and_under_hard_shadows() {
+    let grey = |level: f64| move |_: [f64; 2]| [level; 3];
+    check(
+        "dark",
+        &photo(pages(&[PAGE], letter, grey(60.0)), even),
+        &PAGE,
+    );
+    check(
+        "light",
+        &photo(pages(&[PAGE], letter, grey(165.0)), even),
+        &PAGE,
+    );
+    check("wood", &photo(pages(&[PAGE], letter, wood), even), &PAGE);
+    check("tiles", &photo(pages(&[PAGE], letter, tiles), even), &PAGE);
+    check(
+        "shadow on wood",
+        &photo(pages(&[PAGE], letter, wood), shadows),
+        &PAGE,
+    );
+    check(
+        "shadow on tiles",
+        &photo(pages(&[PAGE], letter, tiles), shadows),
+        &PAGE,
+    );
+    check(
+        "print to the border",
+        &photo(pages(&[PAGE], poster, grey(120.0)), even),
+        &PAGE,
+    );
+}
+
+#[test]
+fn a_finger_at_an_edge_moves_no_corner() {
+    let page = pages(&[PAGE], letter, |_| DARK);
+    let finger = move |[x, y]: [f64; 2]| {
+        let (u, v) = ((x - 930.0) / 110.0, (y - 500.0) / 28.0);
+        if u * u + v * v < 1.0 {
+            [205.0, 150.0, 120.0]
+        } else {
+            page([x, y])
+        }
+    };
+    let report = found(&photo(finger, even));
+    assert!(matches!(
+        report.verdict,
+        OutlineVerdict::Found | OutlineVerdict::Doubtful
+    ));
+    let error = corner_error(&report.pages[0], &PAGE);
+    assert!(error < 4.0, "{error}");
+}
+
+#[test]
+fn a_corner_outside_of_the_photo_is_said_and_extrapolated() {
+    let cut = [
+        [150.0, 40.0],
+        [880.0, 160.0],
+        [800.0, 900.0],
+        [-60.0, 640.0],
+    ];
+    let report = found(&photo(pages(&[cut], letter, wood), even));
+    assert_eq!(report.verdict, OutlineVerdict::Doubtful);
+    assert_eq!(report.reasons, [OutlineReason::CornerOutside]);
+    let error = corner_error(&report.pages[0], &cut);
+    assert!(error < 8.0, "{error}");
+}
+
+#[test]
+fn two_pages_are_both_found() {
+    let left = [[80.0, 200.0], [540.0, 180.0], [560.0, 820.0], [60.0, 800.0]];
+    let right = left.map(|[x, y]| [x + 570.0, 1.05 * y - 30.0]);
+    let report = found(&photo(pages(&[left, right], letter, wood), even));
+    assert_eq!(report.verdict, OutlineVerdict::Several);
+    assert_eq!(report.pages.len(), 2);
+    for truth in [left, right] {
+        assert!(
+            report
+                .pages
+                .iter()
+                .any(|page| corner_error(page, &truth) < 2.0)
+        );
+    }
+}
+
+#[test]
+fn a_table_without_a_page_has_none() {
+    let grounds: [(&str, fn([f64; 2]) -> Colour); 3] =
+        [("wood", wood), ("tiles", tiles), ("grey", |_| DARK)];
+    for (name, ground) in grounds {
+        for light in [even, shadows] {
+            let report = found(&photo(ground, light));
+            assert_eq!(report.verdict, OutlineVerdict::NotFound, "{name}");
+            assert!(report.reasons.contains(&OutlineReason::NoPage));
+            assert!(report.page().is_err());
+        }
+    }
+}
+
+#[test]
+fn white_on_white_is_doubtful_or_not_found_but_never_taken_wrongly() {
+    // A thin shadow below and to the right of the page, and uneven light.
+    let map = ToPage::new(PAGE);
+    let light = |[x, y]: [f64; 2]| {
+        let [u, v] = map.apply([x, y]);
+        let beside = |a: f64, b: f64, range: std::ops::Range<f64>| {
+            range.contains(&a) && (-0.006..1.008).contains(&b)
+        };
+        let shadow = beside(u, v, 1.0..1.008) || beside(v, u, 1.0..1.008);
+        let lit = beside(u, v, -0.006..0.0) || beside(v, u, -0.006..0.0);
+        let uneven = 0.9 - 0.2 * x / SIZE[0] as f64;
+        uneven
+            * if shadow {
+                0.75
+            } else if lit {
+                0.9
+            } else {
+                1.0
+            }
+    };
+    let report = found(&photo(pages(&[PAGE], letter, |_| PAPER), light));
+    assert_eq!(report.verdict, OutlineVerdict::Doubtful);
+    assert!(report.reasons.contains(&OutlineReason::FaintEdge));
+    let error = corner_error(&report.pages[0], &PAGE);
+    // The shadow is taken for the edge: 1 % of the photo's diagonal.
+    assert!(error < 15.0, "{error}");
+    // Without any shadow there is nothing to be seen.
+    let report = found(&photo(pages(&[PAGE], letter, |_| PAPER), even));
+    assert_eq!(report.verdict, OutlineVerdict::NotFound);
+}
+
+#[test]
+fn a_page_that_lies_sideways_is_turned_by_its_print() {
+    // The page's upper left corner is at the photo's lower left, and the other way round.
+    for turn in [1, 3] {
+        let mut turned = PAGE;
+        turned.rotate_left(turn);
+        check(
+            "sideways",
+            &photo(pages(&[turned], letter, wood), even),
+            &turned,
+        );
+    }
+}
+
+#[test]
+fn photos_of_any_size_and_content_are_answered() {
+    let mut rng = Rand64::new(9);
+    for (width, height) in [
+        (1, 1),
+        (1, 50),
+        (2, 3),
+        (17, 9),
+        (40, 40),
+        (801, 2),
+        (3, 900),
+        (200, 150),
+    ] {
+        for content in 0..3 {
+            let rgba: Vec<u8> = (0..4 * width * height)
+                .map(|i| match content {
+                    0 => 0,
+                    1 => 255,
+                    _ => (rng.rand_u64() >> 56) as u8 ^ (i % 3) as u8,
+                })
+                .collect();
+            let report = find_outline(&Photo::new(width, height, &rgba).unwrap());
+            assert_eq!(
+                report.verdict,
+                OutlineVerdict::NotFound,
+                "{width} × {height}"
+            );
+        }
+    }
+}

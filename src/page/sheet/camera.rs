@@ -15,14 +15,6 @@ pub(super) struct SheetCamera {
 const MIN_DEPTH: f64 = 0.05;
 
 impl SheetCamera {
-    /// The nominal camera.
-    pub fn nominal() -> Self {
-        SheetCamera {
-            log_scale: 0.0,
-            centre: [0.0; 2],
-        }
-    }
-
     /// Projects a point; None if it is not in front of the camera.
     pub fn project(&self, point: Vector3<f64>) -> Option<[f64; 2]> {
         let scale = self.log_scale.exp();

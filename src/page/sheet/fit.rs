@@ -33,6 +33,17 @@ pub(super) struct FittedSheet {
     pub cost: f64,
 }
 
+impl FittedSheet {
+    /// A sheet without lines.
+    pub fn new(grid: SheetGrid) -> Self {
+        FittedSheet {
+            grid,
+            levels: Vec::new(),
+            cost: 0.0,
+        }
+    }
+}
+
 impl SheetProblem {
     /// The least-squares sheet near an initial guess: at most `steps` steps, until one lowers the cost by less than the share
     /// `tolerance`. None if the initial sheet is not in front of the camera.

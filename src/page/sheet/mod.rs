@@ -2,6 +2,7 @@
 
 mod bordered;
 mod camera;
+mod figures;
 mod fit;
 mod grid;
 mod level_lines;

@@ -141,7 +141,7 @@ impl SheetProblem {
     }
 
     /// Relative changes of length of edges and diagonals.
-    fn visit_isometry(&self, grid: &SheetGrid, sink: &mut dyn FnMut(&ResidualRow)) {
+    pub fn visit_isometry(&self, grid: &SheetGrid, sink: &mut dyn FnMut(&ResidualRow)) {
         let [across, down] = grid.steps();
         let weight = self.weights.isometry * Self::cell(grid);
         let (cols, rows) = (grid.cols, grid.rows);
@@ -169,7 +169,7 @@ impl SheetProblem {
     }
 
     /// Second derivatives, each reweighted by its own size.
-    fn visit_bending(
+    pub fn visit_bending(
         &self,
         grid: &SheetGrid,
         robust: &mut RobustWeights,
@@ -210,7 +210,7 @@ impl SheetProblem {
     }
 
     /// Distances of the border's nodes from their edges, and of the corners from theirs.
-    fn visit_outline(
+    pub fn visit_outline(
         &self,
         grid: &SheetGrid,
         robust: &mut RobustWeights,
@@ -250,7 +250,7 @@ impl SheetProblem {
     }
 
     /// Distances of the lines' points from the sheet's lines at their levels.
-    fn visit_lines(
+    pub fn visit_lines(
         &self,
         grid: &SheetGrid,
         levels: &[f64],

@@ -1,5 +1,6 @@
-//! The sheet of an outline and the lines in its photo: from a coarse grid to a fine one, then with lines.
+//! The page of an outline and of the lines in its photo: the plainest of plane, firm sheet and soft sheet that explains both.
 
+use super::figures::SheetFigures;
 use super::fit::FittedSheet;
 use super::level_lines::find_level_lines;
 use super::place_table::PlaceTable;
@@ -8,79 +9,192 @@ use super::polyline::Polyline;
 use super::problem::{SheetProblem, SheetWeights};
 use super::view::PhotoView;
 use crate::dewarp::Photo;
+use crate::page::report::PageModel;
 
 pub(super) fn knob(name: &str, default: f64) -> f64 {
     std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
 }
 
-/// Fits a sheet.
-pub(super) fn search(
+/// The page that was found.
+#[derive(Debug, Clone)]
+pub(super) struct FoundSheet {
+    pub sheet: FittedSheet,
+    pub model: PageModel,
+    pub figures: SheetFigures,
+    /// Lines in the photo, in normalised coordinates.
+    pub lines: Vec<Vec<[f64; 2]>>,
+    /// Mean depth of the initial plane, in widths of the page.
+    pub depth: f64,
+}
+
+/// Numbers of nodes across of the grids before lines are known; coarse ones find the large bends in few steps.
+const COARSE_GRIDS: [usize; 2] = [9, 13];
+
+/// Number of nodes across of the grid on which lines are fitted.
+const FINE_GRID: usize = 25;
+
+/// Number of times that lines are found in the flat picture and the sheet is fitted to them.
+const LINE_ROUNDS: usize = 2;
+
+/// Maximum number of steps of each fit.
+const MAX_STEPS: usize = 15;
+
+/// Relative decrease of the cost by one step at which a fit has converged.
+const COST_TOLERANCE: f64 = 0.01;
+
+/// Weights of a sheet of paper, firm against strain.
+const FIRM: SheetWeights = SheetWeights {
+    isometry: 300.0,
+    bending: 1.5,
+    outline: 350.0,
+    corners: 300.0,
+    lines: 400.0,
+};
+
+/// Weights of a crumpled sheet, whose wrinkles between nodes shorten it.
+const SOFT: SheetWeights = SheetWeights {
+    isometry: 40.0,
+    bending: 3.5,
+    ..FIRM
+};
+
+/// The plainest page that explains four edges (upper, lower, left, right) and the lines that a photo shows between them. None
+/// if no page does.
+pub(super) fn find_sheet(
     edges: &[Polyline; 4],
     prior: CameraPrior,
     view: &PhotoView,
     photo: &Photo<'_>,
-    soft: bool,
-) -> Option<(FittedSheet, SheetProblem)> {
-    let [top, bottom] = [0, 1].map(|k| edges[k].points());
-    let corners = [top[0], top[top.len() - 1], bottom[bottom.len() - 1], bottom[0]];
-    let side = |i: usize, j: usize| {
-        (corners[i][0] - corners[j][0]).hypot(corners[i][1] - corners[j][1])
+) -> Option<FoundSheet> {
+    let apparent = apparent_ratio(edges);
+    let homography = Homography::new(corners(edges))?;
+    let start = homography.sheet(COARSE_GRIDS[0], &prior, apparent)?;
+    let firm = SheetWeights {
+        isometry: knob("ISO", FIRM.isometry),
+        bending: knob("BEND", FIRM.bending),
+        outline: knob("OUT", FIRM.outline),
+        corners: knob("COR", FIRM.corners),
+        lines: knob("TEXT", FIRM.lines),
     };
-    let apparent = (side(0, 3) + side(1, 2)) / (side(0, 1) + side(2, 3));
-    let ratio = prior.ratio(apparent);
-    let homography = Homography::new(corners)?;
-    let sizes = [9, 13, knob("FINE", 25.0) as usize];
-    let grid = homography.sheet(sizes[0], &prior, apparent)?;
-    let depth = grid.nodes.iter().map(|p| p.z).sum::<f64>() / grid.nodes.len() as f64;
-    let weights = SheetWeights {
-        isometry: if soft { knob("ISOS", 40.0) } else { knob("ISO", 300.0) },
-        bending: if soft { knob("BENDS", 3.5) } else { knob("BEND", 1.5) },
-        outline: knob("OUT", 350.0),
-        corners: knob("COR", 300.0),
-        lines: knob("TEXT", 400.0),
+    let soft = SheetWeights {
+        isometry: knob("ISOS", SOFT.isometry),
+        bending: knob("BENDS", SOFT.bending),
+        ..firm
     };
     let mut problem = SheetProblem {
         edges: edges.clone(),
         lines: Vec::new(),
         prior,
-        ratio,
-        depth,
+        ratio: prior.ratio(apparent),
+        depth: start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64,
         weights: SheetWeights {
-            isometry: 0.25 * weights.isometry,
-            bending: 4.0 * weights.bending,
-            ..weights
+            isometry: 0.25 * firm.isometry,
+            bending: 4.0 * firm.bending,
+            ..firm
         },
     };
-    let start = FittedSheet {
-        grid,
-        levels: Vec::new(),
-        cost: 0.0,
-    };
-    let steps = knob("STEPS", 15.0) as usize;
-    let tolerance = knob("TOL", 0.01);
-    let debug = |name: &str, sheet: &FittedSheet| {
-        if knob("DEBUG", 0.0) > 0.0 {
-            eprintln!("{name} cost {:.3} camera {:?} ratio {:.3} lines {}", sheet.cost, sheet.grid.camera, sheet.grid.ratio(), sheet.levels.len());
+    let coarse = problem.solve(FittedSheet::new(start), MAX_STEPS, COST_TOLERANCE)?;
+    problem.weights = firm;
+    let coarse = problem.refined(coarse, &COARSE_GRIDS)?;
+    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
+    let mut model = PageModel::Sheet;
+    if figures.outline > knob("SOFTOUT", 0.003) {
+        let mut crumpled = problem.clone();
+        crumpled.weights = soft;
+        crumpled.lines.clear();
+        let coarse = crumpled.refined(coarse, &COARSE_GRIDS)?;
+        let found = crumpled.with_lines(coarse, view, photo)?;
+        if std::env::var("DEBUG").is_ok() { eprintln!("firm {figures:?} soft {:?}", found.1); }
+        if found.1.outline < knob("SOFTGAIN", 0.7) * figures.outline {
+            (problem, sheet, figures, model) = (crumpled, found.0, found.1, PageModel::SoftSheet);
         }
-    };
-    let mut sheet = problem.solve(start, steps, tolerance)?;
-    debug("coarse", &sheet);
-    problem.weights = weights;
-    for size in sizes {
-        let rows = grid_rows(size, sheet.grid.ratio());
-        sheet.grid = sheet.grid.resampled([size, rows]);
-        sheet = problem.solve(sheet, steps, tolerance)?;
-        debug("level", &sheet);
     }
-    for _ in 0..knob("ROUNDS", 2.0) as usize {
-        let table = PlaceTable::new(&sheet.grid, view).ok()?;
-        problem.lines = find_level_lines(&table, view, photo, sheet.grid.ratio());
-        sheet.levels = problem.lines.iter().map(|line| line.level).collect();
-        if sheet.levels.is_empty() {
-            break;
+    let plane = (straight_corners(edges))
+        .and_then(|corners| plane(&problem, Homography::new(corners)?, apparent));
+    if let Some((flat, own)) = plane {
+        if std::env::var("DEBUG").is_ok() { eprintln!("plane {own:?} sheet {figures:?}"); }
+        let limit = knob("PLINES", 0.0025).max(knob("PFAC", 1.3) * figures.lines);
+        if own.outline < knob("POUT", 0.004) && own.lines < limit {
+            (sheet, figures, model) = (flat, own, PageModel::Plane);
         }
-        sheet = problem.solve(sheet, steps, tolerance)?;
-        debug("lines", &sheet);
     }
-    Some((sheet, problem))
+    Some(FoundSheet {
+        sheet,
+        model,
+        figures,
+        depth: problem.depth,
+        lines: problem.lines.into_iter().map(|line| line.points).collect(),
+    })
+}
+
+impl SheetProblem {
+    /// The sheet fitted on grids of some numbers of nodes across, one after the other.
+    fn refined(&self, mut sheet: FittedSheet, grids: &[usize]) -> Option<FittedSheet> {
+        for cols in grids {
+            let rows = grid_rows(*cols, sheet.grid.ratio());
+            sheet.grid = sheet.grid.resampled([*cols, rows]);
+            sheet = self.solve(sheet, MAX_STEPS, COST_TOLERANCE)?;
+        }
+        Some(sheet)
+    }
+
+    /// The sheet fitted on the fine grid to the outline and to the lines that its flat picture shows, and its figures.
+    fn with_lines(
+        &mut self,
+        mut sheet: FittedSheet,
+        view: &PhotoView,
+        photo: &Photo<'_>,
+    ) -> Option<(FittedSheet, SheetFigures)> {
+        for _ in 0..LINE_ROUNDS {
+            let table = PlaceTable::new(&sheet.grid, view).ok()?;
+            self.lines = find_level_lines(&table, view, photo, sheet.grid.ratio());
+            sheet.levels = self.lines.iter().map(|line| line.level).collect();
+            sheet = self.refined(sheet, &[FINE_GRID])?;
+        }
+        let figures = self.figures(&sheet)?;
+        Some((sheet, figures))
+    }
+}
+
+/// The plane of a homography as a fine sheet with lines, and its figures.
+fn plane(
+    problem: &SheetProblem,
+    homography: Homography,
+    apparent: f64,
+) -> Option<(FittedSheet, SheetFigures)> {
+    let grid = homography.sheet(FINE_GRID, &problem.prior, apparent)?;
+    let sheet = problem.with_levels(&FittedSheet::new(grid))?;
+    let figures = problem.figures(&sheet)?;
+    Some((sheet, figures))
+}
+
+/// Corners at the ends of the edges, clockwise from the upper left one.
+fn corners([top, bottom, ..]: &[Polyline; 4]) -> [[f64; 2]; 4] {
+    let ends = |edge: &Polyline| [edge.points()[0], edge.points()[edge.points().len() - 1]];
+    let ([a, b], [d, c]) = (ends(top), ends(bottom));
+    [a, b, c, d]
+}
+
+/// Corners where the lines nearest to the edges meet, clockwise from the upper left one.
+fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
+    let [top, bottom, left, right] = [0, 1, 2, 3].map(|k| edges[k].line());
+    let meet = |(p, d): ([f64; 2], [f64; 2]), (q, e): ([f64; 2], [f64; 2])| {
+        let area = d[0] * e[1] - d[1] * e[0];
+        let t = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / area;
+        let found = [p[0] + t * d[0], p[1] + t * d[1]];
+        found.iter().all(|v| v.is_finite()).then_some(found)
+    };
+    Some([
+        meet(top, left)?,
+        meet(top, right)?,
+        meet(bottom, right)?,
+        meet(bottom, left)?,
+    ])
+}
+
+/// Height over width in the photo, along the chords of the edges.
+fn apparent_ratio(edges: &[Polyline; 4]) -> f64 {
+    let [a, b, c, d] = corners(edges);
+    let side = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    (side(a, d) + side(b, c)) / (side(a, b) + side(d, c))
 }

@@ -34,7 +34,9 @@ impl SheetProblem {
         let robust = RobustWeights::default;
         let mut sums = [0.0; 4];
         let mut rows = 0.0;
-        unit.visit_outline(grid, &mut robust(), &mut |row| sums[0] += row.value * row.value)?;
+        unit.visit_outline(grid, &mut robust(), &mut |row| {
+            sums[0] += row.value * row.value
+        })?;
         unit.visit_lines(grid, &sheet.levels, &mut robust(), &mut |row| {
             sums[1] += row.value * row.value;
         })?;
@@ -42,7 +44,9 @@ impl SheetProblem {
             sums[2] += row.value * row.value;
             rows += 1.0;
         });
-        unit.visit_bending(grid, &mut robust(), &mut |row| sums[3] += row.value * row.value);
+        unit.visit_bending(grid, &mut robust(), &mut |row| {
+            sums[3] += row.value * row.value
+        });
         let [across, down] = grid.steps();
         let length: f64 = self.lines.iter().map(|line| line.length).sum();
         Some(SheetFigures {
@@ -65,7 +69,12 @@ impl SheetProblem {
                     sums[line][1] += derivative * derivative;
                 }
             };
-            self.visit_lines(&sheet.grid, &sheet.levels, &mut RobustWeights::default(), &mut sink)?;
+            self.visit_lines(
+                &sheet.grid,
+                &sheet.levels,
+                &mut RobustWeights::default(),
+                &mut sink,
+            )?;
             for (level, [right, square]) in sheet.levels.iter_mut().zip(sums) {
                 *level = (*level - right / square.max(1e-300)).clamp(0.0, 1.0);
             }

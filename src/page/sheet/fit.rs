@@ -109,11 +109,7 @@ impl SheetProblem {
 }
 
 /// The derivatives of a row that are not 0, by numbers of unknowns.
-fn unknowns(
-    row: &ResidualRow,
-    banded: &mut Vec<(usize, f64)>,
-    bordered: &mut Vec<(usize, f64)>,
-) {
+fn unknowns(row: &ResidualRow, banded: &mut Vec<(usize, f64)>, bordered: &mut Vec<(usize, f64)>) {
     banded.clear();
     bordered.clear();
     for (node, gradient) in &row.nodes {

@@ -1,4 +1,4 @@
-//! Lines of text and rules in the flat picture of a sheet.
+//! Lines of text, rules and left margins in the flat picture of a sheet.
 
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
@@ -24,7 +24,6 @@ pub(super) fn find_level_lines(
         // Turned by a right angle, the lower edge of a line is its left side.
         let turned = |[x, y]: [f64; 2]| if vertical { [1.0 - y, x] } else { [x, y] };
         let turned_view = PageView::from_places(|share| Some(table.at(turned(share))));
-        if vertical && super::search::knob("VERT", 1.0) == 0.0 { continue; }
         let found = find_on_view(&turned_view, photo, false).unwrap_or_default();
         let step = found.len().div_ceil(MAX_LINES).max(1);
         for line in found.iter().step_by(step) {
@@ -41,9 +40,6 @@ pub(super) fn find_level_lines(
                 length: span,
             });
         }
-    }
-    if super::search::knob("DEBUG", 0.0) > 1.0 {
-        for l in &lines { eprintln!("  line {} {:.3} len {:.2} {:?}", l.vertical, l.level, l.length, l.points.len()); }
     }
     lines
 }

@@ -45,10 +45,14 @@ impl PlaceTable {
             (low, at - low as f64)
         });
         let node = |i: usize, j: usize| self.places[j * self.cols + i];
-        let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i, j + 1), node(i + 1, j + 1)];
-        [0, 1].map(|k| {
-            (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k])
-        })
+        let [a, b, c, d] = [
+            node(i, j),
+            node(i + 1, j),
+            node(i, j + 1),
+            node(i + 1, j + 1),
+        ];
+        [0, 1]
+            .map(|k| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]))
     }
 
     /// Number of the photo's pixels that the page covers.

@@ -53,22 +53,13 @@ impl Homography {
         let sum = [0, 1].map(|k| p0[k] - p1[k] + p2[k] - p3[k]);
         let area = cross(d1, d2);
         let (g, h) = (cross(sum, d2) / area, cross(d1, sum) / area);
-        let row = |k: usize| {
-            [
-                p1[k] - p0[k] + g * p1[k],
-                p3[k] - p0[k] + h * p3[k],
-                p0[k],
-            ]
-        };
+        let row = |k: usize| [p1[k] - p0[k] + g * p1[k], p3[k] - p0[k] + h * p3[k], p0[k]];
         let ([a, b, c], [d, e, f]) = (row(0), row(1));
         let matrix = SMatrix::<f64, 3, 3>::new(a, b, c, d, e, f, g, h, 1.0);
-        matrix.iter().all(|v| v.is_finite()).then_some(Homography { matrix })
-    }
-
-    /// Projects a place on the page.
-    pub fn project(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
-        let found = self.matrix * Vector3::new(x, y, 1.0);
-        (found.z > 1e-9).then(|| [found.x / found.z, found.y / found.z])
+        matrix
+            .iter()
+            .all(|v| v.is_finite())
+            .then_some(Homography { matrix })
     }
 
     /// Camera and proportions for which the homography is nearest to the image of a rectangle, given prior knowledge:
@@ -110,7 +101,9 @@ impl Homography {
             for k in 0..4 {
                 normal[(k, k)] *= 1.0 + damping;
             }
-            let Some(factor) = normal.cholesky() else { break };
+            let Some(factor) = normal.cholesky() else {
+                break;
+            };
             let moved = at - factor.solve(&(jacobian.transpose() * here));
             let found = residuals(&moved);
             if found.norm_squared() < here.norm_squared() {

@@ -91,7 +91,10 @@ impl Polyline {
         for _ in 0..LINE_ROUNDS {
             let total: f64 = weights.iter().sum();
             let mean = [0, 1].map(|k| {
-                (inner.iter().zip(&weights)).map(|(p, w)| w * p[k]).sum::<f64>() / total
+                (inner.iter().zip(&weights))
+                    .map(|(p, w)| w * p[k])
+                    .sum::<f64>()
+                    / total
             });
             let moment = |j: usize, k: usize| -> f64 {
                 (inner.iter().zip(&weights))
@@ -101,7 +104,9 @@ impl Polyline {
             let angle = 0.5 * (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1));
             let (sin, cos) = angle.sin_cos();
             let off = |p: &[f64; 2]| cos * (p[1] - mean[1]) - sin * (p[0] - mean[0]);
-            let scatter = (inner.iter().zip(&weights)).map(|(p, w)| w * off(p).abs()).sum::<f64>();
+            let scatter = (inner.iter().zip(&weights))
+                .map(|(p, w)| w * off(p).abs())
+                .sum::<f64>();
             let scatter = (scatter / total).max(1e-12);
             for (weight, p) in weights.iter_mut().zip(inner) {
                 *weight = 1.0 / (1.0 + (off(p) / scatter).powi(2));

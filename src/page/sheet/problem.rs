@@ -203,7 +203,12 @@ impl SheetProblem {
                 stencil(nodes, 1.0 / (down * down));
             }
             if x + 1 < cols && y + 1 < rows {
-                let nodes = [(i, 1.0), (i + 1, -1.0), (i + cols, -1.0), (i + cols + 1, 1.0)];
+                let nodes = [
+                    (i, 1.0),
+                    (i + 1, -1.0),
+                    (i + cols, -1.0),
+                    (i + cols + 1, 1.0),
+                ];
                 stencil(nodes, std::f64::consts::SQRT_2 / (across * down));
             }
         }
@@ -219,7 +224,12 @@ impl SheetProblem {
         let root = Self::cell(grid).sqrt() * self.depth;
         let (cols, rows) = (grid.cols, grid.rows);
         let last = cols * (rows - 1);
-        let starts = [(0, 1, cols), (last, 1, cols), (0, cols, rows), (cols - 1, cols, rows)];
+        let starts = [
+            (0, 1, cols),
+            (last, 1, cols),
+            (0, cols, rows),
+            (cols - 1, cols, rows),
+        ];
         for ((start, step, count), edge) in starts.into_iter().zip(&self.edges) {
             for i in 0..count {
                 let node = start + i * step;
@@ -258,15 +268,23 @@ impl SheetProblem {
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
         for (number, (line, level)) in self.lines.iter().zip(levels).enumerate() {
-            let share = |along: f64| if line.vertical { [*level, along] } else { [along, *level] };
+            let share = |along: f64| {
+                if line.vertical {
+                    [*level, along]
+                } else {
+                    [along, *level]
+                }
+            };
             let count = if line.vertical { grid.rows } else { grid.cols };
             let seen: Option<Vec<_>> = (0..count)
-                .map(|i| grid.camera.project(grid.at(share(i as f64 / (count - 1) as f64))))
+                .map(|i| {
+                    grid.camera
+                        .project(grid.at(share(i as f64 / (count - 1) as f64)))
+                })
                 .collect();
             let seen = Polyline::new(seen?);
-            let weight = self.weights.lines
-                * self.depth
-                * (line.length / line.points.len() as f64).sqrt();
+            let weight =
+                self.weights.lines * self.depth * (line.length / line.points.len() as f64).sqrt();
             for point in &line.points {
                 let near = seen.nearest(*point)?;
                 let place = grid.place(share(near.position / (count - 1) as f64));

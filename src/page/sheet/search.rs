@@ -11,10 +11,6 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::page::report::PageModel;
 
-pub(super) fn knob(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
-}
-
 /// The page that was found.
 #[derive(Debug, Clone)]
 pub(super) struct FoundSheet {
@@ -58,6 +54,25 @@ const SOFT: SheetWeights = SheetWeights {
     ..FIRM
 };
 
+/// Factor of the weight of isometry in the first fit: a stiff sheet would stay in the plane.
+const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
+
+/// Factor of the weight of bending in the first fit: a limp sheet would end in ripples.
+const INITIAL_BENDING_FACTOR: f64 = 4.0;
+
+/// Root mean square curvature, in widths of the page, above which a firm sheet is crumpled.
+const MAX_FIRM_CURVATURE: f64 = 1.3;
+
+/// Distance of a plane's border from the outline, in widths of the page, up to which a plane explains it: a millimetre on A4
+/// is what a flat page lifts off its ground.
+const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
+
+/// Distance of lines from level ones on a plane, in widths of the page, up to which a plane explains them.
+const MAX_PLANE_LINE_MISFIT: f64 = 0.0012;
+
+/// Ratio of the lines' distances on the plane and on the sheet up to which the plane explains them.
+const MAX_PLANE_LINE_RATIO: f64 = 1.5;
+
 /// The plainest page that explains four edges (upper, lower, left, right) and the lines that a photo shows between them. None
 /// if no page does.
 pub(super) fn find_sheet(
@@ -69,18 +84,6 @@ pub(super) fn find_sheet(
     let apparent = apparent_ratio(edges);
     let homography = Homography::new(corners(edges))?;
     let start = homography.sheet(COARSE_GRIDS[0], &prior, apparent)?;
-    let firm = SheetWeights {
-        isometry: knob("ISO", FIRM.isometry),
-        bending: knob("BEND", FIRM.bending),
-        outline: knob("OUT", FIRM.outline),
-        corners: knob("COR", FIRM.corners),
-        lines: knob("TEXT", FIRM.lines),
-    };
-    let soft = SheetWeights {
-        isometry: knob("ISOS", SOFT.isometry),
-        bending: knob("BENDS", SOFT.bending),
-        ..firm
-    };
     let mut problem = SheetProblem {
         edges: edges.clone(),
         lines: Vec::new(),
@@ -88,33 +91,31 @@ pub(super) fn find_sheet(
         ratio: prior.ratio(apparent),
         depth: start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64,
         weights: SheetWeights {
-            isometry: 0.25 * firm.isometry,
-            bending: 4.0 * firm.bending,
-            ..firm
+            isometry: INITIAL_ISOMETRY_FACTOR * FIRM.isometry,
+            bending: INITIAL_BENDING_FACTOR * FIRM.bending,
+            ..FIRM
         },
     };
     let coarse = problem.solve(FittedSheet::new(start), MAX_STEPS, COST_TOLERANCE)?;
-    problem.weights = firm;
+    problem.weights = FIRM;
     let coarse = problem.refined(coarse, &COARSE_GRIDS)?;
     let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
     let mut model = PageModel::Sheet;
-    if figures.outline > knob("SOFTOUT", 0.003) {
+    if figures.curvature > MAX_FIRM_CURVATURE {
         let mut crumpled = problem.clone();
-        crumpled.weights = soft;
+        crumpled.weights = SOFT;
         crumpled.lines.clear();
-        let coarse = crumpled.refined(coarse, &COARSE_GRIDS)?;
-        let found = crumpled.with_lines(coarse, view, photo)?;
-        if std::env::var("DEBUG").is_ok() { eprintln!("firm {figures:?} soft {:?}", found.1); }
-        if found.1.outline < knob("SOFTGAIN", 0.7) * figures.outline {
-            (problem, sheet, figures, model) = (crumpled, found.0, found.1, PageModel::SoftSheet);
+        let refined = crumpled.refined(coarse, &COARSE_GRIDS);
+        if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, view, photo)) {
+            (sheet, figures) = found;
+            (problem, model) = (crumpled, PageModel::SoftSheet);
         }
     }
     let plane = (straight_corners(edges))
         .and_then(|corners| plane(&problem, Homography::new(corners)?, apparent));
     if let Some((flat, own)) = plane {
-        if std::env::var("DEBUG").is_ok() { eprintln!("plane {own:?} sheet {figures:?}"); }
-        let limit = knob("PLINES", 0.0025).max(knob("PFAC", 1.3) * figures.lines);
-        if own.outline < knob("POUT", 0.004) && own.lines < limit {
+        let max_lines = MAX_PLANE_LINE_MISFIT.max(MAX_PLANE_LINE_RATIO * figures.lines);
+        if own.outline < MAX_PLANE_OUTLINE_MISFIT && own.lines < max_lines {
             (sheet, figures, model) = (flat, own, PageModel::Plane);
         }
     }

@@ -6,13 +6,14 @@ use super::grid::SheetGrid;
 use super::place_table::PlaceTable;
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
-use super::search::{FoundSheet, find_sheet, knob};
+use super::search::{FoundSheet, find_sheet};
 use super::view::PhotoView;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::math::lanes;
+use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
 use crate::page::edges::{Edges, Trace};
-use crate::page::known_sizes::{focal_length, sides};
+use crate::page::known_sizes::{Sides, focal_length, sides};
 use crate::page::options::{Format, PageOptions};
 use crate::page::output::back_project;
 use crate::page::read_traces::read_traces;
@@ -62,7 +63,10 @@ const MAX_TRUSTED_OUTLINE_MISFIT: f64 = 0.003;
 const MAX_TRUSTED_LINE_MISFIT: f64 = 0.003;
 
 /// Root mean square curvature, in widths of the page, of a page that is not doubtful.
-const MAX_TRUSTED_CURVATURE: f64 = 0.6;
+const MAX_TRUSTED_CURVATURE: f64 = 0.55;
+
+/// Root mean square relative change of length of a page that is not doubtful.
+const MAX_TRUSTED_STRAIN: f64 = 0.003;
 
 /// Minimum number of lines of a page that is not doubtful: outlines alone leave much open.
 const MIN_TRUSTED_LINES: usize = 8;
@@ -96,15 +100,17 @@ impl SheetPage {
         let focal = focal_length(options.focal_length, longer, diagonal)?;
         let format = sides(options.format)?;
         let view = PhotoView {
-            focal: focal.map_or(knob("FNOM", USUAL_FOCAL_RATIO) * longer, |[focal, _]| focal),
+            focal: focal.map_or(USUAL_FOCAL_RATIO * longer, |[focal, _]| focal),
             centre: (options.centre).unwrap_or([(width - 1.0) / 2.0, (height - 1.0) / 2.0]),
         };
-        if !view.centre.iter().all(|v| v.abs() <= 10.0 * diagonal) {
+        if !(view.centre.iter()).all(|v| v.abs() <= MAX_CENTRE_DIAGONALS * diagonal) {
             let requirement = "must be two numbers, in pixels, not far outside of the photo";
             return Err(Error::option("centre", view.centre, requirement));
         }
         let edges = outline(edges, size)?.map(|line| {
-            let points: Vec<_> = (line.points.iter()).map(|p| view.to_normalised(*p)).collect();
+            let points: Vec<_> = (line.points.iter())
+                .map(|p| view.to_normalised(*p))
+                .collect();
             Polyline::resampled(&points, EDGE_SEGMENTS)
         });
         let length = |k: usize| {
@@ -112,12 +118,10 @@ impl SheetPage {
             distance(points[0], points[points.len() - 1])
         };
         let apparent = (length(2) + length(3)) / (length(0) + length(1));
-        let ratio = |sides: crate::page::known_sizes::Sides| {
-            [sides.ratio(apparent).ln(), FORMAT_RATIO_DEVIATION]
-        };
+        let ratio = |sides: Sides| [sides.ratio(apparent).ln(), FORMAT_RATIO_DEVIATION];
         let prior = CameraPrior {
             log_scale: 0.0,
-            scale_deviation: focal.map_or(knob("SDEVU", UNKNOWN_FOCAL_DEVIATION), |[_, deviation]| {
+            scale_deviation: focal.map_or(UNKNOWN_FOCAL_DEVIATION, |[_, deviation]| {
                 deviation.max(MIN_FOCAL_DEVIATION)
             }),
             centre_deviation: CENTRE_DEVIATION,
@@ -130,9 +134,8 @@ impl SheetPage {
             )
         })?;
         let table = PlaceTable::new(&found.sheet.grid, &view)?;
-        let pixels = |line: &Vec<[f64; 2]>| {
-            Trace::Points(line.iter().map(|p| view.to_pixels(*p)).collect())
-        };
+        let pixels =
+            |line: &Vec<[f64; 2]>| Trace::Points(line.iter().map(|p| view.to_pixels(*p)).collect());
         let mut page = SheetPage {
             table,
             photo: size,
@@ -187,7 +190,12 @@ impl SheetPage {
             *place = self.table.at(share).map(lanes::single);
         }
         let corner = [0.0, size[1]];
-        Ok(WarpMap::from_places([width, height], resolution, corner, places))
+        Ok(WarpMap::from_places(
+            [width, height],
+            resolution,
+            corner,
+            places,
+        ))
     }
 
     /// The page in space, with texture coordinates for the photo, row by row from the upper left corner, in the axes of
@@ -228,7 +236,11 @@ impl SheetPage {
         let ratio = self.grid.ratio();
         if let Some([w, h]) = sides {
             let named = matches!(options.format, Format::A4 | Format::Letter);
-            let [w, h] = if named && (ratio > 1.0) != (h > w) { [h, w] } else { [w, h] };
+            let [w, h] = if named && (ratio > 1.0) != (h > w) {
+                [h, w]
+            } else {
+                [w, h]
+            };
             self.unit = (w * h / ratio).sqrt();
             self.millimetres = true;
         } else if let Some(ruler) = options.ruler {
@@ -236,7 +248,11 @@ impl SheetPage {
             let end = |pixel| back_project(|share| Some(self.table.at(share)), pixel);
             let (Some(from), Some(to)) = (end(ruler.from), end(ruler.to)) else {
                 let ends = format!("from {:?} to {:?}", ruler.from, ruler.to);
-                return Err(Error::option("ruler", ends, "must begin and end on the page"));
+                return Err(Error::option(
+                    "ruler",
+                    ends,
+                    "must begin and end on the page",
+                ));
             };
             let found = (from[0] - to[0]).hypot((from[1] - to[1]) * ratio);
             if found.is_nan() || found <= MIN_RULER_SHARE * ratio.min(1.0) {
@@ -256,9 +272,13 @@ impl SheetPage {
 /// [`Error::Edges`] and what else [`read_traces`] finds.
 fn outline(edges: &Edges, photo: [usize; 2]) -> Result<[TracedLine; 4]> {
     let (pages, sideways) = read_traces(std::slice::from_ref(edges), [&[], &[]], photo)?;
-    let found = pages.into_iter().find_map(|page| Some((page.pair, page.sides?)));
+    let found = pages
+        .into_iter()
+        .find_map(|page| Some((page.pair, page.sides?)));
     let Some((pair, sides)) = found else {
-        return Err(Error::edges("all four edges are needed for a page of any shape"));
+        return Err(Error::edges(
+            "all four edges are needed for a page of any shape",
+        ));
     };
     let ([top, bottom], [left, right]) = if sideways {
         let [right, left] = pair;
@@ -268,9 +288,19 @@ fn outline(edges: &Edges, photo: [usize; 2]) -> Result<[TracedLine; 4]> {
     };
     // The bent pair is in order; each of the others begins at the corner that is nearer.
     let starts = if sideways {
-        [left.ends()[0], left.ends()[1], left.ends()[0], right.ends()[0]]
+        [
+            left.ends()[0],
+            left.ends()[1],
+            left.ends()[0],
+            right.ends()[0],
+        ]
     } else {
-        [top.ends()[0], bottom.ends()[0], top.ends()[0], top.ends()[1]]
+        [
+            top.ends()[0],
+            bottom.ends()[0],
+            top.ends()[0],
+            top.ends()[1],
+        ]
     };
     let mut lines = [top, bottom, left, right];
     for (line, start) in lines.iter_mut().zip(starts) {
@@ -290,7 +320,10 @@ fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageRep
     let mean = normals.iter().sum::<Vector3<f64>>().normalize();
     let off = |normal: &Vector3<f64>| normal.dot(&mean).clamp(-1.0, 1.0).acos();
     let bend = normals.iter().map(off).fold(0.0, f64::max);
-    let hidden = normals.iter().zip(&grid.nodes).any(|(normal, node)| normal.dot(node) <= 0.0);
+    let hidden = normals
+        .iter()
+        .zip(&grid.nodes)
+        .any(|(normal, node)| normal.dot(node) <= 0.0);
     let verdict = if figures.outline > MAX_OUTLINE_MISFIT {
         PageVerdict::NotThisKind
     } else if found.model == PageModel::Plane {
@@ -298,6 +331,7 @@ fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageRep
     } else if figures.outline < MAX_TRUSTED_OUTLINE_MISFIT
         && figures.lines < MAX_TRUSTED_LINE_MISFIT
         && figures.curvature < MAX_TRUSTED_CURVATURE
+        && figures.strain < MAX_TRUSTED_STRAIN
         && lines >= MIN_TRUSTED_LINES
         && found.model == PageModel::Sheet
         && !hidden
@@ -317,7 +351,11 @@ fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageRep
         focal_length: focal,
         focal_deviation: 100.0 * focal_deviation,
         tilt: mean.z.abs().min(1.0).acos().to_degrees(),
-        bend: if found.model == PageModel::Plane { 0.0 } else { 2.0 * bend.to_degrees() },
+        bend: if found.model == PageModel::Plane {
+            0.0
+        } else {
+            2.0 * bend.to_degrees()
+        },
         residual: figures.outline / found.depth * view.focal,
         disagreement: 100.0 * figures.outline,
         lines,

@@ -54,7 +54,11 @@ pub(in crate::page) fn find_on_view(
             chosen.push(line);
         }
     }
-    let lines = if parallel { parallel_lines(chosen) } else { chosen };
+    let lines = if parallel {
+        parallel_lines(chosen)
+    } else {
+        chosen
+    };
     let levels: Vec<f64> = lines.iter().map(|line| line.level).collect();
     let step = lines.len().div_ceil(MAX_LINES_PER_PAGE).max(1);
     let [width, height] = [ink.width, ink.height].map(|n| n as f64);

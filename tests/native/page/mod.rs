@@ -4,6 +4,7 @@ mod found;
 mod lines;
 mod measure;
 mod scene;
+mod sheet;
 
 use developable::dewarp::{DewarpOptions, Photo};
 use developable::page::{

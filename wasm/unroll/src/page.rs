@@ -7,7 +7,8 @@ use wasm_bindgen::prelude::*;
 
 use developable::dewarp::DewarpOptions;
 use developable::page::{
-    CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageVerdict, Ruler, Trace,
+    CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageSurface, PageVerdict, Ruler,
+    Trace,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{entries, option, renamed, unknown};
@@ -173,9 +174,10 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
     let page = if find {
-        CurledPage::in_photo(&pages, &lines, &photo, &known)
+        PageSurface::in_photo(&pages, &lines, &photo, &known)
     } else {
         CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)
+            .map(PageSurface::Curled)
     }
     .map_err(|error| renamed(error, "format", "page"))?;
     let map = page.warp_map(&wanted)?;

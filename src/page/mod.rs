@@ -44,6 +44,9 @@
 //! format, by lines of text ([`CurledPage::in_photo`] finds them, [`CurledPage::with_lines`] is given them) or by its
 //! straight edges ([`Edges::All`]).
 //! Lenses are assumed to have no distortion.
+//!
+//! A page that is folded, crumpled or bent both ways is no cylinder. [`SheetPage`] finds it by its four edges and the lines of
+//! print between them as an isometric sheet that bends little; [`PageSurface`] takes the plainest model that explains them.
 
 mod closed_form;
 mod corners;

@@ -7,8 +7,8 @@ use wasm_bindgen::prelude::*;
 
 use developable::dewarp::DewarpOptions;
 use developable::page::{
-    CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageSurface, PageVerdict, Ruler,
-    Trace,
+    CurledPage, Edges, FocalLength, Format, PageOptions, PageReport, PageSurface, PageVerdict,
+    Ruler, Trace,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{entries, option, renamed, unknown};

@@ -11,7 +11,6 @@ use crate::scene::mesh::Mesh;
 
 /// The surface of a page in space: a cylinder or, of a page that is folded, crumpled or bent both ways, a sheet.
 #[derive(Debug, Clone)]
-#[expect(clippy::large_enum_variant, reason = "there is one for each photo")]
 #[non_exhaustive]
 pub enum PageSurface {
     /// A page that is curled one way, or the two pages of a spread.

@@ -1037,9 +1037,16 @@ export type PageEdges = (
  */
 export type PageVerdict = 'flat' | 'unrolled' | 'unchecked' | 'doubtful' | 'notThisKind';
 
+/**
+ * What a page was taken for: a plane, a cylinder (curled one way), a sheet of paper of any shape, or one that is crumpled and
+ * therefore strained a little.
+ */
+export type PageModel = 'plane' | 'cylinder' | 'sheet' | 'softSheet';
+
 /** How a page was found. */
 export interface PageReport {
   verdict: PageVerdict;
+  model: PageModel;
   /** Expected displacement on the flat page (root mean square after the best similarity), in % of a page's width. */
   error: number;
   /** The same, not exceeded in 95 of 100 cases, if the page is curled one way. */

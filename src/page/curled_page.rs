@@ -59,7 +59,7 @@ const MIN_DEFAULT_ACCURACY: f64 = 0.3;
 const PRINCIPAL_POINT_DEVIATION: f64 = 0.004;
 
 /// Maximum coordinate of a principal point, in diagonals of the photo.
-const MAX_CENTRE_DIAGONALS: f64 = 10.0;
+pub(in crate::page) const MAX_CENTRE_DIAGONALS: f64 = 10.0;
 
 /// Focal lengths, over the photo's longer side, from which the search starts if none is given.
 const INITIAL_FOCAL_RATIOS: [f64; 5] = [0.5, 0.75, 1.1, 2.0, 5.0];

@@ -47,6 +47,9 @@
 //! format, by lines of text ([`CurledPage::in_photo`] finds them, [`CurledPage::with_lines`] is given them) or by its
 //! straight edges ([`Edges::All`]).
 //! Lenses are assumed to have no distortion.
+//!
+//! A page that is folded, crumpled or bent both ways is no cylinder. [`SheetPage`] finds it by its four edges and the lines of
+//! print between them as an isometric sheet that bends little; [`PageSurface`] takes the plainest model that explains them.
 
 mod closed_form;
 mod corners;
@@ -67,6 +70,8 @@ mod read_traces;
 mod report;
 mod residual_statistics;
 mod search;
+mod sheet;
+mod surface;
 mod text;
 mod traced_line;
 mod traces;
@@ -75,4 +80,6 @@ pub use curled_page::CurledPage;
 pub use edges::{Edges, Trace};
 pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use outline::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline};
-pub use report::{PageReport, PageVerdict};
+pub use report::{PageModel, PageReport, PageVerdict};
+pub use sheet::SheetPage;
+pub use surface::PageSurface;

@@ -70,47 +70,12 @@ impl CurledPage {
         curve.at(0, 0.0)
     }
 
-    /// Back-projects a pixel to the flat page, from its upper left corner, in the cylinder's unit: Newton's method from
-    /// the nearest of a grid of places. None if the pixel is not on the page.
+    /// Back-projects a pixel to the flat page, from its upper left corner, in the cylinder's unit. None if the pixel is not
+    /// on the page.
     pub(super) fn flat_place(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
-        /// Number of initial places along each side of the page.
-        const INITIAL_PLACES_PER_SIDE: usize = 24;
-        let off = |at: [f64; 2]| {
-            let seen = self.photo_place(at)?;
-            Some([seen[0] - pixel[0], seen[1] - pixel[1]])
-        };
-        let mut best = (f64::INFINITY, [0.5; 2]);
-        for i in 0..INITIAL_PLACES_PER_SIDE * INITIAL_PLACES_PER_SIDE {
-            let at = [i % INITIAL_PLACES_PER_SIDE, i / INITIAL_PLACES_PER_SIDE]
-                .map(|k| (k as f64 + 0.5) / INITIAL_PLACES_PER_SIDE as f64);
-            let distance = off(at).map_or(f64::INFINITY, |o| o[0].hypot(o[1]));
-            if distance < best.0 {
-                best = (distance, at);
-            }
-        }
-        let mut at = best.1;
-        for _ in 0..MAX_NEWTON_STEPS {
-            /// Step of forward differences, as a share of a page's side.
-            const NEWTON_DIFFERENCE_STEP: f64 = 1e-6;
-            let here = off(at)?;
-            let [right, below] = [
-                off([at[0] + NEWTON_DIFFERENCE_STEP, at[1]])?,
-                off([at[0], at[1] + NEWTON_DIFFERENCE_STEP])?,
-            ];
-            let [a, c] = [0, 1].map(|k| (right[k] - here[k]) / NEWTON_DIFFERENCE_STEP);
-            let [b, d] = [0, 1].map(|k| (below[k] - here[k]) / NEWTON_DIFFERENCE_STEP);
-            let area = a * d - b * c;
-            at = [
-                (at[0] - (d * here[0] - b * here[1]) / area).clamp(0.0, 1.0),
-                (at[1] - (a * here[1] - c * here[0]) / area).clamp(0.0, 1.0),
-            ];
-        }
-        let left = off(at)?;
-        // To one pixel: outside of the page the nearest place on it is farther away.
-        (left[0].hypot(left[1]) < 1.0).then(|| {
-            let size = self.size();
-            [at[0] * size[0], at[1] * size[1]]
-        })
+        let share = back_project(|at| self.photo_place(at), pixel)?;
+        let size = self.size();
+        Some([share[0] * size[0], share[1] * size[1]])
     }
 
     /// The warp map of the flat page: the place in the photo of each of its pixels. `dots` are pixels per unit
@@ -233,4 +198,47 @@ impl CurledPage {
         }
         Mesh::new(positions, triangles)?.with_uvs(uvs)
     }
+}
+
+/// The place on a flat page, in shares of its sides, that the photo shows at a pixel: Newton's method from the nearest of a
+/// grid of places. None if the pixel is not on the page.
+pub(super) fn back_project(
+    photo_place: impl Fn([f64; 2]) -> Option<[f64; 2]>,
+    pixel: [f64; 2],
+) -> Option<[f64; 2]> {
+    /// Number of initial places along each side of the page.
+    const INITIAL_PLACES_PER_SIDE: usize = 24;
+    let off = |at: [f64; 2]| {
+        let seen = photo_place(at)?;
+        Some([seen[0] - pixel[0], seen[1] - pixel[1]])
+    };
+    let mut best = (f64::INFINITY, [0.5; 2]);
+    for i in 0..INITIAL_PLACES_PER_SIDE * INITIAL_PLACES_PER_SIDE {
+        let at = [i % INITIAL_PLACES_PER_SIDE, i / INITIAL_PLACES_PER_SIDE]
+            .map(|k| (k as f64 + 0.5) / INITIAL_PLACES_PER_SIDE as f64);
+        let distance = off(at).map_or(f64::INFINITY, |o| o[0].hypot(o[1]));
+        if distance < best.0 {
+            best = (distance, at);
+        }
+    }
+    let mut at = best.1;
+    for _ in 0..MAX_NEWTON_STEPS {
+        /// Step of forward differences, as a share of a page's side.
+        const NEWTON_DIFFERENCE_STEP: f64 = 1e-6;
+        let here = off(at)?;
+        let [right, below] = [
+            off([at[0] + NEWTON_DIFFERENCE_STEP, at[1]])?,
+            off([at[0], at[1] + NEWTON_DIFFERENCE_STEP])?,
+        ];
+        let [a, c] = [0, 1].map(|k| (right[k] - here[k]) / NEWTON_DIFFERENCE_STEP);
+        let [b, d] = [0, 1].map(|k| (below[k] - here[k]) / NEWTON_DIFFERENCE_STEP);
+        let area = a * d - b * c;
+        at = [
+            (at[0] - (d * here[0] - b * here[1]) / area).clamp(0.0, 1.0),
+            (at[1] - (a * here[1] - c * here[0]) / area).clamp(0.0, 1.0),
+        ];
+    }
+    let left = off(at)?;
+    // To one pixel: outside of the page the nearest place on it is farther away.
+    (left[0].hypot(left[1]) < 1.0).then_some(at)
 }

@@ -32,6 +32,25 @@ pub enum PageVerdict {
     NotThisKind,
 }
 
+/// Model of a page's shape, from plain to free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
+pub enum PageModel {
+    /// A plane, seen in perspective: a homography.
+    Plane,
+    /// A cylinder over any curve: a page that is curled one way.
+    Cylinder,
+    /// An isometric sheet of any shape: a page that is folded, or bent both ways.
+    Sheet,
+    /// A sheet that is strained a little: a crumpled page, whose wrinkles are too small to be seen in its outline.
+    SoftSheet,
+}
+
 /// Verdict and figures of a page that was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
@@ -43,6 +62,8 @@ pub enum PageVerdict {
 pub struct PageReport {
     /// Whether the page can be trusted.
     pub verdict: PageVerdict,
+    /// Model of the page's shape.
+    pub model: PageModel,
     /// Expected displacement of points on the flat page: the root mean square after the best
     /// similarity, in % of a page's width.
     pub error: f64,
@@ -239,6 +260,7 @@ pub(super) fn report(
     };
     PageReport {
         verdict: findings.verdict(),
+        model: PageModel::Cylinder,
         error: 100.0 * estimate.expected,
         error_bound: 100.0 * estimate.bound,
         focal_length: cylinder.focal,

@@ -3,13 +3,10 @@
 use crate::dewarp::Photo;
 use crate::math::lanes;
 use crate::page::curled_page::CurledPage;
-use crate::page::cylinder::SampledCurve;
 
-/// One page in a photo, or one of the two of a spread, with coordinates as shares of its sides.
-pub(super) struct PageView<'a> {
-    page: &'a CurledPage,
-    curve: SampledCurve,
-    number: usize,
+/// A flat page and where the photo shows it, with coordinates as shares of its sides.
+pub(in crate::page) struct PageView<'a> {
+    place: Box<dyn Fn([f64; 2]) -> Option<[f64; 2]> + 'a>,
 }
 
 /// Darkness of each pixel of the flat page relative to the paper around it, from 0 to 1.
@@ -38,19 +35,26 @@ const MARGIN_SHARE: f64 = 0.015;
 const MAX_SAMPLES_PER_SIDE: f64 = 4.0;
 
 impl<'a> PageView<'a> {
+    /// One page of a curled page, or one of the two of a spread.
     pub fn new(page: &'a CurledPage, number: usize) -> Self {
+        let curve = page.cylinder.curve();
+        Self::from_places(move |share| {
+            let cylinder = &page.cylinder;
+            let (along, down) = page.curve_shares(share);
+            cylinder.project(curve.at(number, along), down * cylinder.length)
+        })
+    }
+
+    /// A page whose points the photo shows at given places, in pixels.
+    pub fn from_places(place: impl Fn([f64; 2]) -> Option<[f64; 2]> + 'a) -> Self {
         PageView {
-            page,
-            curve: page.cylinder.curve(),
-            number,
+            place: Box::new(place),
         }
     }
 
     /// Projects a place on the page to the photo, in pixels.
     pub fn project(&self, share: [f64; 2]) -> Option<[f64; 2]> {
-        let cylinder = &self.page.cylinder;
-        let (along, down) = self.page.curve_shares(share);
-        cylinder.project(self.curve.at(self.number, along), down * cylinder.length)
+        (self.place)(share)
     }
 
     /// Width and height of the page in the photo, in pixels, along the lines through its middle.

@@ -17,14 +17,24 @@ const MAX_LINES_PER_PAGE: usize = 200;
 /// Finds the baselines of the lines of text on each page, in the photo's pixels.
 pub(in crate::page) fn find_lines(page: &CurledPage, photo: &Photo<'_>) -> Vec<Vec<Trace>> {
     (0..page.pages())
-        .map(|number| find_on_page(page, number, photo).unwrap_or_default())
+        .map(|number| {
+            let view = PageView::new(page, number);
+            let lines = find_on_view(&view, photo, true).unwrap_or_default();
+            (lines.iter())
+                .filter_map(|line| line.iter().map(|at| view.project(*at)).collect())
+                .map(Trace::Points)
+                .collect()
+        })
         .collect()
 }
 
-/// Finds the baselines on one page; None if too little of it is in the photo.
-fn find_on_page(page: &CurledPage, number: usize, photo: &Photo<'_>) -> Option<Vec<Trace>> {
-    let view = PageView::new(page, number);
-    let ink = InkImage::new(&view, photo)?;
+/// Finds the baselines on one flat page, as points in shares of its sides; None if too little of it is in the photo.
+pub(in crate::page) fn find_on_view(
+    view: &PageView<'_>,
+    photo: &Photo<'_>,
+    parallel: bool,
+) -> Option<Vec<Vec<[f64; 2]>>> {
+    let ink = InkImage::new(view, photo)?;
     let strips = StripProfiles::new(&ink);
     let mut by_scale: Vec<Vec<Baseline>> = X_HEIGHT_SCALES
         .iter()
@@ -44,18 +54,21 @@ fn find_on_page(page: &CurledPage, number: usize, photo: &Photo<'_>) -> Option<V
             chosen.push(line);
         }
     }
-    let lines = parallel_lines(chosen);
+    let lines = if parallel {
+        parallel_lines(chosen)
+    } else {
+        chosen
+    };
     let levels: Vec<f64> = lines.iter().map(|line| line.level).collect();
     let step = lines.len().div_ceil(MAX_LINES_PER_PAGE).max(1);
     let [width, height] = [ink.width, ink.height].map(|n| n as f64);
-    (ranked(&levels).into_iter().step_by(step))
+    let lines = (ranked(&levels).into_iter().step_by(step))
         .map(|k| {
-            let line = &lines[k];
-            let points: Option<Vec<_>> = (line.points.iter())
+            (lines[k].points.iter())
                 // Rows are counted at their middles.
-                .map(|[x, y]| view.project([x / width, (y + 0.5) / height]))
-                .collect();
-            points.map(Trace::Points)
+                .map(|[x, y]| [x / width, (y + 0.5) / height])
+                .collect()
         })
-        .collect()
+        .collect();
+    Some(lines)
 }

@@ -11,4 +11,5 @@ mod ink;
 mod lines;
 pub(super) mod ranking;
 
-pub(super) use lines::find_lines;
+pub(super) use ink::PageView;
+pub(super) use lines::{find_lines, find_on_view};

@@ -5,6 +5,7 @@ mod lines;
 mod measure;
 mod outline;
 mod scene;
+mod sheet;
 
 use developable::dewarp::{DewarpOptions, Photo};
 use developable::page::{

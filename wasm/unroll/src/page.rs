@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use developable::dewarp::DewarpOptions;
 use developable::page::{
     CurledPage, Edges, FocalLength, Format, OutlineReason, OutlineReport, OutlineVerdict,
-    PageOptions, PageOutline, PageReport, PageVerdict, Ruler, Trace, find_outline,
+    PageOptions, PageOutline, PageReport, PageSurface, PageVerdict, Ruler, Trace, find_outline,
 };
 use developable_wasm::flat::{GridOutput, MapOptions, flat_image};
 use developable_wasm::options::{Given, entries, option, renamed, unknown};
@@ -248,9 +248,10 @@ pub fn dewarp_page(photo: JsValue, edges: JsValue, options: JsValue) -> Result<J
     };
     let find = finding.unwrap_or(find);
     let page = if find {
-        CurledPage::in_photo(&pages, &lines, &photo, &known)
+        PageSurface::in_photo(&pages, &lines, &photo, &known)
     } else {
         CurledPage::with_lines(&pages, &lines, [photo.width(), photo.height()], &known)
+            .map(PageSurface::Curled)
     }
     .map_err(|error| renamed(error, "format", "page"))?;
     let map = page.warp_map(&wanted)?;

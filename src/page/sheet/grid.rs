@@ -1,0 +1,126 @@
+//! The sheet in space: positions at the nodes of a grid over the flat page.
+
+use nalgebra::Vector3;
+
+use super::camera::SheetCamera;
+
+/// A sheet in the camera's axes (x to the right, y down, z ahead), in widths of the page, with the camera that sees it.
+#[derive(Debug, Clone)]
+pub(super) struct SheetGrid {
+    pub cols: usize,
+    pub rows: usize,
+    /// Logarithm of height over width of the flat page.
+    pub log_ratio: f64,
+    pub camera: SheetCamera,
+    /// Positions of the nodes, row by row from the upper left corner.
+    pub nodes: Vec<Vector3<f64>>,
+}
+
+/// Bilinear coordinates of a place on a grid: the cell's upper left node and the weights of its four nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GridPlace {
+    pub nodes: [usize; 4],
+    pub weights: [f64; 4],
+    /// Derivatives of the weights by the shares of the width and of the height.
+    pub derivatives: [[f64; 4]; 2],
+}
+
+impl SheetGrid {
+    /// Height over width of the flat page.
+    pub fn ratio(&self) -> f64 {
+        self.log_ratio.exp()
+    }
+
+    /// Distances between neighbouring nodes on the flat page, across and down.
+    pub fn steps(&self) -> [f64; 2] {
+        [
+            1.0 / (self.cols - 1) as f64,
+            self.ratio() / (self.rows - 1) as f64,
+        ]
+    }
+
+    /// Bilinear coordinates at shares of the page's width and height.
+    pub fn place(&self, share: [f64; 2]) -> GridPlace {
+        let sides = [self.cols, self.rows];
+        let [(i, s), (j, t)] = [0, 1].map(|k| {
+            let at = share[k] * (sides[k] - 1) as f64;
+            let low = (at.max(0.0) as usize).min(sides[k] - 2);
+            (low, at - low as f64)
+        });
+        let first = j * self.cols + i;
+        let [across, down] = sides.map(|n| (n - 1) as f64);
+        GridPlace {
+            nodes: [first, first + 1, first + self.cols, first + self.cols + 1],
+            weights: [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t],
+            derivatives: [
+                [-(1.0 - t), 1.0 - t, -t, t].map(|d| d * across),
+                [-(1.0 - s), -s, 1.0 - s, s].map(|d| d * down),
+            ],
+        }
+    }
+
+    /// Position at shares of the page's width and height, bilinear.
+    pub fn at(&self, share: [f64; 2]) -> Vector3<f64> {
+        self.sum(&self.place(share).nodes, &self.place(share).weights)
+    }
+
+    /// Weighted sum of nodes.
+    pub fn sum(&self, nodes: &[usize; 4], weights: &[f64; 4]) -> Vector3<f64> {
+        (nodes.iter().zip(weights))
+            .map(|(node, weight)| self.nodes[*node] * *weight)
+            .sum()
+    }
+
+    /// Position by the Catmull-Rom surface through the nodes, continued by reflection beyond the border.
+    pub fn smooth_at(&self, share: [f64; 2]) -> Vector3<f64> {
+        let sides = [self.cols, self.rows];
+        let [(i, s), (j, t)] = [0, 1].map(|k| {
+            let at = share[k] * (sides[k] - 1) as f64;
+            let low = (at.max(0.0) as usize).min(sides[k] - 2);
+            (low as isize, at - low as f64)
+        });
+        let row = |j: isize| -> Vector3<f64> {
+            let node = |i: isize| self.nodes[j as usize * self.cols + i as usize];
+            let taken = |i: isize| extended(i, self.cols, node);
+            cubic([-1, 0, 1, 2].map(|d| taken(i + d)), s)
+        };
+        cubic([-1, 0, 1, 2].map(|d| extended(j + d, self.rows, row)), t)
+    }
+
+    /// The sheet on a grid of another size.
+    pub fn resampled(&self, [cols, rows]: [usize; 2]) -> Self {
+        let nodes = (0..cols * rows)
+            .map(|i| {
+                let share = [
+                    (i % cols) as f64 / (cols - 1) as f64,
+                    (i / cols) as f64 / (rows - 1) as f64,
+                ];
+                self.smooth_at(share)
+            })
+            .collect();
+        SheetGrid {
+            cols,
+            rows,
+            nodes,
+            ..*self
+        }
+    }
+}
+
+/// The value at an index of a row of `count` values, extrapolated linearly by one.
+fn extended(i: isize, count: usize, value: impl Fn(isize) -> Vector3<f64>) -> Vector3<f64> {
+    let last = count as isize - 1;
+    if i < 0 {
+        2.0 * value(0) - value(1)
+    } else if i > last {
+        2.0 * value(last) - value(last - 1)
+    } else {
+        value(i)
+    }
+}
+
+/// Catmull-Rom's cubic between the middle two of four values.
+fn cubic([a, b, c, d]: [Vector3<f64>; 4], t: f64) -> Vector3<f64> {
+    let (p, q) = (c - a, 2.0 * a - 5.0 * b + 4.0 * c - d);
+    b + 0.5 * t * (p + t * (q + t * (3.0 * (b - c) + d - a)))
+}

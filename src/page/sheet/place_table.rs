@@ -1,0 +1,72 @@
+//! Places in the photo at a fine grid over a flat sheet.
+
+use super::grid::SheetGrid;
+use super::view::PhotoView;
+use crate::error::{Error, Result};
+
+/// Number of table cells along a grid's cell: bilinear places are right to a hundredth of a pixel then.
+const CELLS_PER_GRID_CELL: usize = 6;
+
+/// Places in the photo, in pixels, at the nodes of a grid over the flat page; bilinear in between.
+#[derive(Debug, Clone)]
+pub(super) struct PlaceTable {
+    cols: usize,
+    rows: usize,
+    places: Vec<[f64; 2]>,
+}
+
+impl PlaceTable {
+    /// The places of a sheet.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] for a sheet that is not in front of the camera.
+    pub fn new(grid: &SheetGrid, view: &PhotoView) -> Result<Self> {
+        let [cols, rows] = [grid.cols, grid.rows].map(|n| (n - 1) * CELLS_PER_GRID_CELL + 1);
+        let places: Option<Vec<_>> = (0..cols * rows)
+            .map(|i| {
+                let share = [
+                    (i % cols) as f64 / (cols - 1) as f64,
+                    (i / cols) as f64 / (rows - 1) as f64,
+                ];
+                let seen = grid.camera.project(grid.smooth_at(share))?;
+                Some(view.to_pixels(seen))
+            })
+            .collect();
+        let places = places.ok_or(Error::Empty { what: "page" })?;
+        Ok(PlaceTable { cols, rows, places })
+    }
+
+    /// The place at shares of the page's width and height.
+    pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
+        let sides = [self.cols, self.rows];
+        let [(i, s), (j, t)] = [0, 1].map(|k| {
+            let at = share[k] * (sides[k] - 1) as f64;
+            let low = (at.max(0.0) as usize).min(sides[k] - 2);
+            (low, at - low as f64)
+        });
+        let node = |i: usize, j: usize| self.places[j * self.cols + i];
+        let [a, b, c, d] = [
+            node(i, j),
+            node(i + 1, j),
+            node(i, j + 1),
+            node(i + 1, j + 1),
+        ];
+        [0, 1]
+            .map(|k| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]))
+    }
+
+    /// Number of the photo's pixels that the page covers.
+    pub fn area(&self) -> f64 {
+        let mut area = 0.0;
+        for j in 1..self.rows {
+            for i in 1..self.cols {
+                let at = j * self.cols + i;
+                let node = |back: usize| self.places[at - back];
+                let [a, b, c, d] = [node(self.cols + 1), node(self.cols), node(1), node(0)];
+                let (p, q) = ([d[0] - a[0], d[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+                area += 0.5 * (p[0] * q[1] - p[1] * q[0]).abs();
+            }
+        }
+        area
+    }
+}

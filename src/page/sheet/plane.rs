@@ -1,0 +1,176 @@
+//! The plane of a page's four corners: its homography, and the camera that makes it a rectangle.
+
+use nalgebra::{SMatrix, SVector, Vector3};
+
+use super::camera::SheetCamera;
+use super::grid::SheetGrid;
+
+/// Prior knowledge about the camera and the page's proportions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CameraPrior {
+    /// Expected logarithm of the focal length over the nominal one.
+    pub log_scale: f64,
+    /// Standard deviation of that logarithm.
+    pub scale_deviation: f64,
+    /// Standard deviation of the principal point, in nominal focal lengths.
+    pub centre_deviation: f64,
+    /// Logarithm of height over width and its standard deviation, if the format is known.
+    pub log_ratio: Option<[f64; 2]>,
+}
+
+/// The map from shares of a page's width and height to normalised coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Homography {
+    matrix: SMatrix<f64, 3, 3>,
+}
+
+/// Standard deviation of the two conditions that make a homography the image of a rectangle: errors of corners.
+const RECTANGLE_DEVIATION: f64 = 0.02;
+
+/// Standard deviation of the logarithm of the proportions where the format is not known, about the geometric mean of
+/// common formats.
+const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
+
+/// Logarithm of √2, the proportions of most formats.
+const COMMON_LOG_RATIO: f64 = 0.346_573_590_279_972_64;
+
+/// Number of Gauss-Newton steps to the camera.
+const CAMERA_STEPS: usize = 12;
+
+impl CameraPrior {
+    /// Expected logarithm of the proportions and its standard deviation; `apparent` tells upright pages from others.
+    pub fn ratio(&self, apparent: f64) -> [f64; 2] {
+        let common = COMMON_LOG_RATIO * (apparent - 1.0).signum();
+        self.log_ratio.unwrap_or([common, UNKNOWN_RATIO_DEVIATION])
+    }
+}
+
+impl Homography {
+    /// The homography of four corners, clockwise from the upper left one; None if three of them are on a line.
+    pub fn new(corners: [[f64; 2]; 4]) -> Option<Self> {
+        let [p0, p1, p2, p3] = corners;
+        let (d1, d2) = (difference(p1, p2), difference(p3, p2));
+        let sum = [0, 1].map(|k| p0[k] - p1[k] + p2[k] - p3[k]);
+        let area = cross(d1, d2);
+        let (g, h) = (cross(sum, d2) / area, cross(d1, sum) / area);
+        let row = |k: usize| [p1[k] - p0[k] + g * p1[k], p3[k] - p0[k] + h * p3[k], p0[k]];
+        let ([a, b, c], [d, e, f]) = (row(0), row(1));
+        let matrix = SMatrix::<f64, 3, 3>::new(a, b, c, d, e, f, g, h, 1.0);
+        matrix
+            .iter()
+            .all(|v| v.is_finite())
+            .then_some(Homography { matrix })
+    }
+
+    /// Camera and proportions for which the homography is nearest to the image of a rectangle, given prior knowledge:
+    /// Gauss-Newton from the prior's camera.
+    fn camera(&self, prior: &CameraPrior, apparent: f64) -> (SheetCamera, f64) {
+        let [ratio, ratio_deviation] = prior.ratio(apparent);
+        let start = SVector::<f64, 4>::new(prior.log_scale, 0.0, 0.0, ratio);
+        let deviations = SVector::<f64, 4>::new(
+            prior.scale_deviation,
+            prior.centre_deviation,
+            prior.centre_deviation,
+            ratio_deviation,
+        );
+        let residuals = |at: &SVector<f64, 4>| {
+            let [across, down] = self.sides(at);
+            let (a, b) = (across.norm_squared(), down.norm_squared());
+            let off = (at - start).component_div(&deviations);
+            let (skew, stretch) = (2.0 * across.dot(&down) / (a + b), (a - b) / (a + b));
+            SVector::<f64, 6>::new(
+                skew / RECTANGLE_DEVIATION,
+                stretch / RECTANGLE_DEVIATION,
+                off[0],
+                off[1],
+                off[2],
+                off[3],
+            )
+        };
+        let mut at = start;
+        let mut here = residuals(&at);
+        let mut damping = 1e-3;
+        for _ in 0..CAMERA_STEPS {
+            let mut jacobian = SMatrix::<f64, 6, 4>::zeros();
+            for k in 0..4 {
+                let mut moved = at;
+                moved[k] += 1e-6;
+                jacobian.set_column(k, &((residuals(&moved) - here) / 1e-6));
+            }
+            let mut normal = jacobian.transpose() * jacobian;
+            for k in 0..4 {
+                normal[(k, k)] *= 1.0 + damping;
+            }
+            let Some(factor) = normal.cholesky() else {
+                break;
+            };
+            let moved = at - factor.solve(&(jacobian.transpose() * here));
+            let found = residuals(&moved);
+            if found.norm_squared() < here.norm_squared() {
+                (at, here) = (moved, found);
+                damping *= 0.2;
+            } else {
+                damping *= 10.0;
+            }
+        }
+        let camera = SheetCamera {
+            log_scale: at[0],
+            centre: [at[1], at[2]],
+        };
+        (camera, at[3])
+    }
+
+    /// Sides of the page's unit square in space, up to a common factor.
+    fn sides(&self, at: &SVector<f64, 4>) -> [Vector3<f64>; 2] {
+        let scale = at[0].exp();
+        let back = |k: usize| {
+            let [x, y, w] = [0, 1, 2].map(|i| self.matrix[(i, k)]);
+            Vector3::new((x - at[1] * w) / scale, (y - at[2] * w) / scale, w)
+        };
+        [back(0), back(1) / at[3].exp()]
+    }
+
+    /// The plane in space as a sheet of `cols` nodes across; None if it is not in front of the camera. `apparent` is the
+    /// ratio of height and width in the photo.
+    pub fn sheet(&self, cols: usize, prior: &CameraPrior, apparent: f64) -> Option<SheetGrid> {
+        let (camera, log_ratio) = self.camera(prior, apparent);
+        let scale = camera.log_scale.exp();
+        let point = |[x, y]: [f64; 2]| {
+            let [px, py, w] = <[f64; 3]>::from(self.matrix * Vector3::new(x, y, 1.0));
+            let [cx, cy] = camera.centre;
+            Vector3::new((px - cx * w) / scale, (py - cy * w) / scale, w)
+        };
+        let rows = grid_rows(cols, log_ratio.exp());
+        let unit = (point([1.0, 0.0]) - point([0.0, 0.0])).norm();
+        let nodes: Vec<_> = (0..cols * rows)
+            .map(|i| {
+                let share = [
+                    (i % cols) as f64 / (cols - 1) as f64,
+                    (i / cols) as f64 / (rows - 1) as f64,
+                ];
+                point(share) / unit
+            })
+            .collect();
+        let visible = (nodes.iter()).all(|node| camera.project(*node).is_some());
+        visible.then_some(SheetGrid {
+            cols,
+            rows,
+            log_ratio,
+            camera,
+            nodes,
+        })
+    }
+}
+
+/// Number of rows of a grid with about square cells.
+pub(super) fn grid_rows(cols: usize, ratio: f64) -> usize {
+    ((((cols - 1) as f64 * ratio).round() as usize).max(2) + 1).min(4 * cols)
+}
+
+fn difference(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [p[0] - q[0], p[1] - q[1]]
+}
+
+fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
+    p[0] * q[1] - p[1] * q[0]
+}

@@ -1,0 +1,121 @@
+//! Polylines: nearest points and normals of traced edges.
+
+/// A curve of straight segments.
+#[derive(Debug, Clone)]
+pub(super) struct Polyline {
+    points: Vec<[f64; 2]>,
+}
+
+/// The nearest point of a polyline.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NearestPoint {
+    /// Number of the segment, plus the share of it before the point.
+    pub position: f64,
+    /// Unit normal of the segment.
+    pub normal: [f64; 2],
+    /// Distance along the normal.
+    pub distance: f64,
+}
+
+impl Polyline {
+    /// A polyline of at least two points.
+    pub fn new(points: Vec<[f64; 2]>) -> Self {
+        debug_assert!(points.len() > 1);
+        Polyline { points }
+    }
+
+    /// A traced curve resampled to equal segments.
+    pub fn resampled(points: &[[f64; 2]], segments: usize) -> Self {
+        let mut lengths = vec![0.0];
+        for w in points.windows(2) {
+            let step = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
+            lengths.push(lengths[lengths.len() - 1] + step);
+        }
+        let total = lengths[lengths.len() - 1];
+        let mut piece = 0;
+        let resampled = (0..=segments)
+            .map(|i| {
+                let at = total * i as f64 / segments as f64;
+                while piece + 2 < points.len() && lengths[piece + 1] < at {
+                    piece += 1;
+                }
+                let span = (lengths[piece + 1] - lengths[piece]).max(1e-300);
+                let t = ((at - lengths[piece]) / span).clamp(0.0, 1.0);
+                [0, 1].map(|k| points[piece][k] + t * (points[piece + 1][k] - points[piece][k]))
+            })
+            .collect();
+        Polyline::new(resampled)
+    }
+
+    /// Vertices of the polyline.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The nearest point; beyond the ends, distances are those from the outermost segments' lines.
+    pub fn nearest(&self, at: [f64; 2]) -> Option<NearestPoint> {
+        let mut best = (f64::INFINITY, 0, 0.0);
+        for (i, w) in self.points.windows(2).enumerate() {
+            let way = [w[1][0] - w[0][0], w[1][1] - w[0][1]];
+            let off = [at[0] - w[0][0], at[1] - w[0][1]];
+            let squared = way[0] * way[0] + way[1] * way[1];
+            let t = ((way[0] * off[0] + way[1] * off[1]) / squared.max(1e-300)).clamp(0.0, 1.0);
+            let rest = [off[0] - t * way[0], off[1] - t * way[1]];
+            let distance = rest[0] * rest[0] + rest[1] * rest[1];
+            if distance < best.0 {
+                best = (distance, i, t);
+            }
+        }
+        let (_, i, t) = best;
+        let [from, to] = [self.points[i], self.points[i + 1]];
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let length = way[0].hypot(way[1]);
+        if !(length > 0.0 && length.is_finite() && best.0.is_finite()) {
+            return None;
+        }
+        let normal = [-way[1] / length, way[0] / length];
+        Some(NearestPoint {
+            position: i as f64 + t,
+            normal,
+            distance: normal[0] * (at[0] - from[0]) + normal[1] * (at[1] - from[1]),
+        })
+    }
+
+    /// The line nearest to the polyline, as a point and a unit direction: least squares, reweighted so that outliers count
+    /// less. Corners are left out, because they are often rounded.
+    pub fn line(&self) -> ([f64; 2], [f64; 2]) {
+        let count = self.points.len();
+        let inner = &self.points[count / 20..count - count / 20];
+        let mut weights = vec![1.0; inner.len()];
+        let mut found = ([0.0; 2], [1.0, 0.0]);
+        for _ in 0..LINE_ROUNDS {
+            let total: f64 = weights.iter().sum();
+            let mean = [0, 1].map(|k| {
+                (inner.iter().zip(&weights))
+                    .map(|(p, w)| w * p[k])
+                    .sum::<f64>()
+                    / total
+            });
+            let moment = |j: usize, k: usize| -> f64 {
+                (inner.iter().zip(&weights))
+                    .map(|(p, w)| w * (p[j] - mean[j]) * (p[k] - mean[k]))
+                    .sum()
+            };
+            let angle = 0.5 * (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1));
+            let (sin, cos) = angle.sin_cos();
+            let off = |p: &[f64; 2]| cos * (p[1] - mean[1]) - sin * (p[0] - mean[0]);
+            let scatter = (inner.iter().zip(&weights))
+                .map(|(p, w)| w * off(p).abs())
+                .sum::<f64>();
+            let scatter = (scatter / total).max(1e-12);
+            for (weight, p) in weights.iter_mut().zip(inner) {
+                *weight = 1.0 / (1.0 + (off(p) / scatter).powi(2));
+            }
+            found = (mean, [cos, sin]);
+        }
+        found
+    }
+}
+
+/// Rounds of reweighting for the line nearest to a polyline.
+const LINE_ROUNDS: usize = 4;

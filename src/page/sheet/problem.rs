@@ -1,0 +1,334 @@
+//! The least-squares problem of a sheet: an isometric grid that bends little and meets outline, corners and lines.
+
+use nalgebra::Vector3;
+
+use super::grid::SheetGrid;
+use super::plane::CameraPrior;
+use super::polyline::Polyline;
+
+/// A line of the print that is level on the flat page: a line of text or a rule.
+#[derive(Debug, Clone)]
+pub(super) struct LevelLine {
+    /// Points in normalised coordinates.
+    pub points: Vec<[f64; 2]>,
+    /// Whether the line runs down the page instead of across.
+    pub vertical: bool,
+    /// Initial share of the page's height, or of its width if vertical.
+    pub level: f64,
+    /// Length, in widths of the page.
+    pub length: f64,
+}
+
+/// Weights of the residuals.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SheetWeights {
+    pub isometry: f64,
+    pub bending: f64,
+    pub outline: f64,
+    pub corners: f64,
+    pub lines: f64,
+}
+
+/// What a sheet is fitted to.
+#[derive(Debug, Clone)]
+pub(super) struct SheetProblem {
+    /// Upper, lower, left and right edge in normalised coordinates.
+    pub edges: [Polyline; 4],
+    pub lines: Vec<LevelLine>,
+    pub prior: CameraPrior,
+    /// Expected logarithm of the proportions and its standard deviation.
+    pub ratio: [f64; 2],
+    /// Mean depth of the initial plane, in widths of the page: normalised distances times this are widths.
+    pub depth: f64,
+    pub weights: SheetWeights,
+}
+
+/// A weighted residual with its derivatives.
+#[derive(Debug, Clone)]
+pub(super) struct ResidualRow {
+    pub value: f64,
+    /// Nodes and gradients by their positions.
+    pub nodes: [(usize, Vector3<f64>); 4],
+    /// Derivatives by logarithm of the focal length, principal point and logarithm of the proportions.
+    pub globals: [f64; 4],
+    /// Number of a line and the derivative by its level.
+    pub level: Option<(usize, f64)>,
+}
+
+/// Robust weights of residuals in the order in which they are visited: computed in the first pass, then held.
+#[derive(Debug, Default)]
+pub(super) struct RobustWeights {
+    values: Vec<f64>,
+    next: usize,
+    held: bool,
+}
+
+/// Curvature, in widths of the page, above which bending counts by its size and not by its square, so that folds form.
+const FOLD_CURVATURE: f64 = 1.5;
+
+/// Distance from the outline, in widths of the page, above which it counts less: outliers.
+const OUTLINE_OUTLIER_DISTANCE: f64 = 0.01;
+
+/// Distance from a line, in widths of the page, above which it counts less.
+const LINE_OUTLIER_DISTANCE: f64 = 0.004;
+
+impl RobustWeights {
+    /// Starts another pass with the same weights.
+    pub fn hold(&mut self) {
+        self.next = 0;
+        self.held = true;
+    }
+
+    /// The weight of the next residual by its size relative to a threshold: 1 for small ones, falling as a power.
+    fn next(&mut self, relative: f64, power: f64) -> f64 {
+        if !self.held {
+            self.values.push((1.0 + relative * relative).powf(power));
+        }
+        self.next += 1;
+        self.values[self.next - 1]
+    }
+}
+
+impl ResidualRow {
+    fn new(value: f64) -> Self {
+        ResidualRow {
+            value,
+            nodes: [(0, Vector3::zeros()); 4],
+            globals: [0.0; 4],
+            level: None,
+        }
+    }
+}
+
+impl SheetProblem {
+    /// Visits all residuals of a sheet with its lines' levels. None if part of it is not in front of the camera.
+    pub fn visit(
+        &self,
+        grid: &SheetGrid,
+        levels: &[f64],
+        robust: &mut RobustWeights,
+        sink: &mut dyn FnMut(&ResidualRow),
+    ) -> Option<()> {
+        self.visit_isometry(grid, sink);
+        self.visit_bending(grid, robust, sink);
+        self.visit_outline(grid, robust, sink)?;
+        self.visit_lines(grid, levels, robust, sink)?;
+        let prior = &self.prior;
+        let off = [
+            (grid.camera.log_scale - prior.log_scale) / prior.scale_deviation,
+            grid.camera.centre[0] / prior.centre_deviation,
+            grid.camera.centre[1] / prior.centre_deviation,
+            (grid.log_ratio - self.ratio[0]) / self.ratio[1],
+        ];
+        let deviations = [
+            prior.scale_deviation,
+            prior.centre_deviation,
+            prior.centre_deviation,
+            self.ratio[1],
+        ];
+        for k in 0..4 {
+            let mut row = ResidualRow::new(off[k]);
+            row.globals[k] = 1.0 / deviations[k];
+            sink(&row);
+        }
+        Some(())
+    }
+
+    /// Mean size of a cell's sides on the flat page.
+    fn cell(grid: &SheetGrid) -> f64 {
+        let [across, down] = grid.steps();
+        (across * down).sqrt()
+    }
+
+    /// Relative changes of length of edges and diagonals.
+    pub fn visit_isometry(&self, grid: &SheetGrid, sink: &mut dyn FnMut(&ResidualRow)) {
+        let [across, down] = grid.steps();
+        let weight = self.weights.isometry * Self::cell(grid);
+        let (cols, rows) = (grid.cols, grid.rows);
+        for i in 0..cols * rows {
+            let (right, below) = (i % cols + 1 < cols, i / cols + 1 < rows);
+            let left = i % cols > 0;
+            let pairs = [
+                (right, i + 1, [across, 0.0]),
+                (below, i + cols, [0.0, down]),
+                (right && below, i + cols + 1, [across, down]),
+                (left && below, i + cols - usize::from(left), [across, down]),
+            ];
+            for (_, j, [dx, dy]) in pairs.into_iter().filter(|pair| pair.0) {
+                let way = grid.nodes[j] - grid.nodes[i];
+                let flat = dx * dx + dy * dy;
+                let squared = way.norm_squared() / flat;
+                let mut row = ResidualRow::new(weight * 0.5 * (squared - 1.0));
+                let gradient = way * (weight / flat);
+                row.nodes[0] = (j, gradient);
+                row.nodes[1] = (i, -gradient);
+                row.globals[3] = -weight * squared * dy * dy / flat;
+                sink(&row);
+            }
+        }
+    }
+
+    /// Second derivatives, each reweighted by its own size.
+    pub fn visit_bending(
+        &self,
+        grid: &SheetGrid,
+        robust: &mut RobustWeights,
+        sink: &mut dyn FnMut(&ResidualRow),
+    ) {
+        let [across, down] = grid.steps();
+        let weight = self.weights.bending * Self::cell(grid);
+        let (cols, rows) = (grid.cols, grid.rows);
+        let mut stencil = |nodes: [(usize, f64); 4], factor: f64| {
+            let sum: Vector3<f64> = nodes.iter().map(|(i, c)| grid.nodes[*i] * *c).sum();
+            let second = sum * factor;
+            let power = -0.25;
+            let own = weight * robust.next(second.norm() / FOLD_CURVATURE, power) * factor;
+            for k in 0..3 {
+                let mut row = ResidualRow::new(own * sum[k]);
+                for (entry, (i, c)) in row.nodes.iter_mut().zip(nodes) {
+                    entry.0 = i;
+                    entry.1[k] = own * c;
+                }
+                sink(&row);
+            }
+        };
+        for i in 0..cols * rows {
+            let (x, y) = (i % cols, i / cols);
+            if x > 0 && x + 1 < cols {
+                let nodes = [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0), (i, 0.0)];
+                stencil(nodes, 1.0 / (across * across));
+            }
+            if y > 0 && y + 1 < rows {
+                let nodes = [(i - cols, 1.0), (i, -2.0), (i + cols, 1.0), (i, 0.0)];
+                stencil(nodes, 1.0 / (down * down));
+            }
+            if x + 1 < cols && y + 1 < rows {
+                let nodes = [
+                    (i, 1.0),
+                    (i + 1, -1.0),
+                    (i + cols, -1.0),
+                    (i + cols + 1, 1.0),
+                ];
+                stencil(nodes, std::f64::consts::SQRT_2 / (across * down));
+            }
+        }
+    }
+
+    /// Distances of the border's nodes from their edges, and of the corners from theirs.
+    pub fn visit_outline(
+        &self,
+        grid: &SheetGrid,
+        robust: &mut RobustWeights,
+        sink: &mut dyn FnMut(&ResidualRow),
+    ) -> Option<()> {
+        let root = Self::cell(grid).sqrt() * self.depth;
+        let (cols, rows) = (grid.cols, grid.rows);
+        let last = cols * (rows - 1);
+        let starts = [
+            (0, 1, cols),
+            (last, 1, cols),
+            (0, cols, rows),
+            (cols - 1, cols, rows),
+        ];
+        for ((start, step, count), edge) in starts.into_iter().zip(&self.edges) {
+            for i in 0..count {
+                let node = start + i * step;
+                let seen = grid.camera.project(grid.nodes[node])?;
+                let near = edge.nearest(seen)?;
+                let size = self.depth * near.distance / OUTLINE_OUTLIER_DISTANCE;
+                let weight = self.weights.outline * root * robust.next(size, -0.25);
+                sink(&photo_row(grid, node, near.normal, near.distance, weight));
+            }
+        }
+        let [top, bottom] = [0, 1].map(|k| self.edges[k].points());
+        let corners = [
+            (0, top[0]),
+            (cols - 1, top[top.len() - 1]),
+            (last, bottom[0]),
+            (last + cols - 1, bottom[bottom.len() - 1]),
+        ];
+        for (node, corner) in corners {
+            let seen = grid.camera.project(grid.nodes[node])?;
+            let off = [seen[0] - corner[0], seen[1] - corner[1]];
+            let size = self.depth * off[0].hypot(off[1]) / OUTLINE_OUTLIER_DISTANCE;
+            let weight = 2.0 * self.weights.corners * root * robust.next(size, -0.25);
+            for (k, normal) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
+                sink(&photo_row(grid, node, normal, off[k], weight));
+            }
+        }
+        Some(())
+    }
+
+    /// Distances of the lines' points from the sheet's lines at their levels.
+    pub fn visit_lines(
+        &self,
+        grid: &SheetGrid,
+        levels: &[f64],
+        robust: &mut RobustWeights,
+        sink: &mut dyn FnMut(&ResidualRow),
+    ) -> Option<()> {
+        for (number, (line, level)) in self.lines.iter().zip(levels).enumerate() {
+            let share = |along: f64| {
+                if line.vertical {
+                    [*level, along]
+                } else {
+                    [along, *level]
+                }
+            };
+            let count = if line.vertical { grid.rows } else { grid.cols };
+            let seen: Option<Vec<_>> = (0..count)
+                .map(|i| {
+                    grid.camera
+                        .project(grid.at(share(i as f64 / (count - 1) as f64)))
+                })
+                .collect();
+            let seen = Polyline::new(seen?);
+            let weight =
+                self.weights.lines * self.depth * (line.length / line.points.len() as f64).sqrt();
+            for point in &line.points {
+                let near = seen.nearest(*point)?;
+                let place = grid.place(share(near.position / (count - 1) as f64));
+                let at = grid.sum(&place.nodes, &place.weights);
+                // The projection is at the nearest point: its distance from the traced one has the other sign.
+                let distance = -near.distance;
+                let size = self.depth * distance / LINE_OUTLIER_DISTANCE;
+                let own = weight * robust.next(size, -0.25);
+                let gradient = grid.camera.gradient(at, near.normal) * own;
+                let mut row = ResidualRow::new(own * distance);
+                for k in 0..4 {
+                    row.nodes[k] = (place.nodes[k], gradient * place.weights[k]);
+                }
+                let way = usize::from(!line.vertical);
+                let along = grid.sum(&place.nodes, &place.derivatives[way]);
+                row.level = Some((number, gradient.dot(&along)));
+                let projected = grid.camera.project(at)?;
+                row.globals = camera_derivatives(grid, projected, near.normal).map(|d| d * own);
+                sink(&row);
+            }
+        }
+        Some(())
+    }
+}
+
+/// Derivatives of the projection's coordinate along a normal by the globals.
+fn camera_derivatives(grid: &SheetGrid, seen: [f64; 2], [nx, ny]: [f64; 2]) -> [f64; 4] {
+    let [cx, cy] = grid.camera.centre;
+    [nx * (seen[0] - cx) + ny * (seen[1] - cy), nx, ny, 0.0]
+}
+
+/// The residual of a node's projection along a normal.
+fn photo_row(
+    grid: &SheetGrid,
+    node: usize,
+    normal: [f64; 2],
+    distance: f64,
+    weight: f64,
+) -> ResidualRow {
+    let point = grid.nodes[node];
+    let mut row = ResidualRow::new(weight * distance);
+    row.nodes[0] = (node, grid.camera.gradient(point, normal) * weight);
+    if let Some(seen) = grid.camera.project(point) {
+        row.globals = camera_derivatives(grid, seen, normal).map(|d| d * weight);
+    }
+    row
+}

@@ -1,0 +1,201 @@
+//! The page of an outline and of the lines in its photo: the plainest of plane, firm sheet and soft sheet that explains both.
+
+use super::figures::SheetFigures;
+use super::fit::FittedSheet;
+use super::level_lines::find_level_lines;
+use super::place_table::PlaceTable;
+use super::plane::{CameraPrior, Homography, grid_rows};
+use super::polyline::Polyline;
+use super::problem::{SheetProblem, SheetWeights};
+use super::view::PhotoView;
+use crate::dewarp::Photo;
+use crate::page::report::PageModel;
+
+/// The page that was found.
+#[derive(Debug, Clone)]
+pub(super) struct FoundSheet {
+    pub sheet: FittedSheet,
+    pub model: PageModel,
+    pub figures: SheetFigures,
+    /// Lines in the photo, in normalised coordinates.
+    pub lines: Vec<Vec<[f64; 2]>>,
+    /// Mean depth of the initial plane, in widths of the page.
+    pub depth: f64,
+}
+
+/// Numbers of nodes across of the grids before lines are known; coarse ones find the large bends in few steps.
+const COARSE_GRIDS: [usize; 2] = [9, 13];
+
+/// Number of nodes across of the grid on which lines are fitted.
+const FINE_GRID: usize = 25;
+
+/// Number of times that lines are found in the flat picture and the sheet is fitted to them.
+const LINE_ROUNDS: usize = 2;
+
+/// Maximum number of steps of each fit.
+const MAX_STEPS: usize = 15;
+
+/// Relative decrease of the cost by one step at which a fit has converged.
+const COST_TOLERANCE: f64 = 0.01;
+
+/// Weights of a sheet of paper, firm against strain.
+const FIRM: SheetWeights = SheetWeights {
+    isometry: 300.0,
+    bending: 1.5,
+    outline: 350.0,
+    corners: 300.0,
+    lines: 400.0,
+};
+
+/// Weights of a crumpled sheet, whose wrinkles between nodes shorten it.
+const SOFT: SheetWeights = SheetWeights {
+    isometry: 40.0,
+    bending: 3.5,
+    ..FIRM
+};
+
+/// Factor of the weight of isometry in the first fit: a stiff sheet would stay in the plane.
+const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
+
+/// Factor of the weight of bending in the first fit: a limp sheet would end in ripples.
+const INITIAL_BENDING_FACTOR: f64 = 4.0;
+
+/// Root mean square curvature, in widths of the page, above which a firm sheet is crumpled.
+const MAX_FIRM_CURVATURE: f64 = 1.3;
+
+/// Distance of a plane's border from the outline, in widths of the page, up to which a plane explains it: a millimetre on A4
+/// is what a flat page lifts off its ground.
+const MAX_PLANE_OUTLINE_MISFIT: f64 = 0.004;
+
+/// Distance of lines from level ones on a plane, in widths of the page, up to which a plane explains them.
+const MAX_PLANE_LINE_MISFIT: f64 = 0.0012;
+
+/// Ratio of the lines' distances on the plane and on the sheet up to which the plane explains them.
+const MAX_PLANE_LINE_RATIO: f64 = 1.5;
+
+/// The plainest page that explains four edges (upper, lower, left, right) and the lines that a photo shows between them. None
+/// if no page does.
+pub(super) fn find_sheet(
+    edges: &[Polyline; 4],
+    prior: CameraPrior,
+    view: &PhotoView,
+    photo: &Photo<'_>,
+) -> Option<FoundSheet> {
+    let apparent = apparent_ratio(edges);
+    let homography = Homography::new(corners(edges))?;
+    let start = homography.sheet(COARSE_GRIDS[0], &prior, apparent)?;
+    let mut problem = SheetProblem {
+        edges: edges.clone(),
+        lines: Vec::new(),
+        prior,
+        ratio: prior.ratio(apparent),
+        depth: start.nodes.iter().map(|p| p.z).sum::<f64>() / start.nodes.len() as f64,
+        weights: SheetWeights {
+            isometry: INITIAL_ISOMETRY_FACTOR * FIRM.isometry,
+            bending: INITIAL_BENDING_FACTOR * FIRM.bending,
+            ..FIRM
+        },
+    };
+    let coarse = problem.solve(FittedSheet::new(start), MAX_STEPS, COST_TOLERANCE)?;
+    problem.weights = FIRM;
+    let coarse = problem.refined(coarse, &COARSE_GRIDS)?;
+    let (mut sheet, mut figures) = problem.with_lines(coarse.clone(), view, photo)?;
+    let mut model = PageModel::Sheet;
+    if figures.curvature > MAX_FIRM_CURVATURE {
+        let mut crumpled = problem.clone();
+        crumpled.weights = SOFT;
+        crumpled.lines.clear();
+        let refined = crumpled.refined(coarse, &COARSE_GRIDS);
+        if let Some(found) = refined.and_then(|coarse| crumpled.with_lines(coarse, view, photo)) {
+            (sheet, figures) = found;
+            (problem, model) = (crumpled, PageModel::SoftSheet);
+        }
+    }
+    let plane = (straight_corners(edges))
+        .and_then(|corners| plane(&problem, Homography::new(corners)?, apparent));
+    if let Some((flat, own)) = plane {
+        let max_lines = MAX_PLANE_LINE_MISFIT.max(MAX_PLANE_LINE_RATIO * figures.lines);
+        if own.outline < MAX_PLANE_OUTLINE_MISFIT && own.lines < max_lines {
+            (sheet, figures, model) = (flat, own, PageModel::Plane);
+        }
+    }
+    Some(FoundSheet {
+        sheet,
+        model,
+        figures,
+        depth: problem.depth,
+        lines: problem.lines.into_iter().map(|line| line.points).collect(),
+    })
+}
+
+impl SheetProblem {
+    /// The sheet fitted on grids of some numbers of nodes across, one after the other.
+    fn refined(&self, mut sheet: FittedSheet, grids: &[usize]) -> Option<FittedSheet> {
+        for cols in grids {
+            let rows = grid_rows(*cols, sheet.grid.ratio());
+            sheet.grid = sheet.grid.resampled([*cols, rows]);
+            sheet = self.solve(sheet, MAX_STEPS, COST_TOLERANCE)?;
+        }
+        Some(sheet)
+    }
+
+    /// The sheet fitted on the fine grid to the outline and to the lines that its flat picture shows, and its figures.
+    fn with_lines(
+        &mut self,
+        mut sheet: FittedSheet,
+        view: &PhotoView,
+        photo: &Photo<'_>,
+    ) -> Option<(FittedSheet, SheetFigures)> {
+        for _ in 0..LINE_ROUNDS {
+            let table = PlaceTable::new(&sheet.grid, view).ok()?;
+            self.lines = find_level_lines(&table, view, photo, sheet.grid.ratio());
+            sheet.levels = self.lines.iter().map(|line| line.level).collect();
+            sheet = self.refined(sheet, &[FINE_GRID])?;
+        }
+        let figures = self.figures(&sheet)?;
+        Some((sheet, figures))
+    }
+}
+
+/// The plane of a homography as a fine sheet with lines, and its figures.
+fn plane(
+    problem: &SheetProblem,
+    homography: Homography,
+    apparent: f64,
+) -> Option<(FittedSheet, SheetFigures)> {
+    let grid = homography.sheet(FINE_GRID, &problem.prior, apparent)?;
+    let sheet = problem.with_levels(&FittedSheet::new(grid))?;
+    let figures = problem.figures(&sheet)?;
+    Some((sheet, figures))
+}
+
+/// Corners at the ends of the edges, clockwise from the upper left one.
+fn corners([top, bottom, ..]: &[Polyline; 4]) -> [[f64; 2]; 4] {
+    let ends = |edge: &Polyline| [edge.points()[0], edge.points()[edge.points().len() - 1]];
+    let ([a, b], [d, c]) = (ends(top), ends(bottom));
+    [a, b, c, d]
+}
+
+/// Corners where the lines nearest to the edges meet, clockwise from the upper left one.
+fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
+    let [top, bottom, left, right] = [0, 1, 2, 3].map(|k| edges[k].line());
+    let meet = |(p, d): ([f64; 2], [f64; 2]), (q, e): ([f64; 2], [f64; 2])| {
+        let area = d[0] * e[1] - d[1] * e[0];
+        let t = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / area;
+        let found = [p[0] + t * d[0], p[1] + t * d[1]];
+        found.iter().all(|v| v.is_finite()).then_some(found)
+    };
+    Some([
+        meet(top, left)?,
+        meet(top, right)?,
+        meet(bottom, right)?,
+        meet(bottom, left)?,
+    ])
+}
+
+/// Height over width in the photo, along the chords of the edges.
+fn apparent_ratio(edges: &[Polyline; 4]) -> f64 {
+    let [a, b, c, d] = corners(edges);
+    let side = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    (side(a, d) + side(b, c)) / (side(a, b) + side(d, c))
+}

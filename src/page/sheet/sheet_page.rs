@@ -1,0 +1,381 @@
+//! A page of any shape in space, from its four edges in one photo.
+
+use nalgebra::Vector3;
+
+use super::grid::SheetGrid;
+use super::place_table::PlaceTable;
+use super::plane::CameraPrior;
+use super::polyline::Polyline;
+use super::search::{FoundSheet, find_sheet};
+use super::view::PhotoView;
+use crate::dewarp::{DewarpOptions, Photo, WarpMap};
+use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::math::lanes;
+use crate::page::curled_page::MAX_CENTRE_DIAGONALS;
+use crate::page::edges::{Edges, Trace};
+use crate::page::known_sizes::{Sides, focal_length, sides};
+use crate::page::options::{Format, PageOptions};
+use crate::page::output::back_project;
+use crate::page::read_traces::read_traces;
+use crate::page::report::{PageModel, PageReport, PageVerdict};
+use crate::page::traced_line::{TracedLine, distance};
+use crate::scene::mesh::Mesh;
+
+/// A page of any shape in space: an isometric sheet that bends little, whose outline and lines of print are those of the photo.
+#[derive(Debug, Clone)]
+pub struct SheetPage {
+    grid: SheetGrid,
+    table: PlaceTable,
+    photo: [usize; 2],
+    /// Length of the page's width: in millimetres if the format or a ruler is known, else 1.
+    unit: f64,
+    millimetres: bool,
+    /// Lines that were found, of the one page.
+    lines: Vec<Vec<Trace>>,
+    report: PageReport,
+}
+
+/// Number of segments that an edge is resampled to.
+const EDGE_SEGMENTS: usize = 160;
+
+/// Focal length over the photo's longer side where it is not known: that of a phone, whose photo is cropped a little.
+const USUAL_FOCAL_RATIO: f64 = 0.9;
+
+/// Standard deviation of the logarithm of an unknown focal length.
+const UNKNOWN_FOCAL_DEVIATION: f64 = 0.2;
+
+/// Minimum standard deviation of the logarithm of a known focal length: photos are edited.
+const MIN_FOCAL_DEVIATION: f64 = 0.06;
+
+/// Standard deviation of the principal point, in focal lengths: photos are cropped by hand.
+const CENTRE_DEVIATION: f64 = 0.12;
+
+/// Relative standard deviation of the proportions of a page whose format is known.
+const FORMAT_RATIO_DEVIATION: f64 = 0.002;
+
+/// Distance of the border from the outline, in widths of the page, above which edges cannot be those of a sheet.
+const MAX_OUTLINE_MISFIT: f64 = 0.02;
+
+/// Distance of the border from the outline, in widths of the page, of a page that is not doubtful.
+const MAX_TRUSTED_OUTLINE_MISFIT: f64 = 0.003;
+
+/// Distance of the lines from level ones, in widths of the page, of a page that is not doubtful.
+const MAX_TRUSTED_LINE_MISFIT: f64 = 0.003;
+
+/// Root mean square curvature, in widths of the page, of a page that is not doubtful.
+const MAX_TRUSTED_CURVATURE: f64 = 0.55;
+
+/// Root mean square relative change of length of a page that is not doubtful.
+const MAX_TRUSTED_STRAIN: f64 = 0.003;
+
+/// Minimum number of lines of a page that is not doubtful: outlines alone leave much open.
+const MIN_TRUSTED_LINES: usize = 8;
+
+/// Expected displacement per distance of border and lines from the photo's, and per curvature, in widths of the page.
+const ERROR_PER_MISFIT: f64 = 3.0;
+
+/// Expected displacement per root mean square curvature, in squared widths of the page.
+const ERROR_PER_CURVATURE: f64 = 0.02;
+
+/// Ratio of the displacement that is not exceeded in 95 of 100 cases and the expected one.
+const ERROR_BOUND_RATIO: f64 = 2.5;
+
+/// Minimum length of a ruler, as a share of the page's shorter side.
+const MIN_RULER_SHARE: f64 = 0.01;
+
+impl SheetPage {
+    /// Finds the page whose four edges are traced in a photo, and lines of print on it by themselves. A plane is taken where
+    /// it explains both, else an isometric sheet, else one that is strained a little.
+    ///
+    /// Camera and proportions are found, too, within what is usual and what `options` tell. Costs some hundred
+    /// milliseconds.
+    ///
+    /// # Errors
+    /// [`Error::Edges`] for edges that cannot belong to one page, or that are not all four;
+    /// those of [`CurledPage::new`](super::super::CurledPage::new) about edges and options.
+    pub fn in_photo(edges: &Edges, photo: &Photo<'_>, options: &PageOptions) -> Result<Self> {
+        let size = [photo.width(), photo.height()];
+        let [width, height] = size.map(|n| n as f64);
+        let (longer, diagonal) = (width.max(height), width.hypot(height));
+        let focal = focal_length(options.focal_length, longer, diagonal)?;
+        let format = sides(options.format)?;
+        let view = PhotoView {
+            focal: focal.map_or(USUAL_FOCAL_RATIO * longer, |[focal, _]| focal),
+            centre: (options.centre).unwrap_or([(width - 1.0) / 2.0, (height - 1.0) / 2.0]),
+        };
+        if !(view.centre.iter()).all(|v| v.abs() <= MAX_CENTRE_DIAGONALS * diagonal) {
+            let requirement = "must be two numbers, in pixels, not far outside of the photo";
+            return Err(Error::option("centre", view.centre, requirement));
+        }
+        let edges = outline(edges, size)?.map(|line| {
+            let points: Vec<_> = (line.points.iter())
+                .map(|p| view.to_normalised(*p))
+                .collect();
+            Polyline::resampled(&points, EDGE_SEGMENTS)
+        });
+        let length = |k: usize| {
+            let points = edges[k].points();
+            distance(points[0], points[points.len() - 1])
+        };
+        let apparent = (length(2) + length(3)) / (length(0) + length(1));
+        let ratio = |sides: Sides| [sides.ratio(apparent).ln(), FORMAT_RATIO_DEVIATION];
+        let prior = CameraPrior {
+            log_scale: 0.0,
+            scale_deviation: focal.map_or(UNKNOWN_FOCAL_DEVIATION, |[_, deviation]| {
+                deviation.max(MIN_FOCAL_DEVIATION)
+            }),
+            centre_deviation: CENTRE_DEVIATION,
+            log_ratio: format.map(ratio),
+        };
+        let found = find_sheet(&edges, prior, &view, photo).ok_or_else(|| {
+            Error::edges(
+                "no page was found whose edges these could be; check that the corners are at their \
+                 ends, and the focal length",
+            )
+        })?;
+        let table = PlaceTable::new(&found.sheet.grid, &view)?;
+        let pixels =
+            |line: &Vec<[f64; 2]>| Trace::Points(line.iter().map(|p| view.to_pixels(*p)).collect());
+        let mut page = SheetPage {
+            table,
+            photo: size,
+            unit: 1.0,
+            millimetres: false,
+            lines: vec![found.lines.iter().map(pixels).collect()],
+            report: report(&found, &view, prior.scale_deviation),
+            grid: found.sheet.grid,
+        };
+        page.measure(format.and_then(|sides| sides.millimetres), options)?;
+        Ok(page)
+    }
+
+    /// Verdict and figures of the page that was found.
+    pub fn report(&self) -> &PageReport {
+        &self.report
+    }
+
+    /// Width and height of the flat page, in millimetres if the format or a ruler is known, else in widths of the page.
+    pub fn flat_size(&self) -> [f64; 2] {
+        [self.unit, self.unit * self.grid.ratio()]
+    }
+
+    /// Whether lengths are in millimetres.
+    pub fn is_millimetres(&self) -> bool {
+        self.millimetres
+    }
+
+    /// Lines across and down the page that were found in the photo, as points in the photo's pixels.
+    pub fn text(&self) -> &[Vec<Trace>] {
+        &self.lines
+    }
+
+    /// The warp map of the flat page, as [`CurledPage::warp_map`](super::super::CurledPage::warp_map) makes it.
+    ///
+    /// # Errors
+    /// Those of [`CurledPage::warp_map`](super::super::CurledPage::warp_map).
+    pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
+        let size = self.flat_size();
+        let resolution = match options.dots {
+            Some(dots) => positive("dots", dots)?,
+            None => (self.table.area() / (size[0] * size[1])).sqrt(),
+        };
+        let [width, height] = size.map(|side| (side * resolution).round().max(1.0) as usize);
+        checked_cells("flat image", height, width)?;
+        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
+        for (i, place) in places.iter_mut().enumerate() {
+            let share = [
+                ((i % width) as f64 + 0.5) / width as f64,
+                ((i / width) as f64 + 0.5) / height as f64,
+            ];
+            *place = self.table.at(share).map(lanes::single);
+        }
+        let corner = [0.0, size[1]];
+        Ok(WarpMap::from_places(
+            [width, height],
+            resolution,
+            corner,
+            places,
+        ))
+    }
+
+    /// The page in space, with texture coordinates for the photo, row by row from the upper left corner, in the axes of
+    /// [`CurledPage::mesh`](super::super::CurledPage::mesh).
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn mesh(&self) -> Result<Mesh> {
+        let (cols, rows) = (self.grid.cols, self.grid.rows);
+        let [width, height] = self.photo.map(|n| n as f64);
+        let positions = (self.grid.nodes.iter())
+            .map(|node| [node.x, -node.y, -node.z].map(|v| v * self.unit))
+            .collect();
+        let uvs = (0..cols * rows)
+            .map(|i| {
+                let share = [
+                    (i % cols) as f64 / (cols - 1) as f64,
+                    (i / cols) as f64 / (rows - 1) as f64,
+                ];
+                let [x, y] = self.table.at(share);
+                [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single)
+            })
+            .collect();
+        let mut triangles = Vec::new();
+        for row in 1..rows {
+            for col in 1..cols {
+                let last = (row * cols + col) as u32;
+                let [above, before] = [last - cols as u32, last - 1];
+                let first = above - 1;
+                triangles.extend([[first, before, last], [first, last, above]]);
+            }
+        }
+        Mesh::new(positions, triangles)?.with_uvs(uvs)
+    }
+
+    /// Sets the unit of length, by the sides of the format in millimetres, or by a ruler.
+    fn measure(&mut self, sides: Option<[f64; 2]>, options: &PageOptions) -> Result<()> {
+        let ratio = self.grid.ratio();
+        if let Some([w, h]) = sides {
+            let named = matches!(options.format, Format::A4 | Format::Letter);
+            let [w, h] = if named && (ratio > 1.0) != (h > w) {
+                [h, w]
+            } else {
+                [w, h]
+            };
+            self.unit = (w * h / ratio).sqrt();
+            self.millimetres = true;
+        } else if let Some(ruler) = options.ruler {
+            let length = positive("ruler.length", ruler.length)?;
+            let end = |pixel| back_project(|share| Some(self.table.at(share)), pixel);
+            let (Some(from), Some(to)) = (end(ruler.from), end(ruler.to)) else {
+                let ends = format!("from {:?} to {:?}", ruler.from, ruler.to);
+                return Err(Error::option(
+                    "ruler",
+                    ends,
+                    "must begin and end on the page",
+                ));
+            };
+            let found = (from[0] - to[0]).hypot((from[1] - to[1]) * ratio);
+            if found.is_nan() || found <= MIN_RULER_SHARE * ratio.min(1.0) {
+                let requirement = "must be at least a hundredth of the page's side long";
+                return Err(Error::option("ruler", found, requirement));
+            }
+            self.unit = length / found;
+            self.millimetres = true;
+        }
+        Ok(())
+    }
+}
+
+/// The four edges of a page in the order top, bottom, left, right, each from left to right or from top to bottom.
+///
+/// # Errors
+/// [`Error::Edges`] and what else [`read_traces`] finds.
+fn outline(edges: &Edges, photo: [usize; 2]) -> Result<[TracedLine; 4]> {
+    let (pages, sideways) = read_traces(std::slice::from_ref(edges), [&[], &[]], photo)?;
+    let found = pages
+        .into_iter()
+        .find_map(|page| Some((page.pair, page.sides?)));
+    let Some((pair, sides)) = found else {
+        return Err(Error::edges(
+            "all four edges are needed for a page of any shape",
+        ));
+    };
+    let ([top, bottom], [left, right]) = if sideways {
+        let [right, left] = pair;
+        (sides, [left, right])
+    } else {
+        (pair, sides)
+    };
+    // The bent pair is in order; each of the others begins at the corner that is nearer.
+    let starts = if sideways {
+        [
+            left.ends()[0],
+            left.ends()[1],
+            left.ends()[0],
+            right.ends()[0],
+        ]
+    } else {
+        [
+            top.ends()[0],
+            bottom.ends()[0],
+            top.ends()[0],
+            top.ends()[1],
+        ]
+    };
+    let mut lines = [top, bottom, left, right];
+    for (line, start) in lines.iter_mut().zip(starts) {
+        let [from, to] = line.ends();
+        if distance(to, start) < distance(from, start) {
+            line.points.reverse();
+        }
+    }
+    Ok(lines)
+}
+
+/// Verdict and figures of a page.
+fn report(found: &FoundSheet, view: &PhotoView, focal_deviation: f64) -> PageReport {
+    let (figures, grid) = (&found.figures, &found.sheet.grid);
+    let lines = found.lines.len();
+    let normals = normals(grid);
+    let mean = normals.iter().sum::<Vector3<f64>>().normalize();
+    let off = |normal: &Vector3<f64>| normal.dot(&mean).clamp(-1.0, 1.0).acos();
+    let bend = normals.iter().map(off).fold(0.0, f64::max);
+    let hidden = normals
+        .iter()
+        .zip(&grid.nodes)
+        .any(|(normal, node)| normal.dot(node) <= 0.0);
+    let verdict = if figures.outline > MAX_OUTLINE_MISFIT {
+        PageVerdict::NotThisKind
+    } else if found.model == PageModel::Plane {
+        PageVerdict::Flat
+    } else if figures.outline < MAX_TRUSTED_OUTLINE_MISFIT
+        && figures.lines < MAX_TRUSTED_LINE_MISFIT
+        && figures.curvature < MAX_TRUSTED_CURVATURE
+        && figures.strain < MAX_TRUSTED_STRAIN
+        && lines >= MIN_TRUSTED_LINES
+        && found.model == PageModel::Sheet
+        && !hidden
+    {
+        PageVerdict::Unrolled
+    } else {
+        PageVerdict::Doubtful
+    };
+    let misfit = ERROR_PER_MISFIT * figures.outline.hypot(figures.lines);
+    let error = 100.0 * misfit.hypot(ERROR_PER_CURVATURE * figures.curvature);
+    let focal = view.focal * grid.camera.log_scale.exp();
+    PageReport {
+        verdict,
+        model: found.model,
+        error,
+        error_bound: ERROR_BOUND_RATIO * error,
+        focal_length: focal,
+        focal_deviation: 100.0 * focal_deviation,
+        tilt: mean.z.abs().min(1.0).acos().to_degrees(),
+        bend: if found.model == PageModel::Plane {
+            0.0
+        } else {
+            2.0 * bend.to_degrees()
+        },
+        residual: figures.outline / found.depth * view.focal,
+        disagreement: 100.0 * figures.outline,
+        lines,
+        lines_found: lines,
+        lines_used: lines,
+        lines_disagreement: 100.0 * figures.lines,
+        ratio: grid.ratio(),
+    }
+}
+
+/// Unit normals of a sheet's cells, away from the camera where the page's face is seen, one for each node that has a cell to
+/// its lower right, else that of the nearest cell.
+fn normals(grid: &SheetGrid) -> Vec<Vector3<f64>> {
+    let (cols, rows) = (grid.cols, grid.rows);
+    (0..cols * rows)
+        .map(|i| {
+            let (x, y) = ((i % cols).min(cols - 2), (i / cols).min(rows - 2));
+            let at = |dx: usize, dy: usize| grid.nodes[(y + dy) * cols + x + dx];
+            let cross = (at(1, 1) - at(0, 0)).cross(&(at(0, 1) - at(1, 0)));
+            cross / cross.norm().max(1e-300)
+        })
+        .collect()
+}

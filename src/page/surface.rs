@@ -1,0 +1,108 @@
+//! The surface of a page in space by the plainest model that explains its edges and lines.
+
+use super::curled_page::CurledPage;
+use super::edges::{Edges, Trace};
+use super::options::PageOptions;
+use super::report::{PageReport, PageVerdict};
+use super::sheet::SheetPage;
+use crate::dewarp::{DewarpOptions, Photo, WarpMap};
+use crate::error::{Error, Result};
+use crate::scene::mesh::Mesh;
+
+/// The surface of a page in space: a cylinder or, of a page that is folded, crumpled or bent both ways, a sheet.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum PageSurface {
+    /// A page that is curled one way, or the two pages of a spread.
+    Curled(CurledPage),
+    /// A page of any shape.
+    Sheet(SheetPage),
+}
+
+impl PageSurface {
+    /// Finds the page whose edges are traced in a photo. The cylinder is tried first, as by [`CurledPage::in_photo`]; of one
+    /// page with all four edges that is none, [`SheetPage::in_photo`] takes the photo.
+    ///
+    /// # Errors
+    /// Those of [`CurledPage::in_photo`] and [`SheetPage::in_photo`].
+    pub fn in_photo(
+        edges: &[Edges],
+        given: &[Vec<Trace>],
+        photo: &Photo<'_>,
+        options: &PageOptions,
+    ) -> Result<Self> {
+        let curled = CurledPage::in_photo(edges, given, photo, options);
+        let sheet = match (&curled, edges) {
+            (Ok(page), [edges @ Edges::All { .. }]) if is_untrusted(page.report().verdict) => {
+                SheetPage::in_photo(edges, photo, options).ok()
+            }
+            (Err(Error::Edges { .. } | Error::FocalLength), [edges @ Edges::All { .. }]) => {
+                Some(SheetPage::in_photo(edges, photo, options)?)
+            }
+            _ => None,
+        };
+        match sheet {
+            Some(sheet) => Ok(PageSurface::Sheet(sheet)),
+            None => curled.map(PageSurface::Curled),
+        }
+    }
+
+    /// Verdict and figures of the page.
+    pub fn report(&self) -> &PageReport {
+        match self {
+            PageSurface::Curled(page) => page.report(),
+            PageSurface::Sheet(page) => page.report(),
+        }
+    }
+
+    /// Width and height of the flat page, in millimetres if the format or a ruler is known, else in widths of a page.
+    pub fn flat_size(&self) -> [f64; 2] {
+        match self {
+            PageSurface::Curled(page) => page.flat_size(),
+            PageSurface::Sheet(page) => page.flat_size(),
+        }
+    }
+
+    /// Whether lengths are in millimetres.
+    pub fn is_millimetres(&self) -> bool {
+        match self {
+            PageSurface::Curled(page) => page.is_millimetres(),
+            PageSurface::Sheet(page) => page.is_millimetres(),
+        }
+    }
+
+    /// Lines that were found in the photo, for each page, as points in the photo's pixels.
+    pub fn text(&self) -> &[Vec<Trace>] {
+        match self {
+            PageSurface::Curled(page) => page.text(),
+            PageSurface::Sheet(page) => page.text(),
+        }
+    }
+
+    /// The warp map of the flat page.
+    ///
+    /// # Errors
+    /// Those of [`CurledPage::warp_map`].
+    pub fn warp_map(&self, options: &DewarpOptions) -> Result<WarpMap> {
+        match self {
+            PageSurface::Curled(page) => page.warp_map(options),
+            PageSurface::Sheet(page) => page.warp_map(options),
+        }
+    }
+
+    /// The page in space, with texture coordinates for the photo.
+    ///
+    /// # Errors
+    /// Those of [`CurledPage::mesh`].
+    pub fn mesh(&self) -> Result<Mesh> {
+        match self {
+            PageSurface::Curled(page) => page.mesh(),
+            PageSurface::Sheet(page) => page.mesh(),
+        }
+    }
+}
+
+/// Whether a verdict says that the page is no cylinder, or hardly one.
+fn is_untrusted(verdict: PageVerdict) -> bool {
+    matches!(verdict, PageVerdict::NotThisKind | PageVerdict::Doubtful)
+}

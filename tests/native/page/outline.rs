@@ -263,8 +263,8 @@ fn two_pages_are_both_found() {
 
 #[test]
 fn a_table_without_a_page_has_none() {
-    let grounds: [(&str, fn([f64; 2]) -> Colour); 3] =
-        [("wood", wood), ("tiles", tiles), ("grey", |_| DARK)];
+    type Ground = fn([f64; 2]) -> Colour;
+    let grounds: [(&str, Ground); 3] = [("wood", wood), ("tiles", tiles), ("grey", |_| DARK)];
     for (name, ground) in grounds {
         for light in [even, shadows] {
             let report = found(&photo(ground, light));

@@ -73,7 +73,7 @@ fn seen(shape: Shape, share: [f64; 2]) -> [f64; 2] {
     let [x, y, z] = shape(share[0], share[1] * HEIGHT);
     let (sine, cosine) = 0.4f64.sin_cos();
     let (x, y) = (x - 0.5, y - 0.7);
-    let depth = 2.1 - sine * y + cosine * z * -1.0;
+    let depth = 2.1 - sine * y - cosine * z;
     let down = cosine * y - sine * z;
     [449.5 + FOCAL * x / depth, 599.5 + FOCAL * down / depth]
 }

@@ -44,6 +44,10 @@ const MAX_HIDDEN_RATIO: f64 = 6.0;
 /// smooth noise behind rough noise raises it more.
 const MAX_PREDICTION_RATIO: f64 = 2.2;
 
+/// Largest ratio of the noise of a covariance to the least one, at which the one of smaller discs is taken: these tell the
+/// correlation length.
+const MAX_LEAST_NOISE_RATIO: f64 = 1.25;
+
 /// Number of correlation lengths that are tried.
 const LENGTH_TRIALS: u32 = 40;
 
@@ -74,7 +78,7 @@ impl CorrelatedNoise {
     /// The noise of heights with these curvatures, from small discs to large ones; `None` if a shape hides it.
     ///
     /// A shape beside the noise adds to the curvatures. So of the covariances that explain all larger scales, the one of
-    /// the least noise counts.
+    /// the least noise counts, or one of smaller discs with hardly more.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
         let first = scales.iter().position(is_noise)?;
         if scales[first].radius() > MAX_FIRST_RADIUS {
@@ -82,36 +86,22 @@ impl CorrelatedNoise {
         }
         let noisy = scales[first..].iter().take_while(|scale| is_noise(scale));
         let scales = &scales[first..first + noisy.count()];
-        let fits = (1..scales.len()).map(|last| {
-            let covariance = Covariance::fit(
-                &scales[(last + 1).saturating_sub(FITTED_SCALES)..=last],
-                discs,
-            );
-            (&scales[last], &scales[last + 1..], covariance)
-        });
-        let explains =
-            |(last, larger, covariance): &(&CurvatureScale, &[CurvatureScale], Covariance)| {
-                let whole =
-                    last.ratio >= MIN_ISOTROPIC_RATIO || last.coherence > MIN_SHAPE_COHERENCE;
-                let predicted = |scale: &CurvatureScale| {
-                    scale.white_equivalent
-                        <= MAX_PREDICTION_RATIO * covariance.predict(scale, discs)
-                };
-                whole
-                    && covariance.hidden_ratio <= MAX_HIDDEN_RATIO
-                    && larger
-                        .iter()
-                        .filter(|scale| is_plain_noise(scale))
-                        .all(predicted)
-            };
-        let least = fits
-            .filter(explains)
-            .map(|(.., covariance)| covariance)
-            .min_by(|a, b| a.spectral_root().total_cmp(&b.spectral_root()));
-        let ambiguous = least.is_none();
-        let found = least.unwrap_or_else(|| {
-            Covariance::fit(&scales[scales.len().saturating_sub(FITTED_SCALES)..], discs)
-        });
+        let (explaining, others): (Vec<_>, Vec<_>) = (1..scales.len())
+            .map(|last| {
+                let fitted = (last + 1).saturating_sub(FITTED_SCALES)..=last;
+                let covariance = Covariance::fit(&scales[fitted], discs);
+                (covariance.explains(&scales[last..], discs), covariance)
+            })
+            .partition(|(explains, _)| *explains);
+        let ambiguous = explaining.is_empty();
+        let candidates = if ambiguous { others } else { explaining };
+        let roots = candidates
+            .iter()
+            .map(|(_, covariance)| covariance.spectral_root());
+        let most = MAX_LEAST_NOISE_RATIO * roots.fold(f64::INFINITY, f64::min);
+        let (_, found) = candidates
+            .into_iter()
+            .find(|(_, covariance)| covariance.spectral_root() <= most)?;
         Some(CorrelatedNoise {
             sigma: found.sigma,
             length: found.length,
@@ -175,6 +165,24 @@ impl Covariance {
             shared_vertices,
             hidden_ratio: shared_vertices.sqrt() / shown,
         }
+    }
+
+    /// Whether the covariance holds for the first of some scales, the largest that it was fitted to, and for all larger
+    /// ones at which there is noise alone.
+    fn explains(&self, scales: &[CurvatureScale], discs: &[Disc]) -> bool {
+        let Some((last, larger)) = scales.split_first() else {
+            return false;
+        };
+        let is_whole = last.ratio >= MIN_ISOTROPIC_RATIO || last.coherence > MIN_SHAPE_COHERENCE;
+        let is_predicted = |scale: &CurvatureScale| {
+            scale.white_equivalent <= MAX_PREDICTION_RATIO * self.predict(scale, discs)
+        };
+        is_whole
+            && self.hidden_ratio <= MAX_HIDDEN_RATIO
+            && larger
+                .iter()
+                .filter(|scale| is_plain_noise(scale))
+                .all(is_predicted)
     }
 
     /// Root of the noise's spectral density over large areas: the standard deviation of white noise that has the same.

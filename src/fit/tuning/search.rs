@@ -19,6 +19,10 @@ use crate::fit::warm_start::WarmStart;
 /// Product `λ σh` at about the best λ, in normalised coordinates, with which the search begins.
 const FIRST_LAMBDA_NOISE: f64 = 8.0;
 
+/// Product `λ σh √A` under noise that is alike from one vertex to the next: more than under white noise, since a shape
+/// beside such noise makes it look larger than it is (`benches/scenes.md`).
+const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
+
 /// Largest λ of the search: where noise asks for more there is none to speak of, and λ is this preset.
 const MAX_SEARCH_LAMBDA: f64 = 1e9;
 const WITHOUT_NOISE: Lambda = Lambda::Big;
@@ -117,7 +121,13 @@ pub(crate) fn first(
         solves: 0,
         iterations: 0,
     };
-    let lambda = match noise.map(|noise| FIRST_LAMBDA_NOISE / (noise.product * scale * scale)) {
+    let lambda = match noise.map(|noise| {
+        let product = match noise.correlation_length > 0.0 {
+            true => CORRELATED_LAMBDA_NOISE,
+            false => FIRST_LAMBDA_NOISE,
+        };
+        product / (noise.product * scale * scale)
+    }) {
         None => Lambda::Medium,
         Some(lambda) if lambda <= MAX_SEARCH_LAMBDA => {
             choice.reason = LambdaReason::Noise;

@@ -9,9 +9,9 @@ use crate::math::statistics::{MAD_TO_SIGMA, median};
 /// Least number of samples that say anything about noise.
 const MIN_NOISE_SAMPLES: usize = 50;
 
-/// Least number of vertices, along a line, that share a value of noise that counts as correlated. Resampling alone makes
-/// noise alike from one vertex to the next by less.
-const MIN_CORRELATED_VERTICES: f64 = 2.0;
+/// Least ratio of the noise of large discs to that of rings of six neighbours at which noise is correlated. Resampling and
+/// bends of the shape beside white noise make it larger than 1, too.
+const MIN_CORRELATED_RATIO: f64 = 2.5;
 
 /// Largest share of different heights among all at which steps of quantisation are looked for.
 const MAX_DISTINCT_HEIGHTS: f64 = 0.25;
@@ -64,7 +64,7 @@ impl Noise {
             let width = plateau(input, step);
             shared = width.sqrt();
             noise.merged = width.log2().round() as usize;
-        } else if let Some(found) = correlated_noise(input)? {
+        } else if let Some(found) = correlated_noise(input, white)? {
             shared = found.shared_vertices.sqrt();
             noise.sigma = found.sigma;
             noise.correlation_length = found.length * spacing;
@@ -76,13 +76,13 @@ impl Noise {
     }
 }
 
-/// Noise that several vertices share; `None` where it is independent from vertex to vertex.
-fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
+/// Noise that is alike from one vertex to the next; `None` where it is hardly more than the white noise of the rings.
+fn correlated_noise(input: &Input, white: f64) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
     let found = CorrelatedNoise::from_scales(&scales, &discs);
-    let least = MIN_CORRELATED_VERTICES * MIN_CORRELATED_VERTICES;
-    Ok(found.filter(|noise| noise.shared_vertices >= least))
+    Ok(found
+        .filter(|noise| noise.sigma * noise.shared_vertices.sqrt() >= MIN_CORRELATED_RATIO * white))
 }
 
 /// Standard deviation of white noise, by the rings of six neighbours: the sum of a ring's heights with alternating signs

@@ -725,7 +725,7 @@ export interface UnrollReport {
 /**
  * Whether a flat layout is to be trusted: the surface was flat to begin with, and faced the viewer
  * (`'flat'`); it was bent, and lengths are right (`'unrolled'`); or it cannot be laid flat without
- * stretching or overlapping (`'stretched'`).
+ * stretching, or more than 0.3 % of it overlapping (`'stretched'`).
  */
 export type Verdict = 'flat' | 'unrolled' | 'stretched';
 
@@ -998,6 +998,11 @@ export interface Dewarped extends DecodedPhoto {
   map: Float32Array;
   /** The same on a grid, where it was wanted. */
   grid?: WarpGrid;
+  /**
+   * Share of the sheet that `trim` left out; of a `crop` with four corners, the share of the page between them that the flat
+   * image does not show. 0 otherwise.
+   */
+  loss: number;
   verdict: Verdict;
   report: UnrollReport;
 }
@@ -1049,7 +1054,7 @@ export interface PageReport {
   model: PageModel;
   /** Expected displacement on the flat page (root mean square after the best similarity), in % of a page's width. */
   error: number;
-  /** The same, not exceeded in 95 of 100 cases, if the page is curled one way. */
+  /** The same, not exceeded in 95 of 100 cases, if the page is curled one way and the lens does not distort. */
   errorBound: number;
   /** In pixels of the photo, and its standard deviation in %. */
   focalLength: number;

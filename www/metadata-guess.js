@@ -3,8 +3,10 @@ import { number } from './format.js';
 
 /** @typedef {{ width: number, height: number, data: Float64Array, pixelSize: number, heightScale: number, unit?: string | null, dataType?: string }} Numbers */
 
-/** Shares of the longer side that a relief may well have, of a file that does not give its pixels' size. */
-const LIKELY = [0.01, 1];
+/** Smallest share of the longer side that a relief may well have, of a file that does not give its pixels' size. */
+const MIN_LIKELY_RELIEF_SHARE = 0.01;
+/** Largest such share: a fold of 76 degrees across the whole image, which a user is asked about but which is not rescaled. */
+const MAX_LIKELY_RELIEF_SHARE = 4;
 /** What a relief is made to be where nothing else suggests itself. */
 const GUESS = 1 / 4;
 /** Differences of neighbours, as a share of the depth, from where on they are the edge of something in front. */
@@ -23,8 +25,8 @@ export function guessedPixel({ width, height, data, pixelSize, heightScale, unit
   const side = Math.max(width, height);
   const relief = reliefOf(data);
   const share = relief / side;
-  if (relief === 0 || (share >= LIKELY[0] && share <= LIKELY[1])) return null;
-  const why = share < LIKELY[0] ? 'which would be a slab if pixels were 1 wide' : 'which would be a needle if pixels were 1 wide';
+  if (relief === 0 || (share >= MIN_LIKELY_RELIEF_SHARE && share <= MAX_LIKELY_RELIEF_SHARE)) return null;
+  const why = share < MIN_LIKELY_RELIEF_SHARE ? 'which would be a slab if pixels were 1 wide' : 'which would be a needle if pixels were 1 wide';
   if (relief >= 0.02 && relief <= 2) {
     return { pixelSize: Number((1 / side).toPrecision(6)), words: `The heights differ by ${number(relief, 2)}, ${why}: the longer side is taken to be 1.` };
   }

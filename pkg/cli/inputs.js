@@ -77,14 +77,20 @@ export async function readInput(task) {
   });
 }
 
-/** Shares of the longer side that a relief of heights in the unit of the pixels may well have. */
-const PLAUSIBLE = [1e-3, 1];
+/** Smallest share of the longer side that a relief of heights in the unit of the pixels may well have. */
+const MIN_RELIEF_SHARE = 1e-3;
+
+/** Largest share of the longer side up to which a relief needs no word: a slope of 45 degrees all the way across. */
+const MAX_USUAL_RELIEF_SHARE = 1;
+
+/** Largest share of the longer side that is taken for a steep fold, with a warning: a slope of 88 degrees all the way across. */
+const MAX_STEEP_RELIEF_SHARE = 30;
 
 /** Commands whose results are lengths. */
 const MEASURING = ['unroll', 'pattern', 'dewarp'];
 
 /**
- * Asks where the heights cannot be in the unit of the pixels, and says where their scale is a guess.
+ * Refuses heights that cannot be in the unit of the pixels, and says where their scale is a guess.
  * @param {InputTask & { command?: string }} task
  * @param {ReadResult} file
  */
@@ -110,13 +116,15 @@ function checkScale({ input, noData, command = '' }, file) {
   const relief = some[Math.floor(0.98 * (some.length - 1))] - some[Math.ceil(0.02 * (some.length - 1))];
   const share = (relief * heightScale) / side;
   // What is flat is flat in any unit.
-  if (!(relief > 0) || (share >= PLAUSIBLE[0] && share <= PLAUSIBLE[1])) return;
-  throw new Problem(
-    status.input,
-    `${input}: the heights range over ${Number(relief.toPrecision(2))}, and the image is ${side} pixels wide or high: are ` +
-      'they in another unit than the pixels? --pixel-size P says how wide a pixel is in theirs (--pixel-size 1: as they ' +
-      'are), --intrinsics that these are the depths of a camera, --no-data V which value means that there is none',
-  );
+  if (!(relief > 0) || (share >= MIN_RELIEF_SHARE && share <= MAX_USUAL_RELIEF_SHARE)) return;
+  const range = `${input}: the heights range over ${Number(relief.toPrecision(2))}, and the image is ${side} pixels wide or high: `;
+  const size = "--pixel-size P says how wide a pixel is in the heights' unit (--pixel-size 1: as they are)";
+  const others = '--intrinsics that these are the depths of a camera, --no-data V which value means that there is none';
+  if (share >= MIN_RELIEF_SHARE && share <= MAX_STEEP_RELIEF_SHARE) {
+    say(`warning: ${range}a pixel is taken to be 1 wide, so that slopes are steep; ${size}, ${others}`);
+    return;
+  }
+  throw new Problem(status.input, `${range}are they in another unit than the pixels? ${size}, ${others}`);
 }
 
 /** Share of a mesh's area behind which there may be more than a rough outline. */

@@ -52,10 +52,18 @@ function outlineWords({ verdict, reasons, pages }) {
   }
 }
 
+/** Smallest disagreement that is told as a share of the page's width, in %: less is no reason. */
+const MIN_TOLD_DISAGREEMENT = 0.005;
+
+/** Largest expected error of a page that is not doubtful for it, in % of its width, as the library has it. */
+const MAX_TRUSTED_ERROR = 1;
+
 /** @param {import('../types.js').PageReport} report */
-function words({ verdict, error, errorBound, disagreement, lines, linesFound }) {
+function words({ verdict, error, errorBound, disagreement, residual, lines, linesFound }) {
   const text = lines + linesFound > 0 ? ' and lines of text' : '';
-  const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases)`;
+  const likely = `${percent(error / 100, 2)} of its width (at most ${percent(errorBound / 100, 2)} in 95 of 100 cases, if the lens does not distort)`;
+  // Where both edges agree on the whole, single points are off.
+  const off = disagreement < MIN_TOLD_DISAGREEMENT ? `by ${residual.toFixed(1)} pixels` : `by ${percent(disagreement / 100, 2)} of its width`;
   switch (verdict) {
     case 'flat':
       return 'both edges are straight: only the perspective was taken out; folds that run along them do not show in them';
@@ -63,11 +71,11 @@ function words({ verdict, error, errorBound, disagreement, lines, linesFound }) 
       return `warning: nothing checks the page's bend, for too few points were traced, or one edge looks straight ` +
         `however the page is bent; if it is curled one way, its places are wrong by ${likely}`;
     case 'doubtful':
-      return `warning: the flat page is doubtful: its places are wrong by ${likely}, or it hides a part of itself, or ` +
-        `its edges${text} disagree (by ${percent(disagreement / 100, 2)})`;
+      if (error > MAX_TRUSTED_ERROR) return `warning: the flat page is doubtful: its places are wrong by ${likely}`;
+      return `warning: the flat page is doubtful: it hides a part of itself, or its edges${text} disagree (${off})`;
     case 'notThisKind':
-      return `warning: this is no page that is curled one way: its edges${text} disagree (by ${percent(disagreement / 100, 2)} of ` +
-        'its width); it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
+      return `warning: this is no page that is curled one way: its edges${text} disagree (${off}); ` +
+        'it is folded or crumpled, for which depth is needed, or an edge is traced wrongly';
     default:
       return undefined;
   }

@@ -273,13 +273,23 @@ export async function dewarp(task, signal) {
         'any surface that unrolls is fitted\n',
     );
   }
+  if (crop?.length === 4 && flat.loss > MAX_UNMENTIONED_LOSS) {
+    process.stderr.write(`developable: warning: ${percent(flat.loss, 2)} of the page between the corners of --crop is missing: there are no depths of it\n`);
+  }
   if (flat.verdict === 'flat') {
     process.stderr.write('developable: the photo shows the page flat to begin with, and can be used as it is\n');
   } else if (flat.verdict === 'stretched') {
-    const strain = percent(flat.report.distortion.rms, 2);
-    process.stderr.write(`developable: warning: the surface cannot be laid flat without stretching it (by ${strain})\n`);
+    const { rms } = flat.report.distortion;
+    const reason = rms > MAX_UNROLLED_STRAIN ? `without stretching it (by ${percent(rms, 2)})` : 'beside itself: parts of the sheet lie on others';
+    process.stderr.write(`developable: warning: the surface cannot be laid flat ${reason}\n`);
   }
 }
+
+/** Strain above which a sheet is stretched, as `Verdict::from_report` has it; below, it is called so for another reason. */
+const MAX_UNROLLED_STRAIN = 0.01;
+
+/** Largest share of a page that is left out without a word: a millimetre on each side of a page of A4. */
+const MAX_UNMENTIONED_LOSS = 0.015;
 
 /** How near to the rim of an image something is to reach it, and on what share of a side, in shares of that. */
 const [NEAR, LONG] = [0.03, 0.3];
@@ -396,10 +406,10 @@ export function spacing(task) {
 
 /**
  * @param {SheetTask} task
- * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict }} result
+ * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict, loss?: number }} result
  */
-function reported({ report: path }, { report, verdict }) {
-  return path === undefined ? [] : [{ path, bytes: json({ verdict, ...report }) }];
+function reported({ report: path }, { report, verdict, loss }) {
+  return path === undefined ? [] : [{ path, bytes: json({ verdict, loss, ...report }) }];
 }
 
 /** @param {unknown} value */

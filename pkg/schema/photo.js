@@ -50,7 +50,7 @@ export const depths = {
   mask: { kind: anything, type: 'Pixels' },
   /**
    * Corners [x, y] of the part of the photo that is wanted, in its pixels: depths beside it are taken out, and what of the
-   * rest is small and apart, as what is seen behind a bent edge.
+   * rest is small and apart, as what is seen behind a bent edge. Four are the corners of a page, whose edges may be bent.
    */
   crop: { kind: corners },
   /** The size of the photo that `crop` is about. */
@@ -124,7 +124,8 @@ export const dewarp = {
   },
   /**
    * Corners [x, y] of the part of the photo that is wanted, in its pixels, (0, 0) the centre of the upper left one.
-   * The sheet is continued up to there, by 6 % at most, and the flat image ends there. Default: all of it.
+   * The sheet is continued up to there, by 6 % at most, and the flat image ends there. Four are the corners of a page:
+   * its edges are straight on the sheet, however bent they are in the photo. Default: all of it.
    */
   crop: {
     kind: corners,

@@ -69,12 +69,10 @@ impl WarpMap {
         }
         let shift = margin as f64 / self.resolution();
         let corner = [self.corner()[0] - shift, self.corner()[1] + shift];
-        Ok(WarpMap::from_places(
-            [width, height],
-            self.resolution(),
-            corner,
-            places,
-        ))
+        Ok(
+            WarpMap::from_places([width, height], self.resolution(), corner, places)
+                .with_overlap_of(&self),
+        )
     }
 }
 

@@ -1,11 +1,14 @@
-//! Cropping of a flat image to a polygon in the photo.
+//! Cropping of a flat image to a page or to a polygon in the photo.
 
 use std::ops::Range;
 
+use nalgebra::{Matrix2, Vector2};
+
 use super::WarpMap;
 use super::deskew::polygon_skew;
+use super::local_quadratic::LocalQuadratic;
 use crate::error::{Error, Result};
-use crate::math::planar::polygon_contains;
+use crate::math::planar::{polygon_area, polygon_contains};
 use crate::scene::region::check_crop;
 
 /// Maximum distance by which the sheet is continued beyond its border, as a share of the longer side of the cropped image.
@@ -16,7 +19,8 @@ impl WarpMap {
     /// Crops the map to a polygon in the photo, given by its corners in pixels, `[0, 0]`
     /// the centre of the upper left one. The sheet is continued to the polygon's sides, by up to 6 % of
     /// the cropped image's longer side, and the flat image ends there, with straight edges; it is the smallest one that
-    /// holds the polygon. Costs `O(pixels · corners)`.
+    /// holds the polygon. Four corners are those of a page: its edges are straight on the sheet, however bent they are in the
+    /// photo. Costs `O(pixels · corners)`.
     ///
     /// # Errors
     /// [`Error::Option`] for fewer than three corners or one that is not finite,
@@ -30,8 +34,11 @@ impl WarpMap {
     /// Deskewing turns the sides of the polygon upright, on average, or without a polygon the smallest rectangle around the
     /// sheet; [`corner`](WarpMap::corner) is then in axes turned about the sheet's origin. Trimming to a polygon with four
     /// corners, such as those of a page, gives the rectangle whose sides pass
-    /// through the midpoints between two corners: the sheet fills it whether its edges are seen straight
-    /// or bent. Otherwise it gives the largest upright rectangle within the sheet.
+    /// through the midpoints between two corners, whether its edges are seen straight
+    /// or bent; what is not known of the page, and farther from the sheet than that is continued, stays transparent. Otherwise
+    /// it gives the largest upright rectangle within the sheet.
+    ///
+    /// [`loss`](WarpMap::loss) then tells how much of the sheet or page the image leaves out.
     ///
     /// # Errors
     /// Those of [`WarpMap::crop`].
@@ -55,29 +62,71 @@ impl WarpMap {
         let (rows, cols) = (near(rows, map.height()), near(cols, map.width()));
         map.crop_to(rows, cols)?;
         map = map.with_continued_sheet(margin)?;
+        let window = 2.0 * margin as f64;
         if deskew {
             let corners: Vec<_> = (polygon.iter())
-                .map(|corner| map.nearest_pixel(*corner))
+                .map(|corner| map.pixel_of(*corner, window))
                 .map(|[x, y]| [x, -y])
                 .collect();
             map = map.rotated(polygon_skew(&corners))?;
         }
-        if trim && let [a, b, c, d] = *polygon {
-            let [rows, cols] = map.upright_rectangle([a, b, c, d]);
-            if !rows.is_empty() && !cols.is_empty() {
-                map.crop_to(rows, cols)?;
-                let whole = map.places().iter().all(|place| !place[0].is_nan());
-                return if whole { Ok(map) } else { map.trimmed() };
+        if let [a, b, c, d] = *polygon {
+            let outline = [a, b, c, d].map(|corner| map.pixel_of(corner, window));
+            let wanted = polygon_area(&outline).abs();
+            if trim {
+                let [rows, cols] = map.upright_rectangle(outline);
+                if !rows.is_empty() && !cols.is_empty() {
+                    map.crop_to(rows, cols)?;
+                    map.set_loss(wanted);
+                    return Ok(map);
+                }
+            }
+            map.clear_outside(&outline);
+            map.set_loss(wanted);
+        } else {
+            for place in map.places_mut() {
+                if !polygon_contains(polygon, place.map(f64::from)) {
+                    *place = [f32::NAN; 2];
+                }
             }
         }
-        for place in map.places_mut() {
-            if !polygon_contains(polygon, place.map(f64::from)) {
+        let map = map.tight()?;
+        if trim { map.trimmed() } else { Ok(map) }
+    }
+
+    /// Discards the places of all pixels outside of a polygon on the flat image; pixels whose centres are on its sides stay.
+    fn clear_outside(&mut self, corners: &[[f64; 2]]) {
+        let middle =
+            [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64);
+        // Half a pixel farther out, since corners are at pixels' centres.
+        let outline: Vec<[f64; 2]> = (corners.iter())
+            .map(|p| [0, 1].map(|k| p[k] + 0.5 * (p[k] - middle[k]).signum()))
+            .collect();
+        let width = self.width();
+        for (i, place) in self.places_mut().iter_mut().enumerate() {
+            if !polygon_contains(&outline, [(i % width) as f64, (i / width) as f64]) {
                 *place = [f32::NAN; 2];
             }
         }
-        let [rows, cols] = map.bounds(polygon)?;
-        map.crop_to(rows, cols)?;
-        if trim { map.trimmed() } else { Ok(map) }
+    }
+
+    /// The map without empty rows and columns around the sheet.
+    fn tight(mut self) -> Result<Self> {
+        let width = self.width();
+        let there = |i: usize| !self.places()[i][0].is_nan();
+        let rows: Vec<usize> = (0..self.height())
+            .filter(|row| (0..width).any(|col| there(row * width + col)))
+            .collect();
+        let cols: Vec<usize> = (0..width)
+            .filter(|col| rows.iter().any(|row| there(row * width + col)))
+            .collect();
+        if let ([top, ..], [.., bottom], [left, ..], [.., right]) =
+            (&rows[..], &rows[..], &cols[..], &cols[..])
+        {
+            let (rows, cols) = (*top..bottom + 1, *left..right + 1);
+            self.crop_to(rows, cols)?;
+        }
+        Ok(self)
     }
 
     /// Rows and columns of the flat image with places inside a polygon in the photo.
@@ -119,12 +168,36 @@ impl WarpMap {
         best.1
     }
 
-    /// Rows and columns of the upright rectangle of a quadrilateral in the photo: each side passes through the midpoint
+    /// The pixel of the flat image that shows a place in the photo: the nearest one, and from there to a place that is not on
+    /// the sheet by the derivative of the quadratic that fits the map within `window` pixels.
+    fn pixel_of(&self, wanted: [f64; 2], window: f64) -> [f64; 2] {
+        let nearest = self.nearest_pixel(wanted);
+        let Some(fit) = LocalQuadratic::new(self, nearest, window) else {
+            return nearest;
+        };
+        let change = |step: [f64; 2]| {
+            let [before, after] = [-0.5, 0.5]
+                .map(|half| Vector2::from(fit.at([0, 1].map(|k| nearest[k] + half * step[k]))));
+            after - before
+        };
+        let derivative = Matrix2::from_columns(&[change([1.0, 0.0]), change([0.0, 1.0])]);
+        let [x, y] = nearest.map(|v| v as usize);
+        let miss = Vector2::from(wanted)
+            - Vector2::from(self.places()[y * self.width() + x].map(f64::from));
+        let step = derivative.try_inverse().map(|inverse| inverse * miss);
+        match step {
+            Some(step) if step.iter().all(|v| v.is_finite()) => {
+                [nearest[0] + step.x, nearest[1] + step.y]
+            }
+            _ => nearest,
+        }
+    }
+
+    /// Rows and columns of the upright rectangle of a quadrilateral on the flat image: each side passes through the midpoint
     /// of the two corners that lie farthest to that side.
     fn upright_rectangle(&self, corners: [[f64; 2]; 4]) -> [Range<usize>; 2] {
-        let pixels = corners.map(|corner| self.nearest_pixel(corner));
         [(1, self.height()), (0, self.width())].map(|(k, end)| {
-            let mut at = pixels.map(|pixel| pixel[k]);
+            let mut at = corners.map(|corner| corner[k]);
             at.sort_by(f64::total_cmp);
             let [low, high] = [0.5 * (at[0] + at[1]), 0.5 * (at[2] + at[3])];
             // Corners are at pixels' centres.

@@ -43,12 +43,7 @@ impl WarpMap {
             }
         }
         let corner = [left / resolution, top / resolution];
-        Ok(WarpMap::from_places(
-            [width, height],
-            resolution,
-            corner,
-            places,
-        ))
+        Ok(WarpMap::from_places([width, height], resolution, corner, places).with_overlap_of(self))
     }
 
     /// Angle, in radians, by which the sheet has to be rotated for the smallest rectangle around it to be upright.

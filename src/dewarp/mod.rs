@@ -28,6 +28,7 @@
 //! # }
 //! ```
 
+mod charts;
 mod continuation;
 mod crop;
 mod deskew;

@@ -1,5 +1,6 @@
 //! Rasterisation of a sheet's triangles into the flat image.
 
+use super::charts::ChartSeams;
 use super::registration::PhotoProjection;
 use crate::error::{Result, try_filled};
 use crate::unroll::Unrolling;
@@ -43,6 +44,7 @@ pub(super) fn rasterise(
         *triangle = i;
     }
     order.sort_by_key(|triangle| part(*triangle));
+    let seams = ChartSeams::new(sheet, projection)?;
     for triangle in order {
         let corners = triangles[triangle].map(|v| {
             let [x, y] = sheet.places()[v as usize];
@@ -55,9 +57,47 @@ pub(super) fn rasterise(
                 from: projection.attributes(v as usize, mesh.positions()[v as usize]),
             }
         });
-        rasterise_triangle(&corners, projection, canvas.size, places);
+        match seams.as_ref().filter(|seams| seams.crosses(triangle)) {
+            None => rasterise_triangle(&corners, projection, canvas.size, places),
+            Some(seams) => {
+                for piece in nearest_pieces(seams, canvas, &triangles[triangle], &corners) {
+                    rasterise_triangle(&piece, projection, canvas.size, places);
+                }
+            }
+        }
     }
     Ok(())
+}
+
+/// A triangle that crosses from one chart to another, cut into pieces: each is nearest to one corner, and mapped by that
+/// corner's chart.
+fn nearest_pieces(
+    seams: &ChartSeams,
+    canvas: &Canvas,
+    vertices: &[u32; 3],
+    corners: &[RasterCorner; 3],
+) -> [[RasterCorner; 3]; 6] {
+    let mean = |of: &[usize]| {
+        [0, 1].map(|k| of.iter().map(|i| corners[*i].at[k]).sum::<f64>() / of.len() as f64)
+    };
+    std::array::from_fn(|piece| {
+        let (own, other) = (piece / 2, (piece / 2 + 1 + piece % 2) % 3);
+        let corner = corners[own];
+        let extrapolated = |at: [f64; 2]| {
+            // Rows count downwards.
+            let way = [at[0] - corner.at[0], corner.at[1] - at[1]];
+            let way = way.map(|pixels| pixels / canvas.resolution);
+            RasterCorner {
+                at,
+                from: seams.extrapolate(vertices[own], corner.from, way),
+            }
+        };
+        [
+            corner,
+            extrapolated(mean(&[own, other])),
+            extrapolated(mean(&[0, 1, 2])),
+        ]
+    })
 }
 
 /// Twice the signed area of a triangle.

@@ -31,13 +31,17 @@ impl Verdict {
     /// Verdict by the strain of an unrolled surface: stretched above a root mean square strain of 1 %, and if the layout
     /// overlaps or has flipped triangles; flat if the view from above has a strain below 0.2 %; else unrolled.
     pub fn from_report(report: &UnrollReport) -> Self {
-        let sheet = report.distortion;
-        if sheet.rms > MAX_UNROLLED_STRAIN || sheet.flipped > 0 || report.crossings > 0 {
+        if Self::has_large_strain(report) || report.distortion.flipped > 0 || report.crossings > 0 {
             Verdict::Stretched
         } else if report.plan.rms < MAX_FLAT_STRAIN {
             Verdict::Flat
         } else {
             Verdict::Unrolled
         }
+    }
+
+    /// Whether lengths on the layout are wrong by more than an unrolled page's may be.
+    pub(super) fn has_large_strain(report: &UnrollReport) -> bool {
+        report.distortion.rms > MAX_UNROLLED_STRAIN
     }
 }

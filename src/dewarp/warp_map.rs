@@ -9,6 +9,7 @@ use super::raster::{Canvas, rasterise};
 use super::registration::{PhotoProjection, Registration};
 use super::verdict::Verdict;
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::math::planar::polygon_area;
 use crate::unroll::{UnrollReport, Unrolling};
 
 /// The place in the photo of every pixel of a flat image.
@@ -19,7 +20,14 @@ pub struct WarpMap {
     resolution: f64,
     corner: [f64; 2],
     places: Vec<[f32; 2]>,
+    loss: f64,
+    /// Share of the sheet that covers another part of it.
+    overlap: f64,
 }
+
+/// Maximum share of a sheet that covers another part of it where the sheet is not called stretched: a strip of 0.2 mm along
+/// the outline of a page of A4, as where a ragged border crosses itself.
+const MAX_OVERLAP_SHARE: f64 = 0.003;
 
 /// Maximum displacement, as [`WarpMap::displacement`] measures it, of a photo that is called flat: 0.2 % is half a millimetre
 /// on a page of A4.
@@ -74,7 +82,10 @@ impl WarpMap {
                 reason: "no pixel lies on the sheet; choose a higher resolution".into(),
             });
         }
-        let map = WarpMap::from_places(canvas.size, resolution, canvas.corner, found);
+        let covered = found.iter().filter(|place| !place[0].is_nan()).count();
+        let mut map = WarpMap::from_places(canvas.size, resolution, canvas.corner, found);
+        let area = sheet_area(sheet) * resolution * resolution;
+        map.overlap = (1.0 - covered as f64 / area).max(0.0);
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
@@ -92,7 +103,27 @@ impl WarpMap {
             resolution,
             corner,
             places,
+            loss: 0.0,
+            overlap: 0.0,
         }
+    }
+
+    /// This map with the overlap of another one of the same sheet.
+    pub(super) fn with_overlap_of(mut self, other: &WarpMap) -> Self {
+        self.overlap = other.overlap;
+        self
+    }
+
+    /// Share of the sheet that trimming left out; after a crop to four corners, the share of the page between them that the
+    /// flat image does not show. 0 otherwise.
+    pub fn loss(&self) -> f64 {
+        self.loss
+    }
+
+    /// Sets the loss by the number of pixels that were wanted.
+    pub(super) fn set_loss(&mut self, wanted: f64) {
+        let known = self.places.iter().filter(|place| !place[0].is_nan());
+        self.loss = (1.0 - known.count() as f64 / wanted).max(0.0);
     }
 
     /// Number of columns of the flat image.
@@ -165,10 +196,15 @@ impl WarpMap {
     }
 
     /// Verdict on the flat image: stretched if the sheet is, see
-    /// [`Verdict::from_report`]; flat if [`WarpMap::displacement`] is below 0.2 %; else unrolled.
+    /// [`Verdict::from_report`], but not for an overlap of less than 0.3 % of it; flat if [`WarpMap::displacement`] is below
+    /// 0.2 %; else unrolled.
     pub fn verdict(&self, sheet: &UnrollReport) -> Verdict {
         match Verdict::from_report(sheet) {
-            Verdict::Stretched => Verdict::Stretched,
+            Verdict::Stretched
+                if Verdict::has_large_strain(sheet) || self.overlap > MAX_OVERLAP_SHARE =>
+            {
+                Verdict::Stretched
+            }
             _ if self.displacement() < MAX_FLAT_DISPLACEMENT => Verdict::Flat,
             _ => Verdict::Unrolled,
         }
@@ -239,7 +275,9 @@ impl WarpMap {
     pub fn trimmed(mut self) -> Result<Self> {
         let inside = |i: usize| !self.places[i][0].is_nan();
         let [rows, cols] = largest_rectangle(self.width, self.height, inside)?;
+        let wanted = (0..self.places.len()).filter(|i| inside(*i)).count();
         self.crop_to(rows, cols)?;
+        self.set_loss(wanted as f64);
         Ok(self)
     }
 
@@ -262,6 +300,13 @@ impl WarpMap {
         self.places = places;
         Ok(())
     }
+}
+
+/// Area of all triangles of a sheet, folded ones included, in the surface's units.
+fn sheet_area(sheet: &Unrolling) -> f64 {
+    let corners = sheet.mesh().triangles().iter();
+    let corners = corners.map(|t| t.map(|v| sheet.places()[v as usize]));
+    corners.map(|places| polygon_area(&places).abs()).sum()
 }
 
 /// Mean resolution of the photo over the sheet, in pixels per unit of length.

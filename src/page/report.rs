@@ -67,7 +67,8 @@ pub struct PageReport {
     /// Expected displacement of points on the flat page: the root mean square after the best
     /// similarity, in % of a page's width.
     pub error: f64,
-    /// Displacement that is not exceeded in 95 of 100 cases if the page is curled one way, in % of a page's width.
+    /// Displacement that is not exceeded in 95 of 100 cases if the page is curled one way and the lens does not distort (phones
+    /// correct it), in % of a page's width.
     pub error_bound: f64,
     /// Focal length, in pixels of the photo.
     pub focal_length: f64,

@@ -3,6 +3,7 @@
 pub(crate) mod camera;
 mod depth;
 pub(crate) mod facets;
+mod footprint;
 pub(crate) mod half_edges;
 pub(crate) mod mesh;
 mod parts;

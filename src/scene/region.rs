@@ -1,6 +1,9 @@
 //! What else is known at the pixels of depths, from images of other sizes and from parts of photos.
 
+use nalgebra::Vector3;
+
 use super::camera::{Camera, Intrinsics};
+use super::footprint::Footprint;
 use crate::error::{Error, Result, check_count, try_filled};
 use crate::heights::heightfield::HeightImage;
 use crate::math::planar::polygon_contains;
@@ -12,7 +15,8 @@ pub enum Region<'a> {
     /// The pixels, of an image of a width and height, that are not 0.
     Mask([usize; 2], &'a [u8]),
     /// What lies within some corners, in pixels of a photo of a width and height: `[0, 0]` is the centre of
-    /// the upper left one.
+    /// the upper left one. Four corners are those of a page, whose edges may be bent: the region is then seen along the
+    /// normal of the plane through the corners, if there are depths around each.
     Polygon([usize; 2], &'a [[f64; 2]]),
 }
 
@@ -82,17 +86,34 @@ impl Intrinsics {
             None => stretch("part of a photo", region.size(), size)?,
         };
         let mut inside = try_filled("mask", depths.values().len(), 0)?;
-        for (i, (inside, value)) in inside.iter_mut().zip(depths.values()).enumerate() {
+        let point = |i: usize| {
             let pixel = [(i % size[0]) as f64, (i / size[0]) as f64];
-            let place = match photo {
-                Some(photo) if *value > 0.0 => {
-                    let point = camera.point(pixel[0], pixel[1], *value);
-                    point.and_then(|point| photo.project(point))
-                }
-                Some(_) => None,
-                None => Some([0, 1].map(|k| (pixel[k] + 0.5) * stretch[k] - 0.5)),
+            let value = depths.values()[i];
+            let ahead = value > 0.0 && value.is_finite();
+            ahead.then(|| camera.point(pixel[0], pixel[1], value))?
+        };
+        let place = |i: usize| match photo {
+            Some(photo) => point(i).and_then(|point| photo.project(point)),
+            None => {
+                let pixel = [(i % size[0]) as f64, (i / size[0]) as f64];
+                Some([0, 1].map(|k| (pixel[k] + 0.5) * stretch[k] - 0.5))
+            }
+        };
+        let footprint = match region {
+            Region::Polygon(_, corners) if let [a, b, c, d] = **corners => {
+                let seen: Vec<([f64; 2], Vector3<f64>)> = (0..inside.len())
+                    .filter_map(|i| Some((place(i)?, Vector3::from(point(i)?))))
+                    .collect();
+                Footprint::new(&[a, b, c, d], &seen)
+            }
+            _ => None,
+        };
+        for (i, inside) in inside.iter_mut().enumerate() {
+            let holds = match &footprint {
+                Some(footprint) => point(i).is_some_and(|point| footprint.holds(&point.into())),
+                None => place(i).is_some_and(|place| region.holds(place)),
             };
-            *inside = u8::from(place.is_some_and(|place| region.holds(place)));
+            *inside = u8::from(holds);
         }
         Ok(inside)
     }

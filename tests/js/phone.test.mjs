@@ -141,7 +141,17 @@ test('the command takes what capture apps write', async () => {
   const all = await run(folder, table);
   assert.equal(all.status, 0, all.stderr);
   assert.match(all.stderr, /goes on to the rim of the depths: it is all that they show.*--crop/);
-  assert.doesNotMatch((await run(folder, [...table, '--crop', cornersAt(0.1, 0.9).join()])).stderr, /rim/);
+  const cropped = [...table, '--crop', cornersAt(0.1, 0.9).join(), '--report', 'report.json'];
+  const loss = async () => JSON.parse(await readFile(join(folder, 'report.json'), 'utf8')).loss;
+  assert.doesNotMatch((await run(folder, cropped)).stderr, /rim|missing/);
+  assert.ok((await loss()) < 0.015, String(await loss()));
+  // A quarter of the page is covered, and a part of that is within the 6 % by which the sheet is continued.
+  const covered = data.map((depth, i) => (i % width < 126 && i < 97 * width ? 0 : depth || 0.44));
+  await writeFile(join(folder, 'table.exr'), direct.writeExr({ width, height, data: covered }));
+  for (const trim of [[], ['--trim']]) {
+    assert.match((await run(folder, [...cropped, ...trim])).stderr, /\d\d % of the page between the corners of --crop is missing/);
+    assert.ok((await loss()) > 0.13 && (await loss()) < 0.25, String(await loss()));
+  }
   // The wrong file, and depths that are taken for heights.
   await writeFile(join(folder, 'other.json'), JSON.stringify({ name: 'a phone' }));
   const other = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', 'other.json', ...common, '-o', 'page.png']);

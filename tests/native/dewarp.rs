@@ -140,6 +140,13 @@ fn a_word_tells_whether_to_trust_it() {
         verdict(|x, y| (0.6 - (x - 0.5).powi(2) - (y - 0.5).powi(2)).sqrt()),
         Verdict::Stretched
     );
+    // A border that crosses itself, but covers nothing to speak of.
+    let sheet = unroll(&curled(), &UnrollOptions::default()).unwrap();
+    let map = map_of(&curled(), &DewarpOptions::default());
+    let mut report = *sheet.report();
+    report.crossings = 1;
+    assert_eq!(Verdict::from_report(&report), Verdict::Stretched);
+    assert_eq!(map.verdict(&report), Verdict::Unrolled);
 }
 
 #[test]

@@ -276,3 +276,79 @@ fn a_texture_takes_the_place_of_colours() {
     let colored = write_glb(&mesh, None).unwrap();
     assert!(read_mesh(&colored, None).unwrap().colors().is_some());
 }
+
+/// A scanner's atlas: the two halves of a page lie turned and far from each other in the texture.
+#[test]
+fn charts_do_not_run_into_each_other() {
+    let (count, radius) = (60u32, 0.4);
+    let (mut positions, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    let chart = |half: usize, [s, t]: [f64; 2]| match half {
+        0 => [0.05 + 0.4 * t, 0.05 + 0.4 * s],
+        _ => [0.55 + 0.4 * (s - 0.5), 0.95 - 0.4 * (1.0 - t)],
+    };
+    for half in 0..2 {
+        let first = positions.len() as u32;
+        let (cols, rows) = (count / 2, count);
+        for i in 0..=cols {
+            for j in 0..=rows {
+                let s = 0.5 * half as f64 + 0.5 * f64::from(i) / f64::from(cols);
+                let t = f64::from(j) / f64::from(rows);
+                let angle = (s - 0.5) / radius;
+                positions.push([radius * angle.sin(), t, radius * angle.cos()]);
+                // The first chart is turned by a quarter and mirrored.
+                uvs.push(chart(half, [s, t]).map(|v| v as f32));
+                if i < cols && j < rows {
+                    let a = first + i * (rows + 1) + j;
+                    let [b, c, d] = [a + rows + 1, a + rows + 2, a + 1];
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+    }
+    let mesh = Mesh::new(positions, triangles)
+        .unwrap()
+        .with_uvs(uvs)
+        .unwrap();
+    let samples = sample(&mesh, View::Along([0.0, 0.0, -1.0]), Resolution::Across(45)).unwrap();
+    let carried = samples.carry(&mesh, mesh.uvs().unwrap()).unwrap();
+    let sheet = developable::unroll::unroll(samples.heightfield(), &Default::default()).unwrap();
+    let options = developable::dewarp::DewarpOptions::default().dots(400.0);
+    let registration = developable::dewarp::Registration::Uvs(&carried);
+    let map =
+        developable::dewarp::WarpMap::new(&sheet, registration, [1000, 1000], &options).unwrap();
+    // Where on the page each pixel is from, by the chart that it is in.
+    let (mut found, mut foreign) = (Vec::new(), 0);
+    for (i, place) in map
+        .places()
+        .iter()
+        .enumerate()
+        .filter(|(_, place)| !place[0].is_nan())
+    {
+        let [u, v] = [f64::from(place[0]) + 0.5, 999.5 - f64::from(place[1])].map(|p| p / 1000.0);
+        let first = [(v - 0.05) / 0.4, (u - 0.05) / 0.4];
+        let second = [0.5 + (u - 0.55) / 0.4, 1.0 - (0.95 - v) / 0.4];
+        let slack = 0.02;
+        let is = |[s, t]: [f64; 2], low: f64| {
+            (low - slack..low + 0.5 + slack).contains(&s) && (-slack..1.0 + slack).contains(&t)
+        };
+        let at = match (is(first, 0.0), is(second, 0.5)) {
+            (true, false) => first,
+            (false, true) => second,
+            _ => {
+                foreign += 1;
+                continue;
+            }
+        };
+        let pixel = [(i % map.width()) as f64, -((i / map.width()) as f64)].map(|p| p / 400.0);
+        found.push([at[0] - pixel[0], at[1] - pixel[1]]);
+    }
+    assert_eq!(foreign, 0, "of {}", found.len());
+    for k in 0..2 {
+        let mean = found.iter().map(|off| off[k]).sum::<f64>() / found.len() as f64;
+        let largest = found
+            .iter()
+            .map(|off| (off[k] - mean).abs())
+            .fold(0.0, f64::max);
+        assert!(largest < 0.006, "{largest}");
+    }
+}

@@ -2,6 +2,7 @@
 //! solved first.
 
 use crate::common::{cut, noisy, unit_square};
+use developable::dewarp::{DewarpOptions, Extent, Verdict, WarpMap};
 use developable::unroll::{UnrollOptions, Unrolling, unroll};
 use developable::{Heightfield, Lattice, Options, fit};
 use nalgebra::Complex;
@@ -357,6 +358,16 @@ fn a_sheet_of_more_than_a_full_turn_is_seen_to_overlap() {
     assert!(overlapping.report().crossings > 0);
     assert_eq!(overlapping.report().crossings, overlapping.overlaps().len());
     assert!(overlapping.report().distortion.rms < 0.005);
+    let verdict = |sheet: &Unrolling| {
+        let extent = Extent {
+            min: [0.0; 2],
+            max: [1.0; 2],
+        };
+        let map = WarpMap::new(sheet, extent, [500, 500], &DewarpOptions::default()).unwrap();
+        map.verdict(sheet.report())
+    };
+    assert_eq!(verdict(&overlapping), Verdict::Stretched);
+    assert_eq!(verdict(&unrolled(0.0)), Verdict::Unrolled);
 }
 
 #[test]

@@ -14,6 +14,7 @@ const hills = (x, y) => 30 * Math.sin(x / 17) + 20 * Math.cos(y / 13 + x / 31);
 test('the size of a pixel is guessed where 1 makes a slab or a needle of the relief, and only there', () => {
   const scaled = (/** @type {number} */ factor) => guessedPixel(image(600, 400, (x, y) => factor * hills(x, y)));
   assert.equal(scaled(1), null);
+  assert.equal(guessedPixel(image(200, 200, (x) => 4 * Math.min(x, 199 - x))), null, 'a steep fold is as high as it says');
   const unit = scaled(0.005);
   assert.ok(unit && Math.abs(unit.pixelSize * 600 - 1) < 1e-3);
   assert.match(unit.words, /slab.*longer side is taken to be 1/);

@@ -157,6 +157,7 @@ struct DewarpedOutput {
     map: Float32Array,
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<GridOutput>,
+    loss: f64,
     verdict: Verdict,
     report: UnrollReport,
 }
@@ -234,6 +235,7 @@ pub fn dewarp(field: JsValue, photo: JsValue, options: JsValue) -> Result<JsValu
         data: flat_image(&map, &photo)?,
         map: maps.places(&map),
         grid: maps.grid(&map)?,
+        loss: map.loss(),
         verdict: map.verdict(sheet.report()),
         report: *sheet.report(),
     })?)

@@ -1,0 +1,115 @@
+//! Texture coordinates across the seams of charts.
+//!
+//! A scanner's texture is an atlas: charts lie beside each other in any order. A triangle of the sheet whose corners are in
+//! different charts must not interpolate between them, or it shows what lies in between. Each point of it is mapped by its
+//! nearest corner's chart instead.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::registration::PhotoProjection;
+use crate::error::{Result, try_filled};
+use crate::math::statistics::median;
+use crate::unroll::Unrolling;
+
+/// Maximum ratio of a triangle's largest or smallest scale in the texture to the median one, either way, within one chart.
+const MAX_SCALE_RATIO: f64 = 2.5;
+
+/// Which triangles of a sheet cross from one chart to another, and the charts' maps at the vertices.
+pub(super) struct ChartSeams {
+    crossing: Vec<bool>,
+    /// At each vertex the derivative of texture coordinates by the place on the sheet, the mean over the triangles within its
+    /// chart.
+    derivatives: Vec<Matrix2<f64>>,
+}
+
+impl ChartSeams {
+    /// The seams of a sheet's texture coordinates. None without texture coordinates or seams. Costs `O(n log n)` for `n`
+    /// triangles.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn new(sheet: &Unrolling, projection: &PhotoProjection) -> Result<Option<Self>> {
+        let PhotoProjection::Uvs(uvs, size) = projection else {
+            return Ok(None);
+        };
+        let triangles = sheet.mesh().triangles();
+        let mut maps: Vec<Option<(Matrix2<f64>, [f64; 2])>> =
+            try_filled("flat image", triangles.len(), None)?;
+        for (map, triangle) in maps.iter_mut().zip(triangles) {
+            let place = |k: usize| Vector2::from(sheet.places()[triangle[k] as usize]);
+            let uv = |k: usize| {
+                let [u, v] = uvs[triangle[k] as usize].map(f64::from);
+                Vector2::new(u, v)
+            };
+            let sides = |at: &dyn Fn(usize) -> Vector2<f64>| {
+                Matrix2::from_columns(&[at(1) - at(0), at(2) - at(0)])
+            };
+            let Some(inverse) = sides(&place).try_inverse() else {
+                continue;
+            };
+            let derivative = sides(&uv) * inverse;
+            let pixels = Matrix2::from_diagonal(&Vector2::from(*size)) * derivative;
+            let (squares, determinant) = (pixels.norm_squared(), pixels.determinant());
+            // Both singular values, by the squares of their sum and difference; charts may be mirrored.
+            let [sum, difference] =
+                [2.0, -2.0].map(|sign| (squares + sign * determinant).max(0.0).sqrt());
+            let scales = [0.5 * (sum + difference), 0.5 * (sum - difference).abs()];
+            *map = derivative
+                .iter()
+                .all(|v| v.is_finite())
+                .then_some((derivative, scales));
+        }
+        let mut usual = [0.0; 2];
+        for (k, usual) in usual.iter_mut().enumerate() {
+            let mut all: Vec<f64> = maps.iter().flatten().map(|(_, scales)| scales[k]).collect();
+            let Some(found) = median(&mut all) else {
+                return Ok(None);
+            };
+            *usual = found;
+        }
+        let within = |scales: &[f64; 2]| {
+            (0..2).all(|k| {
+                let ratio = scales[k] / usual[k];
+                (1.0 / MAX_SCALE_RATIO..=MAX_SCALE_RATIO).contains(&ratio)
+            })
+        };
+        let crossing: Vec<bool> = (maps.iter())
+            .map(|map| map.as_ref().is_some_and(|(_, scales)| !within(scales)))
+            .collect();
+        if !crossing.contains(&true) {
+            return Ok(None);
+        }
+        let mut derivatives = try_filled("flat image", uvs.len(), Matrix2::zeros())?;
+        let mut counts = try_filled("flat image", uvs.len(), 0.0)?;
+        for ((map, crosses), triangle) in maps.iter().zip(&crossing).zip(triangles) {
+            if let Some((derivative, _)) = map
+                && !crosses
+            {
+                for corner in triangle {
+                    derivatives[*corner as usize] += derivative;
+                    counts[*corner as usize] += 1.0;
+                }
+            }
+        }
+        for (derivative, count) in derivatives.iter_mut().zip(counts) {
+            if count > 0.0 {
+                *derivative /= count;
+            }
+        }
+        Ok(Some(ChartSeams {
+            crossing,
+            derivatives,
+        }))
+    }
+
+    /// Whether a triangle crosses a seam.
+    pub(super) fn crosses(&self, triangle: usize) -> bool {
+        self.crossing[triangle]
+    }
+
+    /// Texture coordinates at a point of the sheet, `way` from a vertex with coordinates `uv`, by that vertex's chart.
+    pub(super) fn extrapolate(&self, vertex: u32, uv: [f64; 3], way: [f64; 2]) -> [f64; 3] {
+        let step = self.derivatives[vertex as usize] * Vector2::from(way);
+        [uv[0] + step.x, uv[1] + step.y, uv[2]]
+    }
+}

@@ -90,7 +90,8 @@ impl Side {
         }
     }
 
-    /// The curve with its ends moved and its bow increased.
+    /// The curve with its ends shifted by `from` and `to`, and its distances from the chord scaled so that the largest is
+    /// `bow`.
     fn moved(&self, [from, to]: [[f64; 2]; 2], bow: f64) -> Curve {
         let swell = if self.bow > 0.0 { bow / self.bow } else { 0.0 };
         Curve::of(

@@ -194,7 +194,8 @@ pub(crate) fn check_held(input: &Input, domain: &Domain) -> Result<()> {
     Ok(())
 }
 
-/// Search for three points that are not on one line.
+/// Points of the lattice, and whether three of them are not on one line, so that heights given there hold a surface in
+/// place: without three such heights it could tilt.
 #[derive(Default)]
 struct Hold {
     points: Vec<[i64; 2]>,

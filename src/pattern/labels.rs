@@ -4,7 +4,8 @@
 use crate::lattice::hexagonal::Lattice;
 use rustc_hash::FxHashMap;
 
-/// The part of each vertex of a lattice, and the patch that each part was cut from.
+/// Segmentation of a lattice into parts: the number of the part of each vertex, and of the patch that each part belongs
+/// to. A patch that cannot lie flat in one piece is cut into several parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Labels {
     /// Number of the part of each vertex.

@@ -48,7 +48,7 @@ pub struct Meeting {
     pub cuts: usize,
 }
 
-/// All points of a heightfield where cuts or folds end, by the nodes of the net.
+/// The points of a heightfield where cuts or folds end or meet, each under its node in the graph of seams.
 pub(super) struct Meetings {
     all: Vec<Option<Meeting>>,
     of: FxHashMap<Node, usize>,

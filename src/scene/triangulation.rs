@@ -35,7 +35,8 @@ impl Triangulation {
         Triangulation::of_some(surface, frame, |_| true)
     }
 
-    /// The triangles, given by the lattice indices of their corners, that are wanted.
+    /// Triangulation of a part of a heightfield: `wanted` tells for the lattice indices of a triangle's corners whether it
+    /// belongs to it.
     pub(crate) fn of_some(
         surface: &Heightfield,
         frame: &Frame,

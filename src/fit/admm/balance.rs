@@ -14,13 +14,13 @@ use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolve
 use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::math::sym2::Sym2;
 
-/// When conjugate gradients for a balanced dual stop.
+/// Stopping criteria of the conjugate gradients that balance a dual.
 pub(super) const BALANCE_CRITERIA: CgCriteria = CgCriteria {
     tolerance: 1e-9,
     max_iterations: 100,
 };
 
-/// A balanced dual.
+/// A dual that is balanced: no vertex without a fidelity term is pulled by it, or else its dual bound would be −∞.
 pub(super) struct Balanced {
     /// A lower bound of the optimum.
     pub bound: f64,

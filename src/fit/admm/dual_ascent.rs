@@ -50,9 +50,9 @@ fn momentum(k: usize) -> f32 {
 /// Cost of the steps and of one evaluation of the bound, in conjugate-gradient iterations.
 pub(super) const EVALUATION_COST_CG_ITERATIONS: usize = 5;
 
-/// How far an ascent has come.
+/// Progress of a dual ascent: the bound that it seeks, and the dual bounds found so far.
 #[derive(Debug, Clone, Default)]
-struct Search {
+struct AscentProgress {
     /// The bound at which the ascent ends.
     goal: f64,
     /// The largest bound so far.
@@ -65,7 +65,7 @@ struct Search {
 /// Dual ascent from the dual of an iterate, and its memory.
 #[derive(Debug, Clone)]
 pub(super) struct DualAscent<O: SolvableOperator> {
-    search: Search,
+    progress: AscentProgress,
     /// `Y` after the last step.
     last: Matrices<f32>,
     /// `Y` extrapolated by the momentum, from which the next step starts.
@@ -137,7 +137,7 @@ impl<O: SolvableOperator> DualAscent<O> {
             mobility = PerCell::Each(each);
         }
         Ok(DualAscent {
-            search: Search::default(),
+            progress: AscentProgress::default(),
             last: matrices()?,
             ahead: matrices()?,
             base: zeros(operator.vertex_cells())?,
@@ -162,7 +162,7 @@ impl<O: SolvableOperator> DualAscent<O> {
         goal: f64,
     ) -> Result<()> {
         self.set_dual(iterate, problem)?;
-        self.search = Search {
+        self.progress = AscentProgress {
             goal,
             best: bound,
             last: f64::NEG_INFINITY,
@@ -187,7 +187,7 @@ impl<O: SolvableOperator> DualAscent<O> {
             _ => self.take_steps(&problem.operator, Projection),
         }
         let next = self.bound(iterate, problem);
-        let search = &mut self.search;
+        let search = &mut self.progress;
         search.evaluations += 1;
         search.best = search.best.max(next);
         let in_reach = search.goal - next <= EXTRAPOLATION_FACTOR * (next - search.last);
@@ -200,7 +200,7 @@ impl<O: SolvableOperator> DualAscent<O> {
 
     /// Takes the steps up to the next evaluation.
     fn take_steps(&mut self, operator: &O, proximal: impl Proximal) {
-        let before = self.search.evaluations * STEPS_PER_EVALUATION;
+        let before = self.progress.evaluations * STEPS_PER_EVALUATION;
         for step in before..before + STEPS_PER_EVALUATION {
             self.take_step(operator, proximal, momentum(step));
         }

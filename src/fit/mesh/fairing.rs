@@ -7,10 +7,10 @@ use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 use crate::math::least_squares::LeastSquares;
 
-/// Number of vertices on either side along a curve that the fairing quadratic is fairing_step to.
+/// Number of vertices on either side along a curve that the fairing quadratic is fitted to.
 const FAIRING_HALF_WINDOW: usize = 4;
 
-/// Maximum variance of a faired vertex, relative to the vertex's own, at which fairing moves it.
+/// Fairing moves a vertex only if its variance after it is at most this share of that before.
 const MAX_VARIANCE_RATIO: f64 = 0.95;
 
 /// The borders and creases of a surface as curves: the vertices before and after each vertex, and `None` where

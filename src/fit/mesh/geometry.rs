@@ -165,7 +165,8 @@ pub(super) fn unfold(topology: &Topology, x: &mut [Point], up: &[Point], held: &
     }
 }
 
-/// Points that are at `x` along the `rays` and at `places` across them.
+/// Points whose coordinate along each ray is that of `x`, and whose coordinates perpendicular to it are those of
+/// `places`.
 pub(super) fn across(x: &[Point], places: &[Point], rays: &[Point]) -> Vec<Point> {
     let all = x.iter().zip(places).zip(rays);
     all.map(|((x, place), ray)| place + ray * ray.dot(&(x - place)))

@@ -38,7 +38,8 @@ const COMMON_LOG_RATIO: f64 = 0.346_573_590_279_972_64;
 const CAMERA_STEPS: usize = 12;
 
 impl CameraPrior {
-    /// Expected logarithm of the proportions and its standard deviation; `apparent` tells upright pages from others.
+    /// Prior of the page's height over its width: mean and standard deviation of its logarithm. The ratio that is seen in
+    /// the photo, `apparent`, tells whether the page is upright or lies on its side.
     pub fn ratio(&self, apparent: f64) -> [f64; 2] {
         let common = COMMON_LOG_RATIO * (apparent - 1.0).signum();
         self.log_ratio.unwrap_or([common, UNKNOWN_RATIO_DEVIATION])

@@ -11,7 +11,7 @@ use crate::pattern::meeting::{
     ANGLE_RADIUS_SHARE, MAX_ANGLE_RADIUS_LENGTHS, MIN_ANGLE_RADIUS_LENGTHS,
 };
 
-/// All points of a mesh where cuts or folds end, by their vertices.
+/// The points of a mesh where cuts or folds end or meet, each under its vertex.
 pub(super) struct Meetings {
     of: BTreeMap<u32, Meeting>,
 }

@@ -76,7 +76,7 @@ pub(super) struct SeamGraph {
     shares: FxHashMap<Node, [f64; 3]>,
     /// Distance in plan from the last node of a seam to the border's line, for seams that end at the border.
     ends: FxHashMap<Node, f64>,
-    /// Position of each node on a patch's plane.
+    /// For a node on a seam and a patch beside it: position of the node in the plane of the flat patch.
     on_seams: FxHashMap<(Node, u32), Point>,
 }
 

@@ -113,7 +113,7 @@ pub fn entries(options: &JsValue) -> Result<Vec<(String, JsValue)>> {
         .collect())
 }
 
-/// One of these values.
+/// Reads the value of the option `name` into a type that lists what is allowed; an error states the `requirement`.
 pub fn option<T: DeserializeOwned>(
     name: &'static str,
     value: JsValue,

@@ -7,11 +7,11 @@ use developable::{Bridging, Normalization, Options};
 use developable_wasm::Result;
 use developable_wasm::options::{Given, option};
 
-/// `SolverOptions` of the types.
+/// Options of a solve as JavaScript passes them: `SolverOptions` of `pkg/types.d.ts`.
 #[derive(Clone, Copy, Default)]
 pub struct Settings {
     pub options: Options,
-    /// As in the options: what occlusions are searched for in.
+    /// Normalisation of the coordinates; the threshold of occlusions is stated in normalised coordinates, too.
     pub normalization: Normalization,
     pub spacing: Option<f64>,
     pub occlusion_threshold: Option<f64>,

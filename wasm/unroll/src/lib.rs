@@ -162,7 +162,8 @@ struct DewarpedOutput {
     report: UnrollReport,
 }
 
-/// `DewarpOptions` of the types, and what `placeOf` adds to them.
+/// Options of dewarping as JavaScript passes them: `DewarpOptions` of `pkg/types.d.ts`, with the frame and the texture
+/// coordinates that tell where in the photo the surface lies.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct DewarpInput {

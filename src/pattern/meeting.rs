@@ -56,7 +56,7 @@ pub(super) struct Meetings {
 }
 
 impl Meetings {
-    /// The point at a node; `None` at the border, at steps, and where the seams that end there are too short to
+    /// The point at a node; `None` at the border, at steps, and where a seam that ends there is too short to
     /// measure an angle.
     pub(super) fn at(&self, node: Node) -> Option<Meeting> {
         self.of.get(&node).and_then(|number| self.all[*number])

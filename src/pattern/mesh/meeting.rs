@@ -28,7 +28,7 @@ struct Found {
 }
 
 impl Meetings {
-    /// The point at a vertex; `None` if the border is near or all seams that end there are too short to measure an
+    /// The point at a vertex; `None` if the border is near or a seam that ends there is too short to measure an
     /// angle.
     pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
         self.of.get(&vertex).copied()

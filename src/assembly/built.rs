@@ -15,7 +15,7 @@ pub(crate) fn faces_up([a, b, c]: [[f64; 3]; 3]) -> bool {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > 0.0
 }
 
-/// The triangles of a flat sheet, binned by squares as wide as the longest of their edges.
+/// Triangles of a flat sheet in a spatial index: a grid of squares as wide as the longest edge.
 pub(crate) struct Built<'a> {
     faces: &'a Faces,
     width: f64,
@@ -50,8 +50,8 @@ impl<'a> Built<'a> {
         (column, row)
     }
 
-    /// The point on the surface for a point on the flat sheet, by the triangle that contains it, or else the
-    /// nearest one extended; `None` if no triangle is near. Costs a few triangles.
+    /// Maps a point on the flat sheet to the surface, by the triangle that contains it or else by the plane of the
+    /// nearest one; `None` if no triangle is near. Costs tests of a few triangles.
     pub(crate) fn at(&self, place: [f64; 2]) -> Option<Spot> {
         let (column, row) = self.square(place);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |k| (column + i, row + k)));

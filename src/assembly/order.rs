@@ -10,19 +10,19 @@ use crate::pattern::Sheet;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Assembly {
-    /// One step for each sheet: first the one with the largest patch, then always the one with the longest
-    /// seams to those already in place.
+    /// One step for each sheet. The first sheet is the one with the largest patch; each next one has the longest
+    /// seams to the sheets already in place.
     pub steps: Vec<Step>,
 }
 
-/// One sheet, and the seams that join it to those before it.
+/// One step of the assembly: a sheet, and the seams that join it to the sheets of earlier steps or to itself.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Step {
-    /// Number of the sheet, from 0; its name counts from 1.
+    /// Number of the sheet, counted from 0; names of sheets count from 1.
     pub sheet: usize,
-    /// Seams that are closed with this sheet, the longest first.
+    /// Seams that are closed in this step, the longest first.
     pub joints: Vec<Joint>,
 }
 
@@ -31,7 +31,7 @@ pub struct Step {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Joint {
-    /// Letters of the seam on the drawing.
+    /// Name of the seam on the drawing: one or more letters.
     pub name: String,
     /// Number of the sheet already in place that the seam leads to; the step's own for a seam of the sheet
     /// with itself.
@@ -73,7 +73,7 @@ fn assembly_steps(sheets: &[Sheet], letters: &BTreeMap<usize, String>) -> Vec<St
             let others = joints(sheet).into_iter().filter(|joint| joint.to != sheet);
             others.map(|joint| joint.length).fold(0.0, |a, b| a + b)
         };
-        // Of equals the first one: they come with the largest patches first.
+        // Of several with equal length take the first one, which has the larger patch.
         let left = (0..sheets.len()).filter(|sheet| !there[*sheet]).rev();
         let Some(sheet) = left.max_by(|a, b| reach(*a).total_cmp(&reach(*b))) else {
             break;
@@ -100,7 +100,7 @@ fn joints(
         let (to, length) = match (own.len(), other) {
             (0, _) => continue,
             (_, Some((other, _))) => (*other, length),
-            // Both sides are its own.
+            // Both sides of the seam belong to this sheet.
             (2.., None) => (sheet, 0.5 * length),
             _ => continue,
         };

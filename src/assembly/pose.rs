@@ -15,8 +15,8 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose that brings a flat sheet nearest to the built one, by the sum of the squared distances of its
-    /// vertices; `middle` of the sheet is the origin of the rotation.
+    /// Finds the pose that moves a flat sheet to the surface with the least sum of squared distances between
+    /// vertices. `middle`, a point of the flat sheet, is the origin of the rotation.
     pub fn of(faces: &Faces, middle: [f64; 2]) -> Pose {
         let count = faces.built.len().max(1) as f64;
         let flat = |p: &[f64; 2]| Vector3::new(p[0] - middle[0], p[1] - middle[1], 0.0);
@@ -56,8 +56,8 @@ impl Pose {
     }
 }
 
-/// The rotation with the largest inner product with a matrix (Procrustes). A flat sheet has no third axis,
-/// for which the cross product of the two others stands.
+/// Rotation nearest to a matrix (orthogonal Procrustes problem). The matrix of a flat sheet has no third column;
+/// the cross product of the other two replaces it.
 fn nearest(matrix: Matrix3<f64>) -> Rotation3<f64> {
     let [a, b] = [matrix.column(0).into_owned(), matrix.column(1).into_owned()];
     let normal = a.cross(&b);
@@ -65,7 +65,7 @@ fn nearest(matrix: Matrix3<f64>) -> Rotation3<f64> {
     if long <= 1e-12 {
         return Rotation3::identity();
     }
-    // In its own plane it is the best rotation of a 2 × 2 matrix, by its angle.
+    // In the plane of the two columns the problem is that of a 2 × 2 matrix, solved by an angle.
     let normal = normal / long;
     let first = a / a.norm();
     let second = normal.cross(&first);

@@ -82,7 +82,7 @@ impl WarpMap {
         Ok(grid)
     }
 
-    /// The grid of so many nodes, without its errors.
+    /// Samples the map at the nodes of a grid of given size; errors are not measured yet.
     fn sampled(&self, [columns, rows]: [usize; 2]) -> Result<WarpGrid> {
         let sides = [self.width(), self.height()].map(|n| (n - 1) as f64);
         let step = [

@@ -108,7 +108,7 @@ impl WarpMap {
         }
     }
 
-    /// This map with the overlap of another one of the same sheet.
+    /// Sets the overlap to that of another map of the same sheet.
     pub(super) fn with_overlap_of(mut self, other: &WarpMap) -> Self {
         self.overlap = other.overlap;
         self

@@ -10,7 +10,8 @@ use super::lines::Lines;
 use crate::pattern::{Meeting, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
-/// The point where the angles of the cut pieces differ most from the angle of the surface, in degrees.
+/// Point of the surface where the sum of the angles of the flat pieces differs most from the angle of the surface;
+/// angles in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -21,7 +22,7 @@ pub struct WorstAngle {
     /// ([`Label`](super::Label)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub crease: Option<usize>,
-    /// Sum of the angles of the cut pieces around the point.
+    /// Sum of the angles of the flat pieces around the point.
     pub flat: f64,
     /// Angle of the surface around the point: 360° where the surface could be laid flat in one piece.
     pub surface: f64,
@@ -33,18 +34,18 @@ impl WorstAngle {
     }
 }
 
-/// Sum of the angles of the pieces around a point, as far as they were found.
+/// Sum of the angles of the flat pieces around a point, over the pieces found so far.
 struct Around {
     meeting: Meeting,
-    /// Number of ends of cuts that were found at the point: each cut has two sides, so it is twice their
-    /// number when all were.
+    /// Number of ends of cut sides found at the point: twice the number of cuts when all are found, because a cut
+    /// has two sides.
     ends: usize,
     angle: f64,
     crease: Option<usize>,
 }
 
-/// Angles of the cut pieces around all points inside of the surface where cuts or folds end, where they can
-/// be measured.
+/// Compares the angles of the flat pieces with the angle of the surface at each point inside of the surface where
+/// cuts or folds end; points that cannot be measured are left out.
 pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<WorstAngle> {
     let mut all: BTreeMap<usize, Around> = BTreeMap::new();
     let mut add = |meeting: &Meeting, ends: usize, angle: f64, crease: Option<usize>| {
@@ -80,9 +81,9 @@ pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<W
             angle: surface,
             ..
         } = around.meeting;
-        // Some were cut off with a loop.
+        // Ends may be missing because they were cut off with a loop.
         (around.ends == 2 * cuts).then(|| {
-            // Angles are known but for full turns: a slit that is hardly open has nearly one.
+            // Angles are known modulo 2π: a slit that is hardly open has an angle near 2π or near 0.
             let turns = ((surface - around.angle) / TAU).round();
             let flat = if cuts == 0 {
                 TAU
@@ -100,7 +101,7 @@ pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<W
     compared.collect()
 }
 
-/// Whether a run begins and ends at one point, so that it only joins two nodes of it.
+/// Whether a run begins and ends at the same point and only connects two nodes of it.
 fn is_within(run: &Run) -> bool {
     match run.ends {
         [Some(from), Some(to)] => {
@@ -110,8 +111,8 @@ fn is_within(run: &Run) -> bool {
     }
 }
 
-/// Angle of a sheet between the end of a run and the run after it, measured at the distance at which the
-/// angle of the surface was.
+/// Angle of a sheet, in radians, between the end of a run and the start of the next, measured at the same distance
+/// as the angle of the surface.
 fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) -> f64 {
     let count = outline.len();
     let mut next = (1..=count).map(|i| (k + i) % count);

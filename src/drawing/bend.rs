@@ -1,11 +1,11 @@
 //! Sheets of metal, which are bent with a radius and have a thickness: their flat length between two faces
 //! differs from what these have up to the crease.
 //!
-//! A bend by an angle θ takes the length of its neutral line, BA = θ (r + k t), with its inner radius r, the
-//! thickness t and the factor k that says how far within the sheet the neutral line lies. It begins
-//! at the setback S before the crease: r tan(θ/2) on the inside of the bend, (r + t) tan(θ/2) on its outside. The
-//! surface is the upper side of the sheet: outside at a mountain, inside at a valley. So what lies within S of
-//! the fold on either side is brought within BA/2 of it, and what is beyond follows.
+//! The bend allowance BA of a bend by an angle θ is the length of its neutral line, θ (r + k t), with the inner
+//! radius r, the thickness t and the K-factor k. The bend begins at the setback S before the crease: r tan(θ/2) on
+//! the inside of the bend, (r + t) tan(θ/2) on its outside. The surface is the upper side of the sheet: outside at
+//! a mountain fold, inside at a valley fold. The strip within S of a fold, on either side, is therefore scaled to a
+//! width of BA/2, and everything beyond is translated.
 
 use super::options::DrawingOptions;
 use crate::error::{Error, Result};
@@ -19,7 +19,7 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 /// Maximum distance of a fold's ends from the outline, in spacings, for a bend allowance.
 const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
 
-/// Applies the bend allowance to a sheet; an error for folds that are no straight lines from edge to edge.
+/// Applies the bend allowance to all folds of a sheet; an error if a fold is not a straight line from edge to edge.
 pub(super) fn apply_bend_allowance(
     number: usize,
     sheet: &Sheet,
@@ -49,7 +49,7 @@ pub(super) fn apply_bend_allowance(
 
 /// The bend of a sheet along one fold.
 struct Bend {
-    /// The fold's ends. `outline` is the number of the outline that they lie on.
+    /// The fold's ends; `outline` is the number of the outline that both lie on.
     ends: [Point; 2],
     outline: usize,
     /// The outline on either side of the fold.
@@ -58,7 +58,7 @@ struct Bend {
     half: f64,
 }
 
-/// A point of an outline, and the number of the run that the piece after it belongs to.
+/// A point of an outline, and the number of the run that the segment after it belongs to.
 type Corner = (Point, usize);
 
 impl Bend {
@@ -108,7 +108,7 @@ impl Bend {
         }
         let line = ring(&sheet.outlines[from.0]);
         let ends = [from.2, to.2];
-        // From one end of the fold along the outline to the other.
+        // Part of the outline from one end of the fold to the other.
         let arc = |(_, start, first): (usize, usize, Point),
                    (_, stop, last): (usize, usize, Point)| {
             let n = line.len();
@@ -158,7 +158,7 @@ impl Bend {
         place + self.normal(side) * by
     }
 
-    /// Moves everything on a sheet but the fold itself.
+    /// Moves all points of a sheet, except those of the fold itself, by the bend allowance.
     fn apply(&self, sheet: &mut Sheet, own: usize) {
         let arcs = [0, 1].map(|side| self.arc(side));
         let area =
@@ -180,7 +180,7 @@ impl Bend {
                 rebuild(outline, &arcs.concat());
                 continue;
             }
-            // A hole is beside it as a whole.
+            // A hole lies on one side of the fold as a whole.
             let side = side(point(&outline[0].points[0]));
             for place in outline.iter_mut().flat_map(|run| &mut run.points) {
                 *place = to(place, side);
@@ -244,10 +244,10 @@ fn ring(outline: &[Run]) -> Vec<Corner> {
     corners.collect()
 }
 
-/// Puts the corners of an outline into its runs again.
+/// Replaces the points of an outline's runs by those of its corners.
 fn rebuild(outline: &mut [Run], corners: &[Corner]) {
     let n = corners.len();
-    // From where its first run begins, unless that is all of it.
+    // Begin at the start of the first run, unless that is the whole outline.
     let start = (0..n).find(|k| corners[*k].1 == 0 && corners[(*k + n - 1) % n].1 != 0);
     let start = start.unwrap_or(0);
     for run in outline.iter_mut() {

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result, positive};
 use crate::pattern::Direction;
 
-/// Thickness of metal, and radius and neutral line of its bends.
+/// Bending of sheet metal: its thickness, and the radius and neutral line of its bends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Bending {
@@ -17,7 +17,7 @@ pub struct Bending {
 }
 
 impl Bending {
-    /// Metal of a thickness in millimetres.
+    /// Bending of metal of a given thickness in millimetres, with the default radius and K-factor.
     pub fn new(thickness: f64) -> Self {
         Bending {
             thickness,
@@ -55,7 +55,8 @@ impl Bending {
         }
     }
 
-    /// Setback of a bend before the crease, and half of the bend allowance, in millimetres.
+    /// Setback of a bend, its distance from the crease, and half of its bend allowance, in millimetres. `angle` is
+    /// in radians.
     pub(super) fn zone(&self, direction: Direction, angle: f64) -> [f64; 2] {
         let outside = match direction {
             Direction::Mountain => self.thickness,

@@ -2,8 +2,9 @@
 
 use crate::math::planar::distance;
 
-/// Straight pieces and cubic Bézier curves that follow each other, as control points: 4 of them, 7, 10 and
-/// so on. A closed line ends where it begins. The control points of a straight piece lie at its thirds.
+/// A curve of straight lines and cubic Bézier curves, each of which begins where the one before ends, as `3n + 1`
+/// control points. A closed curve ends where it begins. The inner control points of a straight line lie at its
+/// thirds.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -22,7 +23,7 @@ pub enum Piece {
 }
 
 impl Curve {
-    /// A line through points, straight from one to the next.
+    /// Creates a polyline through points.
     pub fn through(points: &[[f64; 2]]) -> Self {
         let mut curve = Curve(points.iter().take(1).copied().collect());
         for point in points.iter().skip(1) {
@@ -41,7 +42,7 @@ impl Curve {
         &self.0
     }
 
-    /// Whether the number of control points is one that a curve has.
+    /// Whether the number of control points is valid: `3n + 1`.
     #[cfg(feature = "patterns")]
     pub(super) fn is_whole(&self) -> bool {
         self.0.len() % 3 == 1
@@ -87,8 +88,8 @@ impl Curve {
         self.pieces().map(|piece| piece.length()).sum()
     }
 
-    /// The control points, each with the share of the curve's length that lies before it; the inner ones of a
-    /// piece are at its thirds.
+    /// The control points, each with the share of the curve's length that lies before it; inner control points
+    /// count as lying at a third and two thirds of their piece.
     pub(super) fn placed(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
         let whole = self.length().max(f64::MIN_POSITIVE);
         let mut before = 0.0;
@@ -201,7 +202,7 @@ impl Piece {
         (1..=LENGTH_STEPS).map(step).collect()
     }
 
-    /// The parameter up to which the piece has a given length.
+    /// The parameter, from 0 to 1, up to which the piece has a given length.
     fn parameter(&self, length: f64) -> f64 {
         let lengths = self.lengths();
         let i = lengths.partition_point(|sum| *sum < length);
@@ -215,7 +216,7 @@ impl Piece {
         ((i as f64 + share) / LENGTH_STEPS as f64).clamp(0.0, 1.0)
     }
 
-    /// The piece's two parts at a parameter (de Casteljau).
+    /// Splits the piece in two at a parameter from 0 to 1 (de Casteljau).
     fn cut(&self, t: f64) -> (Piece, Piece) {
         let mix = |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| (1.0 - t) * p[k] + t * q[k]);
         match *self {

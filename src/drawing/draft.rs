@@ -16,7 +16,7 @@ use super::tabs::{Tab, add_tabs};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
 
-/// Letters of the cut creases, in the order of their numbers.
+/// Letters of the cut creases, by the creases' numbers.
 pub(crate) fn letters(sheets: &[Sheet]) -> BTreeMap<usize, String> {
     let runs = sheets.iter().flat_map(|s| s.outlines.iter().flatten());
     let mut creases: Vec<usize> = runs.filter_map(|run| run.seam.map(|s| s.crease)).collect();

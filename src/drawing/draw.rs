@@ -13,8 +13,8 @@ use super::totals::{Totals, summary};
 use crate::error::{Error, Result, positive};
 use crate::pattern::{Missing, Sheet};
 
-/// Sheets drawn beside each other, in millimetres: the lower left corner is `0, 0`, `x` goes to the right and
-/// `y` up.
+/// A drawing of sheets beside each other, in millimetres: the lower left corner is `0, 0`, `x` goes to the right
+/// and `y` up.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -27,18 +27,18 @@ pub struct Drawing {
     pub sheets: Vec<DrawnSheet>,
     /// The pages that the sheets lie on, if there are any ([`Drawing::onto`]).
     pub pages: Option<Pages>,
-    /// Numbers and lengths that the drawing comes to.
+    /// Numbers and total lengths of what is drawn.
     pub summary: Totals,
 }
 
 impl Drawing {
     /// Draws sheets beside each other: in rows, the tallest first, ten millimetres apart.
     ///
-    /// Cut creases have letters, the same on both sides; patches their number, counted from 1;
-    /// folds an M or a V and their angle. Both sides of what is cut and joined are drawn equally long: what strain is
-    /// left shows along borders, and their lines are moved by as little as it takes, within
-    /// [`DrawingOptions::smoothing`] and a hundredth of their length. Where that is not enough or lines would cross,
-    /// [`Totals::mismatch`] tells. Metal that is bent, and lines without smoothing, are drawn as they are.
+    /// Cut creases are labelled with letters, the same on both sides; patches with their number, counted from 1;
+    /// folds with M or V and their angle. Both sides of a joint are drawn equally long, although strain makes them
+    /// differ: their lines are moved as little as possible, by at most [`DrawingOptions::smoothing`] and a
+    /// hundredth of their length. [`Totals::mismatch`] is the difference that remains where that is not enough or
+    /// lines would cross. With metal that is bent, or without smoothing, lines are not moved.
     ///
     /// Costs `O(points)` without tabs; each tab is compared with its whole sheet.
     ///
@@ -93,8 +93,9 @@ impl Drawing {
         })
     }
 
-    /// Lays the same sheets out on pages, as few as were found to do: each whole on one page, turned if it
-    /// fits better so, and sheets of paper that are too large for one over several, to be put together.
+    /// Arranges the sheets on as few pages as a greedy search finds. A sheet lies whole on one page, rotated if it
+    /// fits better; on paper, a sheet that is larger than a page is divided over several pages to be glued
+    /// together.
     ///
     /// Sheets are nested by their outlines, not as boxes: the largest first, each on the first page that has room,
     /// three millimetres apart at least.
@@ -129,8 +130,9 @@ impl Drawing {
         })
     }
 
-    /// This drawing with what of the surface is on no sheet
-    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)); `scale` is that of the drawing.
+    /// Adds to the summary what part of the surface is on no sheet
+    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)); `scale` is that of the drawing, in millimetres per
+    /// unit.
     pub fn missing(mut self, missing: &Missing, scale: f64) -> Self {
         let mut missing = *missing;
         missing.area *= scale * scale;
@@ -139,7 +141,8 @@ impl Drawing {
         self
     }
 
-    /// Checks that a drawing can be written; one that was read from elsewhere may not be.
+    /// Checks that a drawing is consistent, so that it can be written to a file; one that was read from a file may
+    /// not be.
     #[cfg(feature = "patterns")]
     pub(crate) fn check(&self) -> Result<()> {
         let size = |value: f64| (0.0..=MAX_SIZE).contains(&value);

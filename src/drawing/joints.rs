@@ -1,9 +1,9 @@
 //! Both sides of each joint drawn equally long.
 //!
-//! What little strain is left in a sheet shows along its border, where nothing holds it, and smooth lines are
-//! shorter than rough ones. The corners where the lines of an outline meet are moved by as little as makes the
-//! sides of all joints alike (least squares), and the lines between bow out or in, within the tolerance that
-//! they were made smooth with.
+//! The two sides of a joint differ in length for two reasons: the strain that is left in a sheet is largest at its
+//! border, and smoothing shortens lines. The corners of outlines are moved by the least-squares solution that makes
+//! the sides of all joints equally long, and the distances of lines from their chords are scaled, within the
+//! tolerance of the smoothing.
 
 use crate::math::planar::{distance, nearest_on_segment};
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ const LENGTH_TOLERANCE: f64 = 1e-4;
 /// Maximum distance that a side and its corners are moved beyond the tolerance, as a share of the side's length.
 const MAX_SHIFT_SHARE: f64 = 0.01;
 
-/// Maximum number of sweeps over all joints, in each of which one joint after the other is made even (Kaczmarz).
+/// Maximum number of Kaczmarz sweeps, each of which makes the sides of one joint after the other equally long.
 const MAX_KACZMARZ_SWEEPS: usize = 400;
 
 /// Maximum number of times the lengths of joints are linearised again.
@@ -42,8 +42,7 @@ struct Side {
     corners: [usize; 2],
     curve: Curve,
     length: f64,
-    /// Largest distance of the curve from its chord, each point being compared with that at the same share of
-    /// the chord's length.
+    /// Largest distance of a point of the curve from the point of the chord at the same share of the length.
     bow: f64,
     /// Maximum distance that the curve may be moved.
     most: f64,
@@ -78,8 +77,8 @@ impl Side {
         [0, 1].map(|k| p[k] - from[k] - share * (to[k] - from[k]))
     }
 
-    /// Derivatives of the curve's length by the position of its last corner, of which that by the first one
-    /// is the negative, and by its bow.
+    /// Derivatives of the curve's length by the position of its last corner and by its bow; the derivative by the
+    /// first corner is the negative of the former.
     fn slopes(&self) -> ([f64; 2], f64) {
         let [from, to] = self.chord();
         let along = [0, 1].map(|k| (to[k] - from[k]) / self.length);
@@ -108,7 +107,7 @@ impl Side {
 /// The smooth lines of all sheets in millimetres, with both sides of each joint equally long.
 pub(super) fn matched_lines<'a>(sheets: &'a [Sheet], options: &DrawingOptions) -> Vec<Lines<'a>> {
     let mut lines: Vec<Lines<'_>> = sheets.iter().map(|s| Lines::new(s, options)).collect();
-    // Where metal is bent, what lies across a fold is drawn as much shorter as it grows there.
+    // With a bend allowance lengths across a fold differ from those of the surface on purpose.
     if options.bending.is_none() {
         equalise_joints(sheets, &mut lines, options);
     }
@@ -158,7 +157,7 @@ struct Own {
     cell: f64,
 }
 
-/// The runs of all outlines, here called sides, and for each joint the numbers of those on either side of it.
+/// The runs of all outlines, called sides here, and for each joint the numbers of the sides on both halves of it.
 struct Outlines {
     sides: Vec<Side>,
     joints: Vec<[Vec<usize>; 2]>,
@@ -210,7 +209,7 @@ impl Outlines {
         }
     }
 
-    /// The sides that cross others of their sheet.
+    /// Numbers of the sides that cross other sides of their sheet.
     fn crossing(&self, curves: &[Curve]) -> Vec<usize> {
         let wrong = self.sheets.iter().flat_map(|Own { sides, cell }| {
             let wrong = crossing_curves(&curves[sides.clone()], *cell);
@@ -230,7 +229,7 @@ impl Outlines {
         }
     }
 
-    /// All sides, moved so that those of each joint are as nearly equally long as the limits allow.
+    /// Moves all sides so that the two halves of each joint are as nearly equally long as the limits allow.
     fn equalise_joints(&self) -> Vec<Curve> {
         let rows: Vec<Vec<(usize, f64)>> =
             self.joints.iter().map(|joint| self.row(joint)).collect();
@@ -248,7 +247,7 @@ impl Outlines {
             {
                 break;
             }
-            // What the difference would be with nothing moved if it were linear.
+            // Difference at zero shift of the linearisation.
             let rests: Vec<f64> = (rows.iter().zip(&both))
                 .map(|(row, [a, b])| a - b - product(row, &x))
                 .collect();
@@ -304,7 +303,7 @@ fn product(row: &[(usize, f64)], x: &[f64]) -> f64 {
     row.iter().map(|(i, w)| w * x[*i]).sum()
 }
 
-/// Shift of a fold's end with the outline that it lies on, or is within half a spacing of.
+/// Shift of a fold's end: that of the nearest point of the outlines, if it is within half a spacing.
 fn way(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -> [f64; 2] {
     let pieces =
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };

@@ -6,7 +6,7 @@ use super::tabs::Tab;
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::Direction;
 
-/// Size of texts beside sheets and maximum size of those along lines, in millimetres.
+/// Size of texts beside sheets, and maximum size of texts along lines, in millimetres.
 const NOTE_SIZE_MM: f64 = 3.0;
 
 /// Maximum size of texts, in millimetres.
@@ -62,12 +62,13 @@ impl Label {
         }
     }
 
-    /// Whether a patch has no room for its number.
+    /// Whether a patch is too small for its number; `room` is the distance from the label's place to the patch's
+    /// border, in millimetres.
     pub(super) fn is_cramped(room: f64) -> bool {
         0.8 * room < MIN_TEXT_SIZE_MM
     }
 
-    /// This label moved beside its sheet.
+    /// Moves this label to a place beside its sheet.
     pub(super) fn outside(self, place: [f64; 2]) -> Self {
         Label {
             place,
@@ -76,7 +77,7 @@ impl Label {
         }
     }
 
-    /// Whether one of the leaders ends at this label, so that it stands beside its sheet.
+    /// Whether this label stands beside its sheet, because a leader line ends at it.
     pub(super) fn is_beside(&self, leaders: &[Curve]) -> bool {
         self.kind == LabelKind::Patch
             && (leaders.iter().flat_map(|line| line.controls().last()))
@@ -171,10 +172,10 @@ impl Label {
         self.kind == LabelKind::Sheet
     }
 
-    /// Turns the label with its sheet, by half a turn more where the text would be upside down.
+    /// Rotates the label with its sheet, by 180° more if the text would be upside down.
     pub(super) fn turn_by(&mut self, degrees: f64) {
         let turned = (self.turn + degrees).rem_euclid(180.0);
-        // To the right or up.
+        // Text runs to the right or upwards.
         self.turn = if turned > 90.5 {
             turned - 180.0
         } else {

@@ -13,8 +13,8 @@ const LEADER_END_DISTANCE_MM: f64 = 3.0;
 /// Distance of the middle of a leader's number from the sheet's edge, in millimetres.
 const LEADER_TEXT_DISTANCE_MM: f64 = 6.0;
 
-/// Moves a label beside the sheet, in the direction in which a leader leaves the sheet soonest and meets
-/// nothing else. Returns the label and its leader; `None` where there is no such direction.
+/// Moves a label beside the sheet, in the direction in which its leader line leaves the sheet after the shortest
+/// distance and crosses nothing else. Returns the label and its leader; `None` if there is no such direction.
 pub(super) fn place_leader(
     label: &Label,
     walls: &[[[f64; 2]; 2]],
@@ -31,7 +31,7 @@ pub(super) fn place_leader(
             .collect();
         hits.sort_by(f64::total_cmp);
         let edge = *hits.first()?;
-        // An odd number of edges is passed on the way out, and the next one is far.
+        // The ray leaves the sheet at its first intersection; the next one must be far away.
         let next = hits
             .get(1)
             .is_none_or(|next| *next > edge + 2.0 * LEADER_TEXT_DISTANCE_MM);

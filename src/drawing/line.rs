@@ -4,7 +4,7 @@ use super::curve::Curve;
 use crate::math::planar::{distance, polyline_length};
 use crate::pattern::{Direction, Seam};
 
-/// Maximum distance between a curve and the polyline that is given for it, in millimetres.
+/// Maximum distance between a curve and the polyline that approximates it, in millimetres.
 pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 
 /// A line to fold along.
@@ -12,7 +12,7 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Line {
-    /// The crease, by its place in [`Patches::creases`](crate::shape::patches::Patches::creases).
+    /// Number of the crease, its index in [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
     /// Whether the line is a mountain or a valley fold, seen from above.
     pub direction: Direction,
@@ -39,7 +39,7 @@ impl Line {
         line.along(curve)
     }
 
-    /// This line along another curve.
+    /// Replaces the curve of this line.
     pub(super) fn along(self, curve: Curve) -> Self {
         let points = curve.points(FLATTENING_TOLERANCE_MM);
         Line {

@@ -11,7 +11,7 @@ use crate::pattern::Run;
 /// Length of a mark, in millimetres.
 const MARK_LENGTH_MM: f64 = 3.0;
 
-/// Number of marks on each seam, by its crease: 0 where one of its sides is not a single run.
+/// Number of marks on each seam, by the number of its crease; 0 if one of its sides is not a single run.
 pub(super) fn mark_counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
     let mut sides: BTreeMap<usize, Vec<(Option<u32>, f64)>> = BTreeMap::new();
     for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
@@ -35,8 +35,8 @@ pub(super) fn mark_counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize,
         .collect()
 }
 
-/// Marks on one side of a seam, at equal shares of its length and at right angles to it. The other side,
-/// which runs the other way, gets them at the same points.
+/// Marks on one side of a seam, normal to it and evenly spaced, so that the marks of the other side, which runs in
+/// the opposite direction, are at the same points.
 pub(super) fn seam_marks(run: &Run, curve: &Curve, counts: &BTreeMap<usize, usize>) -> Vec<Curve> {
     let count = run
         .seam

@@ -1,5 +1,5 @@
 //! Patterns as they are drawn, in millimetres: sheets beside each other, with lines to cut and to
-//! fold, tabs and labels. What files are written of ([`patterns`](crate::files::drawings)).
+//! fold, tabs and labels. [`files::drawings`](crate::files::drawings) writes them to files.
 //!
 //! ```
 //! use developable::drawing::{Drawing, DrawingOptions};

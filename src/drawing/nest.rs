@@ -1,7 +1,7 @@
 //! Sheets nested on pages as they are, not as boxes: each where it fits lowest, turned by quarters.
 //!
-//! Shapes are bits on a grid, so that whether one fits takes a few machine words for each of its rows. What a
-//! sheet covers is marked by every cell that it touches, so nothing comes to lie on anything else.
+//! Sheets and pages are bitmaps on a grid, so that testing whether a sheet fits takes a few machine words for each
+//! of its rows. A sheet occupies every cell that it touches, so sheets never overlap.
 
 use super::label::Label;
 use super::pack::Place;
@@ -16,7 +16,8 @@ const MAX_PAGE_CELLS: f64 = 5000.0;
 /// Minimum distance between nested sheets, in millimetres.
 const NESTING_GAP_MM: f64 = 3.0;
 
-/// The closed lines of a sheet and of texts beside it, and width and height of the name above it.
+/// Shape of a sheet for nesting: the closed lines of the sheet and of texts beside it, and width and height of the
+/// name above it.
 pub(super) struct Shape {
     pub lines: Vec<Vec<[f64; 2]>>,
     pub name: [f64; 2],
@@ -24,7 +25,7 @@ pub(super) struct Shape {
 
 impl Shape {
     pub(super) fn new(sheet: &DrawnSheet) -> Self {
-        // Numbers beside it are as good as a part of it.
+        // Numbers beside the sheet count as parts of it.
         let outside = |label: &&Label| label.is_beside(&sheet.leaders);
         let beside = sheet.labels.iter().filter(outside).map(Label::corners);
         Shape {
@@ -48,7 +49,7 @@ impl Shape {
     }
 }
 
-/// The page of a shape, and its place from the page's lower left corner.
+/// Position of a nested shape: the number of its page, and its place relative to the page's lower left corner.
 pub(super) struct Nested {
     pub page: usize,
     pub place: Place,
@@ -120,8 +121,8 @@ fn cells_along(side: f64, cell: f64) -> usize {
     ((side / cell + 1e-9) as usize).max(1)
 }
 
-/// The orientations of a shape, out of four, in which it fits on a page, each with the cells that it touches;
-/// its lower left corner is at the origin.
+/// Those of the four orientations of a shape in which it fits on a page, with its lower left corner at the origin,
+/// each with the cells that it touches.
 fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
     let least = Place::around(&shape.lines);
     (0..4)
@@ -134,7 +135,7 @@ fn turned(shape: &Shape, cell: f64, page: [f64; 2]) -> Vec<(Place, Mask)> {
                 return None;
             }
             let place = place.shifted(low.map(|v| -v));
-            // What fits by less than a cell ends with the page.
+            // A shape that fits by less than one cell ends at the page's edge.
             let size = [0, 1].map(|k| {
                 let own = ((high[k] - low[k]) / cell) as usize + 1;
                 own.min(cells_along(page[k], cell))
@@ -208,7 +209,8 @@ impl Mask {
         }
     }
 
-    /// The mask dilated by a square of cells; its origin moves by `reach` to the lower left.
+    /// Dilation of the mask by a square of `2 reach + 1` cells; its origin moves by `reach` cells to the lower
+    /// left.
     fn grown(&self, reach: usize) -> Mask {
         let mut out = Mask::empty(self.columns + 2 * reach, self.rows.len() + 2 * reach);
         for y in 0..self.rows.len() {
@@ -223,8 +225,8 @@ impl Mask {
         out
     }
 
-    /// The lowest free position of a shape, the leftmost of equals, at which the dilated shape meets no
-    /// occupied cell.
+    /// The lowest position of a shape, and of several the leftmost, at which the dilated shape meets no occupied
+    /// cell; `None` if there is none.
     fn room(&self, shape: &Mask, grown: &Mask, reach: usize) -> Option<[usize; 2]> {
         let last = [
             self.columns.checked_sub(shape.columns)?,
@@ -265,7 +267,7 @@ impl Mask {
     }
 }
 
-/// 64 bits of a row from a position on, which may be negative.
+/// The 64 bits of a row from position `from` on, which may be negative; bits outside of the row are 0.
 fn bits(row: &[u64], from: i64) -> u64 {
     let word = |n: i64| {
         usize::try_from(n)

@@ -19,18 +19,19 @@ const OFFSET_FLATTENING_TOLERANCE_MM: f64 = 0.005;
 /// Maximum distance of an offset corner from the corner itself, as a multiple of the offset.
 const MAX_MITRE_FACTOR: f64 = 2.0;
 
-/// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset: that of slits.
+/// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset. Such loops arise at
+/// slits.
 const MAX_LOOP_FACTOR: f64 = 8.0;
 
-/// Moves the closed lines around a sheet outwards by a distance. Where they run into themselves, as in a slit
-/// that is narrower, they are joined. `None` where they would still cross.
+/// Offsets the closed lines around a sheet outwards by a distance. Loops in which an offset line crosses itself, as
+/// in a slit narrower than the offset, are cut off. `None` if lines cross even so.
 pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
         let mut ring: Vec<Point> = (curve.points(OFFSET_FLATTENING_TOLERANCE_MM).into_iter())
             .map(|[x, y]| Point::new(x, y))
             .collect();
-        // Without its last point, which is the first, and what is as good as one point.
+        // Remove coinciding points, and the last point, which equals the first.
         ring.dedup_by(|p, q| (*p - *q).norm() < 1e-6);
         if ring.len() > 1 && (ring[0] - ring[ring.len() - 1]).norm() < 1e-6 {
             ring.pop();
@@ -50,7 +51,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
                 points
             })
             .collect();
-        // A hole that is narrower is none any more.
+        // A hole that is narrower than the offset disappears.
         if polygon_area(&clean) * polygon_area(&ring) > 0.0 {
             moved.push(clean);
         }
@@ -69,7 +70,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
     Some(moved.into_iter().map(curve).collect())
 }
 
-/// A closed polyline moved to its right, corner by corner.
+/// Offsets a closed polyline to its right, corner by corner.
 fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
     let n = ring.len();
     let mut out = Vec::with_capacity(n);
@@ -78,7 +79,7 @@ fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
         let [u, v] = [here - before, after - here].map(|p| p / p.norm());
         let turn = (u.conj() * v).arg();
         let [p, q] = [u, v].map(|along| here + along * Point::new(0.0, -distance));
-        // Where both sides meet, seen from the corner.
+        // Intersection of both offset sides, relative to the corner.
         let half = (0.5 * turn).cos();
         let tip = (u + v) / (u + v).norm() * Point::new(0.0, -distance / half);
         if turn.abs() < POLYLINE_CORNER_ANGLE || (turn > 0.0 && 1.0 <= MAX_MITRE_FACTOR * half) {

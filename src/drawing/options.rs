@@ -14,24 +14,23 @@ use crate::error::{Error, Result};
 pub struct DrawingOptions {
     /// Millimetres for each unit of the surface. Default 1.
     pub scale: f64,
-    /// Depth of tabs along cut creases, in millimetres; they are on the side of the patch with
-    /// the lower number, in short pieces where that is curved. Default: no tabs.
+    /// Depth of tabs along cut creases, in millimetres. Tabs are on the side of the patch with the lower number; a
+    /// curved side gets several short ones. Default: no tabs.
     pub tabs: Option<f64>,
-    /// Distance of marks along seams that are joined, in millimetres: the same on both sides. Default: no marks.
+    /// Distance between marks along joints, in millimetres, at the same points on both sides. Default: no marks.
     pub marks: Option<f64>,
-    /// Width of the line that a laser or a saw burns away, in millimetres: lines are cut half of it further out.
-    /// Default 0.
+    /// Kerf: width of the line that a laser or a saw takes away, in millimetres. Cut lines are offset outwards by
+    /// half of it. Default 0.
     pub kerf: f64,
-    /// Width of the strip left outside of all edges to be sewn or bent over, in millimetres: lines are cut so
-    /// much further out. Default 0.
+    /// Allowance: width of the strip outside of all edges that is sewn or bent over, in millimetres. Cut lines are
+    /// offset outwards by it. Default 0.
     pub allowance: f64,
-    /// Thickness of metal and how it is bent: the bend allowance is added to sheets or taken from them. Folds
-    /// have to be straight and go from edge to edge. Default: no thickness.
+    /// Thickness of metal and how it is bent, for the bend allowance. Folds must be straight and go from edge to
+    /// edge. Default: no bend allowance.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub bending: Option<Bending>,
-    /// Maximum distance of smooth lines from those that were found on the lattice, in spacings; 0 takes these
-    /// as they are. The two sides of joints are moved by up to as much again to become equally long. Default
-    /// 0.5.
+    /// Maximum distance of smooth lines from the lines of the sheet, in spacings; 0 disables smoothing. The two
+    /// sides of joints may be moved by the same distance again to become equally long. Default 0.5.
     pub smoothing: f64,
 }
 

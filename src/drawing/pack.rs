@@ -12,11 +12,12 @@ pub(super) struct Place {
     size: [f64; 2],
 }
 
-/// Minimum share of a bounding box's area that a turn must save: an upright sheet is easier to recognise.
+/// Minimum share of the bounding box's area that a rotation must save; otherwise the sheet stays upright, which is
+/// easier to recognise.
 const MIN_TURN_AREA_SAVING: f64 = 0.03;
 
 impl Place {
-    /// The place that leaves every point where it is.
+    /// The identity: no rotation and no translation.
     pub(super) const IDENTITY: Place = Place {
         turn: [1.0, 0.0],
         shift: [0.0; 2],
@@ -59,8 +60,8 @@ impl Place {
         self.turn[1].atan2(self.turn[0]).to_degrees()
     }
 
-    /// The rotation with the smallest bounding box, whose corner is moved to the origin: one edge of the
-    /// convex hull is level then.
+    /// The rotation with the bounding box of least area, which aligns an edge of the convex hull with an axis,
+    /// followed by the translation of the box's corner to the origin.
     pub(super) fn around(lines: &[Vec<[f64; 2]>]) -> Place {
         let hull = hull(lines.iter().flatten().copied().collect());
         let boxed = |turn: [f64; 2]| {
@@ -120,7 +121,7 @@ pub(super) fn pack_rows(boxes: &[Place]) -> (Vec<Place>, [f64; 2]) {
     let widest = boxes.iter().map(|b| padded(b)[0]).fold(0.0, f64::max);
     let limit = widest.max(1.1 * area.sqrt());
     let mut out = boxes.to_vec();
-    // From the top down, and upwards once the height is known.
+    // Rows are laid from the top down; y is flipped once the total height is known.
     let (mut x, mut y, mut row, mut width) = (0.0, 0.0, 0.0f64, 0.0f64);
     for i in order {
         let [w, h] = padded(&boxes[i]);

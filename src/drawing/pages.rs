@@ -25,9 +25,9 @@ const PAGE_GAP_MM: f64 = 20.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Stock {
-    /// Paper of 210 × 297 mm, of whose edges a printer leaves ten millimetres blank.
+    /// Paper of 210 × 297 mm, with a blank margin of 10 mm.
     A4,
-    /// Paper of 8½ × 11 inches, of whose edges a printer leaves ten millimetres blank.
+    /// Paper of 8½ × 11 inches, with a blank margin of 10 mm.
     Letter,
     /// Plates or sheets of a material, by their width and height.
     Plate([f64; 2]),
@@ -103,8 +103,8 @@ pub struct Pages {
     pub part: [f64; 2],
     /// The pages, each with its name and corner.
     pub pages: Vec<Page>,
-    /// Alignment marks, in the drawing's millimetres: the middles of the strips in which pages overlap, and
-    /// their corners. With a mark at each, on every page that shows it, the pages can be laid on each other.
+    /// Positions of alignment marks, in the drawing's millimetres: middles and corners of the strips in which pages
+    /// overlap. Each mark is printed on all pages that show its position, so that the pages can be aligned.
     pub marks: Vec<[f64; 2]>,
 }
 
@@ -153,12 +153,12 @@ pub(super) fn arrange_on_pages(sheets: &[DrawnSheet], stock: Stock) -> Result<Ar
         }
         size = whole;
         if pages.part != part {
-            // All pages lie the same way, and a shape that fits on one does so either way.
+            // All pages have one orientation, and a shape that fits on a page fits in either.
             part = pages.part;
             found = nest_shapes(&shapes, part);
         }
     }
-    // Whole sheets, on pages in rows beside the others.
+    // Pages with whole sheets are laid in rows beside the pages of divided sheets.
     let count = found
         .iter()
         .flatten()

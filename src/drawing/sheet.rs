@@ -5,7 +5,7 @@ use super::label::Label;
 use super::line::{FLATTENING_TOLERANCE_MM, Line};
 use super::pack::Place;
 
-/// A sheet of a drawing, turned to the smallest bounding box if that saves enough, never mirrored.
+/// A sheet of a drawing. It is rotated to its smallest bounding box if that saves enough area, and never mirrored.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -16,8 +16,8 @@ pub struct DrawnSheet {
     pub patches: Vec<u32>,
     /// Lower left and upper right corner of the sheet.
     pub bounds: [[f64; 2]; 2],
-    /// Cut lines: closed polylines, the last point joined to the first, around tabs, too. Points lie within a
-    /// fiftieth of a millimetre of [`DrawnSheet::curves`].
+    /// Cut lines, which also go around tabs: closed polylines whose last point is joined to the first. Points lie
+    /// within a fiftieth of a millimetre of [`DrawnSheet::curves`].
     pub cuts: Vec<Vec<[f64; 2]>>,
     /// The cut lines as curves.
     pub curves: Vec<Curve>,
@@ -25,9 +25,9 @@ pub struct DrawnSheet {
     pub folds: Vec<Line>,
     /// Lines along which tabs are folded.
     pub tabs: Vec<Line>,
-    /// Edges of the surface inside of an allowance: lines along which the sheet is sewn or bent over.
+    /// Edges of the surface inside of the allowance, along which the sheet is sewn or bent over.
     pub edges: Vec<Curve>,
-    /// Short lines along seams, which lie on each other when these are joined.
+    /// Marks: short lines along seams, which coincide when both sides of a seam are joined.
     pub marks: Vec<Curve>,
     /// Leader lines from patches without room for their number to the number beside the sheet.
     pub leaders: Vec<Curve>,

@@ -39,8 +39,8 @@ pub(super) struct Smooth {
     pub folds: Vec<Curve>,
 }
 
-/// Makes the lines of a sheet smooth, within a tolerance in spacings of the lattice. Ends of runs stay where they
-/// are, so that both sides of a seam keep theirs. Outlines do not cross where they did not before.
+/// Makes the lines of a sheet smooth, within a tolerance in spacings of the lattice. Ends of runs keep their
+/// positions, so that the two sides of a seam keep common ends. Smoothing adds no intersections of outlines.
 pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
     let spacing = sheet.spacing;
     let runs: Vec<&[[f64; 2]]> = (sheet.outlines.iter().flatten())
@@ -81,12 +81,12 @@ pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
     Smooth { outlines, folds }
 }
 
-/// The numbers of curves that cross each other or themselves.
+/// Indices of the curves that cross each other or themselves.
 pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
     let (mut places, mut edges, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (owner, curve) in curves.iter().enumerate() {
         for p in curve.points(0.02 * spacing).windows(2) {
-            // In short pieces, which are quickly compared.
+            // Divide curves into short segments, because the index compares these faster.
             let steps = (distance(p[0], p[1]) / (4.0 * spacing)).ceil().max(1.0);
             let at = |i: f64| {
                 Point::new(p[0][0], p[0][1]) * (1.0 - i / steps)
@@ -116,7 +116,7 @@ pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
     wrong
 }
 
-/// A fold whose ends are moved onto the smooth outline where they are near it.
+/// Moves the ends of a fold onto the smooth outline, if they are near it.
 fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
     let mut out = points.to_vec();
     let last = out.len() - 1;
@@ -141,8 +141,7 @@ fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[
     out
 }
 
-/// A point on a line, its distance along the line, and whether it is one of the points that the line was
-/// given by.
+/// Sample of a line: its position, its distance along the line, and whether it is one of the line's given points.
 #[derive(Clone, Copy)]
 struct Sample {
     along: f64,
@@ -163,7 +162,7 @@ pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve
             return section(&line, true, tolerance, spacing)
                 .unwrap_or_else(|| Curve::through(points));
         };
-        // It begins with a corner.
+        // Begin at a corner.
         line = rotated(&line, first);
         let ring = line.len() - 1;
         for corner in &mut corners {
@@ -178,7 +177,7 @@ pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve
     let mut curves: Vec<Option<Curve>> = sections()
         .map(|own| section(own, false, tolerance, spacing))
         .collect();
-    // Two straight lines meet in their corner, wherever the lattice has cut it.
+    // The corner between two straight pieces is their intersection, even if the lattice has cut it off.
     let count = curves.len();
     let straight: Vec<Option<[Point; 2]>> = sections()
         .zip(&curves)
@@ -214,7 +213,7 @@ pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve
         match (straight[k], curves[k].take()) {
             (Some(_), _) => out.line_to(ends[k + 1]),
             (_, Some(curve)) => out.append(&curve),
-            // No spline is near enough: it stays as it was.
+            // No spline is within the tolerance: keep the polyline.
             _ => own
                 .iter()
                 .skip(1)
@@ -269,7 +268,7 @@ fn samples(points: &[[f64; 2]], step: f64) -> Vec<Sample> {
     out
 }
 
-/// A closed line that begins at another of its samples.
+/// Rotates a closed line so that it begins at sample `first`.
 fn rotated(line: &[Sample], first: usize) -> Vec<Sample> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -323,7 +322,7 @@ fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
         {
             continue;
         }
-        // The line was given through its corners.
+        // Corners are given points of the line.
         let near = (0..last).filter(|k| line[*k].given && !end(*k) && apart(i, *k) < spacing);
         let corner = near
             .max_by(|a, b| turns[*a].total_cmp(&turns[*b]))
@@ -337,8 +336,8 @@ fn corners(line: &[Sample], closed: bool, spacing: f64) -> Vec<usize> {
     found
 }
 
-/// Direction of a line from one of its samples over an arm's length, backwards if that is negative: that of
-/// the least-squares line through the samples there.
+/// Direction of a line after one of its samples, or before it for a negative `arm`: that of the least-squares line
+/// through the samples within the arm's length.
 fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
     let last = line.len() - 1;
     let whole = line[last].along;
@@ -373,7 +372,7 @@ fn heading(line: &[Sample], i: usize, arm: f64, closed: bool) -> Option<Point> {
 fn axis(line: &[Sample]) -> [Point; 2] {
     let count = line.len() as f64;
     let middle = line.iter().map(|s| s.place).sum::<Point>() / count;
-    // Squared, opposite directions are one.
+    // Squares of complex numbers, so that opposite directions count as one.
     let square: Point = line
         .iter()
         .map(|s| (s.place - middle) * (s.place - middle))

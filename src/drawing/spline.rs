@@ -12,19 +12,19 @@ pub(super) struct Fit {
     pub rms: f64,
 }
 
-/// Number of times the nearest parameter of each point is looked for again in a fit.
+/// Number of times that a fit updates the parameter of each point to that of the nearest point of the spline.
 const REPARAMETRISATION_PASSES: usize = 3;
 
 /// Minimum factor by which more spans must reduce the root mean square distance to be used.
 const MIN_IMPROVEMENT_FACTOR: f64 = 3.0;
 
-/// The spline of fewest spans near points, each given with its distance along the line. It begins and ends
-/// with the first and the last point; a closed line repeats its first point at the end. `None` where spans
-/// would have to be shorter than `shortest`.
+/// Fits the spline with the fewest spans to points, each given with its distance along the line. It interpolates
+/// the first and the last point; a closed line repeats its first point at the end. `None` if spans would have to be
+/// shorter than `shortest`.
 ///
-/// Points that are nearer to it on average than `exact` are as good as on it. Splines that are twice
-/// continuously differentiable have no kinks between their spans, and least squares take noise out that
-/// an interpolation would follow.
+/// A fit with a root mean square distance below `exact` is accepted as exact. The spline is twice continuously
+/// differentiable, so it has no kinks between spans; least squares removes noise that an interpolation would
+/// follow.
 pub(super) fn fit_spline(
     points: &[(f64, Point)],
     closed: bool,
@@ -77,7 +77,7 @@ impl Fit {
     }
 }
 
-/// Control points d₀, d₁, ... of a uniform cubic B-spline; span `s` has those from `s` on.
+/// Uniform cubic B-spline with control points d₀, d₁, …; span `s` depends on the four control points from `s` on.
 struct Spline {
     controls: Vec<Point>,
     spans: usize,
@@ -151,8 +151,8 @@ impl Spline {
         closed: bool,
         spans: usize,
     ) -> Option<Spline> {
-        // Open ones go through their ends, which says what the outermost control points are: there are
-        // `spans + 1` inner ones. Those of closed ones repeat.
+        // An open spline interpolates its ends, which determines its outermost control points, so `spans + 1` inner
+        // ones are unknown. The control points of a closed spline are periodic.
         let unknowns = if closed { spans } else { spans + 1 };
         let ends = [points[0].1, points[points.len() - 1].1];
         let empty = Spline {

@@ -32,11 +32,11 @@ const MAX_TAB_HALVINGS: usize = 2;
 /// The runs of an outline, each with its curve in millimetres.
 type Outline<'a> = Vec<(&'a Run, Curve)>;
 
-/// The cut lines with tabs where there is room for them, and the tabs.
+/// Adds tabs to the outlines of a sheet where there is room. Returns the cut lines and the tabs.
 pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
-    // Of the two sides of a crease that of the patch with the lower number has the tabs. Those of a step are not
-    // glued to each other.
+    // Tabs are on the side of the patch with the lower number. The two sides of a step are not glued, so they have
+    // no tabs.
     let tabbed = |run: &Run| {
         let first = |seam: &Seam| run.patch == Some(seam.patches[0]) && !seam.torn;
         let own = run.seam.filter(first);
@@ -49,7 +49,7 @@ pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Cur
     let pieces: Vec<Vec<Vec<Curve>>> = (outlines.iter())
         .map(|outline| outline.iter().map(parts).collect())
         .collect();
-    // What tabs must not touch: all outlines, and the tabs there are.
+    // Segments that tabs must not touch: all outlines, and the tabs added so far.
     let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
     if depth.is_some() {
         for piece in pieces.iter().flatten().flatten() {
@@ -93,8 +93,8 @@ pub(super) fn add_tabs(outlines: &[Outline<'_>], depth: Option<f64>) -> (Vec<Cur
     (cuts, tabs)
 }
 
-/// Fold lines of tabs along a curve: pieces that turn by little each, and are no shorter than a tab has to be
-/// where that is possible.
+/// Divides a curve into fold lines of tabs: each turns by at most [`MAX_TAB_BEND`] and, where possible, is at least
+/// [`MIN_TAB_LENGTH_MM`] long.
 fn bases(curve: &Curve) -> Vec<Curve> {
     let points = curve.points(FLATTENING_TOLERANCE_MM);
     let heading = |i: usize| {

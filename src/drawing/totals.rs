@@ -12,7 +12,7 @@ use crate::pattern::{Direction, Missing, Sheet};
 /// sheets.
 const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 
-/// Numbers and lengths that a drawing comes to; lengths in millimetres.
+/// Summary of a drawing: numbers of its elements and total lengths, in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -31,9 +31,9 @@ pub struct Totals {
     pub seam_length: f64,
     /// Length of the slits, each counted once.
     pub slit_length: f64,
-    /// Largest difference between the lengths of a joint's two sides, as a share of the longer one. Joints
-    /// shorter than a tenth of the side of a square with the area of all sheets do not count, nor do the
-    /// sides of steps, which are not joined.
+    /// Largest difference between the lengths of a joint's two sides, as a share of the longer one. Joints shorter
+    /// than a tenth of the side of a square with the area of all sheets are ignored, as are steps, whose sides are
+    /// not joined.
     pub mismatch: f64,
     /// The joint with the largest mismatch, if any counts.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
@@ -57,17 +57,17 @@ pub struct Totals {
     pub valley_length: f64,
     /// Area of the sheets without tabs, in square millimetres.
     pub area: f64,
-    /// Largest strain of a sheet (root of the mean square): 0 for what can be unrolled.
+    /// Largest strain of a sheet, root mean square over its area; 0 if all sheets are exactly developable.
     pub strain: f64,
-    /// Largest distance between the two sides of a fold (root of the mean square).
+    /// Largest seam gap of a fold, root mean square along the fold, in millimetres.
     pub gap: f64,
     /// Number of small loops in which outlines crossed themselves, and which were cut off.
     pub loops: usize,
-    /// Largest distance of a sheet that was folded back from the surface (root of the mean square), if that
-    /// was asked for ([`PatternOptions::refold`](crate::pattern::PatternOptions::refold)).
+    /// Largest root mean square distance between a refolded sheet and the surface, in millimetres; `None` unless
+    /// [`PatternOptions::refold`](crate::pattern::PatternOptions::refold) was set.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub refolding: Option<f64>,
-    /// What of the surface is on no sheet, if that is known ([`Drawing::missing`](super::Drawing::missing));
+    /// Part of the surface that is on no sheet, if it is known ([`Drawing::missing`](super::Drawing::missing));
     /// areas in square millimetres.
     pub missing: Option<Missing>,
     /// Number of A4 pages that the drawing takes.

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::error::{Error, Result};
 
-/// A developable surface to generate. All fit a box whose longer side is 1.
+/// An example surface, developable except at creases. Each fits a box whose longer side is 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Example {

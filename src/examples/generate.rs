@@ -8,7 +8,7 @@ use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::HeightImage;
 
 impl Example {
-    /// The example at the pixels of an image, with and without noise.
+    /// Generates height images of the example, with and without noise.
     ///
     /// The noise is Gaussian, independent from pixel to pixel and the same for
     /// the same seed on every machine, but for rounding.
@@ -57,7 +57,7 @@ impl Example {
     }
 }
 
-/// How to generate an [`Example`].
+/// Options for generating an [`Example`]: size and noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -93,7 +93,7 @@ pub struct Sample {
     pub truth: HeightImage,
 }
 
-/// Highest less lowest value.
+/// Range of the values that are not NaN: maximum minus minimum.
 fn range(values: &[f64]) -> f64 {
     let valid = || values.iter().copied().filter(|z| !z.is_nan());
     valid().fold(f64::NEG_INFINITY, f64::max) - valid().fold(f64::INFINITY, f64::min)

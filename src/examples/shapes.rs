@@ -76,11 +76,11 @@ fn roof(x: f64, y: f64) -> f64 {
     along_x.max(along_y).max(tower)
 }
 
-/// How deep the house is, whose front is 1 wide.
+/// Depth of the house in plan, relative to its width.
 const HOUSE_DEPTH: f64 = 0.75;
 
 fn house(x: f64, y: f64) -> f64 {
-    /// Height gained on the way from the eaves.
+    /// Slope of the roof's planes: rise over horizontal distance from the eaves.
     const ROOF_PITCH: f64 = 0.8;
     /// Radius of the vaults.
     const VAULT_RADIUS: f64 = 0.36;
@@ -95,7 +95,7 @@ fn house(x: f64, y: f64) -> f64 {
     roof.max(vault)
 }
 
-/// Length of the oloid's image in units of its circles' radius: its own 3 and a margin.
+/// Width of the oloid's image in units of its circles' radius: the oloid's length 3 plus a margin.
 const OLOID_LENGTH: f64 = 3.1;
 
 fn oloid(x: f64, y: f64) -> f64 {
@@ -157,7 +157,7 @@ fn unit_oloid(x: f64, y: f64) -> f64 {
 /// Width of an A4 sheet of height 1.
 const A4_WIDTH: f64 = 210.0 / 297.0;
 
-/// Height of the page's image in heights of the sheet.
+/// Height of the page's image, in heights of the sheet.
 const PAGE_HEIGHT: f64 = 1.04;
 
 fn page(x: f64, y: f64) -> f64 {

@@ -51,7 +51,7 @@ pub(super) struct SampledCurve {
 }
 
 impl Cylinder {
-    /// Number of parameters of least squares; the principal point is none.
+    /// Number of unknowns of the least-squares problem; the principal point is not among them.
     pub fn parameters(&self) -> usize {
         8 + self
             .pages

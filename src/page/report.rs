@@ -211,8 +211,8 @@ impl VerdictFigures {
     }
 }
 
-/// Root mean square of normally distributed errors, over its expectation, that a number of points exceeds once in a few
-/// thousand times (Wilson and Hilferty's quantile of chi-squared).
+/// Root mean square of `count` normally distributed errors, over its expectation, that is exceeded by chance once
+/// in a few thousand times (Wilson and Hilferty's quantile of chi-squared).
 fn chance_residual(count: f64) -> f64 {
     let part = 2.0 / (9.0 * count.max(1.0));
     (1.0 - part + CHANCE_QUANTILE * part.sqrt()).powf(1.5)

@@ -22,12 +22,12 @@ use crate::math::union_find::UnionFind;
 use crate::shape::patches::Patches;
 use crate::unroll::arap_mesh::StoppingCriteria;
 
-/// Result of joining parts: sheets, or parts that have to be cut further.
+/// Result of joining parts: valid sheets, or parts that have to be cut further.
 pub(super) enum Assembly {
     /// All parts are on valid sheets.
     Whole(Box<Assembled>),
-    /// The parts, the numbers of those that cannot be sheets as they are, and why; no numbers if border
-    /// specks were removed.
+    /// The parts, and for each part that has to be cut its number and the reason; no numbers if border vertices
+    /// were removed instead.
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
@@ -39,13 +39,13 @@ pub(super) struct Assembled {
     pub arrangement: Arrangement,
 }
 
-/// Stopping criteria for a sheet whose patches start near their final places.
+/// Stopping criteria for relaxing a sheet whose patches start near their final positions.
 const SHEET_SETTLING: StoppingCriteria = StoppingCriteria {
     max_steps: 12,
     ..SHEET_RELAXATION
 };
 
-/// Joins parts as far as their sides fit, the strain limit allows it and outlines stay simple.
+/// Joins parts to sheets as far as their sides fit, the strain stays within the limit and outlines stay simple.
 pub(super) fn assemble_sheets(
     parts: Parts,
     patches: &Patches,
@@ -56,7 +56,7 @@ pub(super) fn assemble_sheets(
     let decided = parts.finest * parts.surface.lattice().spacing();
     let mut net = SeamGraph::new(&parts.surface, &parts.labels, leaves, decided)?;
     net.divide_by_fit(options.gap);
-    // What is wrong with a part by itself needs no joint unrolling to be seen.
+    // A part that is invalid by itself is found without unrolling its sheet.
     let limit = options.max_strain;
     let loose = Layout::loose(&net);
     let by_itself = |leaf: &Option<FlatPatch>| leaf.as_ref().is_some_and(|leaf| !leaf.is_rough());
@@ -116,7 +116,7 @@ pub(super) fn settle(
         if rough || !are_close(net, layout, &folded) {
             let mut tied = Tied::new(net, layout, &members, &folded)?;
             tied.relax(net, layout, SHEET_SETTLING)?;
-            // Most lie well by now.
+            // Most sheets are within the strain limit already.
             if strains(net, &members).0.rms() > limit {
                 tied.relax(net, layout, SHEET_RELAXATION)?;
             }
@@ -156,7 +156,7 @@ fn removable_vertices(parts: &Parts, net: &SeamGraph, fault: &Fault) -> Option<(
     })
 }
 
-/// Groups of a sheet's patches that are connected by folds.
+/// Connected components of a sheet's patches, where folds connect two patches.
 fn connected(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Result<Vec<Vec<u32>>> {
     let mut sets = UnionFind::new("pattern", members.len())?;
     let place = |patch: u32| members.binary_search(&patch).ok();
@@ -207,7 +207,7 @@ fn folds_to_open(net: &SeamGraph, layout: &Layout, folded: &[usize], fault: &Fau
     }
 }
 
-/// The pattern with outlines, folds and numbers of all sheets.
+/// Creates the pattern: outlines, folds, labels and figures of all sheets.
 pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
     let Assembled {
         parts,

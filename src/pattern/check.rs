@@ -13,17 +13,17 @@ use crate::unroll::overlap::crossings;
 /// chose it.
 const MAX_JOINED_GAP_SPACINGS: f64 = 0.05;
 
-/// Number of nodes at a seam's end that are not tied to the other side, where three patches meet: the place
-/// of a node there is inexact if more than three do.
+/// Number of nodes at an end of a seam that are not tied to the other side where three patches meet: if more than
+/// three meet, the position of the node is inexact.
 const UNTIED_END_NODES: usize = 1;
 
-/// Whether the sides of folds lie on each other already, so that nothing has to be relaxed.
+/// Whether the sides of all folds coincide already, so that the sheet need not be relaxed.
 pub(super) fn are_close(net: &SeamGraph, layout: &Layout, folded: &[usize]) -> bool {
     let mut folded = folded.iter();
     folded.all(|seam| seam_gap(net, layout, *seam) <= MAX_JOINED_GAP_SPACINGS * net.spacing)
 }
 
-/// The patches of a sheet as one mesh, tied along its folds.
+/// The patches of a sheet as one mesh, in which the two sides of each fold are tied to each other.
 pub(super) struct Tied {
     patches: Vec<u32>,
     /// Number of the first vertex of each patch.
@@ -62,8 +62,8 @@ impl Tied {
         })
     }
 
-    /// Relaxes the sheet from where its patches lie, and resets their motions. Returns the cost: steps times
-    /// vertices.
+    /// Relaxes the sheet from the current positions of its patches, and resets their motions. Returns the cost:
+    /// number of steps times number of vertices.
     pub(super) fn relax(
         &mut self,
         net: &mut SeamGraph,
@@ -83,8 +83,8 @@ impl Tied {
     }
 }
 
-/// Pairs of points, as means of vertices, that folds tie to each other; `starts` holds the number of each
-/// patch's first vertex.
+/// Pairs of points that the folds tie to each other, each point as a weighted mean of vertices; `starts` holds the
+/// number of each patch's first vertex.
 pub(super) fn ties(
     net: &SeamGraph,
     patches: &[u32],
@@ -133,7 +133,7 @@ pub(super) fn strain_along(net: &SeamGraph, seam: usize) -> f64 {
     sides.fold(Strain::default(), Strain::with).rms()
 }
 
-/// Strain of a sheet, and strain of each of its patches.
+/// Strain of a whole sheet, and of each of its patches.
 pub(super) fn strains(net: &SeamGraph, patches: &[u32]) -> (Strain, Vec<(u32, Strain)>) {
     let leaf = |patch: &u32| net.leaves[*patch as usize].as_ref();
     let of = |patch: &u32| Some((*patch, leaf(patch)?.strain()));

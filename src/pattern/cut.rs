@@ -28,9 +28,10 @@ const MIN_STEP_SLOPE: f64 = 4.0;
 const CUT_LENGTH_WEIGHT: f64 = 0.002;
 
 impl Labels {
-    /// Cuts a part in two or more, along a straight line seen from above, through where it is strained most,
-    /// and in the direction that leaves least to bend in two directions. Returns the numbers of the pieces,
-    /// the first of them its own, or `None` where the part is too small.
+    /// Cuts a part into two or more along a line that is straight seen from above. Candidate lines pass through the
+    /// middle of the strain or of the part; the one with the best [`score`] is used. A part with steps is cut along
+    /// these instead. Returns the numbers of the pieces, the first being the part's own, or `None` if the part is
+    /// too small.
     pub(super) fn cut(
         &mut self,
         surface: &Heightfield,
@@ -42,7 +43,7 @@ impl Labels {
         if leaf.is_crumb() {
             return Ok(None);
         }
-        // Along steps, if there are any.
+        // First try to cut along steps of the surface.
         let steep = MIN_STEP_SLOPE * lattice.spacing();
         let level =
             |i: usize, k: usize| (surface.heights()[i] - surface.heights()[k]).abs() < steep;
@@ -56,7 +57,7 @@ impl Labels {
             .flat_map(|k| {
                 let (sin, cos) =
                     (std::f64::consts::PI * k as f64 / CUT_DIRECTIONS as f64).sin_cos();
-                // Through the place of the strain, and through the middle of it all.
+                // A line through the strain-weighted median, and one through the unweighted median.
                 [2.0, 0.0].map(|power| {
                     let offset = median(&samples, [cos, sin], power);
                     let line = [cos, sin, -offset];
@@ -78,8 +79,8 @@ impl Labels {
         Ok(None)
     }
 
-    /// Cuts a part into the connected pieces on either side of a line, by edges for which `joined` holds;
-    /// `None` if fewer than two are large enough.
+    /// Cuts a part into its connected components by the edges for which `joined` is true; `None` if fewer than two
+    /// are large enough.
     fn try_cut(
         &mut self,
         lattice: &Lattice,
@@ -97,7 +98,7 @@ impl Labels {
         for (number, group) in groups.iter().enumerate() {
             numbers.extend(group.iter().map(|i| (*i, number)));
         }
-        // Scraps stay with the largest group beside them.
+        // Groups that are too small are merged with the largest neighbouring group.
         let least = MIN_GROUP_VERTICES.max((MIN_GROUP_SHARE * burden.len() as f64) as usize);
         let mut order: Vec<usize> = (0..groups.len()).collect();
         order.sort_by_key(|g| Reverse(groups[*g].len()));
@@ -161,7 +162,7 @@ impl Sample {
         let lattice = surface.lattice();
         let (row, col) = (i / lattice.cols(), i % lattice.cols());
         let here = lattice.position(row, col);
-        // The plane through the neighbours there are, by least squares.
+        // Least-squares plane through those neighbours that exist.
         let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for (r, c) in lattice.neighbours(row, col).into_iter().flatten() {
             let rise = surface.height(r, c) - surface.heights()[i];
@@ -197,9 +198,9 @@ fn median(samples: &[Sample], [x, y]: [f64; 2], power: f64) -> f64 {
     weighted_median(&mut along).unwrap_or(0.0)
 }
 
-/// Score of a straight cut, lower is better: for both sides the least variance of the normals, which is 0 for
-/// planes, cylinders and cones (Julius, Kraevoy and Sheffer 2005, *D-Charts*), times their numbers; and the
-/// length of the cut.
+/// Score of a straight cut, lower is better. For each side it adds the smallest eigenvalue of the scatter matrix of
+/// the normals, over the number of all vertices: 0 for planes, cylinders and cones (Julius, Kraevoy and Sheffer
+/// 2005, *D-Charts*). The length of the cut is added with [`CUT_LENGTH_WEIGHT`].
 fn score(samples: &[Sample], [a, b, c]: [f64; 3], spacing: f64) -> f64 {
     let mut sums = [(0.0, Vector3::zeros(), Matrix3::zeros()); 2];
     let mut length = 0.0;

@@ -4,8 +4,9 @@ use super::outline::Layout;
 use super::seam_graph::SeamGraph;
 use crate::heights::heightfield::Heightfield;
 
-/// The triangles of a sheet, built and flat. Each triangle of the lattice belongs to the patch that most of
-/// it lies in, so that sheets meet along creases without a gap.
+/// The triangles of a sheet, with their positions on the surface and on the flat sheet. Each triangle of the
+/// lattice belongs to the patch that most of its corners belong to, so that adjacent sheets have no space between
+/// them.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Faces {

@@ -18,18 +18,19 @@ pub(super) const SHEET_RELAXATION: StoppingCriteria = StoppingCriteria {
     max_steps: 25,
 };
 
-/// The reason why a sheet is invalid.
+/// Reason why a sheet is invalid.
 pub(super) enum Fault {
     /// The sheet's strain, and the parts that are strained by more than the limit.
     Strain(f64, Vec<u32>),
-    /// Parts with triangles upside down.
+    /// Parts with flipped triangles.
     Flipped(Vec<u32>),
     /// A point where the outline crosses itself.
     Crossing(Point),
 }
 
 impl Fault {
-    /// The parts that the fault is in, and what removing vertices of them has to cure.
+    /// The parts that have the fault, and the fault as [`removable_vertices`](super::trim::removable_vertices)
+    /// takes it; `None` for an outline that crosses itself, which belongs to no part.
     pub(super) fn troubled(&self, limit: f64) -> Option<(&[u32], Trouble)> {
         match self {
             Fault::Strain(_, parts) => Some((parts, Trouble::Strain(limit))),
@@ -51,13 +52,14 @@ impl Fault {
     }
 }
 
-/// The folds of a sheet, by the numbers of their seams.
+/// Numbers of the seams of a sheet that are folds.
 pub(super) fn folds_of(net: &SeamGraph, layout: &Layout, members: &[u32]) -> Vec<usize> {
     let own = |seam: &usize| layout.folded[*seam] && members.contains(&net.seams[*seam].patches[0]);
     (0..net.seams.len()).filter(own).collect()
 }
 
-/// The first fault of a sheet, if it has one.
+/// The first fault of a sheet: of its strain above `limit`, flipped triangles and a self-intersection of its
+/// outline, in this order; `None` for a valid sheet.
 pub(super) fn fault(
     net: &SeamGraph,
     layout: &Layout,
@@ -65,7 +67,7 @@ pub(super) fn fault(
     limit: f64,
 ) -> Option<Fault> {
     let (sum, all) = strains(net, members);
-    // Some of them at once, so that few joint unrollings are needed.
+    // The third of them with the largest strain, so that few unrollings of the whole sheet are needed.
     let those = |wrong: &dyn Fn(&Strain) -> bool| -> Vec<u32> {
         let mut found: Vec<&(u32, Strain)> = all.iter().filter(|(_, s)| wrong(s)).collect();
         found.sort_by(|a, b| b.1.rms().total_cmp(&a.1.rms()));

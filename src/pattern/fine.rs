@@ -1,9 +1,10 @@
 //! Decided on a coarse lattice, drawn on the fine one.
 //!
-//! Where a surface has to be cut depends on its shape and not on how finely it was sampled. So large
-//! surfaces are cut and joined on every second vertex, or every fourth: what is looked for there by trial
-//! costs a fraction. Then every vertex goes to the part that it lies in, the patches begin where they
-//! lie on the coarse lattice, and what is drawn comes from creases and triangles of the fine one.
+//! Where a surface has to be cut depends on its shape and not on its sampling. Surfaces with many vertices are
+//! therefore cut and joined on every second or every fourth vertex, where trial cuts and trial joins cost less.
+//! Then each vertex of the fine lattice gets the part of the nearest coarse vertex, the positions on the coarse
+//! lattice are the initial guess of those on the fine one, and the outlines are computed from creases and triangles
+//! of the fine lattice.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -27,13 +28,13 @@ const MAX_DIRECT_VERTICES: usize = 12_000;
 pub(super) struct Coarse {
     pub surface: Heightfield,
     pub patches: Patches,
-    /// Number on the fine lattice of each patch.
+    /// Number on the fine lattice of each coarse patch.
     order: Vec<usize>,
 }
 
 impl Coarse {
-    /// The surface on the lattice of twice the spacing; `None` where there are few vertices, or too few would
-    /// be left.
+    /// Samples the surface on the lattice of twice the spacing; `None` if it has at most [`MAX_DIRECT_VERTICES`]
+    /// vertices, or if too few would be left.
     pub(super) fn new(surface: &Heightfield, patches: &Patches) -> Result<Option<Coarse>> {
         let valid = surface.heights().iter().filter(|z| !z.is_nan()).count();
         let fine = *surface.lattice();
@@ -56,7 +57,7 @@ impl Coarse {
                 patches,
                 order,
             })),
-            // Nothing but what is narrow.
+            // All of the surface is too narrow for the coarse lattice.
             Err(Error::Unsupported { .. } | Error::NoInterior { .. }) => Ok(None),
             Err(other) => Err(other),
         }
@@ -79,8 +80,8 @@ fn on_coarse(coarse: &Lattice, row: usize, col: usize) -> impl Iterator<Item = u
     found.into_iter()
 }
 
-/// Lays the sheets of a coarse lattice flat on the fine one. The inner error tells which part of them is no
-/// sheet there.
+/// Lays the sheets that were found on a coarse lattice flat on the fine one. The inner error is the reason why a
+/// sheet is invalid there.
 pub(super) fn refine_sheets(
     surface: &Heightfield,
     patches: &Patches,
@@ -96,7 +97,8 @@ pub(super) fn refine_sheets(
             origins,
         },
     )?;
-    // Sheets of one part are laid flat by themselves, without specks that the coarse lattice does not show.
+    // A sheet of a single part is laid flat from scratch, and border vertices that strain it too much are left out:
+    // the coarse lattice does not show them.
     let known = rough.net.leaves.len();
     let several = rough
         .arrangement
@@ -111,7 +113,7 @@ pub(super) fn refine_sheets(
         .filter(|part| alone[*part as usize])
         .collect();
     parts.lay_flat_trimmed(&single)?;
-    // Patches of sheets of several begin where they lie on the coarse lattice.
+    // A part that shares its sheet with others starts from its position on the coarse lattice.
     for part in (0..known).filter(|part| !alone[*part]) {
         let leaf = match placed(&parts, part, rough)? {
             None => parts.leaf(&(part as u32))?,
@@ -230,7 +232,8 @@ fn transfer_labels(
     }
 }
 
-/// A part of the fine lattice, lying where it lies on the coarse one.
+/// Creates a part of the fine lattice at its position on the coarse one; `None` if that does not determine all its
+/// vertices.
 fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPatch>> {
     let Some(leaf) = rough.net.leaves[part].as_ref() else {
         return Ok(None);
@@ -253,9 +256,9 @@ fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPa
     )
 }
 
-/// Folds the seams of the fine lattice whose creases are folds on the coarse one.
+/// Makes folds of those seams of the fine lattice that are folds on the coarse one.
 fn fold_alike(net: &mut SeamGraph, layout: &mut Layout, order: &[usize], rough: &Assembled) {
-    // The nodes between each two parts, and whether they are folds.
+    // For each pair of parts: the positions of the nodes between them, and whether the node is on a fold.
     let mut nodes: BTreeMap<[usize; 2], Vec<([f64; 2], bool)>> = BTreeMap::new();
     for (number, seam) in rough.net.seams.iter().enumerate() {
         let folded = rough.arrangement.layout.folded[number];

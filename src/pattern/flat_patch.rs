@@ -1,9 +1,9 @@
 //! One patch, extended a cell beyond its creases and laid flat by itself.
 //!
-//! The lattice's triangles that a crease runs through cut its corner. So each patch gets them for
-//! itself, with heights of its own at the corners that belong to others, as its vertices nearby have
-//! it. Where two patches so extended meet is where the crease is. Parts of what was one patch go on
-//! into each other as the surface does.
+//! A crease runs through triangles of the lattice whose corners belong to two patches. Each of the two patches gets
+//! its own copy of such a triangle, and at the corners of the other patch the height is extrapolated from its own
+//! vertices. The crease is the intersection of the two extended patches. Parts that were cut from one patch are not
+//! extrapolated: they keep the heights of the surface across their common border.
 
 use super::labels::Labels;
 use super::window::Window;
@@ -22,10 +22,10 @@ pub(super) const MIN_TEAR_GAP_SPACINGS: f64 = 0.5;
 /// Minimum number of vertices of a part that may be cut further.
 pub(super) const MIN_CUT_VERTICES: usize = 24;
 
-/// A patch, continued a cell beyond its creases and laid flat by itself.
+/// A patch, extended one cell beyond its creases and laid flat by itself.
 pub(super) struct FlatPatch {
     mesh: Triangulation,
-    /// Positions of the vertices as the patch lies by itself. `places` holds their present positions.
+    /// Positions of the vertices after the patch was laid flat by itself; `places` holds their current positions.
     alone: Vec<Point>,
     places: Vec<Point>,
     /// Whether the patch was not laid flat on this lattice yet.
@@ -65,8 +65,8 @@ impl Strain {
 }
 
 impl FlatPatch {
-    /// Lays a patch flat, with all triangles that have one of its vertices; `None` if there is none. A patch
-    /// whose strain surely exceeds `limit` is laid flat with less effort.
+    /// Lays a patch flat, with all triangles that have at least one of its vertices; `None` without such a
+    /// triangle. The relaxation stops early once the strain is sure to exceed `limit`.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
@@ -91,8 +91,8 @@ impl FlatPatch {
         }))
     }
 
-    /// A patch with given positions: vertices without one are placed beside those with one; `None` if too few
-    /// are given.
+    /// Creates a patch with given positions, which is not relaxed. Vertices without a given position are placed
+    /// next to those that have one; `None` if that does not reach all of them.
     pub(super) fn at(
         surface: &Heightfield,
         labels: &Labels,
@@ -121,7 +121,8 @@ impl FlatPatch {
         }))
     }
 
-    /// Triangles of a patch, and whether each of their vertices is its own.
+    /// Mesh of all triangles with a vertex of a patch, and for each vertex of the mesh whether it belongs to the
+    /// patch; `None` without a triangle.
     fn mesh(
         surface: &Heightfield,
         labels: &Labels,
@@ -152,7 +153,7 @@ impl FlatPatch {
                 *height = z;
             } else if !z.is_nan() && beside() {
                 let own = extrapolated_height(surface, of, patch, k);
-                // A step between parts of one patch is a tear, too.
+                // Between parts of one patch a step of the surface is a tear as well.
                 let near = (z - own).abs() <= MIN_TEAR_GAP_SPACINGS * whole.spacing();
                 let goes_on = labels.are_one(of[k], patch) && (near || own.is_nan());
                 *height = if goes_on { z } else { own };
@@ -191,7 +192,7 @@ impl FlatPatch {
         self.places = places;
     }
 
-    /// Positions of the vertices before they were moved; `None` if they were not.
+    /// Positions of the vertices after the patch was laid flat by itself; `None` if they are still there.
     pub(super) fn moved_from(&self) -> Option<Vec<Point>> {
         (self.alone != self.places).then(|| self.alone.clone())
     }
@@ -201,13 +202,13 @@ impl FlatPatch {
         self.own.iter().filter(|own| **own).count()
     }
 
-    /// Whether the part is too small to be cut.
+    /// Whether the part has fewer than [`MIN_CUT_VERTICES`] vertices and is too small to be cut.
     pub(super) fn is_crumb(&self) -> bool {
         self.size() < MIN_CUT_VERTICES
     }
 
-    /// Triangles of the patch in their own planes, with the numbers of their corners. Triangles that mostly
-    /// belong to another patch are left out unless all do.
+    /// Triangles of the patch, each in its own plane, with the numbers of its corners. A triangle with only one
+    /// corner of the patch is left out, unless there are no others.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (FlatTriangle, [u32; 3])> + '_ {
         let mesh = &self.mesh;
         let inside = |corners: &[u32; 3]| {
@@ -232,7 +233,7 @@ impl FlatPatch {
         })
     }
 
-    /// Strain of the patch as it lies now.
+    /// Strain of the patch at the current positions of its vertices.
     pub(super) fn strain(&self) -> Strain {
         self.strain_of(|_| true)
     }
@@ -252,8 +253,8 @@ impl FlatPatch {
         sum
     }
 
-    /// For each vertex of the patch its index in the whole lattice, and the squared strain of the triangles
-    /// around it times their area.
+    /// Contribution of each vertex of the patch to the strain: its index in the whole lattice, and the sum over its
+    /// triangles of squared strain times area.
     pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
         let mut shares = vec![0.0; self.places.len()];
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
@@ -267,7 +268,7 @@ impl FlatPatch {
         own.map(|v| (self.index(whole, v), shares[v])).collect()
     }
 
-    /// Vertices of the patch at triangles upside down, by their index in the whole lattice.
+    /// Vertices of the patch that are corners of flipped triangles, by their index in the whole lattice.
     pub(super) fn flipped(&self, whole: &Lattice) -> Vec<usize> {
         let upside_down = |(piece, corners): &(FlatTriangle, [u32; 3])| {
             let [_, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
@@ -297,7 +298,8 @@ impl FlatPatch {
         ]
     }
 
-    /// Number within the patch of a vertex of the whole lattice.
+    /// Number within the patch of a vertex, given by its row and column in the whole lattice; `None` if it is not
+    /// in the patch.
     pub(super) fn number(&self, vertex: [usize; 2]) -> Option<usize> {
         let [row, col] = vertex;
         let lattice = self.mesh.lattice();
@@ -312,21 +314,21 @@ impl FlatPatch {
         self.mesh.vertices().binary_search(&index).ok()
     }
 
-    /// Height of the continued patch at a row and column of the whole lattice; NaN beyond it.
+    /// Height of the extended patch at a row and column of the whole lattice; NaN outside of it.
     pub(super) fn height(&self, vertex: [usize; 2]) -> f64 {
         let number = self.number(vertex);
         number.map_or(f64::NAN, |n| self.mesh.positions()[n][2])
     }
 
-    /// Position on the plane of a row and column of the whole lattice; NaN beyond the patch.
+    /// Position in the plane of the vertex at a row and column of the whole lattice; NaN outside of the patch.
     pub(super) fn place(&self, vertex: [usize; 2]) -> Point {
         self.number(vertex)
             .map_or(Point::new(f64::NAN, f64::NAN), |n| self.places[n])
     }
 }
 
-/// Positions of all vertices of a mesh from the known ones: each triangle with two known corners gives a
-/// position to the third. `None` if some vertex cannot be reached.
+/// Completes the positions of a mesh's vertices from some known ones: each triangle with two known corners
+/// determines the third. `None` if a vertex cannot be reached.
 fn spread(mesh: &Triangulation, mut known: Vec<Option<Point>>) -> Option<Vec<Point>> {
     let mut missing = known.iter().filter(|place| place.is_none()).count();
     while missing > 0 {

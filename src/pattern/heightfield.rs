@@ -9,37 +9,34 @@ use crate::error::{Error, Result, positive};
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::Patches;
 
-/// Strain limits on a coarse lattice, as shares of the limit on the fine one, tried in this order: the next is
-/// used where sheets were strained too much on the fine lattice.
+/// Strain limits on a coarse lattice, as shares of the limit on the fine one, tried in this order: the next one is
+/// used if sheets are invalid on the fine lattice.
 const COARSE_STRAIN_SHARES: [f64; 2] = [0.9, 0.7];
 
-/// Smallest detail of outlines, in spacings, on a lattice that is not refined: if larger loops are cut off, the
-/// two sides of a joint differ.
+/// Size of the smallest detail of outlines, in spacings, on a lattice that is not refined. With a larger value
+/// loops are cut off whose removal makes the two sides of a joint differ in length.
 pub(super) const DIRECT_OUTLINE_DETAIL: f64 = 0.4;
 
 /// Maximum number of rounds in which parts that are too small to be cut are merged or left out.
 const MAX_MERGE_ROUNDS: usize = 24;
 
-/// Cuts a surface into sheets, that with the largest patch first.
+/// Cuts a surface into flat sheets; the first sheet is the one with the largest patch.
 ///
-/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]: what
-/// cannot be laid flat so is cut. A patch that is strained by more is cut in two where it is strained
-/// most, as often as it takes, and its parts are joined again as far as their sides fit, so that a cone is
-/// slit and a dome gets darts. Where a crease's sides fit along a part of it only, it is opened along the
-/// rest. Then cuts are closed again, whole or in part, where strain and outlines allow it. What is too small to be
-/// cut and lies flat with nothing beside it is left out, a fiftieth of the vertices at most
-/// ([`Pattern::missing`]).
+/// Every sheet has a simple outline and has a strain of at most [`PatternOptions::max_strain`]. A patch with a
+/// larger strain is cut in two where its strain is largest, repeatedly, and its parts are joined again as far as
+/// their sides fit: a cone gets one slit, a dome several. A crease whose sides fit along a part of its length is a
+/// fold there and a cut elsewhere. Then cuts are closed again, whole or in part, where strain and outlines stay
+/// valid. A part that is too small to be cut and that lies flat with none of its neighbours is left out, at most a
+/// fiftieth of all vertices ([`Pattern::missing`]).
 ///
-/// Surfaces of more than twelve thousand vertices are cut on the lattice of twice the spacing, and so on;
-/// on their own lattice that costs one unrolling. What is cut there costs an unrolling of each part, two
-/// or three for what is cut again, and up to 800 steps of `O(vertices)` for closing cuts.
+/// Surfaces of more than twelve thousand vertices are cut on the lattice of twice the spacing, recursively; their
+/// own lattice then costs one unrolling. The lattice on which the surface is cut costs one unrolling of each part,
+/// two or three more of parts that are cut again, and up to 800 steps of `O(vertices)` for closing cuts.
 ///
 /// # Errors
-/// [`Error::Shape`] or [`Error::Mismatch`] if the
-/// patches are those of another surface,
-/// [`Error::Option`] for a gap or a strain that is not positive and finite,
-/// [`Error::NotFlat`] for what no cut makes flat, and what
-/// [`unroll`](crate::unroll::unroll) has to say.
+/// [`Error::Shape`] or [`Error::Mismatch`] if the patches belong to another surface, [`Error::Option`] for a gap or
+/// a strain that is not positive and finite, [`Error::NotFlat`] for a part that no cut makes flat, and the errors
+/// of [`unroll`](crate::unroll::unroll).
 pub fn pattern(
     surface: &Heightfield,
     patches: &Patches,
@@ -54,7 +51,7 @@ pub fn pattern(
     )
 }
 
-/// Finds the sheets of a surface, on a coarse lattice first where there are many vertices.
+/// Finds the sheets of a surface, on a coarse lattice first if it has many vertices.
 pub(super) fn find_sheets(
     surface: &Heightfield,
     patches: &Patches,
@@ -94,7 +91,7 @@ fn cut_and_join(
     parts.finest = finest;
     parts.cut_strained()?;
     parts.give_away_crumbs()?;
-    // What is not as it should be is cut further; what is too small goes to what is beside it, or is
+    // Parts of invalid sheets are cut further; parts that are too small for that are merged with a neighbour or
     // left out.
     let mut rounds = 0;
     loop {
@@ -113,7 +110,7 @@ fn cut_and_join(
             }
         }
         parts.cut_strained()?;
-        // Numbers change as parts go: from the last one on.
+        // Go from the last part to the first, because removing a part changes the numbers of later ones.
         small.sort_unstable();
         for (part, reason) in small.into_iter().rev() {
             let gone =

@@ -22,14 +22,15 @@ impl Labels {
         }
     }
 
-    /// Whether two parts were cut from one patch, so that the surface is smooth across their border.
+    /// Whether two parts are the same or were cut from one patch, so that the surface is smooth across their common
+    /// border.
     pub(super) fn are_one(&self, a: u32, b: u32) -> bool {
         let origin = |part: u32| self.origins.get(part as usize);
         a == b || (origin(a).is_some() && origin(a) == origin(b))
     }
 }
 
-/// Connected groups of vertices, by the edges between them for which `joined` holds.
+/// Connected components of some vertices of a lattice; two neighbours are connected where `joined` is true.
 pub(super) fn connected_groups(
     lattice: &Lattice,
     vertices: impl Iterator<Item = usize>,

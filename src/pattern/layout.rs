@@ -11,8 +11,8 @@ pub(super) struct Arrangement {
     pub sheets: Vec<Vec<u32>>,
 }
 
-/// Lays patches beside each other, and makes folds of the seams whose sides fit within `gap` times their
-/// length, the longest first.
+/// Arranges patches on sheets: for each seam, the longest first, moves the sheet on one side to the other if the
+/// two sides then fit within `gap` times their length and nothing overlaps. Such a seam becomes a fold.
 pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     let mut layout = Layout::loose(net);
     // The sheet of each patch, and the patches of each sheet.
@@ -32,7 +32,8 @@ pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
         if !fits(net, &trial, *seam, gap) {
             continue;
         }
-        // Others may fit as well then: around a vertex with a full turn, the last one does.
+        // Other seams between the same two sheets may fit after this motion, such as the last one around a vertex
+        // whose angles sum to 2π.
         let mut joint = [&sheets[a][..], &sheets[b]].concat();
         joint.sort_unstable();
         for seam in order.iter().filter(|seam| !layout.folded[**seam]) {
@@ -57,7 +58,7 @@ pub(super) fn arrange_patches(net: &SeamGraph, gap: f64) -> Arrangement {
     Arrangement { layout, sheets }
 }
 
-/// The seams that may be joined, the longest first.
+/// Numbers of the seams that may be closed, the longest first.
 pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
     let long = |seam: &usize| polyline_length(&net.seams[*seam].sides[0]);
     let whole = |seam: &usize| {
@@ -69,14 +70,13 @@ pub(super) fn longest_first(net: &SeamGraph) -> Vec<usize> {
     order
 }
 
-/// The motion that brings the second side of a seam to its first.
+/// The rigid motion that brings the second side of a seam to its first, by least squares.
 pub(super) fn motion_to_join(net: &SeamGraph, layout: &Layout, seam: usize) -> Motion {
     let [there, here] = [0, 1].map(|side| layout.side(net, seam, side));
     Motion::between(&here, &there)
 }
 
-/// Whether the sides of a seam lie on each other within `gap` times its length, or within the lattice's
-/// resolution.
+/// Whether the gap of a seam is at most `gap` times its length, or below the lattice's resolution.
 pub(super) fn fits(net: &SeamGraph, layout: &Layout, seam: usize, gap: f64) -> bool {
     let most = gap * polyline_length(&net.seams[seam].sides[0]);
     seam_gap(net, layout, seam) <= most.max(NEGLIGIBLE_GAP_LENGTHS * net.spacing)

@@ -3,8 +3,8 @@
 use crate::math::planar::{distance_to_segment, line_intersection};
 use crate::unroll::flat_triangle::Point;
 
-/// A line without the points that it does not need to stay within a tolerance (Douglas and Peucker
-/// 1973).
+/// Simplifies a polyline: removes points so that all of them stay within a tolerance of the new line (Douglas and
+/// Peucker 1973).
 pub(super) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
@@ -22,7 +22,8 @@ pub(super) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> 
             stack.push((i, b));
         }
     }
-    // Some were the farthest for a while only: they go where the line does without them.
+    // Some kept points were only needed before others were added: remove those without which the line is within the
+    // tolerance.
     let mut out = vec![0];
     for i in (1..=last).filter(|i| kept[*i]) {
         if let [.., a, _] = out[..] {
@@ -37,13 +38,12 @@ pub(super) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> 
     out.into_iter().map(|i| points[i]).collect()
 }
 
-/// A closed line, whose last point is not the first, without the points that it does not need to stay within
-/// a tolerance.
+/// Simplifies a closed polyline, whose last point is not its first, within a tolerance.
 pub(super) fn simplify_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 4 {
         return points.to_vec();
     }
-    // It begins where it surely has a corner: far from its middle.
+    // Begin at a point that is far from the line's centroid, because it is sure to be a corner.
     let middle = points.iter().sum::<Point>() / points.len() as f64;
     let away = |i: usize, from: Point| (points[i] - from).norm();
     let farthest = |from: Point| {
@@ -66,9 +66,9 @@ pub(super) fn simplify_ring(points: &[Point], tolerance: f64) -> Vec<Point> {
     out
 }
 
-/// Restores corners that were cut: a piece shorter than `short` between two of three times that
-/// gives way to the point where these meet, if that is near. `closed` lines go on from their last
-/// point to the first.
+/// Restores corners that were cut off: a segment shorter than `short` between two segments of more than three times
+/// `short` is replaced by the intersection of these, if that is within `short` of both its ends. A `closed` line
+/// continues from its last point to its first.
 pub(super) fn restore_corners(points: &[Point], short: f64, closed: bool) -> Vec<Point> {
     let n = points.len();
     let mut out = points.to_vec();
@@ -101,7 +101,7 @@ pub(super) fn restore_corners(points: &[Point], short: f64, closed: bool) -> Vec
 
 /// Intersection of two straight lines; `None` where they are parallel.
 pub(super) fn meeting([p, q]: [Point; 2], [r, s]: [Point; 2]) -> Option<Point> {
-    // A hundredth of a radian is as good as parallel.
+    // Lines at an angle below a hundredth of a radian count as parallel.
     line_intersection([p, q], [r, s], 0.01)
 }
 

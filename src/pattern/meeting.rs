@@ -19,16 +19,16 @@ pub(super) const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 pub(super) const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
 /// Minimum radius at which the angle around a point is measured, in spacings of a lattice or edge lengths of a
-/// mesh: closer to the point the surface is blurred.
+/// mesh; nearer to the point the sampling smooths the surface.
 pub(super) const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
 
-/// Number of evenly spaced directions of the ring around a point.
+/// Number of evenly spaced directions in which the ring around a point is sampled.
 const RING_DIRECTIONS: usize = 180;
 
-/// Number of directions of a ring that take the place of one beside a crease.
+/// Number of directions of a ring that replace each direction beside a crease.
 const CREASE_REFINEMENT: usize = 16;
 
-/// Number of steps in which the path from a point to its ring is measured.
+/// Number of segments by which the length of the path from a point to its ring is measured.
 const RADIAL_STEPS: usize = 12;
 
 /// A point inside of the surface where cuts or folds end.
@@ -39,10 +39,11 @@ pub struct Meeting {
     pub number: usize,
     /// Position of the point on the surface.
     pub place: [f64; 3],
-    /// Sum of the angles of the surface around the point, in radians: 2π where that could be laid flat in one
-    /// piece, less at the tip of a cone, more in a saddle.
+    /// Sum of the angles of the surface around the point, in radians: 2π where the surface could be laid flat in
+    /// one piece, less at the tip of a cone, more at a saddle.
     pub angle: f64,
-    /// Distance along the surface within which the angle was measured: from half of it on.
+    /// Outer radius of the ring in which the angle was measured, as distance along the surface; the inner radius is
+    /// half of it.
     pub reach: f64,
     /// Number of ends of cuts at the point.
     pub cuts: usize,
@@ -55,7 +56,8 @@ pub(super) struct Meetings {
 }
 
 impl Meetings {
-    /// The point at a node; `None` at the border, at steps, and where lines are too short.
+    /// The point at a node; `None` at the border, at steps, and where a seam that ends there is too short to
+    /// measure an angle.
     pub(super) fn at(&self, node: Node) -> Option<Meeting> {
         self.of.get(&node).and_then(|number| self.all[*number])
     }
@@ -80,7 +82,7 @@ impl Meetings {
                 nodes.push(node);
             }
         }
-        // Where four patches meet, there are two nodes of three each.
+        // A junction of four patches consists of two nodes with three patches each; merge them.
         let long = |seam: usize| polyline_length(&net.seams[seam].sides[0]);
         let mut sets = UnionFind::new("pattern", nodes.len())?;
         for seam in seams
@@ -99,7 +101,7 @@ impl Meetings {
             for number in at.into_iter().flatten() {
                 let found = &mut found[number];
                 found.torn |= net.is_torn(seam);
-                // Not those that only join its nodes.
+                // Skip seams that only connect nodes of one junction.
                 if at[0] != at[1] {
                     found.cuts += usize::from(!layout.folded[seam]);
                     found.shortest = found.shortest.min(long(seam));
@@ -182,7 +184,7 @@ struct Around<'a> {
     net: &'a SeamGraph,
 }
 
-/// A path along the surface: its length, its end, and whether a crease is near its end.
+/// A path along the surface, straight in plan: its length, its end, and whether a crease is near its end.
 struct Way {
     long: f64,
     place: [f64; 3],
@@ -196,16 +198,17 @@ fn squared(p: [f64; 3], q: [f64; 3]) -> f64 {
 }
 
 impl Around<'_> {
-    /// Sum of the angles around a point, by the lengths of paths from one ring around it to another of twice
-    /// its radius, and along both rings. That is exact for cones, thus where flat faces meet, and hardly
-    /// depends on the point itself, where the lattice is blurred. `None` where a ring leaves the surface.
+    /// Sum of the angles around a point, in radians, measured between two rings around it, of `reach` and half of
+    /// it: from the lengths along both rings and between them. It is exact for cones, and so where flat faces meet,
+    /// and hardly depends on heights near the point, where the lattice smooths the surface. `None` if a ring leaves
+    /// the surface.
     fn angle(&self, place: [f64; 3], reach: f64) -> Option<f64> {
         let even: Vec<f64> = (0..RING_DIRECTIONS)
             .map(|k| k as f64 / RING_DIRECTIONS as f64)
             .collect();
         let first = self.ring(place, 0.5 * reach, &even)?;
         let mean = first.iter().map(|way| way.long).sum::<f64>() / RING_DIRECTIONS as f64;
-        // As far in plan as it takes on the surface.
+        // Radius in plan at which the distance along the surface is `reach`.
         let radius = 0.5 * reach * reach / mean;
         let coarse = self.ring(place, radius, &even)?;
         let finer = |k: usize| {
@@ -222,14 +225,16 @@ impl Around<'_> {
             let (a, b) = (one.long - one.half.0, other.long - other.half.0);
             let along = squared(one.place, other.place).sqrt();
             let square = (along - squared(one.half.1, other.half.1).sqrt()).powi(2);
-            // Of a triangle by its sides, near 0: the cosine would lose half of the digits.
+            // Angle of a triangle from its sides by the half-angle sine; for small angles the law of cosines would
+            // lose half of the digits.
             let sine = ((square - (a - b).powi(2)) / (4.0 * a * b)).max(0.0).sqrt();
             2.0 * sine.min(1.0).asin()
         });
         Some(angles.sum())
     }
 
-    /// Paths, straight in plan, from the centre to a ring of a radius in plan, in directions given in turns.
+    /// Paths, straight in plan, from a centre to points of a ring with a given radius in plan, in directions given
+    /// in full turns. `None` if one leaves the surface.
     fn ring(&self, place: [f64; 3], radius: f64, turns: &[f64]) -> Option<Vec<Way>> {
         let way = |turn: &f64| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
@@ -254,8 +259,8 @@ impl Around<'_> {
         turns.iter().map(way).collect()
     }
 
-    /// Height of the surface in a triangle, and whether two patches meet in it: there both are continued to
-    /// their crease.
+    /// Height of the surface at a point, and whether two patches meet in the triangle around it. In such a triangle
+    /// both patches are extrapolated to their crease.
     fn height(&self, place: [f64; 2]) -> Option<(f64, bool)> {
         let lattice: &Lattice = self.surface.lattice();
         let found = lattice.locate(place);
@@ -284,7 +289,7 @@ impl Around<'_> {
             Some(other) if corners.iter().all(|(_, p)| [first, other].contains(p)) => {
                 let sides = [first, other].map(|patch| corners.map(|(v, _)| of(v, patch)));
                 let [one, two] = [sum(sides[0])?, sum(sides[1])?];
-                // Below a ridge patches go on upwards.
+                // At a ridge both patches, extrapolated, lie above the other patch's vertices.
                 let beyond = |k: usize| Some(sides[0][k]? + sides[1][k]? - 2.0 * own[k]?);
                 let ridge = (0..3).map(beyond).sum::<Option<f64>>()? > 0.0;
                 if ridge { one.min(two) } else { one.max(two) }

@@ -9,7 +9,7 @@ const DEFAULT_MAX_GAP_SHARE: f64 = 0.005;
 /// that counts as unrolled. No table chose it; the patterns in `benches/choices.md` keep to it.
 const DEFAULT_MAX_STRAIN: f64 = 0.01;
 
-/// Options of a pattern: how well sides must fit and how much strain is allowed.
+/// Options of a pattern: maximum seam gap, maximum strain, and how patches are laid flat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -18,16 +18,16 @@ const DEFAULT_MAX_STRAIN: f64 = 0.01;
 )]
 #[non_exhaustive]
 pub struct PatternOptions {
-    /// Maximum distance between the two sides of a fold on the flat sheet (root of the mean square), as a
-    /// share of the fold's length; a quarter of the lattice's spacing is always allowed. Default 0.005.
+    /// Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of
+    /// the fold's length. A quarter of the lattice's spacing is always allowed. Default 0.005.
     pub gap: f64,
-    /// Maximum strain of a sheet (root of the mean square over its area). Default 0.01.
+    /// Maximum strain of a sheet, root mean square over its area. Default 0.01.
     pub max_strain: f64,
     /// Options for laying patches flat.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub unrolling: UnrollOptions,
-    /// Whether sheets are folded back, to see how near they come to the surface; that takes about as long as
-    /// laying them flat. Default `false`.
+    /// Whether sheets are folded back into space to measure their distance from the surface
+    /// ([`Refolding`](super::Refolding)). Takes about as long as laying them flat. Default `false`.
     pub refold: bool,
 }
 
@@ -43,22 +43,22 @@ impl Default for PatternOptions {
 }
 
 impl PatternOptions {
-    /// These options with another gap.
+    /// These options with another maximum seam gap.
     pub fn gap(self, gap: f64) -> Self {
         PatternOptions { gap, ..self }
     }
 
-    /// These options with another limit of the strain.
+    /// These options with another maximum strain.
     pub fn max_strain(self, max_strain: f64) -> Self {
         PatternOptions { max_strain, ..self }
     }
 
-    /// These options with or without folding sheets back.
+    /// These options with or without folding sheets back into space.
     pub fn refold(self, refold: bool) -> Self {
         PatternOptions { refold, ..self }
     }
 
-    /// These options with others for laying patches flat.
+    /// These options with other options for laying patches flat.
     pub fn unrolling(self, unrolling: UnrollOptions) -> Self {
         PatternOptions { unrolling, ..self }
     }

@@ -5,7 +5,7 @@ use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 use rustc_hash::FxHashMap;
 
-/// A rigid motion in the plane: a rotation, then a translation.
+/// Rigid motion in the plane: a rotation about the origin, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Motion {
     pub turn: Point,
@@ -31,7 +31,7 @@ impl Motion {
         }
     }
 
-    /// The motion that brings points nearest to others, by the sum of the squared distances.
+    /// The motion that minimises the sum of squared distances from the moved points `from` to the points `to`.
     pub(super) fn between(from: &[Point], to: &[Point]) -> Motion {
         let count = from.len() as f64;
         let middle = |places: &[Point]| places.iter().sum::<Point>() / count;
@@ -49,7 +49,7 @@ impl Motion {
     }
 }
 
-/// The motion of each patch, and which seams are folds.
+/// Layout of all patches: the rigid motion of each patch, and for each seam whether it is a fold.
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     pub motions: Vec<Motion>,
@@ -61,17 +61,18 @@ pub(super) struct Layout {
 pub(super) struct Corner {
     pub node: Node,
     pub place: Point,
-    /// Number of the seam that the line follows from this corner on; `None` along the border.
+    /// Number of the seam that the line follows after this corner; `None` along the border.
     pub seam: Option<usize>,
-    /// Number of the patch beside the line from this corner on.
+    /// Number of the patch to the left of the line after this corner.
     pub patch: u32,
 }
 
-/// Maximum number of corners between two pieces of one outline that may cross, because a slit ends there.
+/// Maximum number of corners between two segments of one outline whose crossing is ignored: at the end of a slit
+/// its two sides may cross.
 const SLIT_END_CORNERS: usize = 8;
 
 impl Layout {
-    /// The layout in which every patch lies by itself.
+    /// Creates the layout in which no seam is a fold and no patch is moved.
     pub(super) fn loose(net: &SeamGraph) -> Layout {
         Layout {
             motions: vec![Motion::IDENTITY; net.leaves.len()],
@@ -94,7 +95,8 @@ impl Layout {
         places.map(|place| motion.of(*place)).collect()
     }
 
-    /// The patches that share a node with a given one through folds at the node, itself included.
+    /// The patches at a node that are connected to a given patch by folds at that node, including the patch itself;
+    /// ascending.
     fn family(&self, net: &SeamGraph, node: Node, patch: u32) -> Vec<u32> {
         let mut family = vec![patch];
         let seams = match node {
@@ -105,7 +107,7 @@ impl Layout {
                 [one, other, None]
             }
         };
-        // Each pass reaches one further; there are three patches at most.
+        // Each pass adds the neighbours of the patches found so far; at most three patches meet at a node.
         for _ in 0..2 {
             for seam in seams.into_iter().flatten().filter(|s| self.folded[*s]) {
                 let [a, b] = net.seams[seam].patches;
@@ -120,7 +122,8 @@ impl Layout {
         family
     }
 
-    /// The closed lines around some patches, with the open seams among them.
+    /// The closed lines around some patches on a sheet, which also follow both sides of each open seam between
+    /// them.
     pub(super) fn outlines(&self, net: &SeamGraph, patches: &[u32]) -> Vec<Vec<Corner>> {
         let mut segments = Vec::new();
         let mut starts: FxHashMap<(Node, u32), Vec<usize>> = FxHashMap::default();

@@ -13,20 +13,21 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::Lattice;
 use crate::shape::patches::{NO_PATCH, Patches};
 
-/// Maximum number of parts of a surface: nobody puts together a pattern of more.
+/// Maximum number of parts of a surface: a pattern of more parts cannot be assembled in practice.
 const MAX_PARTS: usize = 1500;
 
 /// Maximum number of neighbours that a small part is tried to be merged with.
 const MAX_MERGE_CANDIDATES: usize = 3;
 
-/// Maximum share of the surface's vertices that may be left out, which the report tells. It lets the oloid in
-/// `benches/choices.md` be laid flat in one sheet.
+/// Maximum share of the surface's vertices that may be left out of the pattern. With this value the oloid in
+/// `benches/choices.md` is laid flat in one sheet.
 const MAX_OMITTED_SHARE: f64 = 0.02;
 
-/// Maximum number of times border specks are removed from sheets; each removal flattens the sheets again.
+/// Maximum number of times that a few border vertices are removed from sheets; each removal lays these sheets flat
+/// again.
 const MAX_TRIM_ROUNDS: usize = 8;
 
-/// Maximum number of vertices that may be left out at once, of a part that cannot be cut.
+/// Maximum number of vertices that are left out in one step.
 const MAX_OMITTED_VERTICES: usize = 4 * MIN_CUT_VERTICES;
 
 /// Number and layout of a part that was merged with another.
@@ -34,21 +35,21 @@ type Enlarged = (u32, Option<FlatPatch>);
 
 /// The parts that a surface is cut into, each laid flat by itself.
 pub(super) struct Parts {
-    /// The surface without the vertices that were left out.
+    /// The surface; the vertices that were left out have no height.
     pub surface: Heightfield,
     pub labels: Labels,
     pub leaves: Vec<Option<FlatPatch>>,
     pub options: PatternOptions,
-    /// Smallest detail of outlines, in spacings: smaller loops of them are cut off.
+    /// Size of the smallest detail of outlines, in spacings; smaller loops of an outline are cut off.
     pub finest: f64,
     /// Window of the lattice around each part.
     windows: Vec<Window>,
     /// Numbers of the parts that were not checked yet.
     pending: Vec<u32>,
-    /// Number of vertices that were left out. `most_left_out` is the limit.
+    /// Number of vertices that were left out so far; `most_left_out` is its maximum.
     left_out: usize,
     most_left_out: usize,
-    /// Number of times specks were removed from sheets.
+    /// Number of times that border vertices were removed from sheets, at most [`MAX_TRIM_ROUNDS`].
     trims: usize,
 }
 
@@ -82,7 +83,7 @@ impl Parts {
         Ok(parts)
     }
 
-    /// The parts of a surface before any is known.
+    /// Creates an empty set of parts, before [`Parts::with_labels`] divides the surface.
     pub(super) fn none(surface: &Heightfield, options: &PatternOptions) -> Parts {
         Parts {
             surface: surface.clone(),
@@ -98,7 +99,8 @@ impl Parts {
         }
     }
 
-    /// These parts with given labels; vertices without a label are left out. No part is laid flat yet.
+    /// Replaces the parts by those of given labels, and leaves vertices without a label out. No part is laid flat
+    /// yet.
     pub(super) fn with_labels(mut self, surface: &Heightfield, labels: Labels) -> Result<Self> {
         let lattice = surface.lattice();
         let keep: Vec<u8> = labels
@@ -118,7 +120,7 @@ impl Parts {
         Ok(self)
     }
 
-    /// Renumbers the parts as patches are numbered; `order` holds the old number of each.
+    /// Renumbers the parts in the order of `patches`; `order` holds the old number of each part.
     pub(super) fn renumber(&mut self, patches: &Patches, order: &[usize]) {
         let origins = order.iter().map(|old| self.labels.origins[*old]).collect();
         self.labels = Labels {
@@ -138,7 +140,8 @@ impl Parts {
         self.windows[part as usize]
     }
 
-    /// These parts, numbered by their areas like patches, and the patches that they are.
+    /// Renumbers the parts by area, the largest first, and returns them with the segmentation into patches that
+    /// they form.
     pub(super) fn numbered(mut self, patches: &Patches) -> Result<(Self, Patches)> {
         if self.left_out == 0 && self.leaves.len() == patches.patches().len() {
             return Ok((self, patches.clone()));
@@ -158,7 +161,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Lays parts flat, and removes border specks that strain them too much.
+    /// Lays parts flat, and leaves out the few border vertices of a part that hold most of its strain.
     pub(super) fn lay_flat_trimmed(&mut self, parts: &[u32]) -> Result<()> {
         self.lay_flat(parts)?;
         while let Some(part) = self.pending.pop() {
@@ -189,12 +192,13 @@ impl Parts {
         all.filter(|i| self.labels.of[*i] == part).collect()
     }
 
-    /// Cuts parts that are strained by more than the limit, or have triangles upside down.
+    /// Cuts each part whose strain is above the limit or that has flipped triangles, unless removing a few border
+    /// vertices is enough.
     pub(super) fn cut_strained(&mut self) -> Result<()> {
         while let Some(part) = self.pending.pop() {
             let leaf = self.leaves[part as usize].as_ref();
             let flipped = leaf.is_some_and(|leaf| leaf.strain().flipped > 0);
-            // What is too small to be cut may still do as a part of a sheet.
+            // A part that is too small to be cut is kept: it may still be valid within a sheet.
             if (self.is_strained(part) || flipped) && !self.trim(part)? {
                 self.cut(part)?;
             }
@@ -202,7 +206,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Cuts a part in two or more. Returns whether it was large enough.
+    /// Cuts a part into two or more and lays these flat. Returns whether the part was large enough to be cut.
     pub(super) fn cut(&mut self, part: u32) -> Result<bool> {
         let Some(leaf) = self.leaves[part as usize].take() else {
             return Ok(false);
@@ -228,7 +232,8 @@ impl Parts {
         Ok(true)
     }
 
-    /// Merges or leaves out the parts that are strained too much and too small to be cut.
+    /// Merges each part that is too small to be cut and strained above the limit with a neighbour, or leaves it
+    /// out.
     pub(super) fn give_away_crumbs(&mut self) -> Result<()> {
         let limit = self.options.max_strain;
         for part in (0..self.leaves.len() as u32).rev() {
@@ -241,8 +246,8 @@ impl Parts {
         Ok(())
     }
 
-    /// Merges a part with a neighbour with which it lies flat, one of the same patch if there is one, or else
-    /// that with the longest common border. Returns whether there is one; numbers of parts may change.
+    /// Merges a part with a neighbour if both together lie flat. A neighbour cut from the same patch comes first,
+    /// then the one with the longest common border. Returns whether one was found; numbers of parts may change.
     pub(super) fn give_away(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         let mut beside: Vec<(u32, usize)> = self.borders(part, &own).into_iter().collect();
@@ -277,8 +282,8 @@ impl Parts {
         Ok(None)
     }
 
-    /// Leaves out a part that is too small to be cut, unless too much was left out already. Returns whether
-    /// it was; numbers of parts may change.
+    /// Leaves out a part that is too small to be cut, unless the maximum number of vertices is left out already.
+    /// Returns whether the part was left out; numbers of parts may change.
     pub(super) fn leave_out(&mut self, part: u32) -> Result<bool> {
         let own = self.members(part);
         if own.len() > self.scrap() {
@@ -292,13 +297,13 @@ impl Parts {
             .iter_mut()
             .filter(|other| **other == last)
             .for_each(|other| *other = part);
-        // Their borders are others now.
+        // The borders of the neighbours have changed.
         self.lay_flat(&beside)?;
         Ok(true)
     }
 
-    /// Leaves out the few border vertices that strain a part too much or lie upside down. Returns whether
-    /// there were any.
+    /// Leaves out the few border vertices of a part that hold most of its strain or are corners of flipped
+    /// triangles. Returns whether there were any.
     fn trim(&mut self, part: u32) -> Result<bool> {
         let Some(leaf) = self.leaves[part as usize].as_ref() else {
             return Ok(false);
@@ -318,7 +323,8 @@ impl Parts {
         Ok(true)
     }
 
-    /// The few vertices whose removal would rid a part of a sheet of its fault, if they may be left out.
+    /// The few border vertices of a part whose removal would make the sheet valid; `None` if there are none or the
+    /// limits of what may be left out are reached.
     pub(super) fn removable_vertices(
         &self,
         part: u32,
@@ -330,7 +336,8 @@ impl Parts {
         (self.trims < MAX_TRIM_ROUNDS).then(found).flatten()
     }
 
-    /// Leaves out specks of a part; the part and its neighbours stay where they lie.
+    /// Leaves out some vertices of a part; the other vertices of the part and of its neighbours keep their
+    /// positions.
     pub(super) fn leave_out_specks(&mut self, part: u32, specks: Vec<usize>) -> Result<()> {
         self.trims += 1;
         let mut changed: Vec<u32> = self.borders(part, &specks).into_keys().collect();
@@ -347,7 +354,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Number of vertices that may still be left out at once.
+    /// Maximum number of vertices that may be left out in the next step.
     fn scrap(&self) -> usize {
         MAX_OMITTED_VERTICES.min(self.most_left_out.saturating_sub(self.left_out))
     }
@@ -364,7 +371,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Number of edges from a part to each of its neighbours.
+    /// Number of lattice edges between a part and each of its neighbours.
     fn borders(&self, part: u32, own: &[usize]) -> BTreeMap<u32, usize> {
         let lattice = self.surface.lattice();
         let mut borders: BTreeMap<u32, usize> = BTreeMap::new();

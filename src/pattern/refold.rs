@@ -1,8 +1,8 @@
 //! Sheets folded back.
 //!
-//! A sheet of paper does not stretch, but it bends as one likes. So a sheet is folded back by taking
-//! its triangles as they lie flat, tied along its folds, to where they fit together best in space,
-//! beginning on the surface. Where it does not come to lie on that again is what its strain is worth.
+//! A sheet of paper bends but does not stretch. A sheet is folded back by an as-rigid-as-possible deformation: its
+//! flat triangles, tied along its folds, move in space from their positions on the surface to those of least
+//! strain. The distance that they end up from the surface shows how much the strain of the flat sheet matters.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -21,7 +21,7 @@ const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
     max_steps: 80,
 };
 
-/// Folds a sheet back into space, and measures how near it comes to the surface.
+/// Folds a sheet back into space, and measures its distance from the surface.
 pub(super) fn refold_sheet(
     net: &SeamGraph,
     patches: &[u32],
@@ -68,9 +68,9 @@ pub(super) fn refold_sheet(
     })
 }
 
-/// Moves points rigidly, from near by, to where they are nearest to others: by the rotation with the largest
-/// inner product with their correlation (Müller et al. 2016, *A Robust Method to Extract the Rotational Part
-/// of Deformations*).
+/// Registers points to others by the rigid motion with the least sum of squared distances. The rotation is found
+/// iteratively from the points' correlation matrix, starting from none (Müller et al. 2016, *A Robust Method to
+/// Extract the Rotational Part of Deformations*).
 fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let count = places.len().max(1) as f64;
     let here = places.iter().sum::<Vector3<f64>>() / count;

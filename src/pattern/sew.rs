@@ -12,27 +12,29 @@ use crate::math::planar::polyline_length;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
-/// Maximum strain of a sheet in which a crease is closed, as a share of the limit, unless the sheets beside the
-/// crease are strained more already.
+/// Maximum strain of a sheet after a crease was closed, as a share of the limit, unless the sheets on either side
+/// of the crease had more strain before.
 const CREASE_STRAIN_SHARE: f64 = 0.1;
 
-/// Growth of a sheet's mean squared strain that a closed seam is worth, in squares of the limit, for a seam as
-/// long as the side of a square of the sheet's area.
+/// Maximum growth of a sheet's mean squared strain by closing a cut inside of a patch, in squares of the strain
+/// limit, for a cut as long as the side of a square with the sheet's area.
 const STRAIN_PER_CLOSED_LENGTH: f64 = 0.5;
 
-/// Maximum strain right beside a closed seam, as a multiple of the limit for the sheet.
+/// Maximum strain of the triangles along a closed seam, as a multiple of the limit for the sheet.
 const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 
-/// Minimum number of nodes of the halves of a seam that is divided because it cannot be closed as a whole.
+/// Minimum number of nodes of each half of a seam that is divided because it cannot be closed as a whole.
 const MIN_HALVED_SEAM_NODES: usize = 12;
 
 /// Maximum number of relaxation steps of all trials together, for each vertex of the pattern.
 const STEP_BUDGET_PER_VERTEX: usize = 800;
 
-/// Energy, as a multiple of that at the strain limit, above which a trial is given up where it hardly improves.
+/// Energy, as a multiple of the energy at the strain limit, above which a trial is abandoned when its progress is
+/// slow.
 const HOPELESS_STRAIN_FACTOR: f64 = 1.6;
 
-/// Closes cuts again, the longest first, and halves of those that cannot be closed as a whole.
+/// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is
+/// halved, and each half is tried.
 pub(super) fn close_cuts(
     net: &mut SeamGraph,
     arrangement: &mut Arrangement,
@@ -40,7 +42,7 @@ pub(super) fn close_cuts(
 ) -> Result<()> {
     let open = |seam: &usize| !arrangement.layout.folded[*seam];
     let mut pending: VecDeque<usize> = longest_first(net).into_iter().filter(open).collect();
-    // Creases are cut rather than what is smooth.
+    // Cuts inside of patches are closed before creases.
     pending
         .make_contiguous()
         .sort_by_key(|seam| !net.seams[*seam].smooth);
@@ -65,7 +67,7 @@ pub(super) fn close_cuts(
         }
         let other = net.divide(seam, nodes / 2);
         arrangement.layout.folded.push(false);
-        // Among the others by their length.
+        // Insert both halves in the order of lengths.
         for part in [seam, other] {
             let long = |seam: usize| polyline_length(&net.seams[seam].sides[0]);
             let key = |seam: usize| (net.seams[seam].smooth, long(seam));
@@ -79,7 +81,8 @@ pub(super) fn close_cuts(
     Ok(())
 }
 
-/// Closes the parts of cuts whose sides are nearer than the lattice's resolution.
+/// Closes those parts of cuts whose two sides are closer than the lattice's resolution
+/// ([`NEGLIGIBLE_GAP_LENGTHS`]).
 fn close_narrow_gaps(net: &mut SeamGraph, arrangement: &mut Arrangement, limit: f64) {
     for members in &arrangement.sheets {
         let inside = |seam: &usize| {
@@ -111,7 +114,7 @@ fn close_narrow_gaps(net: &mut SeamGraph, arrangement: &mut Arrangement, limit: 
     }
 }
 
-/// Tries to close one cut. Returns whether its sheet is still valid; if not, everything is as before.
+/// Tries to close one cut. Returns whether the sheet is valid then; if not, everything is restored.
 fn close_cut(
     net: &mut SeamGraph,
     arrangement: &mut Arrangement,
@@ -135,7 +138,7 @@ fn close_cut(
         members.sort_unstable();
     }
     layout.folded[seam] = true;
-    // Others that lie on each other by now.
+    // Also close the other seams whose sides coincide after the motion.
     for other in 0..net.seams.len() {
         let own = || {
             net.seams[other]
@@ -151,8 +154,8 @@ fn close_cut(
     let before: Vec<(u32, Vec<Point>)> = (members.iter())
         .filter_map(|p| Some((*p, net.leaves[*p as usize].as_ref()?.places().to_vec())))
         .collect();
-    // A cut through what is smooth is closed wherever that is worth its strain; a crease that bends on the flat
-    // sheet stays cut, for it could not be folded.
+    // A cut inside of a patch is closed if the strain that this adds is small for its length. A crease is closed
+    // only if that adds hardly any strain: a crease whose two sides fit only with strain cannot be folded.
     let most = match net.seams[seam].smooth {
         true => {
             let now = strains(net, &members).0;
@@ -181,7 +184,7 @@ fn close_cut(
     }
     let tight =
         |seam: &usize| seam_gap(net, &layout, *seam) <= NEGLIGIBLE_GAP_LENGTHS * net.spacing;
-    // A small place that is strained much would hardly show in the whole.
+    // A large strain in a small place hardly changes the strain of the whole sheet, so it is checked separately.
     let even = strain_along(net, seam) <= MAX_SEAM_STRAIN_FACTOR * limit;
     if even && ties.iter().all(tight) && fault(net, &layout, &members, most).is_none() {
         arrangement.layout = layout;

@@ -12,8 +12,8 @@ use crate::unroll::flat_triangle::Point;
 /// Maximum distance between a line and its simplification, in spacings.
 const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 
-/// Maximum length of the border piece that cuts off a corner, as a multiple of the longest edge there. Such a
-/// piece arises because the border joins the middles of edges.
+/// Maximum length of a border segment that cuts off a corner, as a multiple of the longest edge there. Such a
+/// segment arises because the border connects the midpoints of edges.
 const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
 
 /// The closed lines around a sheet, and the number of small loops that were cut off them.
@@ -38,7 +38,7 @@ pub(super) fn outlines(
     let (lines, loops) = lines(net, layout, patches);
     let corners = meetings.corners(net, layout, patches);
     let end = |place: Point| {
-        // A loop may have been cut off there.
+        // The point may be missing from the outline, because a loop was cut off there.
         let away = |corner: &Point| (corner - place).norm();
         let here = corners
             .iter()
@@ -62,7 +62,7 @@ pub(super) fn outlines(
     (out.into_iter().map(|(_, runs)| runs).collect(), loops)
 }
 
-/// The folds of a sheet, but for those that only join two nodes of what is one place.
+/// The folds of a sheet, except those that only connect two nodes of one four-way junction.
 pub(super) fn folds(
     net: &SeamGraph,
     layout: &Layout,
@@ -109,8 +109,8 @@ pub(super) fn folds(
         .collect()
 }
 
-/// Intersection of a line, from `back` beyond `end`, with the nearest outline; `end` itself if that is
-/// further than a spacing.
+/// Intersection of the straight line from `back` through `end` with the outlines, the one nearest to `end`; `end`
+/// itself if none is within a spacing of it.
 fn extend_to_outline(end: Point, back: Point, outlines: &[Vec<Run>], spacing: f64) -> Point {
     let pieces = outlines.iter().flatten().flat_map(|run| {
         let points = run.points.windows(2);
@@ -154,7 +154,7 @@ fn runs(net: &SeamGraph, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
             _ => groups.push((kind(i), vec![corner])),
         }
     }
-    // Each group with the first corner of the next one.
+    // Append the first corner of the next group to each group.
     let starts: Vec<Corner> = groups.iter().map(|(_, group)| group[0]).collect();
     let count = groups.len();
     for (k, (_, group)) in groups.iter_mut().enumerate() {
@@ -183,14 +183,14 @@ fn runs(net: &SeamGraph, line: &[Corner]) -> Vec<(Option<Side>, Vec<Point>)> {
     out
 }
 
-/// Extends the two seams at a border's ends to their intersections with the border's line.
+/// Extends or shortens the two seams that end at border run `k` to their intersections with the border's line.
 fn meet(net: &SeamGraph, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs, k: usize) {
     let count = groups.len();
     for (other, starts) in [((k + count - 1) % count, true), ((k + 1) % count, false)] {
         if groups[other].0.is_none() {
             continue;
         }
-        // Both so that they begin at the place where they meet.
+        // Reverse both lines where needed, so that each begins at the intersection.
         let turned = |list: &[Corner], turn: bool| -> Vec<Corner> {
             match turn {
                 true => list.iter().rev().copied().collect(),
@@ -209,7 +209,7 @@ fn meet(net: &SeamGraph, groups: &[(Option<Side>, Vec<Corner>)], runs: &mut Runs
         }
         for line in [&mut seam, &mut border] {
             line[0] = place;
-            // What it has passed.
+            // Remove points that lie before the new first point.
             while line.len() > 2 && ((line[2] - line[1]).conj() * (line[1] - place)).re < 0.0 {
                 line.remove(1);
             }
@@ -234,7 +234,7 @@ fn short(corners: &[Corner]) -> f64 {
     MAX_CHAMFER_LENGTH_FACTOR * edges.fold(0.0, f64::max)
 }
 
-/// Positions of the lattice's vertices among the corners; a border goes from one to the next.
+/// Positions of those corners that are vertices of the lattice; a border goes from one to the next.
 fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     let own = corners
         .iter()
@@ -242,7 +242,7 @@ fn vertices(corners: &[Corner]) -> impl Iterator<Item = Point> {
     own.map(|corner| corner.place)
 }
 
-/// Middles of a border's edges, which do not zigzag.
+/// Midpoints of a border's edges: unlike the vertices they do not zigzag.
 fn middles(corners: &[Corner]) -> Vec<Point> {
     let next = vertices(corners).skip(1);
     vertices(corners)
@@ -251,7 +251,7 @@ fn middles(corners: &[Corner]) -> Vec<Point> {
         .collect()
 }
 
-/// Middle of the edge from the last vertex to the first.
+/// Midpoint of the edge from the last vertex to the first.
 fn closing(corners: &[Corner]) -> Option<Point> {
     let (first, last) = (vertices(corners).next()?, vertices(corners).last()?);
     Some(0.5 * (first + last))

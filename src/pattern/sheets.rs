@@ -8,10 +8,10 @@ use crate::shape::patches::Patches;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Pattern {
-    /// The sheets, that with the largest patch first.
+    /// The sheets; the first is the one with the largest patch.
     pub sheets: Vec<Sheet>,
-    /// The patches of the sheets and the creases between them: those that were given, if none of
-    /// them was cut, or else what they were cut into, with the cuts among the creases.
+    /// The patches of the sheets and the creases between them. If a patch was cut, these are the parts it was cut
+    /// into, and its cuts are among the creases; otherwise they are the patches that were given.
     pub patches: Patches,
     /// Vertices, area and steps of the surface that are on no sheet.
     pub missing: Missing,
@@ -26,56 +26,56 @@ pub struct Pattern {
 )]
 #[non_exhaustive]
 pub struct Missing {
-    /// Number of vertices that were left out because nothing around them lies flat with them: ragged steep
-    /// borders and torn tips, mostly, and a fiftieth of all at most.
+    /// Number of vertices that were left out because they do not lie flat together with any neighbouring part,
+    /// mostly at ragged steep borders and torn tips; at most a fiftieth of all.
     pub vertices: usize,
     /// Area around the vertices that were left out.
     pub area: f64,
-    /// Number of steps of the surface, whose sides are cut apart: the wall between them is missing.
+    /// Number of steps of the surface. The surface is cut at a step, and the steep wall between its two sides is on
+    /// no sheet.
     pub steps: usize,
     /// Approximate area of the walls at steps: their lengths times their heights.
     pub step_area: f64,
 }
 
-/// A sheet to be cut out, as it is seen from above, from where the heights point. Lengths are in
-/// the surface's units.
+/// A flat sheet to be cut out, seen from above, the side of larger heights. Lengths are in the surface's units.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sheet {
     /// Numbers of the sheet's patches, ascending.
     pub patches: Vec<u32>,
-    /// Closed lines along which the sheet is cut, the longest first. The sheet is to their left, so that
-    /// holes run clockwise; each run begins where the one before ends.
+    /// Outlines of the sheet: closed lines, the longest first, each divided into runs that begin where the run
+    /// before ends. The sheet is to the left, so outlines of holes run clockwise.
     ///
-    /// Along creases they are where the patches' continuations meet, smoothed over a spacing or
-    /// two; both sides of a cut have the same length but for the strain, and are drawn equally long
-    /// ([`Drawing`](crate::drawing::Drawing)). Elsewhere they follow the
-    /// border of the lattice's whole triangles, its zigzag taken to the middle of its edges.
+    /// Along a crease the outline is the intersection of the two extrapolated patches, smoothed over one or two
+    /// spacings. Both sides of a cut have the same length except for strain, and
+    /// [`Drawing`](crate::drawing::Drawing) draws them equally long. Along the surface's border the outline
+    /// connects the midpoints of the lattice's border edges.
     pub outlines: Vec<Vec<Run>>,
-    /// Lines along which the sheet is folded, by the numbers of their creases.
+    /// Lines along which the sheet is folded, in the order of their creases' numbers.
     pub folds: Vec<Fold>,
-    /// A place well inside of each patch, in the order of the patches.
+    /// For each patch, in the order of the patches, a place for its label far from the patch's border.
     pub spots: Vec<Spot>,
-    /// Triangles of the sheet, built and flat.
+    /// Triangles of the sheet, with their positions on the surface and on the flat sheet.
     pub faces: Faces,
     /// Spacing of the lattice, or mean edge length of the mesh: the resolution of these lines.
     pub spacing: f64,
     /// Area of the surface that the sheet is made of.
     pub area: f64,
-    /// Strain of the sheet: root of the mean square over its area; 0 for what can be unrolled.
+    /// Strain of the sheet, root mean square over its area; 0 for a sheet that is exactly developable.
     pub strain: f64,
-    /// Largest distance between the sides of a fold (root of the mean square along it); the folds lie
-    /// halfway.
+    /// Largest seam gap of a fold: root mean square distance between its two sides along the fold. The drawn fold
+    /// lies halfway between the sides.
     pub gap: f64,
-    /// Number of small loops in which outlines crossed themselves, and which were cut off.
+    /// Number of small loops, in which outlines crossed themselves, that were cut off.
     pub loops: usize,
-    /// Distance of the folded sheet from the surface, if that was asked for
-    /// ([`PatternOptions::refold`](super::PatternOptions::refold)).
+    /// Distance of the refolded sheet from the surface; `None` unless
+    /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
     pub refolding: Option<Refolding>,
 }
 
-/// Distance of a sheet from the surface when it is folded along its lines and bent until nothing is
-/// stretched: distances of its vertices, in the surface's units.
+/// Distance between the surface and a sheet that was folded along its folds and bent in space with the least
+/// strain, measured at the sheet's vertices in the surface's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -88,13 +88,13 @@ pub struct Refolding {
     pub strain: f64,
 }
 
-/// A piece of an outline: of one side of a crease, or of the surface's border.
+/// A piece of an outline that follows one side of a crease, or the surface's border.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Run {
-    /// The crease that is cut here; `None` for the border.
+    /// The crease that is cut along this run; `None` along the border.
     pub seam: Option<Seam>,
-    /// Which of the crease's two patches this is the side of; `None` for the border.
+    /// Number of the patch whose side of the crease the run follows; `None` along the border.
     pub patch: Option<u32>,
     /// Points inside of the surface where the run begins and ends; `None` at the border.
     pub ends: [Option<Meeting>; 2],
@@ -126,10 +126,10 @@ pub struct Seam {
     pub direction: Direction,
     /// Fold angle in radians: 0 is flat.
     pub angle: f64,
-    /// Whether it is a cut inside of a patch, which cannot be laid flat in one piece, and no crease of the
+    /// Whether this is a cut inside of a patch that cannot be laid flat in one piece, and not a crease of the
     /// surface.
     pub slit: bool,
-    /// Whether the surface has a step here: its sides are apart in space, and are not joined.
+    /// Whether the surface has a step here: the two sides are apart in space and are not glued together.
     pub torn: bool,
 }
 
@@ -142,7 +142,7 @@ pub struct Seam {
 )]
 #[non_exhaustive]
 pub enum Direction {
-    /// A ridge: the fold points to the viewer.
+    /// A ridge: the fold points towards the viewer.
     Mountain,
     /// A groove: the fold points away from the viewer.
     Valley,

@@ -13,16 +13,16 @@ const MAX_LOOP_LENGTH: f64 = 60.0;
 /// Maximum number of passes over a line in which its loops are cut off.
 const MAX_LOOP_PASSES: usize = 8;
 
-/// Number of a seam, and the patch beside it.
+/// One side of a seam: the number of the seam, and the patch on that side.
 pub(crate) type Side = (usize, u32);
 
 /// Consecutive pieces of a closed line, each with the side that it follows; `None` for the border.
 pub(crate) type Runs = Vec<(Option<Side>, Vec<Point>)>;
 
-/// Cuts off the small loops in which a closed line of runs crosses itself, each run beginning where the one
-/// before ends. Returns the line and the number of loops.
+/// Cuts off the small loops in which a closed line crosses itself. The line is given as runs, each of which begins
+/// where the one before ends. Returns the line and the number of loops that were cut off.
 pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
-    // Each point with the run that the piece from it on belongs to.
+    // Each point with the number of the run that the segment from this point to the next belongs to.
     let mut line: Vec<(Point, usize)> = Vec::new();
     for (number, (_, points)) in runs.iter().enumerate() {
         let own = &points[..points.len() - 1];
@@ -39,7 +39,7 @@ pub(crate) fn remove_loops(runs: Runs, spacing: f64) -> (Runs, usize) {
     if loops == 0 || line.len() < 3 {
         return (runs, 0);
     }
-    // It begins with a run.
+    // Rotate the line so that it begins at the start of a run.
     let n = line.len();
     let start = (0..n).find(|i| line[*i].1 != line[(*i + n - 1) % n].1);
     line.rotate_left(start.unwrap_or(0));
@@ -67,13 +67,13 @@ fn pass(line: &[(Point, usize)], spacing: f64) -> Option<(Vec<(Point, usize)>, u
     let places: Vec<Point> = line.iter().map(|(place, _)| *place).collect();
     let edges: Vec<[u32; 2]> = (0..n).map(|k| [k as u32, ((k + 1) % n) as u32]).collect();
     let mut gone = vec![false; n];
-    // The point that takes the place of a loop, by the piece that it ends with.
+    // For each segment that ends a loop: the point that replaces the loop.
     let mut instead: Vec<Option<Point>> = vec![None; n];
     let mut count = 0;
     for [i, j] in crossings(&places, &edges) {
         let [a, b, c, d] = [i, i + 1, j, j + 1].map(|k| places[k % n]);
         let at = line_intersection([a, b], [c, d], 0.0).unwrap_or(0.5 * (b + c));
-        // From piece `a` on to piece `b`, whichever way encloses less.
+        // The loop from piece `a` to piece `b` or from `b` to `a`, whichever encloses the smaller area.
         let loops = [(i, j), (j, i)].map(|(a, b)| {
             let inner: Vec<usize> = (1..=(b + n - a) % n).map(|k| (a + k) % n).collect();
             let mut ring = vec![at];

@@ -8,8 +8,8 @@ use super::sheets::Spot;
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::NO_PATCH;
 
-/// For each patch the vertex that is furthest from other patches and the border, by steps along the lattice;
-/// of several, that nearest to the patch's middle.
+/// Finds for each patch a vertex for its label: the one that is the most lattice edges away from other patches and
+/// the border; of several, the one nearest to the patch's centroid.
 pub(super) fn label_spots(
     surface: &Heightfield,
     labels: &[u32],
@@ -47,7 +47,7 @@ pub(super) fn label_spots(
             *count += 1.0;
         }
     }
-    // The more steps the better, then the nearer to the middle.
+    // Compare by the number of edges first, then by the distance from the middle.
     let mut best = vec![(0u32, f64::INFINITY, usize::MAX); net.leaves.len()];
     for (i, label) in labels.iter().enumerate() {
         if let Some(found) = best.get_mut(*label as usize) {

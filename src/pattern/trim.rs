@@ -6,23 +6,23 @@ use super::labels::{Labels, connected_groups};
 use crate::lattice::hexagonal::{Lattice, NEIGHBOUR_DIRECTIONS};
 use rustc_hash::FxHashMap;
 
-/// Maximum number of vertices of a speck, as a share of its part's.
+/// Maximum number of border vertices that are removed from a part, as a share of its vertices.
 const MAX_SPECK_SHARE: f64 = 0.002;
 
-/// Maximum strain of a part after its specks were removed, as a share of the limit.
+/// Maximum strain of a part after border vertices were removed, as a share of the limit.
 const TRIMMED_STRAIN_SHARE: f64 = 0.5;
 
-/// The fault that removing a few vertices has to cure.
+/// Fault of a part that removing a few border vertices has to cure.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Trouble {
     /// Strain above this limit.
     Strain(f64),
-    /// Triangles upside down.
+    /// Flipped triangles.
     Flipped,
 }
 
-/// The few border vertices of a part whose removal would surely cure its fault; `None` if they are more than
-/// `most`, away from the border, or all that connects the part.
+/// The few border vertices of a part whose removal is sure to cure its fault; `None` if they are more than `most`,
+/// if they are not at the border, or if the part would not stay connected.
 pub(super) fn removable_vertices(
     lattice: &Lattice,
     labels: &Labels,
@@ -59,7 +59,8 @@ pub(super) fn removable_vertices(
     (whole && specks.iter().all(at_border)).then(|| specks.concat())
 }
 
-/// The fewest vertices whose removal would reduce the strain to a share of its value.
+/// The smallest set of vertices without which the sum of squared strains falls to a share of its value, from the
+/// vertices' contributions (`burden`).
 fn heaviest(burden: &[(usize, f64)], share: f64) -> Vec<usize> {
     let mut sorted = burden.to_vec();
     sorted.sort_by(|a, b| b.1.total_cmp(&a.1));

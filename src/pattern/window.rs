@@ -2,7 +2,8 @@
 
 use crate::lattice::hexagonal::Lattice;
 
-/// A rectangle of the lattice that begins at an even row, so that its rows are shifted alike.
+/// A rectangle of the lattice. Its first row is even, so that its odd rows are the ones that are shifted, as in the
+/// whole lattice.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     pub top: usize,
@@ -22,7 +23,7 @@ impl Window {
         }
     }
 
-    /// The window without a vertex.
+    /// The empty window.
     const EMPTY: Window = Window {
         top: usize::MAX,
         left: usize::MAX,
@@ -54,7 +55,7 @@ impl Window {
         rows.flat_map(move |row| (self.left..=self.right).map(move |col| row * cols + col))
     }
 
-    /// For each of `count` patches the window of its vertices, a cell larger on each side.
+    /// For each of `count` patches the window of its vertices, enlarged by one cell on each side.
     pub(super) fn around(self, lattice: &Lattice, labels: &[u32], count: usize) -> Vec<Window> {
         let mut windows = vec![Window::EMPTY; count];
         for i in self.vertices(lattice) {

@@ -1,6 +1,6 @@
 //! Colours as sRGB bytes: those of the page, so that pictures look like it.
 
-/// What has no value of its own, as curvature beside a border.
+/// Colour of points without a value, such as curvature next to a border.
 pub(super) const NO_VALUE: [u8; 3] = [150, 155, 160];
 
 /// Colours of values from the lowest to the highest, from blue over white to red: ColorBrewer's RdBu, whose
@@ -38,7 +38,7 @@ const PATCH_COLOURS: [[u8; 3]; 12] = [
 /// Brightness of a crease relative to its patch's colour.
 const CREASE_BRIGHTNESS: f64 = 0.4;
 
-/// The colour of a value from −1 to 1; beyond, that of the end.
+/// Diverging colour scale: the colour of a value, clamped to −1 to 1.
 pub(super) fn diverging(value: f64) -> [u8; 3] {
     let last = CURVATURE_COLOURS.len() - 1;
     let place = 0.5 * (value.clamp(-1.0, 1.0) + 1.0) * last as f64;
@@ -50,7 +50,7 @@ pub(super) fn diverging(value: f64) -> [u8; 3] {
     })
 }
 
-/// Steel of a brightness from 0 to 1: bluish in the shade, white in the light.
+/// Colour of a shaded surface by its brightness from 0 to 1: bluish where dark, white where bright.
 pub(super) fn steel(tone: f64) -> [u8; 3] {
     let tint = 0.1 * (1.0 - tone);
     [1.0 - tint, 1.0, 1.0 + 1.3 * tint].map(|share| (255.0 * tone * share).round() as u8)
@@ -60,7 +60,7 @@ pub(crate) fn patch(label: u32) -> [u8; 3] {
     PATCH_COLOURS[label as usize % PATCH_COLOURS.len()]
 }
 
-/// A patch's colour where it creases.
+/// Colour of a patch along its creases.
 pub(super) fn crease(label: u32) -> [u8; 3] {
     patch(label).map(|channel| (CREASE_BRIGHTNESS * f64::from(channel)).round() as u8)
 }

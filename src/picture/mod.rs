@@ -21,41 +21,41 @@ use crate::heights::normalization::{Normalization, bounds};
 use crate::shape::analysis::Curvatures;
 use crate::shape::patches::{NO_PATCH, PatchOptions, Patches};
 
-/// Brightness where no light falls.
+/// Ambient brightness: brightness of a surface that the light does not reach, from 0 to 1.
 const AMBIENT_BRIGHTNESS: f64 = 0.15;
 
-/// Least sum of the interpolation weights of surface vertices around a point that makes it a point of the
-/// surface: half, less rounding, so that between two vertices the nearer one counts.
+/// Minimum sum of the interpolation weights of the vertices with heights around a point at which the point is on
+/// the surface: half, less rounding, so that between two vertices the nearer one decides.
 const MIN_VERTEX_WEIGHT: f64 = 0.5 - 1e-9;
 
-/// Distance beyond its outermost vertices up to which a surface is continued, in units of the coarser of
-/// spacing and pixel: as far as there are points of its own between vertices.
+/// Distance beyond its outermost vertices up to which a surface is extrapolated, in units of the larger of spacing
+/// and pixel.
 const CONTINUATION_REACH: f64 = 0.5 + 1e-9;
 
-/// The same beyond the lattice's first and last row: an image may end a row and half a pixel later.
+/// Distance beyond the lattice's first and last row up to which a surface is extrapolated, in the same units: a
+/// height image may end a row and half a pixel beyond them.
 const ROW_REACH: f64 = 1.5;
 
 /// What a picture shows of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Style {
-    /// The surface itself, matt, under one light: its brightness is 0.15 + 0.85 max(0, n·l), for
-    /// its unit normal n.
+    /// The surface with diffuse (Lambertian) shading under one directional light: brightness 0.15 + 0.85 max(0,
+    /// n·l), for the unit normal n and the direction l towards the light.
     Shaded {
-        /// Towards the light, of any length: x to the right, y up, z towards the viewer and above
-        /// 0.
+        /// Direction towards the light, of any length: x to the right, y up, z towards the viewer and positive.
         light: [f64; 3],
     },
-    /// Its curvature, from blue (below 0) over white to red (above 0); grey where it has none,
-    /// beside its border.
+    /// The curvature of the surface, from blue (negative) over white (0) to red (positive); grey next to the
+    /// border, where it is not defined.
     Curvature {
-        /// Which one.
+        /// Which curvature is shown.
         kind: Curvature,
-        /// What the end of the scale stands for, in the surface's units; larger values have the
-        /// same colour. `None`: that of a sphere as wide as the longer side of the surface.
+        /// Absolute value at the ends of the colour scale, in the surface's units; larger values have the colour of
+        /// the end. `None`: the curvature of a sphere as wide as the longer side of the surface.
         limit: Option<f64>,
     },
-    /// Its patches, a colour for each, darker where they meet.
+    /// The patches of the surface, each in one colour, with darker creases.
     Patches(PatchOptions),
 }
 
@@ -71,14 +71,14 @@ pub enum Curvature {
 }
 
 impl Style {
-    /// Shaded, with the light above to the left.
+    /// The style [`Style::Shaded`] with light from the upper left.
     pub fn shaded() -> Self {
         Style::Shaded {
             light: [-0.38, 0.42, 0.82],
         }
     }
 
-    /// Gaussian curvature.
+    /// The style [`Style::Curvature`] with Gaussian curvature and the default limit.
     pub fn curvature() -> Self {
         Style::Curvature {
             kind: Curvature::default(),
@@ -86,23 +86,23 @@ impl Style {
         }
     }
 
-    /// Patches, as [`Patches`] finds them by default.
+    /// The style [`Style::Patches`] with default options.
     pub fn patches() -> Self {
         Style::Patches(PatchOptions::default())
     }
 }
 
-/// What picture is wanted.
+/// Options of a picture: its style, width and extent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct PictureOptions {
-    /// What it shows; default [`Style::shaded`].
+    /// What the picture shows. Default [`Style::shaded`].
     pub style: Style,
-    /// Its width in pixels; the height follows. `None`: a pixel for each lattice spacing.
+    /// Width of the picture, in pixels; the height follows. `None`: one pixel for each lattice spacing.
     pub width: Option<usize>,
-    /// The part of the plane that it shows. `None`: that of the lattice, half a spacing around its
-    /// vertices. Of a surface that was made from an image rather [`Extent::from_image`] of that image: its
-    /// pixels are the picture's then.
+    /// The part of the plane that the picture shows. `None`: the box around the lattice's vertices, half a spacing
+    /// larger on each side. For a surface made from a height image use [`Extent::from_image`], so that the pixels
+    /// of both coincide.
     pub extent: Option<Extent>,
 }
 
@@ -139,7 +139,7 @@ impl PictureOptions {
     }
 }
 
-/// Pixels in colour, transparent where there is no surface.
+/// A picture of RGBA pixels, transparent where there is no surface.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
     width: usize,
@@ -197,7 +197,7 @@ fn shaded(frame: &Frame<'_>, light: [f64; 3]) -> Result<Picture> {
     let mut slopes = try_filled("slopes", lattice.len(), [f64::NAN; 2])?;
     for (i, slope) in slopes.iter_mut().enumerate() {
         if !surface.heights()[i].is_nan() {
-            // A vertex by itself lies level.
+            // A vertex without a gradient counts as horizontal.
             let found = surface.gradient(i / lattice.cols(), i % lattice.cols());
             *slope = found.unwrap_or([0.0; 2]);
         }
@@ -267,7 +267,7 @@ struct Frame<'a> {
     corner: [f64; 2],
     /// Sides of a pixel: equal, but that there are whole numbers of them.
     pixel: [f64; 2],
-    /// Of the vertices with heights.
+    /// Bounding box of the vertices with heights: lower left and upper right corner.
     bounds: [[f64; 2]; 2],
 }
 
@@ -293,7 +293,8 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// The picture, from the colour of a point and the vertices around it; without one it is grey.
+    /// Draws the picture. `colour` gives the colour of a point from its position and the vertices around it; points
+    /// without one are grey.
     fn coloured(&self, colour: impl Fn([f64; 2], &Corners) -> Option<[u8; 3]>) -> Result<Picture> {
         let mut rgba = try_filled("picture", 4 * self.width * self.height, 0)?;
         let (pixels, _) = rgba.as_chunks_mut::<4>();
@@ -346,8 +347,8 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// A lattice's vertices with half a spacing around them: pixels of the spacing's size have their
-/// centres on the even rows' vertices.
+/// Default extent of a surface: the box around its lattice's vertices, half a spacing larger on each side. Pixels
+/// of the spacing's size then have their centres at the vertices of even rows.
 fn around(surface: &Heightfield) -> Extent {
     let mut extent = Extent::from_heightfield(surface);
     let half = 0.5 * surface.lattice().spacing();
@@ -356,11 +357,12 @@ fn around(surface: &Heightfield) -> Extent {
     extent
 }
 
-/// Vertices around a point with their weights, 0 for what is not on the surface.
+/// Indices of the vertices around a point, with their interpolation weights; a vertex without a height has weight
+/// 0.
 struct Corners([(usize, f64); 3]);
 
 impl Corners {
-    /// The weighted mean of the values that there are, those that are not NaN.
+    /// Weighted mean of the values that are not NaN.
     fn mean<const N: usize>(&self, values: &[[f64; N]]) -> Option<[f64; N]> {
         let (mut sum, mut share) = ([0.0; N], 0.0);
         for (vertex, weight) in self.0 {

@@ -3,10 +3,12 @@
 use super::colour_model::{ColourModel, opponent_axes};
 use super::planes::Planes;
 
-/// Width of the photo's frame that is taken for ground at first, as a share of its sides.
+/// Width of the strip along the photo's rim that is initially taken for background, as a share of the photo's
+/// sides.
 const FRAME_SHARE: f64 = 0.04;
 
-/// Distance from the photo's rim of the middle that is taken for the page at first, as a share of its sides.
+/// Distance from the photo's rim of the central rectangle that is initially taken for the page, as a share of the
+/// photo's sides.
 const MIDDLE_SHARE: f64 = 0.25;
 
 /// Variance of a reduced photo's noise in each axis of colour.
@@ -15,7 +17,7 @@ const COLOUR_NOISE_VARIANCE: f64 = 1e-4;
 /// Number of levels of grey that thresholds are chosen from.
 const THRESHOLD_LEVELS: usize = 128;
 
-/// Whether each pixel is of the photo's frame, and whether it is of its middle.
+/// Two masks: whether each pixel is in the strip along the photo's rim, and whether it is in the central rectangle.
 fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
     let depth = |i: usize| {
         let share = |at: usize, size: usize| {
@@ -31,7 +33,8 @@ fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
     ]
 }
 
-/// The thresholds that divide values into two, and into three, classes of the least variance (Otsu): one, and two.
+/// Otsu's thresholds of some values: the one that divides them into two classes of least variance, and the two that
+/// divide them into three.
 fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
     let (low, high) = values.iter().fold((f32::MAX, f32::MIN), |(low, high), v| {
         (low.min(*v), high.max(*v))
@@ -100,7 +103,8 @@ fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> 
         .collect()
 }
 
-/// Masks that may be a page, of an image without print; most of them are alike where the page is easily seen.
+/// Candidate masks of a page, from an image whose print is suppressed. Most of them are similar if the page is easy
+/// to see.
 pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
     let [r, g, b] = &planes.channels;
     let colours: Vec<[f32; 3]> = (0..planes.len()).map(|i| [r[i], g[i], b[i]]).collect();

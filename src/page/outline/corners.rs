@@ -23,7 +23,7 @@ const MAX_EXTRAPOLATION: f64 = 0.6;
 /// Sine of the angle below which two edges have no corner.
 const MIN_CORNER_SINE: f64 = 0.3;
 
-/// Two points on the line of least squares of a share of an edge at its end.
+/// Two points on the least-squares line through a share of an edge at its end.
 fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     let n = edge.len();
     let skip = (n as f64 * WORN_END_SHARE) as usize;
@@ -42,7 +42,8 @@ fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     Some([mean, [mean[0] + angle.cos(), mean[1] + angle.sin()]])
 }
 
-/// The corner between two edges, both given from their ends there on; `None` if they do not meet near their ends.
+/// The corner where two edges meet, both given as points from that corner on; `None` if their extensions do not
+/// intersect near their ends.
 pub(super) fn corner(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[f64; 2]> {
     meeting(one, other, END_LENGTH_SHARE, MAX_CORNER_SHIFT)
 }

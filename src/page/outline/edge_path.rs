@@ -10,10 +10,11 @@ const BAND_RADIUS: usize = 10;
 /// Number of pixels beyond the band from which the colours of paper and ground are taken.
 const BAND_MARGIN: usize = 4;
 
-/// Length of the window over which a border is smoothed, and colours along it, on either side and in pixels.
+/// Half width, in pixels, of the window over which a border, and the colours along it, are smoothed.
 const SMOOTHING_LENGTH: usize = 8;
 
-/// Cost of a step of one pixel across the band, where an edge of full contrast is worth 1 for each pixel of its length.
+/// Cost of a step of one pixel across the band, in the path search that rewards full contrast with 1 for each pixel
+/// of length.
 const STEP_COST: f32 = 0.15;
 
 /// Difference of logarithmic colour at which contrast in direction of the paper's colour and any contrast count alike.
@@ -56,7 +57,7 @@ fn resampled(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     found
 }
 
-/// Means of each point and its neighbours on either side, as many as there are on both.
+/// Smooths a polyline: mean of each point and an equal number of neighbours on both sides.
 fn smoothed(points: &[[f64; 2]], radius: usize) -> Vec<[f64; 2]> {
     let n = points.len();
     (0..n)

@@ -37,7 +37,8 @@ const MIN_DOUBTFUL_SCORE: f64 = 0.3;
 /// Minimum share of the photo that a page found by straight lines takes.
 const MIN_LINE_PAGE_SHARE: f64 = 0.15;
 
-/// Score of a quadrilateral of lines over its worth: of real photos most of those with a worth above 0.08 are pages.
+/// Ratio of the score to the worth of a quadrilateral of straight lines: in real photos most of those with a worth
+/// above 0.08 are pages.
 const LINE_SCORE_FACTOR: f64 = 3.75;
 
 /// Minimum score of a second page, as a share of the first one's.
@@ -48,7 +49,7 @@ fn are_same(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4], tolerance: f64) -> bool 
     (0..4).any(|turn| (0..4).all(|k| distance(one[k], other[(k + turn) % 4]) <= tolerance))
 }
 
-/// Whether two quadrilaterals have no corner and no middle of the other one inside.
+/// Whether two quadrilaterals are disjoint: neither contains a corner or the middle of the other one.
 fn are_apart(one: &[[f64; 2]; 4], other: &[[f64; 2]; 4]) -> bool {
     let free = |a: &[[f64; 2]; 4], b: &[[f64; 2]; 4]| {
         let middle = [0, 1].map(|j| b.iter().map(|p| 0.25 * p[j]).sum());

@@ -148,7 +148,7 @@ impl Gradients {
 /// A line across the image, with the number of edge pixels along it.
 struct Line {
     ends: [[f64; 2]; 2],
-    /// Number of places with an edge before each place, at distances of one pixel from the first end on.
+    /// Prefix sums: number of places with an edge before each place along the line, one pixel apart.
     sums: Vec<u32>,
 }
 

@@ -29,7 +29,7 @@ pub(super) struct SheetWeights {
     pub lines: f64,
 }
 
-/// What a sheet is fitted to.
+/// Data of the least-squares problem: what a sheet is fitted to.
 #[derive(Debug, Clone)]
 pub(super) struct SheetProblem {
     /// Upper, lower, left and right edge in normalised coordinates.

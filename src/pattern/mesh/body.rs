@@ -22,7 +22,7 @@ const PLANE_TOLERANCE_LENGTHS: f64 = 0.1;
 pub(super) struct Body {
     pub places: Vec<Place>,
     pub triangles: Vec<[u32; 3]>,
-    /// Number of the patch that each triangle was in. `parts` holds the part that it is in now.
+    /// Number of the patch that each triangle belongs to; `parts` holds the number of its part.
     pub patches: Vec<u32>,
     pub parts: Vec<u32>,
     pub count: u32,
@@ -38,7 +38,7 @@ pub(super) struct Plane {
 }
 
 impl Body {
-    /// A mesh in which each connected piece of a patch is a part.
+    /// Creates a mesh in which each connected component of a patch is a part.
     pub(super) fn new(
         places: Vec<Place>,
         triangles: Vec<[u32; 3]>,
@@ -96,8 +96,8 @@ impl Body {
         }
     }
 
-    /// Divides triangles of a part into connected pieces of one label each. The first piece keeps the number
-    /// of the first triangle's part; returns the numbers of all.
+    /// Divides triangles of a part into connected components of equal labels. The first component keeps the part's
+    /// number; returns the numbers of all.
     fn part(&mut self, members: &[u32], labels: &[u32]) -> Result<Vec<u32>> {
         let own: Vec<[u32; 3]> = (members.iter())
             .map(|t| self.triangles[*t as usize])
@@ -127,7 +127,7 @@ impl Body {
         Ok(numbers.into_values().collect())
     }
 
-    /// Candidate planes for cutting a part: across its main axes, through its middle and through a given
+    /// Candidate planes for cutting a part: normal to its principal axes, through its middle and through a given
     /// point.
     pub(super) fn planes(&self, members: &[u32], place: Place) -> Vec<Plane> {
         let corners = |t: &u32| self.triangles[*t as usize].map(|v| self.places[v as usize]);
@@ -194,7 +194,7 @@ impl Body {
         self.part(&members, &labels)
     }
 
-    /// Makes parts of their own of some triangles of a part. Returns the numbers of all its pieces.
+    /// Separates some triangles from a part, as parts of their own. Returns the numbers of all pieces of the part.
     pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
         let members = self.members(part);
         let mut labels = vec![0; self.triangles.len()];
@@ -229,13 +229,12 @@ impl Body {
     }
 }
 
-/// Maximum difference between the angles around a vertex and a full turn, in radians, where the surface may be
-/// laid flat.
+/// Maximum angle defect of a vertex, in radians, at which the surface around it counts as developable.
 const MAX_ANGLE_DEFECT: f64 = 0.3;
 
 impl Body {
-    /// Whether each vertex is a tip or saddle of the surface, which ends seams: two sides that meet there do
-    /// not both fit.
+    /// Whether each vertex has an angle defect above [`MAX_ANGLE_DEFECT`], as a tip or a saddle has. Seams end
+    /// there, because two sides that meet there do not both fit.
     pub(super) fn pointed(&self) -> Vec<bool> {
         let mut turns = vec![0.0; self.places.len()];
         for corners in &self.triangles {

@@ -16,11 +16,11 @@ use crate::unroll::flat_triangle::Point;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MeshPattern {
-    /// The sheets, that with the largest patch first, seen from outside: the side that the mesh's triangles
-    /// face.
+    /// The sheets; the first is the one with the largest patch. They are seen from outside, the side that the
+    /// mesh's triangles face.
     pub sheets: Vec<Sheet>,
-    /// The patches of the sheets, that with the largest area first: those that were given, each connected
-    /// piece by itself, or what they were cut into.
+    /// The patches of the sheets, the largest area first: the connected components of the patches that were given,
+    /// or the parts that these were cut into.
     pub patches: Vec<Patch>,
     /// The creases between the patches, with the cuts inside of patches among them.
     pub creases: Vec<Crease>,
@@ -110,7 +110,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
                     laid.source[half_edge_ends(&laid.triangles, side)[end] as usize]
                 });
                 Run {
-                    // What is all of an outline begins anywhere.
+                    // A run that is a whole outline has no ends.
                     ends: [from, to].map(|v| meetings.at(v).filter(|_| from != to)),
                     seam: number.map(seam),
                     patch: number.map(|_| part),
@@ -127,7 +127,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
         .filter(|number| !seams.all[**number].smooth);
     let mut folds: Vec<Fold> = folded
         .map(|number| Fold {
-            // All cuts of a mesh that is closed hang together: a fold ends on the outline.
+            // All cuts of a closed mesh are connected, so a fold ends on the outline.
             ends: [None; 2],
             seam: seam(*number),
             points: along(seams, laid, *number).into_iter().map(place).collect(),
@@ -159,7 +159,7 @@ fn draw(body: &Body, seams: &Seams, meetings: &Meetings, sheet: &Joined) -> Shee
     }
 }
 
-/// Divides a closed line into runs, by what is on its other side.
+/// Divides a closed line of half-edges into runs: a new run begins where the seam on the other side changes.
 fn runs(
     body: &Body,
     seams: &Seams,
@@ -193,7 +193,7 @@ fn along(seams: &Seams, laid: &FlatPart, number: usize) -> Vec<u32> {
         let t = laid.members.binary_search(&(body_side / 3)).unwrap_or(0);
         laid.triangles[t][((body_side + end) % 3) as usize]
     };
-    // Sides may run against the line.
+    // The half-edges of a side may run against the seam.
     let forwards = |k: usize| {
         let [one, _] = seam.sides[k];
         laid_source(laid, one, 0) == seam.vertices[k]
@@ -221,7 +221,7 @@ fn laid_source(laid: &FlatPart, side: u32, end: u32) -> u32 {
 /// Maximum number of triangles of a part that are compared as the place of its label.
 const MAX_LABEL_CANDIDATES: usize = 200;
 
-/// A place for a part's number: the middle of a triangle far from the part's border.
+/// Place for a part's number: the centroid of a triangle far from the part's border.
 fn spot(body: &Body, laid: &FlatPart, part: u32) -> Spot {
     let is_own = |t: usize| body.parts[laid.members[t] as usize] == part;
     let own: Vec<usize> = (0..laid.members.len()).filter(|t| is_own(*t)).collect();

@@ -13,7 +13,7 @@ use crate::unroll::flat_triangle::Point;
 /// Limits that a sheet of a mesh has to keep.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
-    /// Maximum distance between the sides of a seam, as a share of its length.
+    /// Maximum seam gap, as a share of the seam's length.
     pub gap: f64,
     pub strain: f64,
     pub until: StoppingCriteria,
@@ -26,13 +26,13 @@ impl Limits {
     /// Stopping criteria for parts that may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
         StoppingCriteria {
-            // Of the two principal strains the energy has the sum of the squares.
+            // The energy is the sum of the squares of both principal strains.
             target_energy: 2.0 * (TRIAL_STRAIN_SHARE * self.strain).powi(2),
             ..self.until
         }
     }
 
-    /// Whether a layout may be a sheet.
+    /// Whether a layout is a valid sheet: its strain is within the limit and it has no self-intersection.
     pub(super) fn allow(&self, laid: &FlatPart) -> bool {
         laid.strain <= self.strain && !laid.overlaps()
     }
@@ -45,7 +45,7 @@ pub(super) struct Joined {
     /// Numbers of the seams that are closed.
     pub whole: Vec<usize>,
     pub laid: FlatPart,
-    /// Largest distance between the sides of a closed seam, before they were joined.
+    /// Largest seam gap of a closed seam before its sides were joined.
     pub gap: f64,
 }
 
@@ -80,7 +80,7 @@ struct Sheets<'a> {
     settled: Vec<bool>,
     /// Number of the sheet that each part is on.
     of: Vec<usize>,
-    /// Position on its sheet of each corner of the mesh's triangles.
+    /// For each corner of the mesh's triangles its position on its sheet.
     at: Vec<Point>,
     /// Whether each seam is closed.
     whole: Vec<bool>,
@@ -125,7 +125,8 @@ impl<'a> Sheets<'a> {
         self.all[number] = Some(sheet);
     }
 
-    /// Joins the two sheets at a seam, or closes it within one, if that fits.
+    /// Joins the two sheets on either side of a seam, or closes a seam within one sheet, if the result is a valid
+    /// sheet.
     fn join(&mut self, seam: usize, order: &[usize]) -> Result<()> {
         let [a, b] = self.seams.all[seam]
             .parts
@@ -142,7 +143,7 @@ impl<'a> Sheets<'a> {
         Ok(())
     }
 
-    /// Two sheets joined along a seam, and along all others that then fit; `None` if the result is no sheet.
+    /// Joins two sheets along a seam and along all others that then fit; `None` if the result is not a valid sheet.
     fn together(
         &self,
         seam: usize,
@@ -153,7 +154,7 @@ impl<'a> Sheets<'a> {
         let Some(apart) = both.fits(seam) else {
             return Ok(None);
         };
-        // Around a vertex with a full turn the last one fits.
+        // Other seams may fit as well, such as the last one around a vertex whose angles sum to 2π.
         let others = order
             .iter()
             .filter(|other| **other != seam && both.has(**other));
@@ -165,7 +166,7 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Relaxes a sheet completely. Returns whether it was not so before.
+    /// Relaxes a sheet to convergence. Returns false if that was done before.
     fn settle(&mut self, number: usize) -> Result<bool> {
         if std::mem::replace(&mut self.settled[number], true) {
             return Ok(false);
@@ -185,7 +186,7 @@ impl<'a> Sheets<'a> {
     }
 }
 
-/// One sheet, or two that are brought together along a seam.
+/// One sheet, or two sheets of which the second is moved to the first along a seam.
 struct SheetPair<'a> {
     sheets: &'a Sheets<'a>,
     numbers: [usize; 2],
@@ -230,7 +231,7 @@ impl<'a> SheetPair<'a> {
         }
     }
 
-    /// Ends of the edges along a seam, as they lie on either side.
+    /// Positions of a seam's edge ends on both of its sides.
     fn nodes(&self, seam: usize) -> [Vec<Point>; 2] {
         let sides = &self.sheets.seams.all[seam].sides;
         let one = sides
@@ -245,7 +246,7 @@ impl<'a> SheetPair<'a> {
         ]
     }
 
-    /// Distance between the sides of a seam, if it is small enough to be joined.
+    /// Seam gap, root mean square; `None` if it is too large for the seam to be closed.
     fn fits(&self, seam: usize) -> Option<f64> {
         let Sheets {
             seams,
@@ -262,8 +263,8 @@ impl<'a> SheetPair<'a> {
         (apart <= most).then_some(apart)
     }
 
-    /// The sheets laid flat together along seams, each given with the distance between its sides; `None` if
-    /// that is no sheet.
+    /// Lays the sheets flat together, closed along seams that are given with their gaps; `None` if the result is
+    /// not a valid sheet.
     fn laid(&self, along: &[(usize, f64)]) -> Result<Option<Joined>> {
         let Sheets {
             seams,

@@ -16,16 +16,17 @@ use crate::unroll::overlap::crossings;
 pub(super) struct FlatPart {
     /// Numbers of the triangles in the whole mesh.
     pub members: Vec<u32>,
-    /// Corners of the triangles. `twins` holds the half-edge opposite each, where that is not cut.
+    /// Vertices of the triangles; `twins` holds the opposite of each half-edge, or [`NO_INDEX`] where it is cut or
+    /// at the border.
     pub triangles: Vec<[u32; 3]>,
     pub twins: Vec<u32>,
-    /// Vertex of the whole mesh for each vertex.
+    /// Number in the whole mesh of each vertex.
     pub source: Vec<u32>,
     pub places: Vec<Point>,
     pub area: f64,
     /// Strain: root of the mean square over the area.
     pub strain: f64,
-    /// The triangle that is strained most for its size.
+    /// Number of the triangle with the largest strain for its size.
     pub worst: usize,
 }
 
@@ -34,21 +35,21 @@ const MAX_REMOVED_SHARE: f64 = 0.01;
 
 /// Initial positions of triangles.
 pub(super) enum Lying<'a> {
-    /// One triangle is turned into the plane after the other, over an edge that they share.
+    /// Triangles are unfolded into the plane one after the other, over common edges.
     TurnedOver,
     /// Position of each corner of the whole mesh's triangles.
     At(&'a dyn Fn(u32) -> Point),
 }
 
-/// Number of relaxation steps before a part may be given up.
+/// Number of relaxation steps before a relaxation may be abandoned.
 const UNCONDITIONAL_STEPS: usize = 40;
 
 /// Number of relaxation steps after which trial cuts of a part are compared.
 pub(super) const TRIAL_STEPS: usize = 12;
 
 impl FlatPart {
-    /// Lays triangles into the plane, connected over their edges as `twins` says, which holds [`NO_INDEX`]
-    /// where they are cut.
+    /// Lays triangles into the plane. `twins` holds the opposite of each half-edge, or [`NO_INDEX`] where the
+    /// triangles are cut apart.
     pub(super) fn new(
         body: &Body,
         members: Vec<u32>,
@@ -59,7 +60,7 @@ impl FlatPart {
             .iter()
             .map(|t| body.triangles[*t as usize])
             .collect();
-        // Corners are one vertex where no cut parts them.
+        // Merge the corners of triangles into one vertex unless a cut lies between them.
         let mut sets = UnionFind::new("pattern", 3 * own.len())?;
         for (side, twin) in twins
             .iter()
@@ -106,7 +107,7 @@ impl FlatPart {
         Ok(laid)
     }
 
-    /// This layout relaxed to the least strain from where it lies.
+    /// Relaxes this layout from its current positions to the least strain.
     pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<FlatPart> {
         let own = self.members.iter().map(|t| body.triangles[*t as usize]);
         let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
@@ -118,7 +119,8 @@ impl FlatPart {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
         let joint = ArapMesh::new(self.places.len(), whole, Vec::new())?;
-        // Steps that hardly change anything say little before what is wrong at one end has come to the other.
+        // Slow progress in the first steps is no reason to stop: an error at one end takes several steps to reach
+        // the other.
         let start = StoppingCriteria {
             max_steps: until.max_steps.min(UNCONDITIONAL_STEPS),
             hopeless_energy: f64::INFINITY,
@@ -132,7 +134,7 @@ impl FlatPart {
         Ok(())
     }
 
-    /// Turns one triangle after the other into the plane, beside those that lie there already.
+    /// Unfolds one triangle after the other into the plane, next to those that are laid already.
     fn turn_over(&mut self, body: &Body, pieces: &[FlatTriangle]) {
         let mut lies = vec![false; self.places.len()];
         let mut seen = vec![false; pieces.len()];
@@ -167,7 +169,7 @@ impl FlatPart {
                         continue;
                     }
                     let along = self.places[to] - self.places[from];
-                    // As long as it is on the body, or what is wrong would grow from one triangle to the next.
+                    // Scale the edge to its length on the mesh, or errors would grow from one triangle to the next.
                     let [p, q] = [from, to].map(|v| body.places[self.source[v] as usize]);
                     let scale = (q - p).norm() / along.norm().max(f64::MIN_POSITIVE);
                     self.places[apex] = self.places[from]
@@ -201,7 +203,7 @@ impl FlatPart {
             .map(|(side, _)| side)
     }
 
-    /// Whether the border crosses itself, or triangles lie on each other.
+    /// Whether the border crosses itself, or triangles overlap.
     pub(super) fn overlaps(&self) -> bool {
         let border: Vec<[u32; 2]> = self
             .border()
@@ -210,8 +212,8 @@ impl FlatPart {
         !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
     }
 
-    /// The few triangles whose removal would keep the border from crossing itself; none if they are many or
-    /// that does not help.
+    /// The few triangles whose removal would leave a border that does not cross itself; empty if there would be too
+    /// many, or if removal does not help.
     pub(super) fn removable_triangles(&self) -> Vec<u32> {
         let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
         let mut left = self.clone();
@@ -248,7 +250,7 @@ impl FlatPart {
         }
     }
 
-    /// Triangles turned into the plane one after the other, and then relaxed.
+    /// Unfolds triangles into the plane one after the other, and relaxes them.
     pub(super) fn whole(
         body: &Body,
         members: Vec<u32>,
@@ -289,7 +291,7 @@ impl FlatPart {
         }
     }
 
-    /// Whether the middle of a triangle lies on another triangle, by the border's winding number around it.
+    /// Whether the centroid of a triangle lies on another triangle, by the border's winding number around it.
     fn covers_itself(&self, border: &[[u32; 2]]) -> bool {
         let step = self.triangles.len().div_ceil(MAX_OVERLAP_PROBES);
         (self.triangles.iter().step_by(step)).any(|corners| {
@@ -334,7 +336,7 @@ fn piece(body: &Body, corners: [u32; 3]) -> FlatTriangle {
     FlatTriangle::from_points(corners.map(|v| body.places[v as usize].into()))
 }
 
-/// Maximum number of triangles whose middles are tested for lying on another triangle.
+/// Maximum number of triangles whose centroids are tested for lying on another triangle.
 const MAX_OVERLAP_PROBES: usize = 60;
 
 /// Position of the corner opposite an edge that goes from 0 to 1, as a complex number.

@@ -23,12 +23,13 @@ struct Found {
     cuts: usize,
     edges: usize,
     shortest: f64,
-    /// Largest number of edges of a line that ends there.
+    /// Largest number of edges of a seam that ends at the vertex.
     most: usize,
 }
 
 impl Meetings {
-    /// The point at a vertex; `None` where the border is near or lines are too short.
+    /// The point at a vertex; `None` if the border is near or a seam that ends there is too short to measure an
+    /// angle.
     pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
         self.of.get(&vertex).copied()
     }
@@ -69,7 +70,8 @@ impl Meetings {
             let reach =
                 (MAX_ANGLE_RADIUS_LENGTHS * body.spacing).min(ANGLE_RADIUS_SHARE * found.shortest);
             let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
-            // A line that only passes by parts pieces that have no end there.
+            // A cut that passes through the vertex without an end divides the surface around it, so no angle is
+            // measured.
             if short || found.edges != found.cuts {
                 return None;
             }
@@ -109,7 +111,7 @@ struct Around<'a> {
     body: &'a Body,
     /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.
     missing: Vec<f64>,
-    /// Neighbours of all vertices; those of one are from its entry of `starts` to the next.
+    /// Neighbours of all vertices, vertex by vertex; `starts` holds the position of each vertex's first one.
     neighbours: Vec<u32>,
     starts: Vec<usize>,
 }
@@ -118,7 +120,7 @@ impl Around<'_> {
     fn new(body: &Body) -> Around<'_> {
         let count = body.places.len();
         let mut missing = vec![TAU; count];
-        // Inside, each edge leads away once and back once.
+        // An interior edge occurs in both directions.
         let mut edges = Vec::with_capacity(3 * body.triangles.len());
         for corners in &body.triangles {
             for k in 0..3 {
@@ -148,8 +150,8 @@ impl Around<'_> {
         }
     }
 
-    /// Angle around a vertex, averaged over radii from half of `reach` to all of it: a full turn less the
-    /// curvature within each circle. That is exact where flat faces meet. `None` where the border is nearer.
+    /// Angle around a vertex, in radians: 2π less the sum of the angle defects within a circle, averaged over radii
+    /// from half of `reach` to `reach`. It is exact where flat faces meet. `None` if the border is within `reach`.
     fn angle(&self, vertex: u32, reach: f64) -> Option<f64> {
         let middle = self.body.places[vertex as usize];
         let mut seen = BTreeSet::from([vertex]);

@@ -1,8 +1,8 @@
 //! Patterns of meshes as they are, without a view.
 //!
-//! The way is that of heightfields, on triangles alone: what is strained is cut in two, here by planes, and
-//! the parts are joined again as far as their sides fit. Creases are edges already, so that no patch has to be
-//! continued beyond them.
+//! The method is that of heightfields, on triangles only: parts with too much strain are cut in two, here by
+//! planes, and the parts are joined again as far as their sides fit. Creases are edges of the mesh, so no patch has
+//! to be extrapolated beyond them.
 
 mod body;
 mod draw;
@@ -26,28 +26,29 @@ use join::{Limits, join_parts};
 use lay::{FlatPart, TRIAL_STEPS};
 use seams::Seams;
 
-/// Maximum number of parts of a mesh: nobody puts together a pattern of more.
+/// Maximum number of parts of a mesh: a pattern of more parts cannot be assembled in practice.
 const MAX_PARTS: u32 = 500;
 
-/// Energy, as a multiple of that at the strain limit, above which a relaxation is given up where it hardly
-/// improves.
+/// Energy, as a multiple of the energy at the strain limit, above which a relaxation is abandoned when its progress
+/// is slow.
 const HOPELESS_STRAIN_FACTOR: f64 = 2.5;
 
-/// Cuts a mesh into sheets, that with the largest patch first: closed, overhanging or in parts.
+/// Cuts a mesh into flat sheets; the first is the one with the largest patch. The mesh may be closed, overhanging
+/// or of several components.
 ///
-/// Every sheet has a simple outline and is strained by no more than [`PatternOptions::max_strain`]. A patch
-/// that cannot be laid flat so is cut in two by a plane, across one of its main axes, where it leaves least
-/// strain, as often as it takes; then parts are joined as far as their sides fit, the longest first, so that a
-/// tube gets one slit. Both sides of a cut are as long as each other on the mesh, and on the sheets but for
-/// their strain. Seams are whole folds or whole cuts. [`PatternOptions::refold`] is for heightfields only.
+/// Every sheet has a simple outline and has a strain of at most [`PatternOptions::max_strain`]. A patch with a
+/// larger strain is cut in two, repeatedly, by the plane normal to one of its principal axes that leaves the least
+/// strain. Then parts are joined along the seams whose sides fit, the longest first, so that a tube gets one slit.
+/// Both sides of a cut have the same length on the mesh, and on the sheets except for strain. Each seam is a fold
+/// or a cut over its whole length. [`PatternOptions::refold`] is for heightfields only.
 ///
 /// Costs an unrolling of each patch, a dozen short ones for each cut and one for each seam that is joined.
 ///
 /// # Errors
-/// [`Error::Shape`](crate::Error::Shape) if the patches are those of another mesh,
+/// [`Error::Shape`](crate::Error::Shape) if the patches belong to another mesh,
 /// [`Error::Option`](crate::Error::Option) for a gap or a strain that is not positive and finite,
-/// [`Error::Topology`](crate::Error::Topology) for what is no surface,
-/// [`Error::Unsupported`](crate::Error::Unsupported) for what would be more than 500 parts.
+/// [`Error::Topology`](crate::Error::Topology) for a mesh that is not a surface,
+/// [`Error::Unsupported`](crate::Error::Unsupported) if more than 500 parts would be needed.
 pub fn pattern_mesh(
     mesh: &Mesh,
     patches: &MeshPatches,
@@ -83,9 +84,9 @@ pub fn pattern_mesh(
     draw_sheets(&body, &seams, &sheets)
 }
 
-/// Cuts parts of a mesh until each lies flat. Returns them by their area.
+/// Cuts parts of a mesh until each lies flat. Returns them by area, the largest first.
 fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>)> {
-    // What was found to lie flat, with its triangles then: cuts beside it divide some of them.
+    // Parts that lie flat, each with its triangles at that time: later cuts of neighbours divide some of them.
     let mut flat: BTreeMap<u32, FlatPart> = BTreeMap::new();
     let mut open: Vec<u32> = (0..body.count).rev().collect();
     loop {

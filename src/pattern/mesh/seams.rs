@@ -13,7 +13,7 @@ pub(super) struct Seam {
     /// Numbers of the two parts, the lower one first.
     pub parts: [u32; 2],
     pub vertices: Vec<u32>,
-    /// Half-edges of either part along the seam, in order.
+    /// For each edge of the seam, in order, the half-edges on both sides.
     pub sides: Vec<[u32; 2]>,
     pub length: f64,
     /// Whether the seam is a cut inside of a patch.
@@ -30,8 +30,8 @@ pub(super) struct Seams {
 }
 
 impl Seams {
-    /// Finds the seams of a mesh. A cut that follows a crease from some vertex on, where it bends by more
-    /// than `bend`, is two seams.
+    /// Finds the seams of a mesh. A line is divided into two seams where its fold angle passes `bend`, in radians,
+    /// so that a cut that follows a crease along a part of its length is a seam of its own there.
     pub(super) fn new(body: &Body, bend: f64) -> Seams {
         let twins = twin_half_edges(&body.triangles);
         let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
@@ -55,7 +55,7 @@ impl Seams {
             for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
                 let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
                 let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
-                // Between patches a line is a crease unless it is quite smooth.
+                // Between different patches a smaller angle suffices for a crease.
                 let bend = match is_one(body, sides[0]) {
                     true => bend,
                     false => MIN_PATCH_BEND_SHARE * bend,
@@ -82,8 +82,8 @@ impl Seams {
         self.all.push(seam);
     }
 
-    /// The opposite of each half-edge of some triangles; [`NO_INDEX`] where that is no triangle among them,
-    /// or the seam is cut.
+    /// Opposite of each half-edge of some triangles; [`NO_INDEX`] where the opposite triangle is not among them, or
+    /// where the seam is open.
     pub(super) fn twins(&self, members: &[u32], is_whole: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut numbers = vec![NO_INDEX; self.twins.len() / 3];
         for (number, t) in (0..).zip(members) {
@@ -110,21 +110,21 @@ impl Seams {
     }
 }
 
-/// Whether the triangles on both sides of an edge were in one patch.
+/// Whether the triangles on both sides of an edge belong to one patch.
 fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
     a == b
 }
 
-/// Minimum angle of a crease between two patches, as a share of the angle that makes a crease inside of one.
+/// Minimum fold angle of a crease between two patches, as a share of the minimum inside of one patch.
 const MIN_PATCH_BEND_SHARE: f64 = 0.25;
 
-/// Number of edges on either side over which the angle of a line is averaged, and minimum number of edges of a
-/// crease.
+/// Number of edges on either side over which the fold angle along a line is averaged; also the minimum number of
+/// edges of a crease.
 const CREASE_WINDOW_EDGES: usize = 2;
 
-/// Divides a line of edges, given by their lengths and angles, into stretches that are a crease and stretches
-/// that are none.
+/// Divides a line of edges, given by their lengths and fold angles, into ranges that are a crease and ranges that
+/// are smooth.
 fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
     let is_sharp = |k: usize| {
         let near =

@@ -17,7 +17,7 @@ fn is_vertex((p, q): &Node) -> bool {
 }
 
 impl SeamGraph {
-    /// The seam that a piece of a patch's line is of, by its ends; `None` on the border.
+    /// The seam that a segment of the line around a patch belongs to, given by its ends; `None` on the border.
     pub(super) fn seam_along(&self, from: Node, to: Node) -> Option<usize> {
         if is_vertex(&from) || is_vertex(&to) {
             return None;
@@ -30,7 +30,7 @@ impl SeamGraph {
         }
     }
 
-    /// Pieces of the line around a patch, each with the seam that it belongs to.
+    /// Segments of the line around a patch, each with the seam that it belongs to; `None` for the border.
     pub(in crate::pattern) fn border(
         &self,
         patch: u32,
@@ -39,7 +39,7 @@ impl SeamGraph {
         pieces.map(|[from, to]| ([*from, *to], self.seam_along(*from, *to)))
     }
 
-    /// The seam of a piece between two nodes of one triangle.
+    /// The seam of a segment between two nodes of one triangle; `None` if they have no seam in common.
     pub(super) fn seam_between(&self, one: Node, other: Node) -> Option<usize> {
         let (one, other) = (self.seams_of(one), self.seams_of(other));
         let both = one
@@ -86,8 +86,9 @@ impl SeamGraph {
         }
     }
 
-    /// Finds how far seams that end at the border are from its line, which runs through the middles of its
-    /// edges. It is found in plan, so that it is the same on both sides of a seam.
+    /// Computes for each seam that ends at the border the distance from its last node to the border's line, which
+    /// connects the midpoints of the border's edges. It is computed in plan, so that both sides of a seam get the
+    /// same distance.
     pub(super) fn add_ends(&mut self) {
         let (mut after, mut before) = (FxHashMap::default(), FxHashMap::default());
         for (patch, border) in self.borders.iter().enumerate() {
@@ -97,7 +98,7 @@ impl SeamGraph {
                 before.insert((*to, patch as u32), *from);
             }
         }
-        // The middle of the first edge of a patch's border beside a node.
+        // Midpoint of the first border edge of a patch next to a node.
         let middle = |node: Node, patch: u32| {
             [&after, &before].into_iter().find_map(|way| {
                 let first = way.get(&(node, patch))?;
@@ -133,8 +134,9 @@ impl SeamGraph {
         self.ends = ends;
     }
 
-    /// Intersection of a seam with the border's line, extended from a node of a patch through the last one,
-    /// as far beyond that as on the other side.
+    /// Intersection of a seam with the border's line, on one of its patches: the seam is extended from an inner
+    /// node through its last node by the distance that [`SeamGraph::add_ends`] found in plan. `nodes` and `places`
+    /// hold the inner node and the last one.
     pub(in crate::pattern) fn end(&self, nodes: [Node; 2], places: [Point; 2]) -> Point {
         let [[a, b], [c, d]] = nodes.map(|node| self.plan(node));
         let long = (c - a).hypot(d - b);

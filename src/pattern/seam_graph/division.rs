@@ -3,15 +3,15 @@
 use super::{MIN_SEAM_PART_NODES, NEGLIGIBLE_GAP_LENGTHS, Seam, SeamGraph};
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum share of a crease's length that is joined where the whole crease cannot be.
+/// Minimum share of a crease's length that is closed where the whole crease cannot be closed.
 const MIN_JOINED_CREASE_SHARE: f64 = 0.5;
 
-/// Minimum share of the length of a cut inside of a patch that is joined where the whole cut cannot be.
+/// Minimum share of the length of a cut inside of a patch that is closed where the whole cut cannot be closed.
 const MIN_JOINED_CUT_SHARE: f64 = 0.2;
 
 impl SeamGraph {
-    /// Divides seams that cannot be joined as a whole, if by `gap` (see
-    /// [`PatternOptions`](crate::pattern::PatternOptions)) a large enough part of them can.
+    /// Divides each seam whose sides do not fit as a whole, if the sides of a long enough part of it do. `gap` is
+    /// the maximum seam gap, as in [`PatternOptions`](crate::pattern::PatternOptions).
     pub(in crate::pattern) fn divide_by_fit(&mut self, gap: f64) {
         for number in 0..self.seams.len() {
             if self.is_torn(number) {
@@ -43,8 +43,9 @@ impl SeamGraph {
         number
     }
 
-    /// Divides a seam where its nodes change between two kinds. Returns the parts and their kinds; no part is
-    /// short, unless the whole seam is.
+    /// Divides a seam where the kind of its nodes changes; `kinds` holds one of two kinds for each node. Returns
+    /// the parts and their kinds. Parts of fewer than [`MIN_SEAM_PART_NODES`](super::MIN_SEAM_PART_NODES) nodes are
+    /// merged with a neighbour.
     pub(in crate::pattern) fn divide_where(
         &mut self,
         seam: usize,
@@ -57,7 +58,7 @@ impl SeamGraph {
                 _ => runs.push((1, *kind)),
             }
         }
-        // What is short is of the kind before it, or after it.
+        // Merge each short run with the one before it, or after it if it is the first.
         while let Some(k) = runs
             .iter()
             .position(|(count, _)| *count < MIN_SEAM_PART_NODES)
@@ -154,12 +155,12 @@ impl SeamGraph {
     }
 }
 
-/// Positions along a seam, from its first to its last, at which it is divided into parts that are joined and
-/// parts that are not: the longest part whose sides fit is joined, if it has the `least` share of the length.
+/// Node positions along a seam, first and last included, that bound its parts: the longest part whose sides fit, if
+/// it has at least the share `least` of the length, and the rest.
 fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usize> {
     let last = sides[0].len() - 1;
     let whole = vec![0, last];
-    // Lengths and moments of all beginnings, so that any part is compared at once.
+    // Prefix sums of lengths and moments, so that the gap of any part takes constant time.
     let mut lengths = vec![0.0; last + 1];
     for i in 0..last {
         lengths[i + 1] = lengths[i] + (sides[0][i + 1] - sides[0][i]).norm();
@@ -191,7 +192,7 @@ fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64, least: f64) -> Vec<usiz
     }
     let mut best = (0.0, 0, 0);
     for from in (0..last).step_by(1 + last / 128) {
-        // As far as it goes: in growing steps, then in shrinking ones.
+        // Longest part that fits from here: search with growing steps, then with shrinking ones.
         let (mut to, mut step) = (from + 2, 1);
         while to + step <= last && fits(from, to + step) {
             to += step;

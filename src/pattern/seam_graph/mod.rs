@@ -1,8 +1,8 @@
 //! What a surface falls into along its creases: patches laid flat, the seams between them, and the
 //! lines around each patch.
 //!
-//! A *node* is a place where such a line may turn: a vertex of the lattice, the point of an edge
-//! between two patches where they meet, or that of a triangle where three do.
+//! A *node* is a point where the line around a patch may turn: a vertex of the lattice, the point on an edge where
+//! two patches meet, or the point in a triangle where three patches meet.
 
 mod border;
 mod division;
@@ -20,21 +20,22 @@ use crate::shape::patches::crease::crease_lines;
 use crate::unroll::flat_triangle::Point;
 use rustc_hash::FxHashMap;
 
-/// A point where patches meet. An edge is given by its vertices, the lower one first; a vertex by itself,
-/// twice; a triangle by its number and an invalid vertex. All numbers are those of the whole surface's mesh.
+/// Node of the graph: a point on an edge, at a vertex or in a triangle of the lattice. An edge is given by its
+/// vertices, the lower number first; a vertex by its number, twice; a triangle by its number and an invalid vertex.
+/// Numbers refer to the mesh of the whole surface.
 pub(super) type Node = crate::shape::patches::crease::CreaseNode;
 
-/// Maximum distance, in spacings, between two nodes of three patches each that are one place where four meet.
+/// Maximum distance, in spacings, between two nodes of three patches each that form one junction of four patches.
 pub(super) const FOUR_WAY_JUNCTION_RADIUS: f64 = 3.0;
 
-/// Seam gap that the resolution of a surface cannot tell from none, in spacings of a lattice or edge lengths
-/// of a mesh.
+/// Seam gap below which a seam counts as closed, because it is finer than the surface's resolution; in spacings of
+/// a lattice or edge lengths of a mesh.
 pub(in crate::pattern) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Minimum number of nodes of each part of a divided seam.
 const MIN_SEAM_PART_NODES: usize = 4;
 
-/// A crease or a part of it, with its course on either patch.
+/// A crease or a part of it, with its line on the flat patches on both sides.
 pub(super) struct Seam {
     pub patches: [u32; 2],
     /// Number of the crease.
@@ -48,26 +49,27 @@ pub(super) struct Seam {
     pub sides: [Vec<Point>; 2],
     /// Positive for a ridge, negative for a groove, seen from above.
     pub rise: f64,
-    /// Distance between the patches along the seam, in height: root of the mean square.
+    /// Vertical distance between the two patches along the seam, root mean square.
     pub apart: f64,
 }
 
 /// A piece of the line around a patch, from one node to another; the patch is to its left.
 type Segment = [Node; 2];
 
-/// The seams between all patches, and where their nodes lie.
+/// Graph of the seams between all patches, and the positions of their nodes.
 pub(super) struct SeamGraph {
     pub spacing: f64,
-    /// Spacing of the lattice on which cuts were decided; loops that were small there are cut off.
+    /// Spacing of the lattice on which the surface was cut, which may be coarser; loops of outlines that are small
+    /// on that lattice are cut off.
     pub decided: f64,
     pub leaves: Vec<Option<FlatPatch>>,
     pub seams: Vec<Seam>,
     /// Numbers of the seams that each crease is divided into.
     parts: Vec<Vec<usize>>,
-    /// The seam of each node, and in `also` a second one where a crease is divided.
+    /// The seam of each node; `also` holds a second seam for nodes where a crease is divided.
     seam_of: FxHashMap<Node, usize>,
     also: FxHashMap<Node, usize>,
-    /// Pieces of the line around each patch, in no order.
+    /// Segments of the line around each patch, in no order.
     borders: Vec<Vec<Segment>>,
     mesh: Triangulation,
     labels: Vec<u32>,
@@ -81,8 +83,8 @@ pub(super) struct SeamGraph {
 }
 
 impl SeamGraph {
-    /// Finds the seams of a surface, one for each crease. `decided` is the spacing of the lattice on which
-    /// cuts were decided, or are to be drawn as if so.
+    /// Finds the seams of a surface, one for each crease. `decided` is the spacing of the lattice on which the
+    /// surface was cut; a larger value cuts off larger loops of the outlines.
     pub(super) fn new(
         surface: &Heightfield,
         labels: &Labels,
@@ -174,12 +176,12 @@ impl SeamGraph {
         }
     }
 
-    /// Whether the sides of a seam are apart in space, at a step of the surface.
+    /// Whether a seam is at a step of the surface, so that its two sides are apart in space.
     pub(super) fn is_torn(&self, seam: usize) -> bool {
         self.seams[seam].apart > MIN_TEAR_GAP_SPACINGS * self.spacing
     }
 
-    /// The seams at an edge's node.
+    /// The one or two seams at a node on an edge.
     pub(super) fn seams_of(&self, node: Node) -> [Option<usize>; 2] {
         [
             self.seam_of.get(&node).copied(),

@@ -6,7 +6,7 @@ use crate::shape::patches::crease::smooth_polyline;
 use crate::unroll::arap_mesh::BarycentricPoint;
 use crate::unroll::flat_triangle::Point;
 
-/// Minimum share of an edge or a triangle on each side of a node, so that no two nodes coincide.
+/// Minimum barycentric coordinate of a node on its edge or in its triangle, so that no two nodes coincide.
 const MIN_NODE_SHARE: f64 = 0.01;
 
 /// Number of smoothing passes over a cut inside of a patch, which zigzags between the vertices on either side.
@@ -55,7 +55,8 @@ impl SeamGraph {
         [x, y, sum / count]
     }
 
-    /// Positions of nodes on a patch's plane, smoothed along their line.
+    /// Positions of consecutive nodes in a patch's plane, smoothed along the line; a `smooth` line, a cut inside of
+    /// a patch, is smoothed more.
     pub(super) fn line(&self, patch: u32, nodes: &[Node], smooth: bool) -> Vec<Point> {
         let places = nodes.iter().map(|node| self.raw_place(*node, patch));
         let mut line: Vec<[f64; 2]> = places.map(|place| [place.re, place.im]).collect();
@@ -84,7 +85,7 @@ impl SeamGraph {
         }
     }
 
-    /// Lays a patch as it lies by itself.
+    /// Resets the vertices of a patch to their positions when it was laid flat by itself.
     pub(in crate::pattern) fn lay_alone(&mut self, patch: u32) {
         let leaf = self.leaves[patch as usize].as_ref();
         if let Some(places) = leaf.and_then(FlatPatch::moved_from) {
@@ -92,7 +93,7 @@ impl SeamGraph {
         }
     }
 
-    /// Finds the course of a crease on one of its patches; its seams are smoothed as one line.
+    /// Computes the line of a crease on one of its flat patches; all seams of the crease are smoothed as one line.
     pub(super) fn draw_side(&mut self, crease: usize, patch: u32) {
         let parts = self.parts(crease);
         let Some(first) = parts.first().map(|seam| &self.seams[*seam]) else {
@@ -132,11 +133,12 @@ impl SeamGraph {
         Some(mean)
     }
 
-    /// Position on an edge where its two patches meet, as a share from the first vertex to the second, and by
-    /// how much more the second patch falls than the first. The nearest end where they do not meet.
+    /// Intersection of the two patches at an edge: its position as a share of the way from the first vertex to the
+    /// second, clamped to the edge, and the height that the second patch falls relative to the first along the
+    /// edge.
     pub(super) fn crossing(&self, (p, q): Node) -> (f64, f64) {
         let [first, second] = [p, q].map(|v| self.labels[v as usize]);
-        // The first vertex's patch above the other one's.
+        // Height of the first vertex's patch above the second one's, at both vertices.
         let here = self.mesh.positions()[p as usize][2] - self.vertex_height(p, second);
         let there = self.vertex_height(q, first) - self.mesh.positions()[q as usize][2];
         let share = here / (here - there);
@@ -147,8 +149,8 @@ impl SeamGraph {
         )
     }
 
-    /// Barycentric coordinates of the point of a triangle where its three patches meet; the middle where they
-    /// do not.
+    /// Barycentric coordinates of the point in a triangle where its three patches meet; those of the centroid if
+    /// they do not meet inside.
     pub(super) fn meeting(&self, triangle: u32) -> [f64; 3] {
         let corners = self.mesh.triangles()[triangle as usize];
         let heights = corners.map(|own| {
